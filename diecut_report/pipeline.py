@@ -31,6 +31,7 @@ Data = dict[str, Any]
 Tell = Callable[[str], None]
 Weigh = Callable[[Config, Data], list[Data]]  # which assumed values move a governing check
 Follow = Callable[[Config, Data], Data | None]  # what comes of the advice of all failing checks together
+Matter = Callable[[Config], Data | None]  # what a chapter on the influence of inputs tells, where one is asked for
 Source = Path | Tree  # a configuration: its file, or what was read and changed
 
 NO_PANGO = (
@@ -97,13 +98,13 @@ def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
 
 def calc(
     config: Source, discovery: Discovery, tell: Tell, target: Path | None = None, weigh: Weigh | None = None,
-    find: Find | None = None, follow: Follow | None = None,
+    find: Find | None = None, follow: Follow | None = None, matter: Matter | None = None,
 ) -> tuple[ReportOutcome, str]:  # fmt: skip
     """The results document and its text; written to ``target`` if there is one.
 
     ``weigh`` is as for a report; ``find`` says where tables are that the configuration names, where they are not beside it.
     """
-    results, broken, _ = _calculated(config, discovery, tell, weigh=weigh, find=find, follow=follow)
+    results, broken, _ = _calculated(config, discovery, tell, weigh=weigh, find=find, follow=follow, matter=matter)
     text = results_text(results)
     if target is not None:
         _write({target: encoded(text)}, config, through=True)
@@ -112,14 +113,16 @@ def calc(
 
 def report(
     config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
-    weigh: Weigh | None = None, former: Data | None = None, follow: Follow | None = None,
+    weigh: Weigh | None = None, former: Data | None = None, follow: Follow | None = None, matter: Matter | None = None,
 ) -> ReportOutcome:  # fmt: skip
     """The report in the asked formats, as ``NAME.html``, ``NAME.pdf`` … in the folder, and the exports beside it.
 
     ``weigh`` tells which of the assumed values move a governing check; ``former`` are the results of a former revision, since which
-    changes are told and marked. ``follow`` tells what comes of the advice of all failing checks together.
+    changes are told and marked. ``follow`` tells what comes of the advice of all failing checks together, ``matter`` what inputs do.
     """
-    results, broken, places = _calculated(config, discovery, tell, formats, weigh, only=asked.only, follow=follow)
+    results, broken, places = _calculated(
+        config, discovery, tell, formats, weigh, only=asked.only, follow=follow, matter=matter
+    )
     asked.told(results)
     if former is not None:
         results["changes"] = changes(former, results)
@@ -178,16 +181,9 @@ def _refuse_unknown(config: Config, only: Sequence[str]) -> None:
 
 
 def _calculated(
-    source: Source,
-    discovery: Discovery,
-    tell: Tell,
-    formats: Sequence[str] = (),
-    weigh: Weigh | None = None,
-    *,
-    find: Find | None = None,
-    only: Sequence[str] = (),
-    follow: Follow | None = None,
-) -> tuple[Data, tuple[PluginError, ...], Places]:
+    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None, *,
+    find: Find | None = None, only: Sequence[str] = (), follow: Follow | None = None, matter: Matter | None = None,
+) -> tuple[Data, tuple[PluginError, ...], Places]:  # fmt: skip
     tell(phrase("reading the configuration"))
     config = load_config(source, discovery, find=find)
     _refuse_unknown(config, only)
@@ -201,9 +197,12 @@ def _calculated(
         tell(phrase("weighing what is assumed"))
         results["summary"]["moves"] = weigh(config, results)
     if follow is not None and results["summary"]["fail"] and not run.errors:
-        tell("following the advice")
+        tell(phrase("following the advice"))
         found = follow(config, results)
         results["summary"] |= {"advice": found} if found else {}
+    if matter is not None and config.report.influence and not run.errors:
+        tell(phrase("changing one input after the other"))
+        results["influence"] = matter(config)
     return results, (*run.errors.values(), *_failed(results)), _places(run)
 
 

@@ -1,5 +1,6 @@
 #!/bin/sh
-# Tries the HTML report in headless Chromium: what a reader does with it, and axe-core on it (tests/browser).
+# Tries the HTML report, the live page and the documentation site in headless Chromium: what a reader does with them, and axe-core
+# on them (tests/browser).
 #
 #   scripts/browser.sh [CONFIG…]   of these configurations, by default of benchmarks/two_mechanisms.yaml and two examples
 #
@@ -21,5 +22,6 @@ fi
 tar -xzf ".browser/axe-core-$axe.tgz" -C .browser package/axe.min.js
 echo "$axe_sha256  .browser/package/axe.min.js" | sha256sum --check --quiet
 
+scripts/site.sh --quick
 BROWSER_CONFIGS="$*" AXE=.browser/package/axe.min.js PYTHONPATH=.browser/playwright-$playwright \
-    .venv/bin/python -m pytest -q -n 0 tests/browser/page_checks.py tests/browser/live_checks.py
+    .venv/bin/python -m pytest -q -n 0 tests/browser/page_checks.py tests/browser/live_checks.py tests/browser/site_checks.py

@@ -31,8 +31,8 @@ from math import inf, sqrt
 from pathlib import Path
 from typing import Any
 
-from change_signs import ROOT, units
 from mutant_runs import KILLED, OPEN, SURVIVED, TIMEOUT, Server, in_server, prepared
+from unit_tests import ROOT, units
 
 OTHER_WORK = ("__init__", "inputs", "checks", "sheet", "layout")
 OTHER_ENDINGS = ("figures", "figure", "drawing", "advice", "table")

@@ -78,6 +78,7 @@ def verify(
     Exit codes: 0 everything agrees, 1 something does not, 2 the report cannot be read, 3 a plugin broke.
     """
     from diecut_report.design.followed_advice import followed
+    from diecut_report.design.report_influence import influenced
     from diecut_report.exchange.carried_results import carried_results
     from diecut_report.exchange.verification import verify as judged
     from diecut_report.study.analysis.assumed import moves
@@ -85,7 +86,15 @@ def verify(
     carried = carried_results(report)
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         found = judged(
-            carried, Discovery(folders), progress, moves, pages=not numbers, trusted=trust, house=house, follow=followed
+            carried,
+            Discovery(folders),
+            progress,
+            moves,
+            pages=not numbers,
+            trusted=trust,
+            house=house,
+            follow=followed,
+            matter=influenced,
         )
     tell(str(error) for error in found.broken)
     emit("".join(f"{line}\n" for line in _lines(carried, found)))

@@ -31,6 +31,7 @@ from diecut_report.cli.given import source
 from diecut_report.cli.kit import check_plugin, new_plugin
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
+from diecut_report.cli.optimise import optimise
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -177,20 +178,13 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @verdict.strict_option
 @common
 def report(
-    config: Path,
-    folder: Path,
-    formats: list[str],
-    previous: Path | None,
-    detail: str | None,
-    only: tuple[str, ...],
-    house: HouseStyle | None,
-    strict: bool,
-    folders: tuple[Path, ...],
-    quiet: bool,
-) -> int:
+    config: Path, folder: Path, formats: list[str], previous: Path | None, detail: str | None, only: tuple[str, ...],
+    house: HouseStyle | None, strict: bool, folders: tuple[Path, ...], quiet: bool,
+) -> int:  # fmt: skip
     """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report import pipeline
     from diecut_report.design.followed_advice import followed
+    from diecut_report.design.report_influence import influenced
     from diecut_report.exchange.sides import side
     from diecut_report.study.analysis.assumed import moves
 
@@ -198,7 +192,9 @@ def report(
         discovery = Discovery(folders)
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
         given, asked = source(config, discovery), pipeline.AskedReport(asked_language(), detail, only, house)
-        outcome = pipeline.report(given, discovery, progress, folder, formats, asked, moves, former, followed)
+        outcome = pipeline.report(
+            given, discovery, progress, folder, formats, asked, moves, former, followed, influenced
+        )
     if not quiet:
         tell_written(outcome.written)
     return _verdict(outcome, discovery, quiet, strict)
@@ -240,10 +236,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
                 say("    source {id}: {citation}", id=source.id, citation=phrase(source.citation))
                 for source in mechanism.sources
             ]
-        except DuplicateKind as fault:
-            tell([str(fault)])
-            codes.append(PLUGIN_BROKE)
-        except PluginError as error:
+        except (DuplicateKind, PluginError) as error:
             tell([str(error)])
             codes.append(PLUGIN_BROKE)
     emit("".join(f"{line}\n" for line in lines))
@@ -277,7 +270,7 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     return PLUGIN_BROKE if broken else PASSED
 
 
-OTHERS = (new, validate, check, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, new_plugin,
+OTHERS = (new, validate, check, batch, variants, take, extract, verify, render, diff, sign, live, solve, advise, influence, optimise, new_plugin,
           check_plugin)  # fmt: skip
 for _command in OTHERS:
     program.add_command(_command)

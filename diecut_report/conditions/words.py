@@ -89,14 +89,7 @@ def calculation(given: str) -> list[Token]:
 def _calculated(given: str, place: int) -> tuple[Token, int]:
     match = _CALCULATED.match(given, place)
     if match is None:
-        raise ConditionError(
-            Phrase(
-                "{given} is not allowed here; allowed: {calculated}.",
-                given=repr(given[place : place + 10]),
-                calculated=CALCULATED,
-            ),
-            place,
-        )
+        raise _not_allowed(given, place, CALCULATED)
     if match["comma"]:
         words = Phrase(
             "“{match}” holds a comma; write a decimal point, or a blank after a comma that parts two values.",
@@ -108,6 +101,14 @@ def _calculated(given: str, place: int) -> tuple[Token, int]:
     text = f"${{{match['path'].strip()}}}" if match["reference"] else match[0]
     sort = next(sort for group, sort in _SORTS.items() if match[group])
     return Token(sort, text, place), match.end()
+
+
+def _not_allowed(given: str, place: int, allowed: str) -> ConditionError:
+    """What tells of letters that are no word, with what may stand there."""
+    letters = repr(given[place : place + 10])
+    return ConditionError(
+        Phrase("{given} is not allowed here; allowed: {allowed}.", given=letters, allowed=allowed), place
+    )
 
 
 def _function(match: re.Match[str], given: str) -> tuple[Token, int]:
@@ -158,14 +159,7 @@ def _known(match: re.Match[str]) -> Token:
 def _token(given: str, place: int, known: Collection[str]) -> tuple[Token, int]:
     match = _TOKEN.match(given, place)
     if match is None:
-        raise ConditionError(
-            Phrase(
-                "{given} is not allowed here; allowed: {allowed}.",
-                given=repr(given[place : place + 10]),
-                allowed=ALLOWED,
-            ),
-            place,
-        )
+        raise _not_allowed(given, place, ALLOWED)
     if match["quantity"]:
         words = Phrase(
             "“{quantity}”: put a quantity in quotes: '{value} {unit}'.",

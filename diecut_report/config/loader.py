@@ -209,9 +209,7 @@ class _ConfigReader:
             self.problems.append(place.problem(("kind",), seeming_latin(kind) or str(fault)))
         except (DuplicateKind, PluginError) as error:
             self.instances[name] = None
-            self.broken[name] = _of_instance(
-                error if isinstance(error, PluginError) else PluginError(str(error), kind), name
-            )
+            self.broken[name] = _of_instance(error, kind, name)
 
     def _probe(self, name: str, kind: str) -> None:
         """Ask the plugin once what it gives with these inputs, so that what is wrong with it shows here."""
@@ -223,8 +221,8 @@ class _ConfigReader:
             raise PluginError(Phrase("it declares what cannot be: {said}", said=said(cause)), kind) from cause
 
 
-def _of_instance(error: PluginError, name: str) -> PluginError:
-    named = PluginError(error.message, error.kind, name)
+def _of_instance(error: DuplicateKind | PluginError, kind: str, name: str) -> PluginError:
+    named = PluginError(error.message if isinstance(error, PluginError) else str(error), kind, name)
     named.__cause__ = error.__cause__ or error
     return named
 

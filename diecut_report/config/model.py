@@ -8,6 +8,7 @@ from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report.contract.inputs import Annotated, Block, Quantity, Text
 from diecut_report.languages.catalogues import known
+from diecut_report.languages.phrases import phrase
 
 PRESS = "press"  # the name of the press in references, beside those of the mechanisms
 DETAILS = ("brief", "standard", "full")  # how much a report holds
@@ -50,6 +51,31 @@ class Project(Block):
         return given
 
 
+class InfluenceSettings(Block):
+    """What a chapter on the influence of inputs tells."""
+
+    of: Annotated[
+        list[str],
+        Text("Outputs and checks that are looked at; without them the checks that govern"),
+        Field(default_factory=list),
+    ]
+    by: Annotated[float, Quantity("", "1", "Share by which each input is lowered and raised", gt=0, le=1)] = 0.1
+    tolerances: Annotated[Any, Text("Inputs that scatter, each with how far it does to both sides")] = None
+    distribution: Annotated[Literal["normal", "uniform"], Text("How they scatter")] = "normal"
+    count: Annotated[int, Quantity("", "1", "Machines that are drawn", ge=10, le=100_000, integer=True)] = 1000
+    seed: Annotated[int, Quantity("", "1", "Equal seeds draw equal machines", ge=0, integer=True)] = 1
+
+    @field_validator("tolerances")
+    @classmethod
+    def by_inputs(cls, given: Any) -> Any:
+        """Sizes by the names of inputs."""
+        if given is not None and (
+            not isinstance(given, dict) or not all(isinstance(size, str | int | float) for size in given.values())
+        ):
+            raise ValueError(phrase("must be written as keys and sizes, such as drive.crank_length: 0.1 mm"))
+        return given
+
+
 class ReportSettings(Block):
     """How the report is made."""
 
@@ -58,6 +84,7 @@ class ReportSettings(Block):
     frame: Annotated[Literal["plain", "iso7200", "dstu2104"], Text("Frame and title block of the sheets")] = "plain"
     logo: Annotated[str | None, Text("File with the organisation's logo beside the configuration: PNG, SVG")] = None
     units: Annotated[Any, Text("Units in which quantities are shown, by dimension or by MECHANISM.QUANTITY")] = None
+    influence: InfluenceSettings | None = None
 
 
 class Sheet(Block):

@@ -45,29 +45,33 @@ def _conditions(step: Step) -> Iterator[tuple[str, Binding]]:
             yield "condition of a case", case.condition
 
 
-def _decides(link: Bound, names: DeclaredNames) -> bool:
-    """Whether a formula gives yes or no; one that cannot be read is told elsewhere."""
+def _decides(link: Bound, names: DeclaredNames, *, unread: bool = True) -> bool:
+    """Whether a formula gives yes or no; ``unread`` of one that cannot be read, which is told elsewhere."""
     try:
-        return _is_condition(link.formula.tree, link, names)
+        return _is_condition(link.formula.tree, link, names, unread)
     except (FormulaError, RecursionError):
-        return True
+        return unread
 
 
-def _is_condition(node: Node, link: Bound, names: DeclaredNames) -> bool:
+def _is_condition(node: Node, link: Bound, names: DeclaredNames, unread: bool) -> bool:
     match node:
         case Node("cases", branches):
-            return all(_is_condition(branch[0], link, names) for branch in branches)
+            return all(_is_condition(branch[0], link, names, unread) for branch in branches)
         case Node("apply", (called, *_)):
-            return _is_condition(called.formula.tree, bound(called.formula), names)
+            return _is_condition(called.formula.tree, bound(called.formula), names, unread)
         case Node("sym", (parameter,)):
             steps = [giver.step for giver in names.givers(str(link.names.get(parameter)))]
-            return bool(steps) and all(isinstance(step, Value) and _decides(bound(step.formula), names) for step in steps)  # fmt: skip
+            return bool(steps) and all(isinstance(step, Value) and _decides(bound(step.formula), names, unread=unread) for step in steps)  # fmt: skip
     return node.op in YES_OR_NO
 
 
 def _flag(step: Step, names: DeclaredNames) -> Iterator[str]:
     """A comparison that stands as a quantity with a unit."""
-    if isinstance(step, Value) and not isinstance(step.formula, ByText) and _decides(bound(step.formula), names):
+    if (
+        isinstance(step, Value)
+        and not isinstance(step.formula, ByText)
+        and _decides(bound(step.formula), names, unread=False)
+    ):
         wrong = [each for each in (step.unit, *(other for _, other in step.units)) if kind_of(each) != kind_of("1")]
         if wrong:
             yield f"gives yes or no (1 or 0), but has the unit {wrong[0]}; a flag has the unit 1"

@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Callable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
+from functools import partial
 from hashlib import sha256
 from pathlib import Path
 from tempfile import TemporaryDirectory
@@ -60,7 +61,7 @@ class Verification:
 
 def verify(
     carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], weigh: pipeline.Weigh, *, pages: bool = True,
-    trusted: Path | None = None, house: HouseStyle | None = None, follow: pipeline.Follow | None = None,
+    trusted: Path | None = None, house: HouseStyle | None = None, follow: pipeline.Follow | None = None, matter: pipeline.Matter | None = None,
 ) -> Verification:  # fmt: skip
     """Calculate the configuration of a report again and hold the report against that; without ``pages`` its numbers alone.
 
@@ -71,19 +72,23 @@ def verify(
     signed = signatures(carried.content, trusted) if carried.form == "pdf" else []
     weighing = weigh if "moves" in results["summary"] else None
     following = follow if "advice" in results["summary"] else None
+    mattering = matter if "influence" in results else None
     with _tables(carried) as find:
-        outcome, text = pipeline.calc(_tree(carried), discovery, tell, weigh=weighing, find=find, follow=following)
+        outcome, text = pipeline.calc(
+            _tree(carried), discovery, tell, weigh=weighing, find=find, follow=following, matter=mattering
+        )
     again = parsed(encoded(text), "")
     program = _program(results["program"], again["program"])
     numbers = agreement(_numbers(results), _numbers(again))
-    is_set = pages and carried.form != "json"
+    is_same = program[1] and not numbers.differences
+    setting = partial(_set_again, carried, tell, house, discovery)
     return Verification(
         program,
         list(_plugins(_calculated(results), _calculated(again))),
         _config(carried),
         numbers,
-        _pages(carried, tell, house, signed, discovery, is_same=program[1] and not numbers.differences)
-        if is_set
+        _pages(carried, signed, _why_not_compared(carried, house, is_same=is_same), setting)
+        if pages and carried.form != "json"
         else None,
         outcome.broken,
         tuple(signed),
@@ -212,29 +217,35 @@ def _resolved(data: Data) -> Data:
     return {**data, "project": project}
 
 
-def _pages(
-    carried: CarriedResults,
-    tell: Callable[[str], None],
-    house: HouseStyle | None,
-    signed: list[Signature],
-    discovery: Discovery,
-    *,
-    is_same: bool,
-) -> Told:
-    """Whether the document is what this program makes of the results in it; not where these are not its own."""
+def _why_not_compared(carried: CarriedResults, house: HouseStyle | None, *, is_same: bool) -> str:
+    """Why the document cannot be held against what this program makes of the results in it; nothing where it can."""
     if not is_same:
-        return phrase("not compared, since the program or the numbers are others"), True
+        return phrase("not compared, since the program or the numbers are others")
     asked = template_of(carried.results)
-    if asked != (house.sha256 if house else ""):
-        own = (
-            Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
-            if asked
-            else phrase("the program's templates alone")
-        )
-        return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own), True
+    if asked == (house.sha256 if house else ""):
+        return ""
+    own = (
+        Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
+        if asked
+        else phrase("the program's templates alone")
+    )
+    return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own)
+
+
+def _set_again(
+    carried: CarriedResults, tell: Callable[[str], None], house: HouseStyle | None, discovery: Discovery
+) -> bytes:
+    """What this program makes of the results in a document, in the document's form."""
     catalogues = pipeline.catalogues_of(carried.results, discovery, [carried.form], str(carried.path))
     contents, _ = document(carried.results, [carried.form], tell, str(carried.path), catalogues, house)
-    made = contents[carried.form]
+    return contents[carried.form]
+
+
+def _pages(carried: CarriedResults, signed: list[Signature], reason: str, setting: Callable[[], bytes]) -> Told:
+    """Whether the document is what is set again of its results; not where there is a reason against comparing."""
+    if reason:
+        return reason, True
+    made = setting()
     if carried.content == made:
         return phrase("byte for byte what the program makes of these results"), True
     if carried.form == "pdf" and carried.content.startswith(made):

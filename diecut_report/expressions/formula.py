@@ -11,6 +11,7 @@ from typing import Any, NamedTuple, overload
 import numpy as np
 
 from diecut_report.expressions.functions import BINARY, COMPARE, FUNCTIONS, OF_TWO, PI, SAID, Constant
+from diecut_report.expressions.hints import instead
 from diecut_report.expressions.source import FormulaError, Unreadable, body, given_to, perhaps_named, place
 from diecut_report.expressions.tree import Node, substitute
 
@@ -228,8 +229,9 @@ class _BodyReader:
         raise self._refuse(expression)
 
     def _refuse(self, node: ast.AST) -> FormulaError:
-        return FormulaError(f"{self._place(node)}: formula {self.owner.__name__} cannot print {ast.unparse(node)!r}; a formula holds "
-                            "assignments, one return, arithmetic, NumPy functions, constants and other formulas")  # fmt: skip
+        value = self._object(node) if isinstance(node, ast.Name) else None
+        words = f"formula {self.owner.__name__} cannot print {ast.unparse(node)!r}; {instead(node, value)}"
+        return FormulaError(f"{self._place(node)}: {words}")
 
     def _place(self, node: ast.AST) -> str:
         return f"{self.function.__code__.co_filename}:{getattr(node, 'lineno', '?')}"

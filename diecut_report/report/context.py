@@ -104,6 +104,8 @@ class Material:
                 except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
                     if all(fault.number != number for fault in self.faults):
                         self.faults.append(DrawingFault(chapter.name, number, figure, cause))
+        for number, figure in self.document.influence.figures if self.document.influence else ():
+            found[number] = self._sized(draw, number, figure, {})
         return found
 
     def _sized(self, draw: Callable[..., Drawing], number: str, figure: Data, curves: Data) -> Drawing:

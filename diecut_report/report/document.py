@@ -13,6 +13,7 @@ from diecut_report.report.assumed import AssumedGroup, AssumedLine, assumed_grou
 from diecut_report.report.chapters import chapter
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
+from diecut_report.report.influence import PrintedInfluence, printed_influence
 from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
 from diecut_report.report.title_block import TitleBlock, title_block
@@ -53,6 +54,7 @@ class ReportDocument:
     detail: str = FULL
     assumed_groups: list[AssumedGroup] = field(default_factory=list)
     contents: list[tuple[str, str, str, int]] = field(default_factory=list)
+    influence: PrintedInfluence | None = None
 
     @property
     def self_tests(self) -> list[CheckRow]:
@@ -132,7 +134,8 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         assumed=assumed_line(results, words),
         detail=whole.detail,
         assumed_groups=assumed_groups(results, words) if whole.detail == BRIEF else [],
-        contents=list(_contents(chapters, words, whole.detail, results.get("changes"))),
+        contents=list(_contents(chapters, words, whole.detail, results)),
+        influence=None if whole.detail == BRIEF else printed_influence(results, words),
     )
 
 
@@ -232,16 +235,18 @@ def former(changes: Data, words: Catalogue) -> str:
 
 
 def _contents(
-    chapters: list[PrintedChapter], words: Catalogue, detail: str, changes: Data | None
+    chapters: list[PrintedChapter], words: Catalogue, detail: str, results: Data
 ) -> Iterator[tuple[str, str, str, int]]:
     """Anchor, number, title and depth of all that has a heading."""
     yield "summary", "1", words["summary"], 1
-    if changes:
+    if changes := results.get("changes"):
         yield "changes", "", former(changes, words), 1
     if detail == BRIEF:
         yield "key-results", "2", words["key_results"], 1
         yield from ((part.anchor, part.letter, part.title, 2) for part in chapters)
         return
+    if results.get("influence"):
+        yield "influence", "", words["influence"], 1
     yield "press", "2", words["press_data"], 1
     for part in chapters:
         yield part.anchor, part.letter, part.title, 1

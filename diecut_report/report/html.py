@@ -108,7 +108,8 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     """The report's template with the document in it, for ``screen`` or ``print``; a browser may run these scripts."""
     document = material.document
     faces = FACES | (MATH if kind == "screen" else {})
-    sheets = ["report.css", f"{kind}.css", *(["changes.css"] if material.changes else []), *(READER if scripts else ())]
+    own = {"changes.css": material.changes, "influence.css": document.influence}
+    sheets = ["report.css", f"{kind}.css", *(name for name, part in own.items() if part), *(READER if scripts else ())]
     sheets += [f"frame_{document.block.frame}.css"] if kind == "print" else []
     style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), *map(_read, sheets), medium.style])
     house = material.house

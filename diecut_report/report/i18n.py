@@ -59,6 +59,18 @@ ENGLISH: dict[str, str] = {
     "assumed": "assumed", "measured": "measured", "catalogue": "from a catalogue", "standard": "by a standard", "drawing": "from a drawing",
     "rests_on": "Rests on {n} assumed values", "moving_first": ", those first that move a governing check",
     "moves": "moves {check}", "more_assumed": " and {n} more",
+    "influence": "Influence of inputs",
+    "influence_lead": "Each input that is given as a number is lowered and raised by {by}, or by its tolerance; all else stays as it is.",
+    "influence_on": "Influence on {what}", "influence_today": "Now: {value}.", "influence_none": "no machine",
+    "influence_utilisation": "utilisation",
+    "influence_caption": "Blue: with the input raised, brown: lowered; ×: there is no such machine; the line: now.",
+    "influence_lowered": "Lowered to", "influence_raised": "Raised to", "influence_gives": "Gives",
+    "influence_more": "{n} more move it less.", "influence_still": "{n} do not move it.", "influence_tolerances": "Tolerances",
+    "influence_normal": "{n} machines drawn with the seed {seed}, normally distributed, the tolerance being three standard deviations: {inputs}.",
+    "influence_uniform": "{n} machines drawn with the seed {seed}, uniformly distributed within the tolerance: {inputs}.",
+    "influence_probability": "Probability that it holds", "influence_interval": "95 % interval (Clopper and Pearson)",
+    "influence_held": "Holds in", "influence_of": "{n} of {total}", "influence_all": "No check fails",
+    "influence_sure": "{n} checks hold in all of these machines.",
     "advice_passes": "Followed together, the advice of the failing checks gives a pass: {changes}.",
     "advice_leaves": "Followed together, the advice of the failing checks ({changes}) leaves others that fail: {checks}.",
     "advice_impossible": "Followed together, the advice of the failing checks ({changes}) gives no machine that can be built.",
@@ -112,7 +124,8 @@ ENGLISH: dict[str, str] = {
 COUNTED = {  # what is said of a number ``n`` of things, with its form for one where English has another
     "count_fail": "1 of {total} checks fails", "count_warn": "", "count_pass": "1 passes", "count_not_checked": "", "count_error": "",
     "self_tests": "1 self-test of the calculation holds.", "rests_on": "Rests on 1 assumed value", "more_assumed": "",
-    "repeated_parts": "", "dxf": "", "dxf_profile": "", "csv": "",
+    "influence_more": "1 more moves it less.", "influence_still": "1 does not move it.",
+    "influence_sure": "1 check holds in all of these machines.", "repeated_parts": "", "dxf": "", "dxf_profile": "", "csv": "",
 }  # fmt: skip
 
 

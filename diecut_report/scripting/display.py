@@ -52,7 +52,7 @@ def checks_html(results: Printable, names: set[str]) -> str:
 
 def mechanism_html(results: Printable, name: str) -> str:
     """Return a mechanism, or a comparison: key results, checks, its calculation with formulas and figures, results."""
-    material = results.material(STANDARD, *([name] if name in results.data["mechanisms"] else []))
+    material = results.material(STANDARD, name)
     screen = Screen(material)
     return _page(
         "mechanism",

@@ -32,8 +32,19 @@ class Printable:
         data["project"]["language"] = self.document_language
         return data
 
-    def material(self, detail: str, *only: str) -> Material:
-        """Return the parts of the report at a detail; ``only`` are mechanisms that alone are shown."""
+    def material(self, detail: str, only: str = "") -> Material:
+        """Return the parts of the report at a detail; ``only`` is the mechanism, or the comparison, that is shown."""
         data = self.copied()
-        data["report"] |= {"detail": detail} | ({"only": list(only)} if only else {})
+        data["report"] |= {"detail": detail}
+        if only in data["mechanisms"]:
+            data["report"] |= {"only": [only]}
+        elif only:
+            data |= self._compared(only)
         return Material(data, pipeline.catalogues_of(data, self.discovery, ("html",)))
+
+    def _compared(self, name: str) -> Data:
+        """A comparison alone, and the mechanisms that it is between without what takes time to print."""
+        comparison = self.data["comparisons"][name]
+        bare: Data = {"figures": [], "sections": []}
+        mechanisms = {each: self.data["mechanisms"][each] | bare for each in comparison["between"]}
+        return {"mechanisms": mechanisms, "comparisons": {name: comparison}, "governing": None}

@@ -14,7 +14,7 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import said, say, speaking
 from diecut_report.study.definition.study_file import Study, load_study
-from diecut_report.study.execution.refusals import refuse_empty, refuse_huge
+from diecut_report.study.execution.refusals import refuse_empty, refuse_huge, refuse_unsampled
 from diecut_report.study.execution.study_run import Counts, StudyOutcome, Where, engine_for, run_study
 from diecut_report.study.execution.variant_reports import write_reports
 from diecut_report.study.storage import state
@@ -97,7 +97,8 @@ def run(
     shown: Shown,
 ) -> StudyOutcome:
     """Run a study, or continue the one of a folder; then reports, summary and the other formats."""
-    known = _loaded(study, directory, where)
+    known = loaded(study, directory, where)
+    refuse_unsampled(known)
     refuse_huge(known, agreed)
     refuse_empty(known)
     if where.dask:
@@ -108,13 +109,13 @@ def run(
         told, broken = write_reports(known, outcome.store, where, agreed=agreed, tell=shown.doing)
         shown.doing(phrase("summary"))
         told += export(outcome.store, formats)
-        with _speaking(known, where):
+        with in_its_language(known, where):
             summarise(directory)
     return replace(outcome, broken_reports=broken, notes=(*filter(None, [known.sample.note]), *told))
 
 
-def _speaking(study: Study, where: Where) -> AbstractContextManager[None]:
-    """The language of the summary: the one that is asked for, else that of the base's project."""
+def in_its_language(study: Study, where: Where) -> AbstractContextManager[None]:
+    """Speak the language of the study's documents: the one that is asked for, else that of the base's project."""
     language = where.language or study.base.project.language
     kinds = dict.fromkeys(study.base.kinds.values())
     return speaking(language, catalogues_for(language, kinds, _discovery(where)))
@@ -124,7 +125,7 @@ def _discovery(where: Where) -> Discovery:
     return Discovery([Path(folder) for folder in where.plugins])
 
 
-def _loaded(study: Path | None, directory: Path, where: Where) -> Study:
+def loaded(study: Path | None, directory: Path, where: Where) -> Study:
     """The study of a file, or as it was when the run of the folder was begun."""
     discovery = _discovery(where)
     if study is not None:

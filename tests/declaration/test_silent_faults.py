@@ -219,3 +219,13 @@ def test_a_constant_in_no_coherent_unit_is_refused() -> None:
     with pytest.raises(TypeError, match=r"g is in mm/s\*\*2, which is 0.001 m/s\*\*2; give it in SI"):
         Constant(9806.65, "g", "mm/s**2")
     assert Constant(9.80665, "g", "m/s**2") == 9.80665
+
+
+@formula
+def unprintable(arm: Any) -> Any:
+    return [arm, arm]
+
+
+def test_a_formula_that_cannot_be_printed_is_told_once() -> None:
+    (fault,) = faults(made(value("x", formula=unprintable, output=True)))
+    assert "the formula cannot be printed" in str(fault)

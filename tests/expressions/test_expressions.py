@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import math
 from typing import Any
 
 import numpy as np
@@ -10,6 +11,7 @@ import pytest
 from diecut_report.expressions import (
     GRAVITY,
     Constant,
+    Formula,
     FormulaError,
     Node,
     arccos,
@@ -129,6 +131,40 @@ def unknown_name(a: Any) -> Any:
 @formula
 def endless(a: Any) -> None:
     a + 1
+
+
+DENSITY = 7850
+
+
+@formula
+def choosing(a: Any) -> Any:
+    if a > 0:
+        return a
+    return -a
+
+
+@pytest.mark.parametrize(
+    ("broken", "words"),
+    [
+        (Formula(lambda a, b: a > 0 and b > 0), r"write \(a\) & \(b\), each condition in brackets"),
+        (Formula(lambda a, b: a > 0 or b > 0), r"write \(a\) \| \(b\), each condition in brackets"),
+        (Formula(lambda a: not a), r"write ~\(a\)"),
+        (Formula(lambda a: 0 < a < 1), r"write \(a < b\) & \(b < c\)"),
+        (Formula(lambda a: a if a > 0 else -a), r"write np.where\(condition, a, b\)"),
+        (choosing, r"write np.where\(condition, a, b\)"),
+        (Formula(lambda a: math.sin(a)), "write np.sin"),
+        (Formula(lambda a: math.acos(a)), "write np.arccos"),
+        (Formula(lambda a, b: max(a, b)), "write np.maximum"),
+        (
+            Formula(lambda a: a * DENSITY),
+            r"or bind it: bind\(…, DENSITY=7850\), or make it one of the constants",
+        ),
+        (Formula(lambda a: a @ a), "a formula holds assignments, one return"),
+    ],
+)
+def test_what_a_formula_cannot_hold_is_told_with_what_to_write_instead(broken: Formula, words: str) -> None:
+    with pytest.raises(FormulaError, match=words):
+        _ = broken.tree
 
 
 @pytest.mark.parametrize("broken", [looping, foreign, unknown_name, endless])

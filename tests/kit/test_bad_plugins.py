@@ -120,7 +120,10 @@ def test_two_plugins_of_one_kind_are_both_told_and_the_others_stand(tmp_path: Pa
     assert main(["calc", str(config), *folders]) == 3
     out, err = capfd.readouterr()
     files = f"{tmp_path / 'plugins' / 'faulty.py'} and from {other / 'plugins' / 'faulty.py'}"
-    assert f"mechanism 'faulty' of plugin 'faulty': The kind 'faulty' comes from {files}. Remove or rename one of them." in err
+    assert (
+        f"mechanism 'faulty' of plugin 'faulty': The kind 'faulty' comes from {files}. Remove or rename one of them."
+        in err
+    )
     assert json.loads(out)["mechanisms"]["a"]["status"] == "pass"
 
 

@@ -17,6 +17,7 @@ DONE = (
     "drafting",
     "exchange/signing*",
     "exchange/verification*",
+    "optimisation",
     "quantities",
     "given_files*",
     "kit",

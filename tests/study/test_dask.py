@@ -18,6 +18,7 @@ import pytest
 from diecut_report.errors import UserError
 from diecut_report.study.execution import dask_cluster as module
 from diecut_report.study.execution.engines import ChunkFailed, InProcess, dask_cluster, results
+from diecut_report.study.execution.process_pool import SAFE_PATH
 from diecut_report.study.execution.study_run import Counts, Where, run_study
 from tests.configs import GOOD
 from tests.processes import until
@@ -207,3 +208,24 @@ def test_scheduler_that_is_not_there_is_told_within_its_time(
 def test_worker_with_another_version_is_told(monkeypatch: pytest.MonkeyPatch) -> None:
     with pytest.raises(UserError, match=r"has version .* of the program, this is 9\.9"):
         module._work("9.9", "key", square, 1)
+
+
+@pytest.mark.nightly
+def test_a_worker_started_as_it_is_told_runs_nothing_from_its_folder(cluster: Cluster, tmp_path: Path) -> None:
+    """As the message says: PYTHONSAFEPATH=1; also the process that the worker's nanny starts."""
+    told = tmp_path / "trapped"
+    for name in ("multiprocessing", "yaml", "numpy"):
+        (cluster.folder / f"{name}.py").write_text(f"open({str(told)!r}, 'a').write({name!r})\n", "utf-8")
+    unsafe = {name: value for name, value in os.environ.items() if name != SAFE_PATH}
+    subprocess.run(
+        [sys.executable, "-m", "dask", "--version"], cwd=cluster.folder, env=unsafe, capture_output=True, check=False
+    )
+    assert told.exists()  # where the folder comes first they are run
+    told.unlink()
+    safe = unsafe | {SAFE_PATH: "1", "PYTHONPATH": str(ROOT)}
+    command = [sys.executable, "-m", "dask", "worker", cluster.address, "--nthreads", "1", "--no-dashboard"]
+    with (cluster.folder / "log").open("ab") as log:
+        cluster.started.append(subprocess.Popen(command, stdout=log, stderr=log, env=safe, cwd=cluster.folder))
+    with dask_cluster(cluster.address, warm(tmp_path)) as engine:
+        found = dict(results(engine, square, range(3)))
+    assert found == {0: 0, 1: 1, 2: 4} and not told.exists()

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import argparse
+import gc
 from pathlib import Path
 
 from diecut_report.config.discovery import Discovery
@@ -11,6 +12,7 @@ from tools.site.documents import add_documents
 from tools.site.examples import examples, shown_kinds
 from tools.site.frame import add_frame
 from tools.site.gallery import add_gallery
+from tools.site.reference import add_reference
 from tools.site.reports import add_reports
 from tools.site.sources import Sources
 
@@ -27,6 +29,7 @@ def site(*, quick: bool) -> Sources:
     sources, found = Sources(), examples(quick=quick)
     add_gallery(sources, mechanisms(), shown_kinds(found))
     add_reports(sources, found)
+    add_reference(sources)
     add_documents(sources)
     add_frame(sources)
     return sources
@@ -38,6 +41,7 @@ def main() -> None:
     parser.add_argument("folder", type=Path)
     parser.add_argument("--quick", action="store_true", help="with the reports of the small examples alone")
     asked = parser.parse_args()
+    gc.disable()  # it is a short life
     site(quick=asked.quick).write(asked.folder)
 
 

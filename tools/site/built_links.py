@@ -9,6 +9,7 @@ from __future__ import annotations
 import sys
 from collections.abc import Iterator
 from html.parser import HTMLParser
+from os.path import normpath
 from pathlib import Path
 from typing import NamedTuple
 from urllib.parse import unquote, urlsplit
@@ -54,6 +55,7 @@ class Found(NamedTuple):
 
 def judged(folder: Path) -> Found:
     """Return what is wrong with the links of a site, and where it leads to."""
+    folder = folder.resolve()
     pages = {file: Page(file) for file in sorted(folder.rglob("*.html"))}
     found = Found([], set())
     if not pages:
@@ -74,12 +76,11 @@ def _fault(file: Path, named: Named, pages: dict[Path, Page], outside: set[str])
     if parted.scheme or parted.netloc:
         outside.add(named.address)
         return "a browser would load this from elsewhere; put it into the site" if named.is_loaded else ""
-    target = (file.parent / unquote(parted.path)).resolve() if parted.path else file.resolve()
-    target = target / "index.html" if target.is_dir() else target
-    if not target.is_file():
+    target = Path(normpath(file.parent / unquote(parted.path))) if parted.path else file
+    if target not in pages and not target.is_file():
         return "there is no such file in the site"
-    known = next((page for other, page in pages.items() if other.resolve() == target), None)
-    if parted.fragment and known and unquote(parted.fragment) not in known.places | {"top"}:
+    place = unquote(parted.fragment)
+    if place and target in pages and place not in pages[target].places | {"top"}:
         return "there is no such place on that page"
     return ""
 

@@ -111,19 +111,19 @@ def _chapter(chapter: Chapter, typeset: Formulas) -> Iterator[str]:
 
 def _step(step: Step, formulas: list[str], typeset: Formulas) -> Iterator[str]:
     unit = pretty(step.unit)
-    named = _must_hold(step, typeset) if isinstance(step, Require) else plain(step.description)
+    named = _must_hold(step) if isinstance(step, Require) else plain(step.description)
     told = [named, code(step.id), f"in {unit}" if unit and step.symbol else "", plain(_found(step, typeset))]
     told += [f"with {', '.join(map(code, step.needs))}"] if step.needs else []
     told += [f"without {', '.join(map(code, step.lacks))}"] if step.lacks else []
     told += [f"source: {plain(step.source)}"] if step.source else []
     yield from (" · ".join(filter(None, told)), "")
     if formulas:
-        yield from html(*(f'<div class="eq" tabindex="0">{formula}</div>' for formula in formulas))
+        yield from html(*(f'<div class="eq">{formula}</div>' for formula in formulas))
 
 
-def _must_hold(step: Require, typeset: Formulas) -> str:
-    """What is said where it does not hold, with symbols in place of the numbers."""
-    words = NAMED.sub(lambda found: typeset.symbol(found[1], step), step.message)
+def _must_hold(step: Require) -> str:
+    """What is said where it does not hold, without its numbers."""
+    words = NAMED.sub("…", step.message)
     return f"Must hold, else {code(step.key)} {plain(words)}"
 
 
@@ -158,7 +158,7 @@ def _outputs(mechanism: Mechanism) -> Iterator[str]:
 
 def _checks(mechanism: Mechanism) -> Iterator[str]:
     yield from table(
-        ("check", "class", "demanded", "", "limited by", "where it fails", "source"),
+        ("check", "class", "demanded", "is", "limited by", "where it fails", "source"),
         (
             (f"{plain(c.title)}<br>{code(check_id(c))}", c.check_class, plain(c.demand_label), _sign(c), plain(c.limit_label),
              plain(str(c.consequence)), plain(c.source))

@@ -47,9 +47,9 @@ def fenced(language: str, text: str) -> Iterator[str]:
     yield from ("", f"``````{language}", text.strip("\n"), "``````", "")
 
 
-def contents(caption: str, pages: Iterable[str], *, hidden: bool = True) -> Iterator[str]:
-    """Yield a table of contents, by the names of pages without their ending; what is hidden stands at the side alone."""
-    yield from ("", "```{toctree}", *(("hidden",) and (":hidden:",) if hidden else ()), ":maxdepth: 1")
+def contents(caption: str, pages: Iterable[str]) -> Iterator[str]:
+    """Yield a table of contents, by the names of pages without their ending: it stands at the side, not in the page."""
+    yield from ("", "```{toctree}", ":hidden:", ":maxdepth: 1")
     yield from (f":caption: {caption}",) if caption else ()
     yield from ("", *pages, "```", "")
 

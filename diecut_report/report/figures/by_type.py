@@ -14,9 +14,17 @@ from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.polar import polar
 from diecut_report.report.figures.sizes import Size
 from diecut_report.report.figures.style import Svg, drawn
+from diecut_report.report.figures.tornado import tornado_of
 from diecut_report.report.i18n import Catalogue
 
-DRAW: dict[str, Callable[..., Any]] = {"plot": plot, "chart": chart, "polar": polar, "bars": bars, "drawing": drawing}
+DRAW: dict[str, Callable[..., Any]] = {
+    "plot": plot,
+    "chart": chart,
+    "polar": polar,
+    "bars": bars,
+    "drawing": drawing,
+    "tornado": tornado_of,
+}
 
 
 def build(figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, size: Size) -> Figure:

@@ -9,8 +9,12 @@ from typing import Any
 import numpy as np
 from matplotlib.figure import Figure
 
+from diecut_report.quantities.formatting import number_text
 from diecut_report.report.figures.diagram import WIDTH
+from diecut_report.report.figures.sizes import Size
 from diecut_report.report.figures.style import ACCENT, INK, Svg, canvas, drawn, text_size
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.number_format import number
 
 ROW, HEAD, FOOT = 17.0, 14.0, 24.0  # points
 LOWERED = "#b06a2c"
@@ -21,7 +25,12 @@ def tornado(today: float, bars: Sequence[Mapping[str, Any]], told: str, key: str
     return drawn(partial(_tornado, today, bars), told, key)
 
 
-def _tornado(today: float, bars: Sequence[Mapping[str, Any]]) -> Figure:
+def tornado_of(figure: Mapping[str, Any], _curves: Any, words: Catalogue, size: Size = Size.LARGE) -> Figure:
+    """Draw a figure of a report's chapter on influence."""
+    return _tornado(figure["today"], figure["bars"], words["decimal"])
+
+
+def _tornado(today: float, bars: Sequence[Mapping[str, Any]], decimal: str = ".") -> Figure:
     height = HEAD + FOOT + ROW * len(bars)
     sheet = canvas(WIDTH, height)
     names = max(text_size(str(bar["label"]))[0] for bar in bars) + 10
@@ -34,6 +43,7 @@ def _tornado(today: float, bars: Sequence[Mapping[str, Any]]) -> Figure:
             else:
                 axes.plot(today, place, "x", color=colour)
     axes.set_yticks(places, [str(bar["label"]) for bar in bars], va="center_baseline")
+    axes.xaxis.set_major_formatter(lambda value, _: number(number_text(value), decimal))
     axes.set_ylim(-0.6, len(bars) - 0.4)
     axes.axvline(today, color=INK, linewidth=0.8)
     axes.grid(visible=False, axis="y")

@@ -49,6 +49,7 @@ def _write(body: WordBody, material: Material) -> None:
     if document.detail == BRIEF:
         chapters.key_results(body, document)
         return
+    front.influence(body, document)
     chapters.press_data(body, document)
     for part in document.chapters:
         chapters.chapter(body, part, document)

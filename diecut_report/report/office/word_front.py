@@ -91,6 +91,33 @@ def summary(body: WordBody, document: ReportDocument) -> None:
                 body.quantities(chapter.key_results, sourced=False)
 
 
+def influence(body: WordBody, document: ReportDocument) -> None:
+    """What inputs do to the numbers that are looked at, and what tolerances do to the checks."""
+    found, words = document.influence, document.words
+    if found is None:
+        return
+    body.heading(1, "", words["influence"], "influence")
+    body.tell(found.lead)
+    heads = ("influence_lowered", "influence_gives", "influence_raised", "influence_gives")
+    columns = [body.head("path", 4), *(body.head(word, 2, right=True) for word in heads)]
+    for each in found.tornados:
+        body.subheading(each.title)
+        if each.rows:
+            body.figure(each.number, each.figure["title"], words["influence_caption"])
+            body.table(columns, [[key(name), *map(run, values)] for name, *values in each.rows])
+        body.tell(each.rest)
+    if found.chances:
+        body.subheading(words["influence_tolerances"])
+        body.tell(found.scatter)
+        told = ("influence_probability", "influence_interval", "influence_held")
+        columns = [body.head("check", 5), *(body.head(word, 2, right=True) for word in told)]
+        rows = [
+            [rich(prose(row.title)), run(row.probability), run(row.interval), run(row.held)] for row in found.chances
+        ]
+        body.table(columns, rows)
+        body.tell(found.sure)
+
+
 def _verdict_lines(body: WordBody, document: ReportDocument) -> Iterator[Inline]:
     words, governing = document.words, document.governing
     for row in document.failures:

@@ -232,6 +232,7 @@ class MechanismKeys(ClosedKeys):
     plugin_version: str = always("The version of its plugin.")
     plugin_sha256: str = always("The SHA-256 of the plugin's code.")
     plugin_file: str = sometimes("The file of a plugin that is not the program's own.")
+    plugin_check: Literal["passed", "failed"] = sometimes("Whether the formulas of such a plugin passed their check.")
     status: Status = always(
         "The worst of its checks; `error` where its plugin broke, `skipped` where it refers to one that did."
     )

@@ -43,11 +43,19 @@ def variant_config(
     study was calculated by is told to ``warn``, and stands above the configuration. UserError in words where the variant is not
     stored, and with its reason where it cannot be calculated.
     """
-    found = stored_variant(directory, variant, discovery)
+    with opened(directory) as stored:
+        return variant_of(stored, variant, discovery, name, warn)
+
+
+def variant_of(
+    stored: Stored, variant: int, discovery: Discovery, name: str, warn: Callable[[str], None] | None = None
+) -> Tree:
+    """Return the configuration of a variant of an opened folder, as `variant_config` does."""
+    found = _variant(stored, variant, discovery)
     base = found.base
     values = {place: as_config_value(value, column) for place, (column, value) in found.values.items()}
     values |= dict(_named(base, variant, found.study))
-    values |= dict(_tables(base, directory, found.file))
+    values |= dict(_tables(base, stored.folder, found.file))
     heading = f"Variant {variant} of {found.study}: its values are exactly those that were calculated."
     kinds = (str(data.get("kind")) for data in (base.data.get(MECHANISMS) or {}).values())
     warnings = other_code(found.sources, kinds, discovery)
@@ -60,11 +68,15 @@ def variant_config(
 def stored_variant(directory: Path, variant: int, discovery: Discovery) -> StoredVariant:
     """Return a variant with the base that its study keeps; UserError in words where it is not stored, or is in error."""
     with opened(directory) as stored:
-        _refuse_error(stored, variant)
-        row = _row(stored, variant)
-        ((status, governing),) = stored.rows("SELECT status, governing FROM v WHERE variant = ?", [variant])
-        description = stored.description
-    base = yaml_tree.load(kept(directory)[description.base.file])
+        return _variant(stored, variant, discovery)
+
+
+def _variant(stored: Stored, variant: int, discovery: Discovery) -> StoredVariant:
+    _refuse_error(stored, variant)
+    row = _row(stored, variant)
+    ((status, governing),) = stored.rows("SELECT status, governing FROM v WHERE variant = ?", [variant])
+    description = stored.description
+    base = yaml_tree.load(kept(stored.folder)[description.base.file])
     values = {
         _value(base, _place(base, tuple(_keys(column.name)), discovery)): (column, value) for column, value in row
     }

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
+from functools import partial
 from typing import Any
 
 import numpy as np
@@ -11,6 +12,7 @@ import numpy as np
 from diecut_report.conditions.numpy_emitter import JudgedRows, judged
 from diecut_report.conditions.parts import Name
 from diecut_report.conditions.reading import read
+from diecut_report.conditions.shortfall import shortfall
 from diecut_report.conditions.tree import Node as Tree
 from diecut_report.conditions.tree import names
 from diecut_report.conditions.words import ConditionError
@@ -59,14 +61,18 @@ class Constraint:
     def judged(self, rows: Mapping[str, Any]) -> JudgedRows:
         """Return for each row whether it holds and whether it fails; what has no value (a division by zero) does neither."""
 
-        def value_of(name: str) -> Any:
-            node = self.values[name]
-            if node.op == "sym":
-                return rows[node.args[0]]
-            found = evaluate(node, lambda leaf: _value(leaf, rows))
-            return found if isinstance(found, str) else np.where(np.isfinite(found), found, np.nan)
+        return judged(self.tree, partial(self._value_of, rows), len(rows[self.paths[0]]))
 
-        return judged(self.tree, value_of, len(rows[self.paths[0]]))
+    def shortfall(self, rows: Mapping[str, Any]) -> Array:
+        """Return for each row 0 where it holds, else how far it is from that."""
+        return shortfall(self.tree, partial(self._value_of, rows), len(rows[self.paths[0]]))
+
+    def _value_of(self, rows: Mapping[str, Any], name: str) -> Any:
+        node = self.values[name]
+        if node.op == "sym":
+            return rows[node.args[0]]
+        found = evaluate(node, lambda leaf: _value(leaf, rows))
+        return found if isinstance(found, str) else np.where(np.isfinite(found), found, np.nan)
 
     def holds(self, rows: Mapping[str, Any]) -> Array:
         """Return for each row whether it holds."""

@@ -48,6 +48,29 @@ class ObjectiveForm(Block):
     maximise: Annotated[str | None, Text("An output that is to be great")] = None
 
 
+SEARCH_SEED = Quantity("", "1", "Seed of the search; equal seeds search alike", ge=0, le=2**53, integer=True)
+
+
+class OptimiseForm(Block):
+    """Declare what `optimise` searches for, and how long."""
+
+    objectives: Annotated[
+        list[ObjectiveForm] | None,
+        Text("What is to be small or great: outputs, or varied inputs such as press.productivity; without it those of the study"),
+    ] = None  # fmt: skip
+    evaluations: Annotated[
+        int, Quantity("", "1", "Machines that are tried", ge=1, le=1e8, integer=True)
+    ] = 2000  # fmt: skip
+    population: Annotated[
+        int | None, Quantity("", "1", "Machines of a generation; without it a fortieth of all, 40 to 500", ge=4, le=1e5, integer=True)
+    ] = None  # fmt: skip
+    seed: Annotated[int, SEARCH_SEED] = 1
+    passing: Annotated[bool, Text("Only machines of which no check fails")] = True
+    points: Annotated[
+        int, Quantity("", "1", "Points of the front that are listed, and calculated again one by one", ge=1, le=1000, integer=True)
+    ] = 20  # fmt: skip
+
+
 Texts = Annotated[list[Annotated[str, Field(min_length=1)]], Field(default_factory=list)]
 
 
@@ -56,7 +79,7 @@ class StudyDocument(Block):
 
     schema_version: Annotated[Literal[1], BeforeValidator(ConfigDocument.a_number)]
     base: Annotated[str, Text("The config that is varied, beside the study file"), Field(min_length=1)]
-    sample: Annotated[SampleForm, Text("How the variants are taken")]
+    sample: Annotated[SampleForm | None, Text("How the variants are taken; not needed beside optimise")] = None
     vary: Annotated[
         dict[str, Any], Text("For each varied path its values: a list, a range or a distribution"),
         Field(default_factory=dict),
@@ -69,6 +92,7 @@ class StudyDocument(Block):
     ] = None
     curves: Annotated[Texts, Text("The curves to keep; without it none")]
     objectives: Annotated[list[ObjectiveForm], Text("What is to be small or great"), Field(default_factory=list)]
+    optimise: Annotated[OptimiseForm | None, Text("What the command optimise searches for in what is varied")] = None
     reports: Annotated[  # judged as a whole where the sample is known: of each kind of value two faults would be told
         Any,
         Text("The variants that get a full report: none, failed, best N, all, or a list of numbers"),

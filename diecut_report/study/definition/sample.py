@@ -35,6 +35,7 @@ class Sampled:
     sample: Sample | None
     bases: list[Config]
     tables: dict[str, str] = field(default_factory=dict)
+    variables: list[Variable] | None = None  # None where they have problems, or where a table has the variants
 
 
 class SampleReader:
@@ -62,8 +63,9 @@ class SampleReader:
         variables = [reader.variable(asked, vary[path]) for path, asked in inputs.items()]
         self.problems += reader.problems
         made = [variable for variable in variables if variable]
-        sample = self._made(lambda: _sample(form, made)) if form and len(made) == len(vary) else None
-        return Sampled(inputs, sample, bases, self.tables.hashes)
+        is_whole = bool(vary) and len(made) == len(vary)
+        sample = self._made(lambda: _sample(form, made)) if form and is_whole else None
+        return Sampled(inputs, sample, bases, self.tables.hashes, made if is_whole else None)
 
     def _found(self, vary: Mapping[str, Any]) -> Iterator[tuple[str, Input]]:
         for path in vary:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.config.schema import DRAFT, NUMBER, Schema, block_schema
-from diecut_report.study.definition.form import DISTRIBUTIONS, SampleForm, TableForm
+from diecut_report.study.definition.form import DISTRIBUTIONS, OptimiseForm, SampleForm, TableForm
 
 PATH = r"^(mechanisms\.[A-Za-z][A-Za-z0-9_-]*|press)(\.\w+)+$"
 OUTPUT = r"^[A-Za-z][A-Za-z0-9_-]*(\.\w+)+$"
@@ -24,10 +24,12 @@ def study_schema() -> Schema:
         "outputs": _list(_output(), "The outputs to keep, such as drive.crank_torque_peak; without the key all."),
         "curves": _list(_output(), "The curves to keep; without the key none."),
         "objectives": _list(_objective(), "What is to be small or great."),
+        "optimise": _optimise(),
         "reports": _reports(),
     }
     head = {"$schema": DRAFT, "title": "Study of variants for diecut-report"}
-    return head | _block(keys, ("schema_version", "base", "sample"), "A study: a base config and what varies in it.")
+    searched: Schema = {"anyOf": [{"required": ["sample"]}, {"required": ["optimise"]}]}
+    return head | _block(keys, ("schema_version", "base"), "A study: a base config and what varies in it.") | searched
 
 
 def _text(description: str) -> Schema:
@@ -72,6 +74,14 @@ def _output() -> Schema:
 def _objective() -> Schema:
     keys: Schema = {"minimise": _output(), "maximise": _output()}
     return _block(keys, (), "An output.") | {"minProperties": 1, "maxProperties": 1}
+
+
+def _optimise() -> Schema:
+    found = block_schema(OptimiseForm, refers=False) | {
+        "description": "What the command optimise searches for in what is varied."
+    }
+    told = "What is to be small or great: outputs, or varied inputs; without the key those of the study."
+    return found | {"properties": found["properties"] | {"objectives": _list(_objective(), told)}}
 
 
 def _reports() -> Schema:

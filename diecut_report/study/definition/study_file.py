@@ -16,10 +16,12 @@ from diecut_report.config.validation import ConfigPlace, validate
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.expressions import Node
+from diecut_report.languages.phrases import phrase
 from diecut_report.study.conditions.constraints import Constraint, Term, parse
 from diecut_report.study.conditions.terms import term
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
-from diecut_report.study.definition.form import SampleForm, StudyDocument
+from diecut_report.study.definition.form import OptimiseForm, SampleForm, StudyDocument
+from diecut_report.study.definition.optimise import Optimise, OptimiseReader, without_objectives
 from diecut_report.study.definition.sample import Sampled, SampleReader, misused
 from diecut_report.study.definition.wanted_results import Objective, Reports, ResultReader
 from diecut_report.study.sampling.methods import Sample
@@ -32,6 +34,7 @@ class Study:
     ``base`` is the config as it stands in its file; ``bases`` are the base with stand-ins for the varied numbers and, one at
     a time, each varied text, so that all of them have the columns of all variants; ``tables`` holds the
     SHA-256 of each table that the sample or the base reads, by its name in the study; ``files`` where base and tables were found.
+    ``optimise`` is what is searched for; without a sample of its own the study's is what that search begins with.
     """
 
     file: Path
@@ -50,6 +53,12 @@ class Study:
     reports: Reports
     tables: Mapping[str, str]
     files: Mapping[str, Path]
+    optimise: Optimise | None = None
+
+    @property
+    def is_sampled(self) -> bool:
+        """Return whether the study says which variants there are, and not only what is searched for."""
+        return self.data.get("sample") is not None
 
 
 def load_study(given: Path | Tree, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:
@@ -110,16 +119,23 @@ class _StudyReader:
         reader = SampleReader(self.place, self._find, base)
         sampled = reader.sampled(form, self.data.get("vary", {}))
         self.problems += reader.problems
-        results = ResultReader(self.place, sampled.bases)
+        results = ResultReader(self.place, sampled.bases, sampled.inputs)
         constraints = tuple(self._constraints(sampled, results))
-        outputs, curves, objectives, reports = self._results(sampled, results)
+        objectives = results.objectives(self.data.get("objectives", []))
+        optimise = self._optimise(sampled, results, objectives)
+        sampled.sample = sampled.sample or (optimise.first if optimise and "sample" not in self.data else None)
+        outputs, curves, reports = self._results(sampled, results, objectives, optimise)
+        if outputs is not None and optimise:  # it is judged by what is stored
+            outputs = tuple(
+                dict.fromkeys([*outputs, *(n for each in constraints for n in each.outputs if ".checks." not in n)])
+            )
         if sampled.sample is None or self.problems:
             return None
         tables = sampled.tables | {self._beside_base(name): digest for name, digest in base.files.items()}
         files = {name: self._find(name) for name in (self.data["base"], *tables)}
         units = {path: asked.unit for path, asked in sampled.inputs.items()}
         return Study(self.path, self.tree.data, self.tree.text, self.tree.sha256, base, tuple(sampled.bases), sampled.sample, sampled.inputs, units,
-                     constraints, outputs, curves, objectives, reports, tables, files)  # fmt: skip
+                     constraints, outputs, curves, objectives, reports, tables, files, optimise)  # fmt: skip
 
     def _find(self, name: str) -> Path:
         """Where a file is that the study names."""
@@ -132,11 +148,42 @@ class _StudyReader:
     def _form(self) -> SampleForm | None:
         """The key sample, or None where it, or what it needs, is wrong."""
         if "sample" not in self.data or "vary" in self.wrong:
+            self._without_sample()
             return None
         form = SampleForm.model_validate(self.data["sample"])
         problems = list(misused(form, bool(self.data.get("vary")), self.place))
         self.problems += problems
         return None if problems else form
+
+    def _without_sample(self) -> None:
+        """Require a sample, or what is searched for in its place."""
+        if "vary" in self.wrong or "sample" in self.wrong:
+            return
+        if "optimise" not in self.data and "optimise" not in self.wrong:
+            words = "is missing; say how the variants are taken, or by optimise what is searched for."
+            self.problems.append(self.place.absent(("sample",), phrase(words)))
+        elif not self.data.get("vary"):
+            self.problems.append(self.place.absent(("vary",), phrase("is missing or empty; vary at least one path.")))
+
+    def _optimise(
+        self, sampled: Sampled, results: ResultReader, own: tuple[Objective, ...]
+    ) -> Optimise | None:  # fmt: skip
+        """What is searched for, None where nothing is or where it has problems."""
+        given = self.data.get("optimise")
+        if given is None:
+            return None
+        form = OptimiseForm.model_validate(given)
+        named = given.get("objectives")
+        objectives = results.objectives(named, ("optimise",)) if named else own
+        if not named and not self.data.get("objectives"):
+            self.problems.append(without_objectives(self.place))
+        reader = OptimiseReader(self.place)
+        found = reader.optimise(form, sampled.variables, objectives)
+        if sampled.variables is None and self.data.get("sample", {}).get("method") == "table":
+            words = "searches in what is varied, and a table has its machines already; give vary, and another sample or none."
+            reader.problems.append(self.place.problem(("optimise",), phrase(words), at_key=True))
+        self.problems += reader.problems
+        return found
 
     def _base(self) -> Config | None:
         """The base, or None with its problems; these name its own file."""
@@ -168,16 +215,16 @@ class _StudyReader:
                 self.problems.append(self.place.problem(("constraints", index), str(fault)))
 
     def _results(
-        self, sampled: Sampled, reader: ResultReader
-    ) -> tuple[tuple[str, ...] | None, tuple[str, ...], tuple[Objective, ...], Reports]:
+        self, sampled: Sampled, reader: ResultReader, objectives: tuple[Objective, ...], optimise: Optimise | None
+    ) -> tuple[tuple[str, ...] | None, tuple[str, ...], Reports]:
         """What is kept of the results; the outputs of objectives are kept in any case."""
         outputs, curves = reader.outputs(self.data.get("outputs")), reader.curves(self.data.get("curves", []))
-        objectives = reader.objectives(self.data.get("objectives", []))
-        count = sampled.sample.count if sampled.sample else None
-        reports = reader.reports(self.data.get("reports"), count, bool(self.data.get("objectives")))
+        count = max((sampled.sample.count if sampled.sample else 0), optimise.evaluations if optimise else 0) or None
+        wanted = (*objectives, *(optimise.objectives if optimise else ()))
+        reports = reader.reports(self.data.get("reports"), count, bool(self.data.get("objectives")) or bool(optimise))
         self.problems += reader.problems
-        wanted = [made.output for made in objectives if ".checks." not in made.output]
-        return None if outputs is None else tuple(dict.fromkeys([*outputs, *wanted])), curves, objectives, reports
+        kept = [each.output for each in wanted if ".checks." not in each.output and each.output not in sampled.inputs]
+        return None if outputs is None else tuple(dict.fromkeys([*outputs, *kept])), curves, reports
 
 
 def _output(path: str, results: ResultReader) -> Term | None:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Literal
@@ -12,6 +12,8 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.validation import ConfigPlace, told
 from diecut_report.errors import Problem, nearest
+from diecut_report.languages.phrases import Phrase
+from diecut_report.study.definition.base_inputs import MECHANISMS, Input
 from diecut_report.study.execution.result_columns import columns_of
 from diecut_report.study.storage.description import ResultColumn
 
@@ -20,7 +22,7 @@ SHOWN = 12  # known names that a message lists
 
 @dataclass(frozen=True)
 class Objective:
-    """Name a quantity that is to be small or great: an output (``cylinder.mass``) or ``NAME.checks.ID.utilisation``."""
+    """Name a quantity that is to be small or great: an output (``cylinder.mass``), ``NAME.checks.ID.utilisation`` or a varied input."""
 
     output: str
     minimise: bool
@@ -56,8 +58,8 @@ class _Known:
 class ResultReader:
     """Read what is asked of the results; gathers ``problems``."""
 
-    def __init__(self, place: ConfigPlace, bases: Sequence[Config]) -> None:
-        self.place, self.bases = place, bases
+    def __init__(self, place: ConfigPlace, bases: Sequence[Config], inputs: Mapping[str, Input] | None = None) -> None:
+        self.place, self.bases, self.inputs = place, bases, inputs or {}
         self.problems: list[Problem] = []
 
     def column(self, name: str) -> ResultColumn | None:
@@ -80,9 +82,11 @@ class ResultReader:
         """Return the curves to keep."""
         return tuple(dict.fromkeys(name for i, name in enumerate(given) if self._is_curve(("curves", i), name)))
 
-    def objectives(self, given: list[dict[str, Any]]) -> tuple[Objective, ...]:
-        """Return the objectives in their order."""
-        return tuple(made for i, entry in enumerate(given) if (made := self._objective(("objectives", i), entry)))
+    def objectives(self, given: list[dict[str, Any]], home: tuple[str, ...] = ()) -> tuple[Objective, ...]:
+        """Return the objectives in their order; ``home`` is the block that they stand in."""
+        return tuple(
+            made for i, entry in enumerate(given) if (made := self._objective((*home, "objectives", i), entry))
+        )
 
     def reports(self, given: Any, count: int | None, has_objectives: bool) -> Reports:
         """Return which variants get a full report; ``count`` is that of the sample, None where it is not known."""
@@ -124,6 +128,8 @@ class ResultReader:
         return Objective(name, way == "minimise") if is_known else None
 
     def _is_objective(self, key: tuple[str | int, ...], name: str) -> bool:
+        if name.startswith((f"{MECHANISMS}.", f"{PRESS}.")):
+            return self._is_varied_number(key, name)
         found = self._split(key, name)
         if found is None:
             return False
@@ -134,6 +140,19 @@ class ResultReader:
             self._report(key, f"{name} is a text or a yes/no, which is neither small nor great; name a number.")
             return False
         return self._is_output(key, name, known, inner)
+
+    def _is_varied_number(self, key: tuple[str | int, ...], name: str) -> bool:
+        """Whether an input is a number that varies: one that does not is the same in all variants."""
+        numbers = [path for path, asked in self.inputs.items() if asked.unit]
+        if name in numbers:
+            return True
+        if name in self.inputs:
+            words = "{name} is a text, a choice or a yes/no, which is neither small nor great; name a number."
+            self._report(key, Phrase(words, name=name))
+            return False
+        words = "{name} is not varied, so it is the same in all variants{near}; an output is named as NAME.OUTPUT. Varied numbers: {known}."
+        self._report(key, Phrase(words, name=name, near=nearest(name, numbers), known=", ".join(numbers) or "–"))
+        return False
 
     def _is_number_or_text(self, key: tuple[str | int, ...], name: str) -> bool:
         found = self._split(key, name)

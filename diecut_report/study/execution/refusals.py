@@ -3,11 +3,19 @@
 from __future__ import annotations
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import phrase
 from diecut_report.study.conditions.constraints import why_dropped
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.dropped_variants import judged_rows, without_value
 
 LARGEST = 10_000_000  # rows that are calculated without being asked for twice
+
+
+def refuse_unsampled(study: Study) -> None:
+    """Require a sample: a study that says only what is searched for has no variants of its own."""
+    if not study.is_sampled:
+        words = "is missing: this study says by optimise what is searched for. Run it with `diecut-report optimise`, or give a sample."
+        raise UserError(Problem(phrase(words), str(study.file), path="sample"))
 
 
 def refuse_huge(study: Study, agreed: bool) -> None:

@@ -149,8 +149,8 @@ def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterato
             yield done
 
 
-def engine_for(study: Study, where: Where, chunks: int) -> Engine:
-    """A Dask cluster where one is named, a pool of processes for a large study, this process for a small one."""
+def engine_for(study: Study, where: Where, chunks: int, rows: int | None = None) -> Engine:
+    """A Dask cluster where one is named, a pool of processes for many rows (of the sample), this process for few."""
     warm = Warm(
         _key(study, where),
         worker.load,
@@ -159,7 +159,7 @@ def engine_for(study: Study, where: Where, chunks: int) -> Engine:
     if where.dask:
         return dask_cluster(where.dask, warm)
     jobs = min(where.jobs or os.cpu_count() or 1, chunks)
-    return Pool(jobs, warm) if jobs > 1 and (where.jobs or study.sample.count > SMALL) else InProcess(warm)
+    return Pool(jobs, warm) if jobs > 1 and (where.jobs or (rows or study.sample.count) > SMALL) else InProcess(warm)
 
 
 def _key(study: Study, where: Where) -> str:

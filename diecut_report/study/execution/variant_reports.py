@@ -66,7 +66,13 @@ def write_reports(
     Return what was not done, in words, and the plugins that broke, with their faults. ``tell`` hears how far it is. They
     are made side by side in processes of this machine.
     """
-    chosen = wanted(study, store)
+    return write_chosen(wanted(study, store), store, where, agreed=agreed, tell=tell)
+
+
+def write_chosen(
+    chosen: Chosen, store: Store, where: Where, *, agreed: bool, tell: Tell
+) -> tuple[tuple[str, ...], dict[str, str]]:
+    """Write the full reports of these variants, as `write_reports` does."""
     folder = store.directory / FOLDER
     missing = [v for v in chosen.variants if not all((folder / f"{v}.{ending}").exists() for ending in FORMATS)]
     if len(missing) > MANY and not agreed:

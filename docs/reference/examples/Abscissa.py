@@ -4,7 +4,20 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Level, Mark, Mechanism, Panel, Plot, Quantity, Series, Span
+from diecut_report.api import (
+    POINTS,
+    Annotated,
+    Chapter,
+    Inputs,
+    Level,
+    Mark,
+    Mechanism,
+    Panel,
+    Plot,
+    Quantity,
+    Series,
+    Span,
+)
 
 
 class Slide(Inputs):

@@ -16,14 +16,21 @@ class Spindle(Inputs):
 
 rows = Chapter("Sections")
 rows.neighbour("next_diameter", "d_n,k", "mm", "Diameter of the next section", of="sections.diameter")
-rows.value("step", "Δd_k", "mm", "Step to the next section", bind(lambda n, d: n - d, n="next_diameter", d="sections.diameter"))
+rows.value(
+    "step", "Δd_k", "mm", "Step to the next section", bind(lambda n, d: n - d, n="next_diameter", d="sections.diameter")
+)
 rows.running("end", "x_k", "mm", "Right end of the section", operation="sum", of="sections.length")
 rows.total("length", "L", "mm", "Length of the spindle", operation="sum", of="sections.length")
 rows.total("thickest", "d_max", "mm", "Greatest diameter", operation="max", of="sections.diameter")
 rows.part("last_end", "x_e", "mm", "Right end of the last section", of="end", index=-1)
 
 MECHANISM = Mechanism(
-    kind="spindle", version="1.0", title="Spindle", summary="Lengths of a stepped spindle.", inputs=Spindle, chapters=(rows,)
+    kind="spindle",
+    version="1.0",
+    title="Spindle",
+    summary="Lengths of a stepped spindle.",
+    inputs=Spindle,
+    chapters=(rows,),
 )
 
 PRESS = """

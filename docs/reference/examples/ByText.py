@@ -6,7 +6,19 @@ from typing import Literal
 
 import numpy as np
 
-from diecut_report.api import Annotated, Binding, Bound, ByText, Chapter, Formula, Inputs, Mechanism, Quantity, Text, formula
+from diecut_report.api import (
+    Annotated,
+    Binding,
+    Bound,
+    ByText,
+    Chapter,
+    Formula,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Text,
+    formula,
+)
 
 
 @formula

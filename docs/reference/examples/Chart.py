@@ -5,7 +5,20 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import (
-    Annotated, Chapter, Chart, Inputs, Mechanism, Quantity, Shape, View, chart_panel, fill, level, line, mark, vertical,
+    Annotated,
+    Chapter,
+    Chart,
+    Inputs,
+    Mechanism,
+    Quantity,
+    Shape,
+    View,
+    chart_panel,
+    fill,
+    level,
+    line,
+    mark,
+    vertical,
 )  # fmt: skip
 
 

@@ -27,9 +27,13 @@ search.computed(
     "driver_teeth", "z_1", "1", "Teeth of the driver", driver_teeth, ("ratio", "most"),
     "all drivers of 17 to 30 teeth are tried, and the one is taken whose ratio is nearest", whole=True,
 )  # fmt: skip
-search.value("driven_teeth", "z_2", "1", "Teeth of the driven wheel", lambda ratio, driver_teeth: np.round(ratio * driver_teeth))
+search.value(
+    "driven_teeth", "z_2", "1", "Teeth of the driven wheel", lambda ratio, driver_teeth: np.round(ratio * driver_teeth)
+)
 
-MECHANISM = Mechanism(kind="gears", version="1.0", title="Gears", summary="Teeth for a ratio.", inputs=Gears, chapters=(search,))
+MECHANISM = Mechanism(
+    kind="gears", version="1.0", title="Gears", summary="Teeth for a ratio.", inputs=Gears, chapters=(search,)
+)
 
 PRESS = """
 mechanisms:

@@ -32,9 +32,16 @@ following.abscissa("angle", "φ", "deg", "Angle of the shaft", period="period")
 following.from_curve("own_force", "F", "kN", "Force, taken over", given="force", abscissa="angle")
 following.reduction("force_range", "ΔF", "kN", "Range of the force", operation="range", of="own_force")
 
-PUNCH = Mechanism(kind="punch", version="1.0", title="Punch", summary="A load over a turn.", inputs=Press, chapters=(turn,))
+PUNCH = Mechanism(
+    kind="punch", version="1.0", title="Punch", summary="A load over a turn.", inputs=Press, chapters=(turn,)
+)
 FOLLOWER = Mechanism(
-    kind="follower", version="1.0", title="Follower", summary="Takes a force over.", inputs=Follower, chapters=(following,)
+    kind="follower",
+    version="1.0",
+    title="Follower",
+    summary="Takes a force over.",
+    inputs=Follower,
+    chapters=(following,),
 )
 
 PRESS = """

@@ -5,8 +5,26 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import (
-    POINTS, Annotated, Chapter, Drawing, Inputs, Mechanism, Point, Quantity, Shape, View,
-    arc, arrow, box, circle, dimension, label, point, polyline, radius_dimension, region,
+    POINTS,
+    Annotated,
+    Chapter,
+    Drawing,
+    Inputs,
+    Mechanism,
+    Point,
+    Quantity,
+    Shape,
+    View,
+    arc,
+    arrow,
+    box,
+    circle,
+    dimension,
+    label,
+    point,
+    polyline,
+    radius_dimension,
+    region,
 )  # fmt: skip
 
 
@@ -17,7 +35,9 @@ class CrankSlider(Inputs):
 
 
 motion = Chapter("Motion")
-motion.require("turns", lambda crank, rod: crank < rod, key="rod", message="is {rod}; it must be longer than the crank {crank}")
+motion.require(
+    "turns", lambda crank, rod: crank < rod, key="rod", message="is {rod}; it must be longer than the crank {crank}"
+)
 motion.abscissa("angle", "φ", "deg", "Crank angle", 2 * np.pi)
 motion.value(
     "position", "x", "mm", "Position", lambda crank, rod, angle: crank * np.cos(angle) + np.sqrt(rod**2 - (crank * np.sin(angle)) ** 2),
@@ -29,7 +49,12 @@ def pose(view: View, angle: float) -> list[Shape]:
     """The links at a crank angle."""
     pin: Point = (view["crank"] * np.cos(angle), view["crank"] * np.sin(angle))
     slider: Point = (view.at("position", angle), 0.0)
-    return [polyline([(0.0, 0.0), pin, slider], "link"), point((0.0, 0.0), "pivot"), point(pin, "joint"), point(slider, "joint")]
+    return [
+        polyline([(0.0, 0.0), pin, slider], "link"),
+        point((0.0, 0.0), "pivot"),
+        point(pin, "joint"),
+        point(slider, "joint"),
+    ]
 
 
 def shapes(view: View) -> list[Shape]:

@@ -13,19 +13,28 @@ def doubled(rate):
 
 class Feeder(Inputs):
     sheet_length: Annotated[
-        float | None, Quantity("L", "mm", "Length of the sheet", gt=0, press=FromPress("press.sheet.length")),
+        float | None,
+        Quantity("L", "mm", "Length of the sheet", gt=0, press=FromPress("press.sheet.length")),
     ] = None
     rate: Annotated[
-        float | None, Quantity("k", "1/h", "Strokes", gt=0, press=FromPress("press.productivity", doubled)),
+        float | None,
+        Quantity("k", "1/h", "Strokes", gt=0, press=FromPress("press.productivity", doubled)),
     ] = None
     share: Annotated[float, Quantity("s", "%", "Share of a stroke in which the sheet moves", gt=0, le=100)] = 50
 
 
 motion = Chapter("Motion")
-motion.value("speed", "v", "m/s", "Mean speed of the sheet", lambda sheet_length, rate, share: sheet_length * rate / share)
+motion.value(
+    "speed", "v", "m/s", "Mean speed of the sheet", lambda sheet_length, rate, share: sheet_length * rate / share
+)
 
 MECHANISM = Mechanism(
-    kind="sheet_feeder", version="1.0", title="Sheet feeder", summary="Speed of the sheet.", inputs=Feeder, chapters=(motion,)
+    kind="sheet_feeder",
+    version="1.0",
+    title="Sheet feeder",
+    summary="Speed of the sheet.",
+    inputs=Feeder,
+    chapters=(motion,),
 )
 
 PRESS = """

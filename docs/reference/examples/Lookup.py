@@ -5,7 +5,17 @@ from __future__ import annotations
 from typing import Literal
 
 from diecut_report.api import (
-    Annotated, Chapter, Inputs, Mechanism, Quantity, StandardFault, StandardTable, Text, own_table, standard_table, table_beside,
+    Annotated,
+    Chapter,
+    Inputs,
+    Mechanism,
+    Quantity,
+    StandardFault,
+    StandardTable,
+    Text,
+    own_table,
+    standard_table,
+    table_beside,
 )  # fmt: skip
 
 BEARINGS: StandardTable = own_table(

@@ -18,7 +18,9 @@ class Motor(Inputs):
 
 torques = Chapter("Torques")
 torques.value("motor_torque", "M_m", "N*m", "Torque of the motor", lambda torque: torque, needs=("torque",))
-torques.value("motor_torque", "M_m", "N*m", "Torque of the motor", lambda power, speed: power / speed, needs=("power", "speed"))
+torques.value(
+    "motor_torque", "M_m", "N*m", "Torque of the motor", lambda power, speed: power / speed, needs=("power", "speed")
+)
 torques.value("gear_torque", "M_g", "N*m", "Torque behind the gear", lambda motor_torque, ratio: motor_torque * ratio)
 
 MECHANISM = Mechanism(

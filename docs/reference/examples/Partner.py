@@ -26,7 +26,9 @@ half.value("half", "s_h", "mm", "Half of the stroke", lambda stroke: stroke / 2)
 ratio = Chapter("Ratio")
 ratio.value("ratio", "k", "1", "Stroke to radius", lambda rod_stroke, crank_radius: rod_stroke / crank_radius)
 
-COMPARED = Mechanism(kind="stroke_ratio", version="1.0", title="Stroke ratio", summary="Compares.", inputs=Both, chapters=(ratio,))
+COMPARED = Mechanism(
+    kind="stroke_ratio", version="1.0", title="Stroke ratio", summary="Compares.", inputs=Both, chapters=(ratio,)
+)
 CRANK = Mechanism(kind="crank", version="1.0", title="Crank", summary="Turns.", inputs=Crank, chapters=(strokes,))
 ROD = Mechanism(
     kind="rod",
@@ -38,7 +40,9 @@ ROD = Mechanism(
     partners=(Partner(key="crank", kinds=("crank",), takes={"stroke": "stroke"}),),
     comparisons=(
         Comparison(
-            kinds=("crank", "rod"), mechanism=COMPARED, takes={"crank_radius": ("crank", "radius"), "rod_stroke": ("rod", "stroke")}
+            kinds=("crank", "rod"),
+            mechanism=COMPARED,
+            takes={"crank_radius": ("crank", "radius"), "rod_stroke": ("rod", "stroke")},
         ),
     ),
 )

@@ -7,7 +7,16 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import (
-    POINTS, Annotated, Chapter, GivenMechanism, GivenPhase, Inputs, Mechanism, MechanismInput, PhaseInput, Quantity,
+    POINTS,
+    Annotated,
+    Chapter,
+    GivenMechanism,
+    GivenPhase,
+    Inputs,
+    Mechanism,
+    MechanismInput,
+    PhaseInput,
+    Quantity,
 )  # fmt: skip
 
 
@@ -40,7 +49,9 @@ def share(known):
 
 watching = Chapter("Watching")
 watching.prepared("found", share, ("watched", "mechanism"))
-watching.computed("share", "s", "%", "Share of the turn", lambda found: found, ("found",), "the sum of the phase's intervals")
+watching.computed(
+    "share", "s", "%", "Share of the turn", lambda found: found, ("found",), "the sum of the phase's intervals"
+)
 
 KNIFE = Mechanism(kind="blade", version="1.0", title="Knife", summary="Cuts.", inputs=Knife, chapters=(turn,))
 GUARD = Mechanism(kind="guard", version="1.0", title="Guard", summary="Watches.", inputs=Guard, chapters=(watching,))

@@ -11,7 +11,10 @@ assert told(length, "mm", up=False) == "12.34 mm"  # what "at least" names must 
 
 advice = Phrase("set {key} to at most {high}", key="stroke", high=told(length, "mm", up=False))
 assert advice == "set stroke to at most 12.34 mm" and advice.template == "set {key} to at most {high}"
-assert joined([advice, phrase("take a longer spring")], ", or ") == "set stroke to at most 12.34 mm, or take a longer spring"
+assert (
+    joined([advice, phrase("take a longer spring")], ", or ")
+    == "set stroke to at most 12.34 mm, or take a longer spring"
+)
 assert named(["stroke", "free_length"], " and ") == "stroke and free_length"
 assert worded("cast_iron") == "cast iron"
 

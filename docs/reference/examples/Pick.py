@@ -5,7 +5,16 @@ from __future__ import annotations
 from typing import Literal
 
 from diecut_report.api import (
-    Annotated, Chapter, Inputs, Mechanism, Quantity, StandardSeries, Text, own_series, standard_series, standard_series_by,
+    Annotated,
+    Chapter,
+    Inputs,
+    Mechanism,
+    Quantity,
+    StandardSeries,
+    Text,
+    own_series,
+    standard_series,
+    standard_series_by,
 )  # fmt: skip
 
 RATINGS: StandardSeries = standard_series("iec_60072_ratings")  # docs/standards.md lists what there is
@@ -28,7 +37,12 @@ sizes.pick("stroke", "s_n", "mm", "Stroke of the cylinder", "above", of="travel"
 sizes.pick("length", "L_n", "mm", "Length of the belt", "nearest", of="belt", series=LENGTHS, by="section")
 
 MECHANISM = Mechanism(
-    kind="sized_drive", version="1.0", title="Sized drive", summary="Sizes of series.", inputs=Cylinder, chapters=(sizes,)
+    kind="sized_drive",
+    version="1.0",
+    title="Sized drive",
+    summary="Sizes of series.",
+    inputs=Cylinder,
+    chapters=(sizes,),
 )
 
 PRESS = """

@@ -67,7 +67,9 @@ pair.listing(
     "list", "Torques in a list", (ListedColumn("wheel", "Wheel"), ListedColumn("mean", "Mean", "M_m", "N*m")), table, ("torques",),
 )  # fmt: skip
 
-MECHANISM = Mechanism(kind="pair", version="1.0", title="Pair", summary="Torques of a pair.", inputs=Pair, chapters=(pair,))
+MECHANISM = Mechanism(
+    kind="pair", version="1.0", title="Pair", summary="Torques of a pair.", inputs=Pair, chapters=(pair,)
+)
 
 PRESS = """
 mechanisms:

@@ -15,7 +15,9 @@ class Disc(Inputs):
 
 contour = Chapter("Contour")
 contour.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
-contour.value("distance", "ρ", "mm", "Distance from the axis", lambda radius, lift, angle: radius + lift / 2 * (1 - np.cos(angle)))
+contour.value(
+    "distance", "ρ", "mm", "Distance from the axis", lambda radius, lift, angle: radius + lift / 2 * (1 - np.cos(angle))
+)
 contour.value("x", "x", "mm", "Across", lambda distance, angle: distance * np.cos(angle))
 contour.value("y", "y", "mm", "Upwards", lambda distance, angle: distance * np.sin(angle))
 contour.reduction("greatest", "ρ_max", "mm", "Greatest distance", operation="max", of="distance")

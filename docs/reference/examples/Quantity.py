@@ -18,11 +18,20 @@ class Wheel(Inputs):
 
 
 meshing = Chapter("Meshing")
-meshing.value("mesh_rate", "f_z", "1/s", "Teeth that mesh in a second", lambda speed, teeth: teeth * speed / (2 * np.pi))
 meshing.value(
-    "changes", "f_r", "1/s", "Changes of load in a second", lambda mesh_rate: 2 * mesh_rate, needs=("reversing=true", "use=drive"),
+    "mesh_rate", "f_z", "1/s", "Teeth that mesh in a second", lambda speed, teeth: teeth * speed / (2 * np.pi)
 )
-meshing.value("undercut", "z_g", "1", "Least teeth without undercut", lambda pressure_angle: 2 / np.sin(pressure_angle) ** 2)
+meshing.value(
+    "changes",
+    "f_r",
+    "1/s",
+    "Changes of load in a second",
+    lambda mesh_rate: 2 * mesh_rate,
+    needs=("reversing=true", "use=drive"),
+)
+meshing.value(
+    "undercut", "z_g", "1", "Least teeth without undercut", lambda pressure_angle: 2 / np.sin(pressure_angle) ** 2
+)
 
 MECHANISM = Mechanism(
     kind="wheel", version="1.0", title="Wheel", summary="Rate at which teeth mesh.", inputs=Wheel, chapters=(meshing,)

@@ -26,7 +26,9 @@ catenary.root(
 )  # fmt: skip
 catenary.value("sag", "f", "m", "Sag", lambda parameter, span: parameter * (np.cosh(span / (2 * parameter)) - 1))
 
-MECHANISM = Mechanism(kind="chain", version="1.0", title="Chain", summary="Sag of a chain.", inputs=Chain, chapters=(catenary,))
+MECHANISM = Mechanism(
+    kind="chain", version="1.0", title="Chain", summary="Sag of a chain.", inputs=Chain, chapters=(catenary,)
+)
 
 PRESS = """
 mechanisms:

@@ -22,7 +22,9 @@ left.add(family)
 right = Chapter("Right support", text="The same family, as if the right support were the left one.")
 right.add(turned)
 
-MECHANISM = Mechanism(kind="beam", version="1.0", title="Beam", summary="Supports.", inputs=Beam, chapters=(left, right))
+MECHANISM = Mechanism(
+    kind="beam", version="1.0", title="Beam", summary="Supports.", inputs=Beam, chapters=(left, right)
+)
 
 PRESS = """
 mechanisms:

@@ -30,7 +30,9 @@ def half_range(force: Curve) -> float:
 
 alternating = Chapter("Alternating force")
 alternating.prepared("half", amplitude, ("force",))
-alternating.computed("amplitude", "F_a", "kN", "Amplitude of the force", lambda half: half, ("half",), "half of the range")
+alternating.computed(
+    "amplitude", "F_a", "kN", "Amplitude of the force", lambda half: half, ("half",), "half of the range"
+)
 
 MECHANISM = Mechanism(
     kind="bolt", version="1.0", title="Bolt", summary="Amplitude of a force.", inputs=Bolt, chapters=(alternating,)

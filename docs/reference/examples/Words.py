@@ -12,14 +12,18 @@ class Spring(Inputs):
 
 
 travel = Chapter("Travel")
-travel.value("travel", "s_c", "mm", "Travel until coils touch", lambda free_length, solid_length: free_length - solid_length)
+travel.value(
+    "travel", "s_c", "mm", "Travel until coils touch", lambda free_length, solid_length: free_length - solid_length
+)
 travel.words("share", lambda stroke, travel: f"{stroke / travel:.0%}", ("stroke", "travel"))
 travel.require(
     "fits", lambda stroke, travel: stroke < travel, key="stroke",
     message="is {stroke}, {share} of the travel; at most {travel:down} is possible",
 )  # fmt: skip
 
-MECHANISM = Mechanism(kind="spring", version="1.0", title="Spring", summary="Travel of a spring.", inputs=Spring, chapters=(travel,))
+MECHANISM = Mechanism(
+    kind="spring", version="1.0", title="Spring", summary="Travel of a spring.", inputs=Spring, chapters=(travel,)
+)
 
 PRESS = """
 mechanisms:

@@ -23,10 +23,18 @@ belt.value("turn", "φ", "deg", "Turn of the rim", lambda lift, radius: as_angle
 belt.value("rise", "γ", "deg", "Angle from the top", lambda lift, radius: arccos(1 - lift / radius))
 belt.value("time", "T", "s", "Time of a turn: 2π is an angle", lambda speed: 2 * np.pi / speed)
 
-MECHANISM = Mechanism(kind="belt", version="1.0", title="Belt", summary="A belt on a pulley.", inputs=Belt, chapters=(belt,))
+MECHANISM = Mechanism(
+    kind="belt", version="1.0", title="Belt", summary="A belt on a pulley.", inputs=Belt, chapters=(belt,)
+)
 
 PRESS = """
 mechanisms:
   belt: {kind: belt, wrap: 180 deg, friction: 0.3, mass: 2 kg, radius: 100 mm, speed: 300 rpm, lift: 100 mm}
 """
-GIVES = {"belt.ratio": "2.566", "belt.force": "197.4 N", "belt.turn": "1 rad", "belt.rise": "90 deg", "belt.time": "200 ms"}
+GIVES = {
+    "belt.ratio": "2.566",
+    "belt.force": "197.4 N",
+    "belt.turn": "1 rad",
+    "belt.rise": "90 deg",
+    "belt.time": "200 ms",
+}

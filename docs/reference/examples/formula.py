@@ -5,7 +5,17 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import (
-    GRAVITY, Annotated, Chapter, Constant, Formula, Inputs, Mechanism, Quantity, as_number, bind, formula,
+    GRAVITY,
+    Annotated,
+    Chapter,
+    Constant,
+    Formula,
+    Inputs,
+    Mechanism,
+    Quantity,
+    as_number,
+    bind,
+    formula,
 )  # fmt: skip
 
 DENSITY = Constant(7850, "ρ", "kg/m**3")
@@ -37,7 +47,9 @@ angles.value("swing", "ψ", "deg", "Angle between arm and base", bind(triangle_a
 angles.value("mass", "m", "kg", "Mass of the rod", lambda rod, outer, inner: DENSITY * rod * ring(outer, inner))
 angles.value("weight", "G", "N", "Weight of the rod", lambda mass: mass * GRAVITY)
 
-MECHANISM = Mechanism(kind="link", version="1.0", title="Link", summary="A triangle of links.", inputs=Link, chapters=(angles,))
+MECHANISM = Mechanism(
+    kind="link", version="1.0", title="Link", summary="A triangle of links.", inputs=Link, chapters=(angles,)
+)
 
 assert isinstance(ring, Formula) and ring.parameters == ("outer", "inner")
 

@@ -157,7 +157,7 @@ cycle.value(
     "Opening of the grippers",
     bind(
         lambda is_open, opening, cam_angle, cam_length: np.where(
-            is_open > 0, opening * np.sin(np.pi * cam_angle / cam_length) ** 2, 0 * opening
+            is_open > 0, opening * np.sin(np.pi * cam_angle / cam_length) ** 2, 0
         ),
         opening="cam.opening",
     ),
