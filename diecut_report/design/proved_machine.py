@@ -16,6 +16,7 @@ from diecut_report.config.yaml_tree import KeyPath, Tree, parse
 from diecut_report.engine import Calculation
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import write_all
+from diecut_report.languages.phrases import Phrase
 from diecut_report.results.checks import check_results
 from diecut_report.results.mechanism import SelfTestFailed
 from diecut_report.results.press_run import Run
@@ -79,11 +80,8 @@ def write_config(tree: Tree, machine: ProvedMachine, target: Path) -> None:
     """Write the machine's text as a file: whole, or not at all. UserError where it could not be read there as it is here."""
     home = Path(tree.file).resolve().parent
     if machine.config.files and target.resolve().parent != home:
-        words = (
-            f"The configuration names files beside it ({', '.join(machine.config.files)}), which would not be found "
-            f"there. Write it into the folder {home}."
-        )
-        raise UserError(Problem(words, str(target)))
+        words = "The configuration names files beside it ({files}), which would not be found there. Write it into the folder {folder}."
+        raise UserError(Problem(Phrase(words, files=", ".join(machine.config.files), folder=home), str(target)))
     write_all({target: as_file(tree, machine.tree.text)}, keep=Path(tree.file), through=True)
 
 

@@ -7,6 +7,7 @@ import json
 from collections.abc import AsyncIterator, Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager, suppress
+from contextvars import copy_context
 from pathlib import Path
 from typing import Any, TypeVar
 
@@ -17,6 +18,7 @@ from starlette.routing import Route
 from watchfiles import awatch
 
 from diecut_report.errors import PluginError, UserError
+from diecut_report.languages.speech import said, say
 from diecut_report.live.effects import effect
 from diecut_report.live.page import assets, page
 from diecut_report.live.page_data import page_data
@@ -69,7 +71,8 @@ class LiveApplication:
 
     async def _done(self, work: Callable[[], Found]) -> Found:
         """Let the one thread do it: the session and the figures know only one."""
-        return await asyncio.get_running_loop().run_in_executor(self._worker, work)
+        spoken = copy_context()  # with the language that is spoken
+        return await asyncio.get_running_loop().run_in_executor(self._worker, spoken.run, work)
 
     # --- what changes ------------------------------------------------------------------------------------------------
 
@@ -164,7 +167,7 @@ class LiveApplication:
     async def _report(self, request: Request) -> Response:
         machine = self.session.machine
         if machine is None:
-            return Response("There is no machine to report of yet; see the faults of the file.", 409)
+            return Response(say("There is no machine to report of yet; see the faults of the file."), 409)
         results = await self._done(machine.run.document)
         made = await self.reports.made(results, request.path_params["form"])
         return Response(made.content, media_type=made.media_type, headers=made.headers)
@@ -202,5 +205,5 @@ async def _sent(request: Request) -> dict[str, Any]:
 async def _refused(_request: Request, error: Exception) -> Response:
     """Tell in words what a user can mend, or which plugin broke."""
     problem = error.problems[0] if isinstance(error, UserError) else None
-    told = {"refused": problem.message if problem else str(error), "path": problem.path if problem else ""}
+    told = {"refused": said(problem.message if problem else str(error)), "path": problem.path if problem else ""}
     return JSONResponse(told, status_code=422)

@@ -10,6 +10,7 @@ import numpy as np
 from diecut_report.design.design_inputs import DesignInput
 from diecut_report.design.varied_machines import STATUS, UTILISATION, VariedMachines, varied
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase
 from diecut_report.live.page_data import slider
 from diecut_report.live.session import LiveMachine
 from diecut_report.quantities.units import unit
@@ -25,7 +26,7 @@ def effect(machine: LiveMachine, name: str) -> Data:
     """
     asked = machine.inputs.get(name)
     if asked is None:
-        raise UserError(Problem(f"{name!r} is not a number that the file gives."))
+        raise UserError(Problem(Phrase("{name} is not a number that the file gives.", name=repr(name))))
     places = _places(asked)
     found = varied(machine.config, {asked.asked: places}, len(places))
     own = unit(asked.unit)

@@ -9,6 +9,7 @@ from typing import Any
 from diecut_report.config.model import PRESS
 from diecut_report.design.design_inputs import DesignInput
 from diecut_report.errors import Problem
+from diecut_report.languages.speech import said
 from diecut_report.live.session import LiveMachine, LiveSession
 from diecut_report.quantities.plausible import plausible
 from diecut_report.quantities.units import unit
@@ -35,7 +36,7 @@ def page_data(session: LiveSession) -> Data:
 
 
 def _fault(problem: Problem) -> Data:
-    return {"text": problem.message, "line": problem.line, "column": problem.column, "path": problem.path}
+    return {"text": said(problem.message), "line": problem.line, "column": problem.column, "path": problem.path}
 
 
 def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str]) -> Data:

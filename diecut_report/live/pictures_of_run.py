@@ -5,6 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase
 from diecut_report.live.session import LiveMachine
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.reader_data import figure_readings
@@ -21,7 +22,7 @@ class Pictures:
     def figure(self, machine: LiveMachine, mechanism: str, index: int) -> Data:
         """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""
         if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figures(mechanism)):
-            raise UserError(Problem(f"There is no figure {index} of {mechanism!r}."))
+            raise UserError(Problem(Phrase("There is no figure {n} of {name}.", n=index, name=repr(mechanism))))
         figure = machine.run.figures(mechanism)[index]
         known = self._drawn.get((mechanism, index))
         if known is None or known[0] is not figure:
@@ -39,4 +40,6 @@ def _drawn(figure: Data, curves: Data, mechanism: str, index: int) -> Data:
             return {"plot": readings}
         return {"svg": render(figure, curves, words, f"{mechanism}-{index}").text}
     except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
-        raise UserError(Problem(f"This figure cannot be drawn: {type(cause).__name__}: {cause}")) from cause
+        raise UserError(
+            Problem(Phrase("This figure cannot be drawn: {reason}", reason=f"{type(cause).__name__}: {cause}"))
+        ) from cause

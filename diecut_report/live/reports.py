@@ -9,6 +9,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.results.results_file import encoded, results_text
 
 MEDIA_TYPES = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
@@ -33,7 +34,13 @@ class LiveReports:
     async def made(self, results: dict[str, Any], form: str) -> MadeReport:
         """Return the report of these results as ``html`` or ``pdf``; UserError in the words of the command where it cannot be made."""
         if form not in MEDIA_TYPES:
-            raise UserError(Problem(f"{form!r} is not a format here; there are {', '.join(MEDIA_TYPES)}."))
+            raise UserError(
+                Problem(
+                    Phrase(
+                        "{form} is not a format here; there are {known}.", form=repr(form), known=", ".join(MEDIA_TYPES)
+                    )
+                )
+            )
         async with self._one:
             with tempfile.TemporaryDirectory(prefix="diecut-report-") as folder:
                 content = await self._rendered(Path(folder), encoded(results_text(results)), form)
@@ -64,5 +71,5 @@ class LiveReports:
             raise
         files = list((folder / "made").glob(f"*.{form}"))
         if not files:
-            raise UserError(Problem(told.decode(errors="replace").strip() or "The report was not made."))
+            raise UserError(Problem(told.decode(errors="replace").strip() or phrase("The report was not made.")))
         return files[0].read_bytes()

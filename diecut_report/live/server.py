@@ -11,6 +11,7 @@ from pathlib import Path
 import uvicorn
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.live.application import LiveApplication
 from diecut_report.live.guard import Guard
 from diecut_report.live.session import LiveSession
@@ -51,7 +52,8 @@ def _bound(port: int) -> socket.socket:
         found.bind((HOST, port))
     except OSError as error:
         found.close()
-        why = "another program has it" if error.errno == errno.EADDRINUSE else (error.strerror or "unknown")
-        words = f"The port {port} of this machine cannot be had: {why}. Leave --port out, and a free one is taken."
-        raise UserError(Problem(words)) from error
+        is_taken = error.errno == errno.EADDRINUSE
+        why = phrase("another program has it") if is_taken else (error.strerror or f"{error.errno}")
+        words = "The port {port} of this machine cannot be had: {why}. Leave --port out, and a free one is taken."
+        raise UserError(Problem(Phrase(words, port=port, why=why))) from error
     return found

@@ -15,6 +15,7 @@ from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.design.design_inputs import DesignInput, given_numbers
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import write
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import UnitError, parse_quantity
 from diecut_report.results.warm_press import WarmPress, WarmRun
 
@@ -73,9 +74,8 @@ class LiveSession:
         machine = self._changeable()
         taken = {name: self._judged(machine, name, typed.strip()) for name, typed in changes.items()}
         if len(self.edits.keys() | taken.keys()) > MOST_EDITS:
-            raise UserError(
-                Problem(f"At most {MOST_EDITS} numbers can be changed before they are written to the file.")
-            )
+            words = "At most {n} numbers can be changed before they are written to the file."
+            raise UserError(Problem(Phrase(words, n=MOST_EDITS)))
         for name, typed in taken.items():
             self._places[name] = machine.inputs[name].stands
             self.edits[name] = typed
@@ -96,7 +96,9 @@ class LiveSession:
         """
         self.read()  # as it stands now, whatever the editor has saved meanwhile
         if self.faults or self.tree is None:
-            words = "Nothing is written, as this cannot be calculated; take a change back, or mend the file first."
+            words = phrase(
+                "Nothing is written, as this cannot be calculated; take a change back, or mend the file first."
+            )
             raise UserError(Problem(words, str(self.file)))
         tree, text = self.tree, written(self.tree, self._edited())
         if text != tree.text:
@@ -109,16 +111,17 @@ class LiveSession:
 
     def _changeable(self) -> LiveMachine:
         if self.machine is None:
-            raise UserError(Problem("Nothing can be changed before the file can be calculated.", str(self.file)))
+            words = phrase("Nothing can be changed before the file can be calculated.")
+            raise UserError(Problem(words, str(self.file)))
         return self.machine
 
     def _judged(self, machine: LiveMachine, name: str, typed: str) -> str:
         asked = machine.inputs.get(name)
         if asked is None:
-            raise UserError(Problem(f"{name!r} is not a number that the file gives."))
+            raise UserError(Problem(Phrase("{name} is not a number that the file gives.", name=repr(name))))
         try:
             if len(typed) > LONGEST:
-                raise UnitError(f"has more than {LONGEST} letters")
+                raise UnitError(Phrase("has more than {n} letters", n=LONGEST))
             parse_quantity(typed, asked.meta.unit)
         except UnitError as fault:
             raise UserError(Problem(str(fault), str(self.file), path=asked.asked.path)) from None

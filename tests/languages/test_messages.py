@@ -14,6 +14,8 @@ DONE = (
     "cli",
     "config",
     "conditions",
+    "design",
+    "live",
     "drafting",
     "exchange/signing*",
     "exchange/verification*",

@@ -25,7 +25,7 @@ from diecut_report.study.summary.pages import page
 from diecut_report.study.summary.point_charts import near
 from diecut_report.study.summary.quantity_names import WORST, display, utilised
 from tests.hostile.bounded import PEAK
-from tests.study.stored_study import BORE, LAW, SPEED, made, many, ten, written
+from tests.study.stored_study import BORE, LAW, SPEED, STUDY, made, many, ten, written
 
 GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form
 
@@ -177,6 +177,22 @@ def test_a_check_that_fails_everywhere_is_told(tmp_path: Path) -> None:
     assert "No variant can pass because of it: Play of the joints (drive) fails in all of them." in text
     assert "No variant passes, so no value of an input does." in text
     assert "among all that were calculated, since none passes" in text
+
+
+def test_a_governing_check_that_nothing_moves_is_told_as_that(tmp_path: Path) -> None:
+    found = summary_of(made(tmp_path / "out", [3.0] * 4, [0.06] * 4))
+    assert [(row.check, row.varies) for row in found.governing] == [("drive.checks.play", False)]
+    assert "the same in all variants: nothing that is varied here moves it" in page(found)
+    moved = summary_of(made(tmp_path / "other", [3.0, 3.1, 3.2, 3.3], [0.055, 0.06, 0.065, 0.07]))
+    assert [(row.check, row.varies) for row in moved.governing] == [("drive.checks.play", True)]
+
+
+def test_outputs_that_a_study_asks_for_are_among_its_influences(tmp_path: Path) -> None:
+    text = STUDY + "outputs: [drive.idle_ratio, cylinder.radius]\n"  # the radius is the same in all variants
+    found = summary_of(many(tmp_path / "out", 300, text=text))
+    names = [column.name for column in found.choices]
+    assert names.index("drive.idle_ratio") == names.index("greatest utilisation") + 1
+    assert found.ranked is not None and any("Idle" in title or "idle_ratio" in title for title in found.ranked.targets)
 
 
 def test_classes_of_a_utilisation_do_not_lie_on_both_sides_of_one(large: Path) -> None:

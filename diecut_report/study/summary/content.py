@@ -20,7 +20,7 @@ from diecut_report.study.summary.verdict_counts import Failure
 
 SAMPLED = 1_500  # variants in the charts of points
 NUMBERS, FEWEST = 200_000, 400  # that the page carries for the chart of any two quantities; variants of them at least
-TARGETS = 5  # quantities that influence is reported of
+TARGETS, MOST_TARGETS = 5, 12  # quantities that influence is reported of, and with the outputs that the study asks for
 PANELS, CHECKS, RANGES, POINTS = (
     12,
     4,
@@ -98,13 +98,21 @@ def content(stored: Stored) -> Summary:
     front = pareto.front(stored, goals, states["pass"] + states["warn"])
     varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
     used = data.utilisations(stored)
-    main = _main(stored, goals, varying, [row.check for row in used if row.failing or row.warning])
-    found = influence.influences(stored, main[:TARGETS])
+    asked = [column for column in varying if column.name in questions.outputs(stored)]
+    main = _main(stored, goals, varying, asked, [row.check for row in used if row.failing or row.warning])
+    found = influence.influences(stored, main[: min(TARGETS + len(asked), MOST_TARGETS)])
     choices = _choices(stored, varying, main)
     sample = data.sample(stored, choices[:POINTS], SAMPLED)
     drawn = min(SAMPLED, max(FEWEST, NUMBERS // max(1, len(choices))))
     made, failures = [row for row in used if row.is_made], verdict_counts.failures(stored, used)
-    governing = verdict_counts.governing(stored)
+    governing = verdict_counts.governing(
+        stored,
+        {
+            check
+            for check, (column, _) in stored.checks.items()
+            if column.name in spreads and not spreads[column.name].varies
+        },
+    )
     figures = Figures(stored, states, sample, front, main, spreads)
     first, reports = [int(variant) for variant in front.variants] if front else [], matrix.reported(stored.folder)
     ranges = [spreads[c.name] for c in (*stored.varied, *main) if c in varying and ".checks." not in c.name]
@@ -154,14 +162,20 @@ def _spreads(stored: Stored, total: int) -> dict[str, Spread]:
 
 
 def _main(
-    stored: Stored, goals: tuple[pareto.StoredObjective, ...], varying: list[StoredColumn], failing: list[str]
+    stored: Stored,
+    goals: tuple[pareto.StoredObjective, ...],
+    varying: list[StoredColumn],
+    asked: list[StoredColumn],
+    failing: list[str],
 ) -> list[StoredColumn]:
-    """What matters, the first most: objectives, utilisations of all checks and of those that fail most, other outputs."""
+    """What matters, the first most: objectives, utilisation of all checks, outputs that are asked for, checks that fail most, other outputs."""
     inputs = {column.name for column in stored.varied}
     aims = [goal.column for goal in goals if goal.column in varying]
     worst = [WORST] if WORST in varying else []
     failed = [stored.checks[check][0] for check in failing if stored.checks[check][0] in varying]
-    return list(dict.fromkeys([*aims, *worst, *failed, *(column for column in varying if column.name not in inputs)]))
+    return list(
+        dict.fromkeys([*aims, *worst, *asked, *failed, *(column for column in varying if column.name not in inputs)])
+    )
 
 
 def _choices(stored: Stored, varying: list[StoredColumn], main: list[StoredColumn]) -> list[StoredColumn]:

@@ -46,6 +46,15 @@ def asked(stored: Stored) -> Asked | None:
     )
 
 
+def outputs(stored: Stored) -> list[str]:
+    """Return the outputs that the study file asks for by their names; none where it keeps all, or its copy is gone."""
+    content = stored.description.study.content
+    if content is None:
+        return []
+    data: Mapping[str, Any] = yaml_tree.parse(content.decode("utf-8-sig"), stored.description.study.file).data
+    return [str(name) for name in data.get("outputs") or ()]
+
+
 def _facts(stored: Stored, tree: yaml_tree.Tree, data: Mapping[str, Any]) -> list[tuple[str, str]]:
     sample, counts = data.get("sample") or {}, stored.study.get("counts") or {}
     method = str(sample.get("method", ""))

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+from collections.abc import Collection, Sequence
 from typing import NamedTuple
 
 from diecut_report.study.analysis.stored_variants import Stored
@@ -23,12 +23,13 @@ class Failure(NamedTuple):
 
 
 class Governing(NamedTuple):
-    """Hold a check that governs variants which pass: how many, and their least and greatest utilisation."""
+    """Hold a check that governs variants which pass: how many, their least and greatest utilisation, and whether its own one varies at all."""
 
     check: str
     variants: int
     least: float | None
     greatest: float | None
+    varies: bool = True
 
 
 class Margin(NamedTuple):
@@ -60,13 +61,14 @@ def _alone(stored: Stored, checks: list[str]) -> dict[str, int]:
     return found
 
 
-def governing(stored: Stored) -> list[Governing]:
-    """Return what governs the variants that pass, the most frequent first."""
+def governing(stored: Stored, still: Collection[str] = ()) -> list[Governing]:
+    """Return what governs the variants that pass, the most frequent first; checks whose utilisation stands ``still`` come last."""
     sql = (
         f"SELECT governing, count(*) AS n, min({WORST.sql}), max({WORST.sql}) FROM w "
         f"WHERE {SOUND} AND governing IS NOT NULL GROUP BY governing ORDER BY n DESC, governing"
     )
-    return [Governing(*row) for row in stored.rows(sql)]
+    found = [Governing(*row)._replace(varies=row[0] not in still) for row in stored.rows(sql)]
+    return sorted(found, key=lambda row: not row.varies)
 
 
 def margin(stored: Stored) -> Margin | None:
