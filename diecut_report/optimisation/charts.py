@@ -16,7 +16,7 @@ from matplotlib.ticker import MaxNLocator
 from diecut_report.expressions import Array
 from diecut_report.languages.speech import say
 from diecut_report.optimisation.bounds import InputPlace
-from diecut_report.optimisation.front import FoundFront, Known
+from diecut_report.optimisation.front import FoundFront, TriedMachines
 from diecut_report.optimisation.progress import SearchProgress
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, text_size
@@ -37,7 +37,7 @@ class Cloud:
     allowed: Array
 
 
-def cloud(there: Known, goals: Sequence[StoredObjective]) -> Cloud:
+def cloud(there: TriedMachines, goals: Sequence[StoredObjective]) -> Cloud:
     """Return the calculated machines, every so-manieth of very many."""
     signs = np.array([1.0 if goal.is_less else -1.0 for goal in goals])
     rows = np.flatnonzero(np.isfinite(there.costs).all(axis=1))
@@ -45,13 +45,13 @@ def cloud(there: Known, goals: Sequence[StoredObjective]) -> Cloud:
     return Cloud(there.costs[rows] * signs, there.violations[rows] == 0)
 
 
-def front(found: FoundFront, there: Known, told: str) -> Svg:
+def front(found: FoundFront, there: TriedMachines, told: str) -> Svg:
     """Return each pair of objectives: what was tried, the front, the suggested machine and today's."""
     pairs = list(combinations(range(len(found.objectives)), 2))[:MOST_PAIRS]
     return chart(partial(_front, found, there, pairs), told, "front")
 
 
-def _front(found: FoundFront, there: Known, pairs: Sequence[Pair]) -> Figure:
+def _front(found: FoundFront, there: TriedMachines, pairs: Sequence[Pair]) -> Figure:
     across = 1 if len(pairs) == 1 else 3
     wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3 - 4, 100.0)
     pitch, rows = high + 46 + HEAD, -(-len(pairs) // across)
@@ -71,7 +71,7 @@ def _front(found: FoundFront, there: Known, pairs: Sequence[Pair]) -> Figure:
     return sheet
 
 
-def _pair(axes: Axes, found: FoundFront, there: Known, behind: Cloud, pair: Pair, size: float) -> None:
+def _pair(axes: Axes, found: FoundFront, there: TriedMachines, behind: Cloud, pair: Pair, size: float) -> None:
     x, y = pair
     columns = [found.objectives[place].column for place in pair]
     scale = np.array([factor(column) for column in columns])

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from diecut_report.expressions import Array
-from diecut_report.optimisation.front import Known, filled
+from diecut_report.optimisation.front import TriedMachines, filled
 from diecut_report.optimisation.generation import asked_of
 from diecut_report.study.analysis.stored_variants import Stored, quoted
 from diecut_report.study.definition.study_file import Study
@@ -31,7 +31,7 @@ class Conflict:
     reason: str
 
 
-def conflict(study: Study, stored: Stored, there: Known) -> Conflict:
+def conflict(study: Study, stored: Stored, there: TriedMachines) -> Conflict:
     """Return why no machine is allowed."""
     exists = there.status != "error"
     demands = _broken(study, stored)

@@ -22,7 +22,7 @@ NEAR = 1e-9  # share by which today's values may differ from those that were tri
 
 
 @dataclass(frozen=True)
-class Known:
+class TriedMachines:
     """Hold what is stored of all machines, in their order: numbers, verdicts, objectives as costs (less is better), inputs."""
 
     variants: Array
@@ -63,7 +63,7 @@ class FoundFront:
         return [int(self.variants[place]) for place in self.listed]
 
 
-def known(stored: Stored) -> Known:
+def known(stored: Stored) -> TriedMachines:
     """Return what is stored of all machines."""
     goals = objectives(stored)
     asked = [f"CAST({goal.column.sql} AS DOUBLE)" for goal in goals]
@@ -75,7 +75,7 @@ def known(stored: Stored) -> Known:
     signs = np.array([1.0 if goal.is_less else -1.0 for goal in goals])
     costs = np.column_stack(columns[4 : 4 + len(goals)]).astype(float) * signs
     given = {column.name: values for column, values in zip(stored.varied, columns[4 + len(goals) :], strict=True)}
-    return Known(columns[0], columns[1], columns[2], columns[3].astype(float), costs, given)
+    return TriedMachines(columns[0], columns[1], columns[2], columns[3].astype(float), costs, given)
 
 
 def filled(values: Any) -> Array:
@@ -89,7 +89,7 @@ def filled(values: Any) -> Array:
     return found
 
 
-def found_front(study: Study, stored: Stored, there: Known) -> FoundFront:
+def found_front(study: Study, stored: Stored, there: TriedMachines) -> FoundFront:
     """Return the machines that no other betters; none where no machine is allowed."""
     goals = objectives(stored)
     allowed = np.flatnonzero(there.violations == 0)
@@ -149,7 +149,7 @@ def _listed(costs: Array, most: int, suggested: int | None) -> tuple[int, ...]:
     return tuple(sorted(chosen))
 
 
-def _today(study: Study, there: Known) -> int | None:
+def _today(study: Study, there: TriedMachines) -> int | None:
     """The number of today's machine: the first, where it has today's values."""
     own = todays_values(study)
     if not len(there.variants) or there.variants[0] != 0 or own.keys() != there.inputs.keys():

@@ -29,7 +29,7 @@ NO_VALUE, NO_MACHINE, NOT_TRIED = (
 
 
 @dataclass(frozen=True)
-class Piece:
+class GenerationPiece:
     """Hold some machines of a generation: the number of the first, and their values by path."""
 
     start: int
@@ -59,12 +59,12 @@ def asked_of(study: Study) -> Optimise:
     return study.optimise
 
 
-def pieces(start: int, values: Mapping[str, Values]) -> Iterator[Piece]:
+def pieces(start: int, values: Mapping[str, Values]) -> Iterator[GenerationPiece]:
     """Cut a generation, whose first machine has this number, into equal pieces."""
     count = size(values)
     for part in np.array_split(np.arange(count), max(1, -(-count // TOGETHER))):
         if len(part):
-            yield Piece(start + int(part[0]), rows_of(values, part))
+            yield GenerationPiece(start + int(part[0]), rows_of(values, part))
 
 
 def size(values: Mapping[str, Values]) -> int:
@@ -86,7 +86,7 @@ def broken_inputs(study: Study, values: Mapping[str, Values]) -> Array:
     return sum((each.shortfall(values) for each in early), np.zeros(size(values)))
 
 
-def evaluate(study: Study, piece: Piece) -> Tried:
+def evaluate(study: Study, piece: GenerationPiece) -> Tried:
     """Calculate the machines of a piece that the constraints between inputs leave, and judge them all."""
     broken = broken_inputs(study, piece.values)
     left = np.flatnonzero(broken == 0)

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from diecut_report.expressions import Array
-from diecut_report.optimisation.front import Known
+from diecut_report.optimisation.front import TriedMachines
 from diecut_report.study.summary.pareto import best
 
 BEYOND = 1.1  # of the front's size: the corner against which its volume is measured, so that its ends count
@@ -32,7 +32,7 @@ class SearchProgress:
         return near[0] if near else 0
 
 
-def progress(there: Known, rows: int, chunk: int) -> SearchProgress:
+def progress(there: TriedMachines, rows: int, chunk: int) -> SearchProgress:
     """Return how the search went: ``rows`` machines were proposed, ``chunk`` in a generation."""
     ends = [min(end, rows) for end in range(chunk, rows + chunk, chunk)]
     allowed = there.violations == 0
@@ -45,7 +45,7 @@ def progress(there: Known, rows: int, chunk: int) -> SearchProgress:
     return SearchProgress(tuple(ends), tuple(_volumes(there, allowed, ends)))
 
 
-def _volumes(there: Known, allowed: Array, ends: list[int]) -> list[float]:
+def _volumes(there: TriedMachines, allowed: Array, ends: list[int]) -> list[float]:
     """The volume after each generation, as a share of the last."""
     fronts: list[Array] = []
     front = np.empty((0, there.costs.shape[1]))

@@ -7,7 +7,7 @@ from dataclasses import dataclass
 
 from diecut_report.optimisation.bounds import InputPlace, places
 from diecut_report.optimisation.conflicts import Conflict, conflict
-from diecut_report.optimisation.front import FoundFront, Known, found_front, known
+from diecut_report.optimisation.front import FoundFront, TriedMachines, found_front, known
 from diecut_report.optimisation.generation import asked_of
 from diecut_report.optimisation.progress import SearchProgress, progress
 from diecut_report.optimisation.recheck import Recheck, rechecked
@@ -23,7 +23,7 @@ class OptimisationResult:
 
     study: Study
     stored: Stored
-    known: Known
+    known: TriedMachines
     front: FoundFront
     bounds: Sequence[InputPlace]
     progress: SearchProgress
