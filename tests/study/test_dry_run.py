@@ -102,6 +102,15 @@ def test_what_a_constraint_on_results_drops_is_counted_among_those_that_are_calc
     assert found["measured"]["dropped"] == 6  # forces of 1 and 2 kN at 200 mm stay, 400 N·m at most
 
 
+def test_of_a_search_it_tells_how_many_machines_are_tried(tmp_path: Path, capfd: Capture) -> None:
+    ranged = FORCES.replace("sample: {method: grid}\n", "").replace("[1 kN, 2, 3000 N, 4, 5]", "{from: 1 kN, to: 5 kN}")
+    search = "optimise: {objectives: [minimise: a.moment], evaluations: 400, population: 40, seed: 1}\n"
+    found = validated(tmp_path, ranged + search, capfd, "--dry-run")["study"]
+    assert (found["rows"], found["optimise"]) == (40, {"evaluations": 400})
+    assert main(["validate", str(tmp_path / "study.yaml"), "--dry-run", "--plugins", str(GOOD)]) == 0
+    assert "optimise tries 400 machines, which take one processor about " in capfd.readouterr().out
+
+
 def test_all_faults_are_told_at_once_and_nothing_is_calculated(tmp_path: Path, capfd: Capture) -> None:
     text = FORCES.replace("force", "farce").replace("grid", "grit")
     found = validated(tmp_path, text, capfd, "--dry-run", code=2)

@@ -89,6 +89,10 @@ def _taken(found: DryRun, measured: Measured) -> Iterator[str]:
     many = "time: {each} a variant, about {whole} in {n} processes, without summary and reports"
     yield say_counted(found.processes, one, many, each=_duration(measured.seconds), whole=_duration(found.seconds))
     yield say("disk: about {size}", size=_size(found.bytes_))
+    if found.study.optimise is not None:
+        tried = found.study.optimise.evaluations
+        words = "optimise tries {n} machines, which take one processor about {whole}"
+        yield say(words, n=tried, whole=_duration(tried * measured.seconds))
     if measured.slow:
         yield say("calculated variant by variant, which is slow: {kinds}", kinds=", ".join(measured.slow))
 
@@ -130,4 +134,6 @@ def data(found: DryRun) -> dict[str, Any]:
         "seconds_each": found.measured.seconds, "slow": list(found.measured.slow), "processes": found.processes,
         "seconds": found.seconds, "bytes": round(found.bytes_),
     }  # fmt: skip
+    if found.study.optimise is not None:
+        told["optimise"] = {"evaluations": found.study.optimise.evaluations}
     return told | {"measured": taken}
