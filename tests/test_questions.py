@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from tests.configs import EXAMPLES
+from tests.configs import EXAMPLES, STUDIES
 from tests.examples import few
 
 GUIDE = Path(__file__).parents[1] / "docs" / "questions.md"
@@ -24,12 +24,15 @@ def test_each_question_has_its_true_answer(
     (own,) = re.findall(r"`(\w+\.yaml)`, whose.*?```yaml\n(.*?)```", GUIDE.read_text("utf-8"), re.DOTALL)
     (tmp_path / own[0]).write_text(own[1], "utf-8")
     (tmp_path / "configs").mkdir()
-    for config in EXAMPLES:
+    for config in [*EXAMPLES, *STUDIES]:
         (tmp_path / "configs" / config.name).write_bytes(config.read_bytes())
+    monkeypatch.setattr("diecut_report.optimisation.command._files", lambda *_: {})  # the page has a test of its own
     monkeypatch.chdir(tmp_path)
     assert main(shlex.split(command)) == (1 if "\n  no value of" in answer else 0)
     assert capfd.readouterr().out == answer
 
 
 def test_all_commands_of_the_loop_are_asked() -> None:
-    assert {command.split()[0] for command, _ in QUESTIONS} == {"solve", "advise", "influence"} and len(QUESTIONS) >= 7
+    assert {command.split()[0] for command, _ in QUESTIONS} == {"solve", "advise", "influence", "optimise"} and len(
+        QUESTIONS
+    ) >= 7

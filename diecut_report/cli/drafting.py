@@ -89,12 +89,15 @@ def _refuse_existing(file: Path) -> None:
 
 
 def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]:
-    """Return what is wrong with the text; nothing for kinds whose examples are whole."""
+    """Return what is wrong with the text; whether such machines can exist is asked where no example gives their values."""
     from diecut_report import pipeline
     from diecut_report.config import yaml_tree
+    from diecut_report.config.loader import load_config
 
+    tree = yaml_tree.parse(made.text, file)
     try:
-        for error in pipeline.validate(yaml_tree.parse(made.text, file), discovery):
+        guessed = made.guessed or made.open
+        for error in pipeline.validate(tree, discovery) if guessed else load_config(tree, discovery).broken.values():
             raise error
     except UserError as error:
         return error.problems

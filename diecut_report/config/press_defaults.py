@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from diecut_report.config.model import Press
 from diecut_report.contract.inputs import Block, FromPress, Quantity, fields, nested
@@ -16,11 +17,26 @@ NUMBERS = {f"press.{path}": meta for path, meta in fields(Press) if isinstance(m
 
 
 def faults(mechanism: Mechanism) -> Iterator[Fault]:
-    """Yield the inputs with a default that the press can never give."""
+    """Yield the inputs with a default that the press can never give, and what the press of an example cannot be."""
     for path, meta in fields(mechanism.inputs):
         if isinstance(meta, Quantity) and meta.press is not None:
             for text in _wrong(meta, meta.press, _is_required(mechanism.inputs, path)):
                 yield Fault(of_input(mechanism.inputs, path, mechanism.at), f"input {path}", text)
+    example = mechanism.example
+    for path, value in example.press.items() if example else ():
+        if example and (text := _refused(path, value)):
+            yield Fault(example.at, f"example {example.name}", f"press {path} {text}")
+
+
+def _refused(path: str, value: Any) -> str:
+    """What is wrong with a value of the press, in words."""
+    if f"press.{path}" not in NUMBERS:
+        return f"is not a number of the press; it has {', '.join(NUMBERS)}"
+    try:
+        NUMBERS[f"press.{path}"].validate(value)
+    except ValueError as fault:
+        return str(fault)
+    return ""
 
 
 def _is_required(model: type[Block], path: str) -> bool:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import replace
 from typing import Any
@@ -13,6 +14,8 @@ from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.errors import nearest
 
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+
 
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the keys of an example that name no input, and the values that an input does not take."""
@@ -23,6 +26,9 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         text = f'has example={example!r}; write ExampleBlock("name", {{"key": "10 mm"}})'
         yield Fault(mechanism.at, f"mechanism {mechanism.kind}", text)
         return
+    if not NAME.fullmatch(example.name):
+        text = "is not a name of a mechanism: a letter, then letters, digits, _ and - are allowed"
+        yield Fault(example.at, f"example {example.name!r}", text)
     for key, text in _wrong(mechanism.inputs, example.inputs, ""):
         yield Fault(example.at, f"example {example.name}", f"{key} {text}")
 

@@ -7,10 +7,11 @@ from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.model import Press, Project
 from diecut_report.config.validation import keys_of
 from diecut_report.contract.inputs import Block
+from diecut_report.contract.mechanism import Mechanism
 from diecut_report.drafting.blocks import BlockWriter
 from diecut_report.drafting.choices import Drafted, by_kind, chosen, free_name
 from diecut_report.drafting.explanations import Explained
@@ -18,7 +19,9 @@ from diecut_report.drafting.guesses import completed, unguessed
 from diecut_report.drafting.layout import DraftLine, laid_out, remarks, shifted
 from diecut_report.drafting.scalars import typed
 from diecut_report.drafting.wiring import NeedsKind, Wiring
+from diecut_report.errors import PluginError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
+from diecut_report.languages.phrases import Phrase
 from diecut_report.languages.speech import said, say, spoken_language
 
 PRESS: Mapping[str, Any] = {
@@ -65,11 +68,18 @@ class _Drafting:
             try:
                 self.values[each.name] = Wiring(names, each).inputs(example.inputs) if example else {}
             except NeedsKind as need:
-                mechanism = self.discovery.mechanism(need.kind)
+                mechanism = self._mechanism(need.kind, each)
                 new = Drafted(free_name(mechanism, [m.name for m in self.mechanisms]), need.kind, mechanism)
                 self.added.append((new, each))
                 return new
         return None
+
+    def _mechanism(self, kind: str, asking: Drafted) -> Mechanism:
+        try:
+            return self.discovery.mechanism(kind)
+        except (UnknownKind, DuplicateKind) as fault:
+            words = Phrase("its example cannot be without another mechanism: {fault}", fault=str(fault))
+            raise PluginError(words, asking.kind, asking.name) from fault
 
 
 def draft(given: Sequence[str], discovery: Discovery, file: str = "my_press.yaml") -> Draft:

@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.expressions import Array
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import phrase
 from diecut_report.optimisation.generation import VIOLATION, asked_of
 from diecut_report.optimisation.todays_machine import todays_values
 from diecut_report.study.analysis.near_equality import rounded
@@ -84,7 +84,9 @@ def filled(values: Any) -> Array:
         return np.asarray(values)
     if values.dtype.kind == "f":
         return np.asarray(values.filled(np.nan))
-    return np.where(np.ma.getmaskarray(values), None, np.asarray(values.data, dtype=object))
+    found: Array = np.array(values.data, dtype=object)
+    found[np.ma.getmaskarray(values)] = None
+    return found
 
 
 def found_front(study: Study, stored: Stored, there: Known) -> FoundFront:
@@ -159,11 +161,6 @@ def _is_alike(tried: Any, today: Any) -> bool:
     if isinstance(tried, str) or isinstance(today, str):
         return bool(tried == today)
     return bool(abs(tried - today) <= NEAR * max(abs(tried), abs(today)))
-
-
-def direction(goal: StoredObjective) -> Phrase:
-    """Return what is wanted of a quantity, as a word before its name."""
-    return phrase("least") if goal.is_less else phrase("greatest")
 
 
 def columns_shown(front: FoundFront) -> Sequence[StoredColumn]:

@@ -9,7 +9,7 @@ from typing import Any
 from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
 from diecut_report.optimisation.bounds import InputPlace
 from diecut_report.optimisation.conflicts import Conflict
-from diecut_report.optimisation.front import columns_shown, direction
+from diecut_report.optimisation.front import columns_shown
 from diecut_report.optimisation.recheck import Recheck
 from diecut_report.optimisation.result import OptimisationResult
 from diecut_report.quantities.formatting import number_text, with_unit
@@ -48,7 +48,8 @@ def lines(found: OptimisationResult) -> Iterator[str]:
 def goals(found: OptimisationResult) -> str:
     """Return what was searched for."""
     told = [
-        Phrase("{least} {name}", least=direction(goal), name=called(goal.column)) for goal in found.front.objectives
+        Phrase("least {quantity}" if goal.is_less else "greatest {quantity}", quantity=called(goal.column))
+        for goal in found.front.objectives
     ]
     return Phrase("searched for: {goals}", goals=joined(told, ", "))
 
@@ -167,9 +168,9 @@ def recheck_lines(found: OptimisationResult) -> Iterator[str]:
     count, differing = len(found.rechecks), found.differing
     if not differing:
         most = max((each.share for each in found.rechecks), default=0.0)
-        words = "calculated again by itself: {n} agrees{most}", "calculated again one by one: all {n} agree{most}"
+        agreed = "calculated again by itself: {n} agrees{most}", "calculated again one by one: all {n} agree{most}"
         share = Phrase(" (numbers differ by {share} at most)", share=f"{most:.1g}") if most else ""
-        yield Counted(count, *words, most=share)
+        yield Counted(count, *agreed, most=share)
         return
     words = "calculated again one by one: {n} of {all} differs", "calculated again one by one: {n} of {all} differ"
     yield Counted(len(differing), *words, all=count)

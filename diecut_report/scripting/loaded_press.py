@@ -16,6 +16,8 @@ from diecut_report.config.written_values import as_file, written
 from diecut_report.config.yaml_tree import KeyPath, Tree, parse
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import write_all
+from diecut_report.languages.phrases import phrase
+from diecut_report.scripting.named_parts import NamedParts
 from diecut_report.scripting.press_inputs import InputList, press_inputs, stands
 from diecut_report.scripting.results import Results
 from diecut_report.scripting.spoken import told_in
@@ -55,9 +57,9 @@ class LoadedPress:
         return self.config.tree.text
 
     @property
-    def instances(self) -> dict[str, str]:
+    def instances(self) -> NamedParts[str]:
         """Return the mechanisms by name, each with its kind; with those that run by themselves."""
-        return dict(self.config.kinds)
+        return NamedParts(self.config.kinds, phrase("there is no mechanism"), self.language)
 
     @cached_property
     def inputs(self) -> InputList:

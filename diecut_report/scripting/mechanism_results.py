@@ -4,11 +4,11 @@ from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
 from functools import cached_property
-from types import MappingProxyType
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, TypeVar
 
 from diecut_report.errors import ConfigError, Problem, UnknownName
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.scripting.named_parts import NamedParts, unknown
 from diecut_report.scripting.parts import (
     CheckList,
     CurveResult,
@@ -17,7 +17,6 @@ from diecut_report.scripting.parts import (
     check_result,
     curve_results,
     phase_results,
-    unknown,
 )
 from diecut_report.scripting.spoken import told_in
 from diecut_report.scripting.values import InputValue, QuantityValue
@@ -26,6 +25,7 @@ if TYPE_CHECKING:
     from diecut_report.scripting.printable import Printable
 
 Data = Mapping[str, Any]
+PartT = TypeVar("PartT")
 
 
 class MechanismResults(Mapping[str, QuantityValue]):
@@ -63,19 +63,27 @@ class MechanismResults(Mapping[str, QuantityValue]):
     # --- quantities --------------------------------------------------------------------------------------------------
 
     @cached_property
-    def outputs(self) -> Mapping[str, QuantityValue]:
+    def outputs(self) -> NamedParts[QuantityValue]:
         """Return its outputs by name, in SI units."""
-        return MappingProxyType({name: _value(name, each) for name, each in self._data["outputs"].items()})
+        return self._named(
+            phrase("{mechanism} has no output"),
+            {name: _value(name, each) for name, each in self._data["outputs"].items()},
+        )
 
     @cached_property
-    def intermediate(self) -> Mapping[str, QuantityValue]:
+    def intermediate(self) -> NamedParts[QuantityValue]:
         """Return the numbers on the way to its outputs by name, in SI units."""
-        return MappingProxyType({name: _value(name, each) for name, each in self._data["values"].items()})
+        return self._named(
+            phrase("{mechanism} gives no"), {name: _value(name, each) for name, each in self._data["values"].items()}
+        )
 
     @cached_property
-    def inputs(self) -> Mapping[str, InputValue]:
+    def inputs(self) -> NamedParts[InputValue]:
         """Return its inputs by key, in SI units, each with where it comes from and what it rests on."""
-        return MappingProxyType({name: _input(name, each) for name, each in self._data["inputs"].items()})
+        return self._named(
+            phrase("{mechanism} has no input"),
+            {name: _input(name, each) for name, each in self._data["inputs"].items()},
+        )
 
     def __getitem__(self, name: str) -> QuantityValue:
         """Return a result by its name; UnknownName where there is none."""
@@ -125,19 +133,22 @@ class MechanismResults(Mapping[str, QuantityValue]):
         return CheckList(found, self._results)
 
     @cached_property
-    def curves(self) -> Mapping[str, CurveResult]:
+    def curves(self) -> NamedParts[CurveResult]:
         """Return its curves by name, as arrays of NumPy in SI units."""
-        return MappingProxyType(curve_results(self._data["curves"]))
+        return self._named(phrase("{mechanism} has no curve"), curve_results(self._data["curves"]))
 
     @cached_property
-    def phases(self) -> Mapping[str, PhaseResult]:
+    def phases(self) -> NamedParts[PhaseResult]:
         """Return its phases by name."""
-        return MappingProxyType({each.name: each for each in phase_results(self._data["phases"])})
+        return self._named(
+            phrase("{mechanism} has no phase"), {each.name: each for each in phase_results(self._data["phases"])}
+        )
 
     @property
-    def figures(self) -> Mapping[str, str]:
+    def figures(self) -> NamedParts[str]:
         """Return the titles of its figures by their ids, which ``figure`` takes."""
-        return {str(each["id"]): str(each["title"]) for each in self._data["figures"]}
+        titles = {str(each["id"]): str(each["title"]) for each in self._data["figures"]}
+        return self._named(phrase("{mechanism} has no figure"), titles)
 
     def figure(self, id: str) -> FigureResult:
         """Return a figure, drawn as in a report; UnknownName where there is none, ConfigError where it cannot be drawn."""
@@ -160,6 +171,9 @@ class MechanismResults(Mapping[str, QuantityValue]):
                 raise ConfigError(Problem(words, path=f"{self.name}.{figure['id']}")) from cause
         words = Phrase("This figure cannot be drawn: {cause}", cause=figure["error"])
         raise ConfigError(Problem(words, path=f"{self.name}.{figure['id']}"))
+
+    def _named(self, missing: str, parts: Mapping[str, PartT]) -> NamedParts[PartT]:
+        return NamedParts(parts, Phrase(missing, mechanism=self.name), self._results.language)
 
     # --- shown -------------------------------------------------------------------------------------------------------
 

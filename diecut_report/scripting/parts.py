@@ -7,9 +7,10 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, overload
 
-from diecut_report.errors import Problem, UnknownName, nearest
+from diecut_report.errors import Problem, UnknownName
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import unit
+from diecut_report.scripting.named_parts import unknown
 from diecut_report.scripting.spoken import told_in
 from diecut_report.scripting.values import QuantityValue
 
@@ -20,16 +21,6 @@ if TYPE_CHECKING:
     from diecut_report.scripting.printable import Printable
 
 Data = Mapping[str, Any]
-
-
-def unknown(what: str, name: str, known: Sequence[str], *, also: Sequence[str] = ()) -> UnknownName:
-    """Return the error of a name that is not known; ``what`` says of what, ``drive has no figure``. The nearest is sought ``also`` in others."""
-    near = nearest(name, (*known, *also)) or _listed(known)
-    return UnknownName(Problem(Phrase("{what} {name}{nearest}.", what=what, name=repr(name), nearest=near)))
-
-
-def _listed(known: Sequence[str]) -> str:
-    return Phrase("; there are {known}", known=", ".join(known[:20])) if known else ""
 
 
 @dataclass(frozen=True)

@@ -15,7 +15,7 @@ from diecut_report.contract.inputs import InOtherUnit, Quantity, Text
 from diecut_report.errors import ConfigError, Problem
 from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.formatting import given_shown
-from diecut_report.scripting.parts import unknown
+from diecut_report.scripting.named_parts import unknown
 from diecut_report.scripting.spoken import told_in
 from diecut_report.scripting.values import QuantityValue
 from diecut_report.study.definition.base_inputs import MECHANISMS, UnknownPath, find_input

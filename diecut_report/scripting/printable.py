@@ -45,6 +45,6 @@ class Printable:
     def _compared(self, name: str) -> Data:
         """A comparison alone, and the mechanisms that it is between without what takes time to print."""
         comparison = self.data["comparisons"][name]
-        bare = {"figures": [], "sections": []}
+        bare: Data = {"figures": [], "sections": []}
         mechanisms = {each: self.data["mechanisms"][each] | bare for each in comparison["between"]}
         return {"mechanisms": mechanisms, "comparisons": {name: comparison}, "governing": None}

@@ -15,10 +15,11 @@ from diecut_report.config.model import DETAILS
 from diecut_report.errors import ConfigError, PluginError, Problem, nearest
 from diecut_report.exchange.rendering import document
 from diecut_report.files import write_all
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.scripting.mechanism_results import MechanismResults
-from diecut_report.scripting.parts import CheckList, CheckResult, unknown
+from diecut_report.scripting.named_parts import NamedParts, unknown
+from diecut_report.scripting.parts import CheckList, CheckResult
 from diecut_report.scripting.printable import Printable
 from diecut_report.scripting.spoken import known_language, told_in
 
@@ -68,12 +69,13 @@ class Results(Mapping[str, MechanismResults]):
         return {name: MechanismResults(name, data, self._printable) for name, data in self._data["mechanisms"].items()}
 
     @cached_property
-    def comparisons(self) -> Mapping[str, MechanismResults]:
+    def comparisons(self) -> NamedParts[MechanismResults]:
         """Return the comparisons between mechanisms by name."""
-        return {
+        found = {
             name: MechanismResults(name, data, self._printable)
             for name, data in self._data.get("comparisons", {}).items()
         }
+        return NamedParts(found, phrase("there is no comparison"), self.language)
 
     def __getitem__(self, name: str) -> MechanismResults:
         """Return the results of a mechanism; UnknownName where there is none of that name."""

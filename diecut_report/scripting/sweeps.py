@@ -14,10 +14,9 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
 from diecut_report.config.yaml_tree import parse
 from diecut_report.errors import ConfigError, PluginError, Problem
-from diecut_report.languages.phrases import Phrase
-from diecut_report.scripting.parts import unknown
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.scripting.named_parts import NamedParts
 from diecut_report.scripting.press_inputs import whole_path
-from diecut_report.scripting.spoken import told_in
 from diecut_report.scripting.typed_values import plain
 from diecut_report.study.definition.study_file import Study, study_of
 from diecut_report.study.execution.study_run import result_columns, varied_columns
@@ -59,7 +58,8 @@ class SweepTable:
     def __init__(
         self, table: Any, columns: Mapping[str, ResultColumn], slow: Mapping[str, str], language: str | None
     ) -> None:
-        self._table, self.columns, self._language = table, columns, language
+        self._table, self._language = table, language
+        self.columns = NamedParts(columns, phrase("the table has no column"), language)
         self.slow = dict(slow)
 
     def __len__(self) -> int:
@@ -67,10 +67,8 @@ class SweepTable:
 
     def __getitem__(self, name: str) -> NDArray[Any]:
         """Return a column as an array of NumPy: floats with NaN, texts with None, where a machine has no value; UnknownName for another name."""
-        if name not in self.columns:
-            with told_in(self._language):
-                raise unknown(Phrase("the table has no column"), name, list(self.columns))
-        return _plain(self._table.column(name), self.columns[name])
+        about = self.columns[name]
+        return _plain(self._table.column(name), about)
 
     def counts(self) -> dict[str, int]:
         """Return how many machines there are of each status."""

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import random
 import time
 from collections.abc import Callable, Iterable, Iterator, Mapping
@@ -14,6 +13,7 @@ from typing import Any
 from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.discovery import Discovery, said
 from diecut_report.config.loader import Config
+from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration import faults, faults_at_load
@@ -31,13 +31,13 @@ from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
 from diecut_report.study.execution.time_limit import Overran, limited
-from diecut_report.testing.extreme_inputs import extreme_values, fault_of, numeric_inputs, with_value
+from diecut_report.testing.extreme_inputs import alone_with_its_needs, extremes_of, fault_of, input_of, with_value
 from diecut_report.testing.many_machines import MachineCase, one_of, unlike
 from diecut_report.testing.single_machine import Keys, WithMechanism, configured
 from diecut_report.testing.tried_rules import TITLES, TriedRule, at_place, by_id, rule
 
 TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
-EXTREMES = 120  # single extreme values that are tried, of all those that there are
+EXTREMES, BUDGET = 120, 60.0  # single extreme values that are tried at most, and the seconds for them
 TIMED, TIMED_ALONE = 1000, 5  # variants whose time is measured; where they are slow, so few
 LONGEST = 600.0  # seconds of a rule: a plugin may never come back
 DECLARED = ("declaration", "dimensions", "printed", "inputs")
@@ -171,26 +171,25 @@ class ContractTest:
     def hostile(self) -> TriedRule:
         """Try whether single extreme values give numbers, or are refused in words."""
         assert self.config is not None
-        data, key = json.loads(json.dumps(self.config.tree.data, default=str)), ("mechanisms", self.name)
-        cases = [
-            (path, value)
-            for path, quantity in numeric_inputs(self.mechanism.inputs, data["mechanisms"][self.name], key)
-            for value in dict.fromkeys(extreme_values(quantity))
-            if path[-1] != "n_points"
-        ]
+        data = alone_with_its_needs(self.config, self.name)
+        cases = list(extremes_of(self.mechanism.inputs, data["mechanisms"][self.name], ("mechanisms", self.name)))
         chosen = cases if len(cases) <= EXTREMES else random.Random(SEED).sample(cases, EXTREMES)
-        told = Phrase("{count} single extreme values", count=len(chosen))
-        return rule("hostile", told, self._extremes(data, chosen))
+        faults, ends = list[str](), time.process_time() + BUDGET
+        for tried, (path, value) in enumerate(chosen):
+            if time.process_time() > ends:
+                chosen = chosen[:tried]
+                break
+            faults += self._extreme(data, path, value)
+        told = Phrase("{count} of {all} single extreme values", count=len(chosen), all=len(cases))
+        return rule("hostile", told, faults)
 
-    def _extremes(self, data: Mapping[str, Any], cases: Iterable[tuple[Any, Any]]) -> Iterator[str]:
+    def _extreme(self, data: Mapping[str, Any], path: KeyPath, value: float) -> Iterator[str]:
         assert self.config is not None
         folder = Path(self.config.tree.file).parent
-        for path, value in cases:
-            fault = fault_of(with_value(data, path, value), self.discovery, lambda name: folder / name)
-            if fault:
-                yield at_place(
-                    self.mechanism, _input(path), Phrase("with {value}: {fault}", value=f"{value:g}", fault=fault)
-                )
+        fault = fault_of(with_value(data, path, value), self.discovery, lambda name: folder / name)
+        if fault:
+            words = Phrase("with {value}: {fault}", value=f"{value:g}", fault=fault)
+            yield at_place(self.mechanism, input_of(path), words)
 
     def figures(self) -> TriedRule:
         """Try whether all figures are drawn, and set the chapter."""
@@ -260,11 +259,6 @@ def _is_built_in(mechanism: Mechanism) -> bool:
 
 def _seconds(time_taken: float) -> str:
     return Phrase("{seconds} s", seconds=f"{time_taken:.2g}")
-
-
-def _input(path: tuple[str | int, ...]) -> str:
-    """The id of an input by its place in the configuration."""
-    return ".".join(str(part) for part in path[2:] if not isinstance(part, int))
 
 
 def check_contract(

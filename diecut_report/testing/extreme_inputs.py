@@ -9,7 +9,7 @@ from typing import Any
 
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
-from diecut_report.config.loader import load_config
+from diecut_report.config.loader import Config, load_config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import Block, Quantity, meta_of, nested
@@ -54,6 +54,30 @@ def numeric_inputs(model: type[Block], data: Mapping[str, Any], prefix: KeyPath)
             yield from numeric_inputs(block[0], given, key)
         elif isinstance(meta, Quantity):
             yield key, in_unit(meta, list(data))
+
+
+def extremes_of(model: type[Block], data: Mapping[str, Any], prefix: KeyPath) -> Iterator[tuple[KeyPath, float | int]]:
+    """Yield each numeric input of a mechanism, but for the number of samples, with each of its extreme values."""
+    for path, quantity in numeric_inputs(model, data, prefix):
+        if path[-1] != "n_points":
+            yield from ((path, value) for value in dict.fromkeys(extreme_values(quantity)))
+
+
+def input_of(path: KeyPath) -> str:
+    """Return the id of a mechanism's input by its place in the configuration."""
+    return ".".join(part for part in path[2:] if isinstance(part, str))
+
+
+def alone_with_its_needs(config: Config, name: str) -> dict[str, Any]:
+    """Return the plain data of a configuration with one of its mechanisms, and those that it refers to."""
+    data, needed, size = json.loads(json.dumps(config.tree.data, default=str)), {name}, 0
+    while len(needed) > size:
+        size = len(needed)
+        needed |= {
+            each.instance for node, target in config.links.items() if node[0] in needed for each in target.single
+        }
+    data["mechanisms"] = {own: block for own, block in data["mechanisms"].items() if own in needed}
+    return dict(data)
 
 
 def with_value(config: Mapping[str, Any], key: KeyPath, value: Any) -> str:

@@ -59,6 +59,12 @@ def test_a_value_may_be_in_the_unit_of_another_form() -> None:
     assert not [each for each in faults(replace(made(), inputs=Turning, example=example)) if "example" in str(each)]
 
 
+@pytest.mark.parametrize("name", ["1x", "", "my hook"])
+def test_a_name_that_no_mechanism_may_have_is_told(name: str) -> None:
+    found = faults(replace(made(), inputs=Toothed, example=ExampleBlock(name, {"force": 1})))
+    assert [str(each) for each in found if "is not a name of a mechanism" in str(each)]
+
+
 def test_an_example_that_is_none_is_told() -> None:
     mechanism = replace(made(), example={"force": 1})  # type: ignore[arg-type]
     assert [str(fault) for fault in faults(mechanism) if "has example=" in str(fault)]

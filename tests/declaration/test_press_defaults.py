@@ -8,7 +8,7 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report.api import FromPress, Inputs, Quantity, formula
+from diecut_report.api import ExampleBlock, FromPress, Inputs, Quantity, formula
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.press_defaults import faults
 from tests.declaration.test_faults import made
@@ -40,6 +40,17 @@ def test_a_number_of_the_press_is_taken_as_it_is_or_by_a_formula() -> None:
 def test_what_is_no_number_of_the_press_is_told_at_its_line(path: str) -> None:
     (text,) = told("1/min", FromPress(path))
     assert text.startswith("test_press_defaults.py:") and f"input speed: takes {path}, which is not a number of" in text
+
+
+def test_an_example_is_made_for_a_press_that_there_may_be() -> None:
+    def of_press(**press: str) -> list[str]:
+        return [str(fault) for fault in faults(replace(made(), example=ExampleBlock("a", {}, press=press)))]
+
+    assert of_press(productivity="1200 1/h", **{"sheet.length": "500 mm"}) == []
+    (text,) = of_press(speed="5 rpm")
+    assert "example a: press speed is not a number of the press" in text
+    (text,) = of_press(productivity="5 rpm")
+    assert "example a: press productivity 5 rpm is an angular speed" in text
 
 
 def test_a_number_of_another_kind_is_told() -> None:

@@ -101,7 +101,7 @@ def test_a_designer_begins_changes_a_number_and_has_a_report(tmp_path: Path, cap
                 "-o",
                 str(out),
                 "--format",
-                "html,json",
+                "json",
                 "--detail",
                 "brief",
             ]

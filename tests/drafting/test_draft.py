@@ -18,13 +18,14 @@ from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.drafting.draft import Draft, draft
+from diecut_report.errors import PluginError
 from diecut_report.languages.speech import speaking
 from tests.configs import DISCOVERY
 from tests.examples import examples, few
 
 KINDS = [kind for kind, origins in Discovery().origins.items() if origins[0].is_own]
 OFF = re.compile(
-    r"^    # (\w+: (?:[^…#]|#(?! ))*?) *(# .*)?$", re.MULTILINE
+    r"^    # (\w+: (?=[^\s…])(?:[^…#]|#(?! ))*?) *(# .*)?$", re.MULTILINE
 )  # a key that may be turned on, with a value
 CYLINDER = ["cylinder_sizing", "cylinder_drive", "clutch", "damper", "drive_train", "cyclogram"]
 
@@ -175,6 +176,22 @@ MECHANISM = Mechanism(kind="KIND", version="1", title="Hook", summary="A hook.",
     example = ', example=ExampleBlock("lift", {"force": Wired("${<damper>.force_max}", otherwise="3 kN"), "angle": 4})'
     (tmp_path / "crane.py").write_text(text.replace("KIND", "crane").replace("EXAMPLE", example), "utf-8")
     return Discovery([tmp_path])
+
+
+def test_an_example_that_needs_a_kind_that_is_not_there_is_a_fault_of_its_plugin(
+    tmp_path: Path, foreign: Discovery
+) -> None:
+    text = (
+        (tmp_path / "crane.py")
+        .read_text("utf-8")
+        .replace("Wired(", "(lambda value, otherwise: value)(")
+        .replace("damper", "spring")
+    )
+    (tmp_path / "lift.py").write_text(text.replace('kind="crane"', 'kind="lift"'), "utf-8")
+    with pytest.raises(
+        PluginError, match="its example cannot be without another mechanism: 'spring' is not a known kind"
+    ):
+        draft(["lift"], Discovery([tmp_path]))
 
 
 def test_a_foreign_plugin_gives_its_example_and_what_it_does_not_give_is_guessed_and_told(foreign: Discovery) -> None:

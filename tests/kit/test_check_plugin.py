@@ -190,6 +190,6 @@ def test_what_cannot_be_asked_ends_with_2(
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("kind", ["clutch", "geneva_transport", "platen_press", "gear_pair"])
+@pytest.mark.parametrize("kind", ["clutch", "geneva_transport", "platen_press", "parallel_key"])
 def test_kinds_of_the_program_hold_the_rules(tmp_path: Path, capfd: Capture, kind: str) -> None:
     assert main(["check-plugin", kind, "-o", str(tmp_path / "page.html")]) == 0, capfd.readouterr().out

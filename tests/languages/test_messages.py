@@ -19,6 +19,7 @@ DONE = (
     "drafting",
     "exchange/signing*",
     "exchange/verification*",
+    "optimisation",
     "quantities",
     "given_files*",
     "kit",

@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+import sys
+from types import SimpleNamespace
 
 import pytest
 
-from diecut_report.optimisation import page
 from diecut_report.study.storage import verified_parts
+
+NO_PAGE = SimpleNamespace(page=lambda _: "", sheets=lambda _: b"")
 
 
 @pytest.fixture(autouse=True)
@@ -17,8 +19,6 @@ def _without_memory(monkeypatch: pytest.MonkeyPatch) -> None:
 
 
 @pytest.fixture
-def without_page(monkeypatch: pytest.MonkeyPatch) -> Iterator[None]:
-    """Searches get no page: it takes seconds, and has a test of its own."""
-    monkeypatch.setattr(page, "page", lambda _: "")
-    monkeypatch.setattr(page, "sheets", lambda _: b"")
-    yield
+def without_page(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Searches get no page: it takes seconds with what draws it, and has a test of its own."""
+    monkeypatch.setitem(sys.modules, "diecut_report.optimisation.page", NO_PAGE)  # type: ignore[arg-type]

@@ -73,6 +73,7 @@ def test_a_search_that_was_stopped_goes_on_where_it_ended(
         assert (tmp_path / "begun" / name).read_bytes() == (tmp_path / "whole" / name).read_bytes()
 
 
+@pytest.mark.nightly
 def test_a_damaged_generation_is_calculated_again_as_it_was(tmp_path: Path) -> None:
     study = search_file(tmp_path)
     optimised(study, tmp_path / "out", "--quiet")
@@ -82,6 +83,7 @@ def test_a_damaged_generation_is_calculated_again_as_it_was(tmp_path: Path) -> N
     assert parts(tmp_path / "out") == before
 
 
+@pytest.mark.nightly
 def test_other_machines_than_those_stored_are_refused(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Any
 ) -> None:
@@ -92,6 +94,7 @@ def test_other_machines_than_those_stored_are_refused(
     assert "hold other machines than the search asks for now" in capfd.readouterr().err
 
 
+@pytest.mark.nightly
 def test_the_store_of_another_study_is_refused(tmp_path: Path, capfd: Any) -> None:
     optimised(search_file(tmp_path), tmp_path / "out", "--quiet")
     other = search_file(tmp_path, more="evaluations: 160, population: 30")
@@ -101,6 +104,7 @@ def test_the_store_of_another_study_is_refused(tmp_path: Path, capfd: Any) -> No
     assert "Results of a study are here already" in capfd.readouterr().err
 
 
+@pytest.mark.nightly
 def test_one_objective_has_one_best_machine(tmp_path: Path, capfd: Any) -> None:
     # the longest arm that a moment of 150 N·m allows: 150 / 1000 m, with the least force
     study = search_file(
@@ -113,6 +117,7 @@ def test_one_objective_has_one_best_machine(tmp_path: Path, capfd: Any) -> None:
     assert "the best of them:" in capfd.readouterr().out
 
 
+@pytest.mark.nightly
 def test_only_machines_without_a_failed_check_are_taken_unless_told(tmp_path: Path) -> None:
     limited = BASE.replace("width: 10 mm", "width: 10 mm, allowable_moment: 90 N*m")
     strict = search_file(tmp_path, base=limited)
@@ -131,6 +136,7 @@ def test_all_machines_of_short_lists_are_tried_once(tmp_path: Path, capfd: Any) 
     assert "12 machines tried, all there are" in capfd.readouterr().out
 
 
+@pytest.mark.nightly
 def test_texts_lists_and_ranges_are_searched_together(tmp_path: Path) -> None:
     vary = VARY + "  mechanisms.a.teeth: {from: 12, to: 60}\n  mechanisms.a.grade: [fine, coarse]\n"
     vary += "  mechanisms.a.parts.0.length: [10 mm, 20 mm, 40 mm]\n"
@@ -160,6 +166,7 @@ def test_reports_of_chosen_machines_are_made(tmp_path: Path, monkeypatch: pytest
     assert 3 <= len(asked[0]) <= 4
 
 
+@pytest.mark.nightly
 def test_what_is_stored_is_asked_as_a_study(tmp_path: Path, capfd: Any) -> None:
     from diecut_report.cli.main import main
     from tests.configs import GOOD
@@ -195,6 +202,7 @@ def test_equal_searches_ask_for_equal_machines() -> None:
     assert gone() == gone()
 
 
+@pytest.mark.nightly
 def test_a_folder_to_go_on_with_holds_what_a_damaged_copy_does_not(tmp_path: Path, capfd: Any) -> None:
     optimised(search_file(tmp_path), tmp_path / "out", "--quiet")
     shutil.copytree(tmp_path / "out", tmp_path / "copy")

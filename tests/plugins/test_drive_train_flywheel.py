@@ -163,7 +163,7 @@ def test_the_run_up_takes_as_long_as_the_coupled_equations_of_motion_say() -> No
     assert number(calc, "run_up_time") == pytest.approx(run.t_events[0][0], rel=1e-8)
 
 
-def test_a_run_up_longer_than_the_protection_accepts_is_a_warning() -> None:
+def test_a_run_up_longer_than_the_protection_accepts_fails() -> None:
     time = number(train(**WORKING), "run_up_time")
     for allowed, status in ((time * 1.01, "pass"), (time * 0.99, "fail")):
         assert check(train(**WORKING, allowable_run_up_time=allowed), "run_up_time")["status"] == status

@@ -10,7 +10,7 @@ import pytest
 from diecut_report.plugins.roller_chain import sizing
 
 
-class Step:
+class JumpingCurve:
     """A curve that jumps at three tenths of its cycle."""
 
     breakpoints = np.array([[0.3]])
@@ -21,7 +21,7 @@ class Step:
 
 
 def test_places_of_the_cycle_lie_in_the_smooth_pieces_of_a_curve() -> None:
-    places, middles = sizing._places([Step()])  # type: ignore[list-item]
+    places, middles = sizing._places([JumpingCurve()])  # type: ignore[list-item]
     assert np.unique(middles) == pytest.approx([0.15, 0.65])
     assert (places.min(), places.max()) == (0, 1)
     assert ((places <= 0.3) == (middles < 0.3)).sum() == places.size - 1  # the second piece begins where the first ends

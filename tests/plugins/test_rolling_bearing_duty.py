@@ -11,7 +11,7 @@ from diecut_report.plugins.rolling_bearing.duty import Duty
 from diecut_report.plugins.rolling_bearing.loads import speed_over
 
 
-class Angle:
+class AngleOfTwoLines:
     """A relative angle that is two straight lines, each of which goes on beyond its piece."""
 
     breakpoints = joints = np.array([[0.5]])
@@ -25,7 +25,10 @@ def duty(**changes: Any) -> Duty:
     """A bearing of a single machine under a constant force."""
     one = np.ones((1, 1))
     return Duty(
-        **({"radial": one, "axial": 0 * one, "speed": None, "angle": Angle(), "factor": one, "variants": 1} | changes)
+        **(
+            {"radial": one, "axial": 0 * one, "speed": None, "angle": AngleOfTwoLines(), "factor": one, "variants": 1}
+            | changes
+        )
     )
 
 
@@ -49,12 +52,12 @@ def test_the_neighbours_of_a_place_lie_in_its_own_piece() -> None:
 def test_the_speed_of_a_bearing_is_asked_for_at_shares_of_its_cycle() -> None:
     asked: list[Any] = []
 
-    class Known:
+    class NotedSpeeds:
         """Notes what it is asked for."""
 
         def speed(self, *given: Any) -> Any:
             asked.append(given)
             return 0
 
-    speed_over(3, Known(), np.array([[np.pi]]), np.array([[3 * np.pi / 2]]), None)  # type: ignore[arg-type]
+    speed_over(3, NotedSpeeds(), np.array([[np.pi]]), np.array([[3 * np.pi / 2]]), None)  # type: ignore[arg-type]
     assert asked == [(3, 0.5, 0.75, None)]

@@ -10,7 +10,7 @@ import pytest
 
 import diecut_report as dr
 from diecut_report.cli.main import main
-from tests.configs import GOOD, HEAD, saved
+from tests.configs import GOOD, HEAD, SMALL, saved
 
 TEXT = (
     HEAD
@@ -138,6 +138,12 @@ def test_a_press_is_saved_as_text(press: dr.LoadedPress, tmp_path: Path) -> None
     assert file.read_text("utf-8") == TEXT.replace("90 mm", "80 mm")
     with pytest.raises(dr.UserError, match="a folder has this name"):
         press.save(tmp_path)
+
+
+@pytest.mark.wheel
+def test_the_installed_program_serves_scripts() -> None:
+    press = dr.loads(SMALL)
+    assert "clutch.torque" in press._repr_html_() and "clutch." in press.calculate()._repr_html_()
 
 
 def test_an_unknown_name_tells_the_nearest(press: dr.LoadedPress) -> None:

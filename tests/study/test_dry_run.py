@@ -45,17 +45,23 @@ def test_the_size_is_that_of_the_run(tmp_path: Path, without_summary: None) -> N
     made = study(tmp_path, varied("{from: 1 kN, to: 9 kN}", sample="{method: latin_hypercube, count: 1100}"))
     found = dry_run(made)
     out = tmp_path / "out"
-    assert main(["batch", str(tmp_path / "study.yaml"), "-o", str(out), "--jobs", "1", "--quiet", "--plugins", str(GOOD)]) in (0, 1)
+    assert main(
+        ["batch", str(tmp_path / "study.yaml"), "-o", str(out), "--jobs", "1", "--quiet", "--plugins", str(GOOD)]
+    ) in (0, 1)
     size = sum(file.stat().st_size for file in (out / "variants").glob("*.parquet"))
     assert found.bytes_ == pytest.approx(size, rel=0.5)
     assert found.parts == len(list((out / "variants").glob("*.parquet")))
     described = json.loads((out / "study.json").read_text("utf-8"))["columns"]
     checks = [name for name in described if ".checks." in name and name.endswith(".status")]
     assert found.checks == len(checks)
-    assert found.quantities == len([name for name in described if ".checks." not in name]) - 5  # varied, variant, verdict
+    assert (
+        found.quantities == len([name for name in described if ".checks." not in name]) - 5
+    )  # varied, variant, verdict
 
 
-def test_of_a_large_sample_pieces_are_looked_at_that_lie_evenly(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+def test_of_a_large_sample_pieces_are_looked_at_that_lie_evenly(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
     monkeypatch.setattr(module, "LOOKED_AT", 1000)
     text = varied("{from: 1 kN, to: 9 kN, count: 8000}", rest="constraints: [mechanisms.a.force <= '3 kN']\n")
     found = dry_run(study(tmp_path, text))
@@ -73,7 +79,9 @@ def test_rates_are_those_of_a_further_variant() -> None:
 def test_people_are_told_it_line_by_line_and_nothing_is_written(tmp_path: Path, capfd: Capture) -> None:
     saved(tmp_path, BASE)
     saved(tmp_path, "mechanisms.a.force [kN]\n1.5\n2.5\n3.5\n", "forces.csv")
-    file = saved(tmp_path, "schema_version: 1\nbase: press.yaml\nsample: {method: table, file: forces.csv}\n", "study.yaml")
+    file = saved(
+        tmp_path, "schema_version: 1\nbase: press.yaml\nsample: {method: table, file: forces.csv}\n", "study.yaml"
+    )
     before = sorted(tmp_path.iterdir())
     assert main(["validate", str(file), "--dry-run", "--plugins", str(GOOD)]) == 0
     out, err = capfd.readouterr()
@@ -86,7 +94,9 @@ def test_people_are_told_it_line_by_line_and_nothing_is_written(tmp_path: Path, 
     assert "1,5 … 3,5 kN" in capfd.readouterr().out
 
 
-def test_what_a_constraint_on_results_drops_is_counted_among_those_that_are_calculated(tmp_path: Path, capfd: Capture) -> None:
+def test_what_a_constraint_on_results_drops_is_counted_among_those_that_are_calculated(
+    tmp_path: Path, capfd: Capture
+) -> None:
     found = validated(tmp_path, FORCES + "constraints: [a.moment <= '500 N*m']\n", capfd, "--dry-run")["study"]
     assert found["variants"] == 10 and found["dropped_by"] == {}
     assert found["measured"]["dropped"] == 6  # forces of 1 and 2 kN at 200 mm stay, 400 N·m at most

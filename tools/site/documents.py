@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from fnmatch import fnmatch
 from pathlib import PurePosixPath
 from typing import NamedTuple
@@ -14,7 +14,6 @@ from tools.site.sources import ROOT, Sources
 AT_ROOT = ("README", "ARCHITECTURE", "CONTRIBUTING", "DECISIONS", "CHANGELOG", "SECURITY")
 START = "index"
 GALLERY = "docs/mechanisms"  # its pages are those of the gallery, which tell more
-GENERATED = ("gallery/", "reference/")  # folders whose pages stand in the contents of their index
 OWN_FOLDERS = ("docs/mechanisms", "docs/site")
 
 
@@ -26,10 +25,10 @@ class Part(NamedTuple):
 
 
 PARTS = (
-    Part("Using it", ("tutorial-use*", "questions", "live", "studies", "results", "reports-and-revisions", "office-files", "house-style",
-                      "own-tables", "limits", "mending-a-press", "python*")),
+    Part("Using it", ("questions", "live", "studies", "results", "results-file", "reports-and-revisions", "office-files",
+                      "house-style", "own-tables", "limits", "mending-a-press", "python", "own-repository")),
     Part("Examples", ("gallery/index", "reports")),
-    Part("Writing a mechanism", ("tutorial*", "plugins", "how-to/index*", "how-to/*", "reference/index")),
+    Part("Writing a mechanism", ("tutorial", "how-to/index", "plugins", "reference/index")),
     Part("Whether to trust it", ("trust", "validation", "standards")),
     Part("The project", ("architecture", "contributing", "decisions", "changelog", "security", "glossary")),
     Part("More", ("*",)),
@@ -59,7 +58,7 @@ def add_documents(sources: Sources) -> None:
     for file, page in pages.items():
         text = links.rewritten((ROOT / file).read_text(encoding="utf-8"), file)
         if page != f"{START}.md":
-            sources.page(page, text.splitlines())
+            sources.page(page, [*text.splitlines(), *_below(page, pages.values())])
     known = [path.removesuffix(".md") for path in sources.files if path.endswith(".md")]
     start = links.rewritten((ROOT / "README.md").read_text(encoding="utf-8"), "README.md")
     sources.page(f"{START}.md", [*start.splitlines(), *_contents(known)])
@@ -67,10 +66,21 @@ def add_documents(sources: Sources) -> None:
         sources.add(picture, (ROOT / picture).read_bytes())
 
 
+def _below(page: str, pages: Iterable[str]) -> Iterator[str]:
+    """The contents of a folder, in the page that is its index."""
+    own = PurePosixPath(page)
+    if own.stem == START:
+        beside = sorted(
+            PurePosixPath(each) for each in pages if PurePosixPath(each).parent == own.parent and each != page
+        )
+        yield from contents("", (each.stem for each in beside))
+
+
 def _contents(known: list[str]) -> Iterator[str]:
     """The parts of the contents. A page that is named here and is not there, or is there and in no part, fails in Sphinx."""
     exact = {name for part in PARTS for name in part.names if "*" not in name}
-    left = [name for name in sorted(known) if name not in exact and not name.startswith(GENERATED)]
+    indexed = {f"{PurePosixPath(name).parent}/" for name in known if name.endswith(f"/{START}")}
+    left = [name for name in sorted(known) if name not in exact and not name.startswith(tuple(indexed))]
     for part in PARTS:
         names: list[str] = []
         for pattern in part.names:

@@ -111,7 +111,7 @@ def _chapter(chapter: Chapter, typeset: Formulas) -> Iterator[str]:
 
 def _step(step: Step, formulas: list[str], typeset: Formulas) -> Iterator[str]:
     unit = pretty(step.unit)
-    named = _must_hold(step, typeset) if isinstance(step, Require) else plain(step.description)
+    named = _must_hold(step) if isinstance(step, Require) else plain(step.description)
     told = [named, code(step.id), f"in {unit}" if unit and step.symbol else "", plain(_found(step, typeset))]
     told += [f"with {', '.join(map(code, step.needs))}"] if step.needs else []
     told += [f"without {', '.join(map(code, step.lacks))}"] if step.lacks else []
@@ -121,9 +121,9 @@ def _step(step: Step, formulas: list[str], typeset: Formulas) -> Iterator[str]:
         yield from html(*(f'<div class="eq">{formula}</div>' for formula in formulas))
 
 
-def _must_hold(step: Require, typeset: Formulas) -> str:
-    """What is said where it does not hold, with symbols in place of the numbers."""
-    words = NAMED.sub(lambda found: typeset.symbol(found[1], step), step.message)
+def _must_hold(step: Require) -> str:
+    """What is said where it does not hold, without its numbers."""
+    words = NAMED.sub("…", step.message)
     return f"Must hold, else {code(step.key)} {plain(words)}"
 
 

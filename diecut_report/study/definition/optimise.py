@@ -15,11 +15,8 @@ from diecut_report.study.sampling import methods
 from diecut_report.study.sampling.methods import Sample
 from diecut_report.study.sampling.variables import ChoiceVariable, RangeVariable, Variable
 
-SHARE, LEAST, MOST = (
-    40,
-    40,
-    500,
-)  # population by default: so many generations, each of at least and at most so many machines
+# population by default: so many generations, each of at least and at most so many machines
+SHARE, LEAST, MOST = 40, 40, 500
 Free = ChoiceVariable | RangeVariable
 
 
@@ -81,11 +78,10 @@ class OptimiseReader:
         for each in variables:
             if not isinstance(each, Free):
                 words = "is a distribution, which scatters; an optimisation searches within a range {from: …, to: …} or a list."
-                self._report(("vary", each.path), words)
+                self._report(("vary", each.path), phrase(words))
         if len(free) == len(variables) and all(count_of(each) == 1 for each in free):
-            self._report(
-                ("vary",), "leaves nothing free: each path has a single value. Give one a range or more values."
-            )
+            single = "leaves nothing free: each path has a single value. Give one a range or more values."
+            self._report(("vary",), phrase(single))
         if form.population is not None and form.population > form.evaluations:
             words = Phrase(
                 "is {population}, more than the evaluations, {evaluations}; give fewer here, or more of those.",

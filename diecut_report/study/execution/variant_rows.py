@@ -55,6 +55,8 @@ def calculate_rows(
     a variant alone leaves it in error, and is in ``broken``.
     """
     rows = Rows(count, curves, further)
+    if not count:  # of a chunk that constraints have emptied
+        return rows
     for alike, texts in _groups(given, count):
         for chosen in np.array_split(alike, -(-len(alike) // TOGETHER)):
             numbers = {asked: np.asarray(values)[chosen] for asked, values in given.items() if asked not in texts}
