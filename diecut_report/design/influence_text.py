@@ -9,12 +9,13 @@ from typing import Any
 
 from diecut_report import __version__
 from diecut_report.design.influence import IN_TOLERANCE, Chance, InputEffect, Tolerances, Tornado
+from diecut_report.languages.phrases import Phrase, joined, phrase
+from diecut_report.languages.speech import said, say, spoken_language
 from diecut_report.quantities.units import pretty, unit
 
 SHOWN = 10  # inputs of a tornado
-CAPTION = "In {unit}; blue: with the input raised, brown: lowered; ×: there is no such machine; the line: today."
 PAGE = """<!doctype html>
-<html lang="en"><head><meta charset="utf-8"><title>{title}</title>
+<html lang="{language}"><head><meta charset="utf-8"><title>{title}</title>
 <meta http-equiv="Content-Security-Policy" content="default-src 'none'; style-src 'unsafe-inline'; font-src data:">
 <style>{faces}
 body{{font:15px/1.5 sans-serif;max-width:52rem;margin:2rem auto;padding:0 1rem;color:#1d252c}}svg{{max-width:100%;height:auto}}
@@ -33,38 +34,46 @@ def lines(found: Sequence[Tornado], tolerances: Tolerances | None) -> Iterator[s
         yield from _tolerances(tolerances)
 
 
-def _tornado(found: Tornado) -> Iterator[str]:
+def _tornado(found: Tornado) -> Iterator[Phrase]:
     asked = found.asked
-    yield f"{asked.name}, today {asked.told(found.today, 4)}"
+    yield Phrase("{asked}, today {value}", asked=asked.name, value=asked.told(found.today, 4))
     bars = found.bars[:SHOWN]
     width = max((len(each.design.name) for each in bars), default=0)
     for each in bars:
-        low, high = each.design.told(each.lowered, 4), each.design.told(each.raised, 4)
-        yield f"  {each.design.name.ljust(width)}  {low} … {high}: {_value(found, each.low)} … {_value(found, each.high)}"
+        ends = {"low": each.design.told(each.lowered, 4), "high": each.design.told(each.raised, 4)}
+        gives = {"first": _value(found, each.low), "second": _value(found, each.high)}
+        yield Phrase(
+            "  {input}  {low} … {high}: {first} … {second}", input=each.design.name.ljust(width), **ends, **gives
+        )
     more = len(found.bars) - len(bars)
-    rest = [f"{more} more move it less" if more else "", f"{found.still} do not move it" if found.still else ""]
-    yield f"  {', '.join(filter(None, rest)) or 'no other input moves it'}"
+    rest = [Phrase("{n} more move it less", n=more)] if more else []
+    rest += [Phrase("{n} do not move it", n=found.still)] if found.still else []
+    yield Phrase("  {rest}", rest=joined(rest, ", ") or phrase("no other input moves it"))
 
 
 def _value(found: Tornado, value: float) -> str:
-    return "no machine" if math.isnan(value) else found.asked.told(value, 4)
+    return phrase("no machine") if math.isnan(value) else found.asked.told(value, 4)
 
 
-def _tolerances(found: Tolerances) -> Iterator[str]:
-    way = f"normal, {IN_TOLERANCE:g} standard deviations" if found.distribution == "normal" else "uniform"
+def _tolerances(found: Tolerances) -> Iterator[Phrase]:
+    is_normal = found.distribution == "normal"
+    way = Phrase("normal, {n} standard deviations", n=f"{IN_TOLERANCE:g}") if is_normal else phrase("uniform")
     given = ", ".join(
         f"{each.name} {each.told(each.today or 0.0)} ± {each.told(size)}" for each, size in found.by_input.items()
     )
-    yield f"within tolerances ({way}; {found.count} machines, seed {found.seed}): {given}"
-    yield f"  no check fails: {_chance(found.whole)}"
+    words = "within tolerances ({way}; {n} machines, seed {seed}): {inputs}"
+    yield Phrase(words, way=way, n=found.count, seed=found.seed, inputs=given)
+    yield Phrase("  no check fails: {chance}", chance=_chance(found.whole))
     unsure = [each for each in found.chances if each.held < each.count]
     width = max((len(each.check) for each in unsure), default=0)
-    yield from (f"  {each.check.ljust(width)}  {_chance(each)}" for each in unsure)
-    yield f"  {len(found.chances) - len(unsure)} checks hold in all of them"
+    yield from (Phrase("  {check}  {chance}", check=each.check.ljust(width), chance=_chance(each)) for each in unsure)
+    yield Phrase("  {n} checks hold in all of them", n=len(found.chances) - len(unsure))
 
 
-def _chance(found: Chance) -> str:
-    return f"{100 * found.probability:.4g} % (95 %: {100 * found.low:.4g} … {100 * found.high:.4g} %), {found.held} of {found.count}"
+def _chance(found: Chance) -> Phrase:
+    shares = {"share": found.probability, "low": found.low, "high": found.high}
+    percents = {name: f"{100 * value:.4g}" for name, value in shares.items()}
+    return Phrase("{share} % (95 %: {low} … {high} %), {n} of {total}", n=found.held, total=found.count, **percents)
 
 
 def data(found: Sequence[Tornado], tolerances: Tolerances | None) -> dict[str, Any]:
@@ -121,16 +130,26 @@ def page(found: Sequence[Tornado], tolerances: Tolerances | None, name: str) -> 
             }
             for bar in each.bars[:SHOWN]
         ]
-        text = "\n".join(_tornado(each))
+        text = "\n".join(map(said, _tornado(each)))
         figure = (
-            tornado(each.today / factor, bars, f"Influence of inputs on {each.asked.name}", f"tornado-{index}").text
+            tornado(
+                each.today / factor,
+                bars,
+                say("Influence of inputs on {asked}", asked=each.asked.name),
+                f"tornado-{index}",
+            ).text
             if bars
             else ""
         )
-        caption = CAPTION.format(unit=pretty(each.asked.unit) or "a share")
-        words = f"<p>{caption}</p>\n<pre>{html.escape(text)}</pre>"
-        parts.append(f"<h2>{html.escape(each.asked.name)}</h2>\n{figure}\n{words}")
+        words = "In {unit}; blue: with the input raised, brown: lowered; ×: there is no such machine; the line: today."
+        caption = say(words, unit=pretty(each.asked.unit) or phrase("a share"))
+        below = f"<p>{html.escape(caption)}</p>\n<pre>{html.escape(text)}</pre>"
+        parts.append(f"<h2>{html.escape(each.asked.name)}</h2>\n{figure}\n{below}")
     if tolerances is not None:
-        parts.append("<h2>Tolerances</h2>\n<pre>" + html.escape("\n".join(_tolerances(tolerances))) + "</pre>")
-    title = f"What matters: {html.escape(name)}"
-    return PAGE.format(title=title, body="\n".join(parts), faces=faces, version=__version__)
+        parts.append(
+            f"<h2>{say('Tolerances')}</h2>\n<pre>"
+            + html.escape("\n".join(map(said, _tolerances(tolerances))))
+            + "</pre>"
+        )
+    title = html.escape(say("What matters: {file}", file=name))
+    return PAGE.format(title=title, body="\n".join(parts), faces=faces, version=__version__, language=spoken_language())
