@@ -61,7 +61,7 @@ def _read(file: Path) -> ApiExample:
     text = file.read_text(encoding="utf-8")
     tree = ast.parse(text)
     names = {node.id for node in ast.walk(tree) if isinstance(node, ast.Name)}
-    shows = frozenset(names & _imported(tree)) | frozenset(_declared(tree))
+    shows = frozenset(own for own, called in _imported(tree).items() if called in names) | frozenset(_declared(tree))
     values = {name: value for name, value in _assigned(tree) if name in SAID}
     kinds = {_kind(value): name for name, value in _assigned(tree) if _is_mechanism(value)}
     words = " ".join((ast.get_docstring(tree) or "").split())
@@ -70,9 +70,10 @@ def _read(file: Path) -> ApiExample:
     )
 
 
-def _imported(tree: ast.Module) -> set[str]:
+def _imported(tree: ast.Module) -> dict[str, str]:
+    """What is imported of the interface, each with the name that it has here."""
     imports = [node for node in tree.body if isinstance(node, ast.ImportFrom) and node.module == api.__name__]
-    return {alias.name for node in imports for alias in node.names}
+    return {alias.name: alias.asname or alias.name for node in imports for alias in node.names}
 
 
 def _declared(tree: ast.Module) -> Iterator[str]:

@@ -17,6 +17,7 @@ class Group(NamedTuple):
 GROUPS = (
     Group("mechanism", "A mechanism", "What a plugin's module declares: the mechanism as a whole, its chapters, checks, sources.", (
         "Mechanism", "Chapter", "Steps", "Step", "prefixed", "Check", "Source", "Erratum", "Partner", "Comparison", "Profile", "CurveTable",
+        "ExampleBlock", "Wired", "ForEach", "CONTRACT",
     )),
     Group("inputs", "Inputs", "What a user may give, as a pydantic model; validated values are SI.", (
         "Inputs", "Block", "Annotated", "Quantity", "InOtherUnit", "Text", "OneOf", "CurveInput", "Varying", "Extremes", "Curve", "PhaseInput",
@@ -56,6 +57,7 @@ GROUPS = (
 TOLD = {  # names without a docstring of their own
     "Annotated": "Python's own `typing.Annotated`: joins the type of an input with what is declared of it.",
     "Binding": "What a step takes as its formula: a formula, one that is bound, or one that a text chooses.",
+    "CONTRACT": "The number of the contract of this program; a module says by `CONTRACT = 1` for which it is written.",
     "Cell": "What stands in a cell of a listing: a number in SI, a text, or `None` where there is nothing.",
     "GRAVITY": "The standard acceleration of free fall, 9.80665 m/s², a `Constant`.",
     "POINTS": "The input with which curves are sampled, for `n_points: Annotated[int, POINTS] = 720`: it says how densely they are listed, no more.",
