@@ -46,6 +46,11 @@ def against_pressure(
     return joined(changes, ", or ")
 
 
+def against_sized_width(lining_width: float) -> str:
+    """Words where the pressure of shoes that are sized for it lies above it by rounding."""
+    return Phrase("set shoe_width to at least {width}", width=told(lining_width, "mm", up=True))
+
+
 def _width(low: float, high: float) -> str:
     low_text, high_text = told(low, "mm", up=True), told(high, "mm", up=False)
     return Phrase("set shoe_width to between {low_text} and {high_text}", low_text=low_text, high_text=high_text)

@@ -87,6 +87,7 @@ lining.value("least_radius", "r_min", "mm",
              source="002 eq. 17", needs=("shoe_width",), output=False)
 lining.words("pressure_advice", advice.against_pressure, ("shoe_width", "lining_width", "shoe_radius", "least_radius", "shoe_coverage"),
              needs=("shoe_width",))
+lining.words("pressure_advice", advice.against_sized_width, ("lining_width",), lacks=("shoe_width",))
 lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width"), lacks=("shoe_width", "allowable_pv"))
 lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width"), lacks=("shoe_width", "speed"), needs=("allowable_pv",))
 lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width", "pv", "allowable_pv"), lacks=("shoe_width",),
