@@ -104,7 +104,12 @@ class MachineView:
 
 def figures(calc: Calculation) -> list[dict[str, Any]]:
     """Return the figures whose needs are given; one that fails is kept with what went wrong (``error``)."""
-    return [_guarded(calc, figure) for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
+    return [_guarded(calc, figure) for figure in shown_figures(calc)]
+
+
+def shown_figures(calc: Calculation) -> list[Figure]:
+    """Return the declarations of the figures whose needs are given; nothing is drawn for it."""
+    return [figure for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
 
 
 def _guarded(calc: Calculation, figure: Figure) -> dict[str, Any]:

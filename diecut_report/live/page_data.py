@@ -70,7 +70,7 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
         "skipped": not is_there,
         "checks": [_check(each, before.get(each["id"])) for each in run.checks.get(name, ()) if each["class"] != "numerical"],
         "outputs": list(_outputs(name, machine, start)) if is_there else [],
-        "figures": [_figure(index, figure) for index, figure in enumerate(run.figures(name))] if is_there else [],
+        "figures": [tidy(title) for title in run.figure_titles(name)] if is_there else [],
     }  # fmt: skip
 
 
@@ -156,12 +156,3 @@ def _change(value: Any, first: Any) -> float | None:
     """By how much a number has changed since the start, as a share; None where that says nothing."""
     numbers = isinstance(value, int | float) and isinstance(first, int | float) and not isinstance(value, bool)
     return (value - first) / abs(first) if numbers and first and value != first else None
-
-
-def _figure(index: int, figure: Mapping[str, Any]) -> Data:
-    return {
-        "index": index,
-        "title": tidy(str(figure["title"])),
-        "type": figure["type"],
-        "error": figure.get("error", ""),
-    }

@@ -255,12 +255,12 @@
   }, { rootMargin: "200px" });
 
   function figures() {
-    var box = byId("figures"), wanted = current().figures.map(function (each) { return open + "/" + each.index; });
+    var box = byId("figures"), wanted = current().figures.map(function (title, index) { return open + "/" + index; });
     var there = Array.from(box.children).map(function (figure) { return figure.dataset.figure; });
     if (there.join() !== wanted.join()) {
       Array.from(box.children).forEach(function (figure) { sight.unobserve(figure); clear(figure); });
-      box.replaceChildren.apply(box, current().figures.map(function (each) {
-        var figure = make("figure", { "data-figure": open + "/" + each.index }, [make("figcaption", {}, each.title), make("div", { "class": "picture" }, make("span", { "class": "waiting" }, "drawing …"))]);
+      box.replaceChildren.apply(box, current().figures.map(function (title, index) {
+        var figure = make("figure", { "data-figure": open + "/" + index }, [make("figcaption", {}, title), make("div", { "class": "picture" }, make("span", { "class": "waiting" }, "drawing …"))]);
         sight.observe(figure);
         return figure;
       }));

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from pathlib import Path
+from typing import Any
 
 import pytest
 
@@ -31,6 +32,13 @@ def session(tmp_path: Path) -> LiveSession:
 def force(session: LiveSession) -> float:
     assert session.machine is not None
     return float(session.machine.run.outputs("knife")["force_max"]["value"])
+
+
+def shown_of(session: LiveSession, mechanism: str) -> dict[str, Any]:
+    found: dict[str, Any] = next(
+        each for each in page_data(session)["machine"]["mechanisms"] if each["name"] == mechanism
+    )
+    return found
 
 
 def replaced(session: LiveSession, old: str, new: str) -> None:
@@ -145,6 +153,16 @@ def test_the_effect_of_an_input_is_that_of_machines_calculated_one_by_one(sessio
         for check in session.machine.run.checks["knife"]:
             if (name := f"knife.{check['id']}") in lines and check["status"] != "not_checked":
                 assert lines[name][place] == pytest.approx(check["utilisation"], rel=1e-3), name
+
+
+def test_the_page_names_the_figures_of_a_mechanism_and_makes_none(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert session.machine is not None
+    titles = [figure["title"] for figure in session.machine.run.figures("knife")]
+    session.change({"knife.eccentricity": "22 mm"})
+    monkeypatch.setattr(WarmRun, "figures", lambda *_: pytest.fail("a figure is made that nobody looks at"))
+    assert shown_of(session, "knife")["figures"] == titles
 
 
 def test_figures_are_curves_or_drawings_and_drawn_once_for_a_machine(session: LiveSession) -> None:
