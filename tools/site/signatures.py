@@ -55,7 +55,7 @@ def _type(annotation: Any) -> str:
 
 def _default(value: Any) -> str:
     text = repr(value)
-    return "…" if text.startswith("<") or "0x" in text else text
+    return "..." if text.startswith("<") or "0x" in text else text
 
 
 def _is_protocol(thing: Any) -> bool:
