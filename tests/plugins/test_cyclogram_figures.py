@@ -1,11 +1,12 @@
-"""The figures of a cyclogram of one line of a kind of which the program knows neither way nor torque."""
+"""A cyclogram of one line of a kind of which the program knows neither way nor torque: its figures, and how its torque is named."""
 
 from __future__ import annotations
 
 from pathlib import Path
 
 from diecut_report.cli.main import main
-from tests.configs import HEAD, saved
+from diecut_report.config.discovery import Discovery
+from tests.configs import HEAD, problems, saved
 
 PLUGIN = """
 import numpy as np
@@ -44,3 +45,13 @@ def test_a_line_without_a_known_way_is_reported_without_the_figure_of_ways(tmp_p
     assert main(["report", str(saved(tmp_path, HEAD + LINES)), *more]) == 0
     page = (tmp_path / "out" / "press.html").read_text("utf-8")
     assert "Cyclogram, once round" in page and "Ways and slack" not in page
+
+
+def test_a_curve_in_place_of_its_name_is_told(tmp_path: Path) -> None:
+    saved(tmp_path, PLUGIN, "small_feeder.py")
+    text = HEAD + LINES.replace("{mechanism: feeder}", "{mechanism: feeder, torque_curve: '${feeder.load}'}")
+    [told] = problems(tmp_path, text, Discovery([tmp_path]))
+    assert told.endswith(
+        "${feeder.load} is a curve in N; a text (Name of a curve of the line, such as `torque`, "
+        "where its torque is not the one of its kind) is needed here"
+    )
