@@ -256,11 +256,18 @@ class _Fault:
                 "${{path}} {number}; {needed} is needed here",
                 path=self.given.path,
                 number=(number if self.given.unit else phrase("is a text")),
-                needed=self._needed(),
+                needed=self._text() or self._needed(),
             )
         if self.given is None:
             return Phrase("has no value; {needed} is needed, or remove the key", needed=self._needed())
         return Phrase("is {given}; {needed} is needed", given=told(self.given), needed=self._needed())
+
+    def _text(self) -> str | None:
+        """A text that is needed, with what it says; None where something else is."""
+        meta = declared(self.model, self.key) if self.key else None
+        if not self.type.startswith("string") or not isinstance(meta, Text):
+            return None
+        return Phrase("a text ({description})", description=phrase(meta.description))
 
     def _needed(self) -> str:
         kinds = {"bool": phrase("true or false"), "int": phrase("a whole number"), "float": "a number", "string": "a text", "list": "a list",

@@ -77,7 +77,7 @@ class Level:
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Mark:
-    """Declare a marked point: ids of its place and its value."""
+    """Declare a marked point: ids of its place and its value. Of the greatest size of a curve (``abs_max``) it stands on the curve."""
 
     x: str
     y: str
@@ -182,7 +182,10 @@ class Drawing(Figure):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Chart(Figure):
-    """Declare diagrams of lines that are not curves of the results: ``build`` gives its panels (``chart_panel``) from the machine."""
+    """Declare diagrams of lines that are not curves of the results: ``build`` gives its panels (``chart_panel``) from the machine.
+
+    A machine of which it gives none has no such figure.
+    """
 
     build: Callable[[View], list[Shape]]
 

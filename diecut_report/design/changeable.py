@@ -8,6 +8,7 @@ from collections.abc import Container, Iterable
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.contract.inputs import Quantity
+from diecut_report.design.demanded import demanded
 from diecut_report.design.design_inputs import DesignInput, any_input, design_input, given_numbers
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase
@@ -25,7 +26,7 @@ def changeable(
 ) -> list[DesignInput]:
     """Return the inputs that may be changed: numbers named by ``free``, else sizes, angles and ratios, and what is advised, but for those paths.
 
-    What the press is for, limits, loads, materials and numbers of parts stay as they are unless they are named.
+    What the press is for, what checks demand, limits, loads, materials and numbers of parts stay as they are unless they are named.
     UserError where one of those that are named has no value.
     """
     if free:
@@ -63,8 +64,15 @@ def _is_form(config: Config, design: DesignInput) -> bool:
     key = str(design.asked.key[-1])
     if instance is None or design.asked.instance == PRESS or design.is_whole or LIMIT.search(key):
         return False
+    if instance.mechanism and _id(design) in demanded(instance.mechanism):
+        return False
     basis = instance.bases.get(design.asked.key)
     if basis is not None and basis.basis in FIXED_BASES:
         return False
     own = design.meta.parsed_unit.si
     return own in FORM or (own == "1" and RATIO.search(key) is not None)
+
+
+def _id(design: DesignInput) -> str:
+    """What the steps and checks of its mechanism call it: without the number of a part."""
+    return ".".join(part for part in design.asked.key if isinstance(part, str))

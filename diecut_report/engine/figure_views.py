@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import math
 from collections.abc import Callable, Mapping
 from functools import partial
 from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.figures import BarGroup, Bars, Chart, Drawing, Figure, Panel, Plot, Polar, plain
+from diecut_report.contract.figures import BarGroup, Bars, Chart, Drawing, Figure, Mark, Panel, Plot, Polar, plain
+from diecut_report.contract.result_names import place_name
+from diecut_report.contract.steps import Reduction
 from diecut_report.engine import axis_range
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.curve_sampler import CurveSampler
@@ -103,8 +106,12 @@ class MachineView:
 
 
 def figures(calc: Calculation) -> list[dict[str, Any]]:
-    """Return the figures whose needs are given; one that fails is kept with what went wrong (``error``)."""
-    return [_guarded(calc, figure) for figure in shown_figures(calc)]
+    """Return the figures whose needs are given; one that fails is kept with what went wrong (``error``).
+
+    A chart to which this machine gives no panel is left out.
+    """
+    found = [_guarded(calc, figure) for figure in shown_figures(calc)]
+    return [made for made in found if "error" in made or made["type"] != "chart" or made["panels"]]
 
 
 def shown_figures(calc: Calculation) -> list[Figure]:
@@ -194,8 +201,27 @@ def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
     made = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
         key: [plain(part, view) for part in parts] for key, parts in named.items()
     }
+    made["marks"] = [
+        _on_curve(mark, shown, panel, view) for mark, shown in zip(panel.marks, made["marks"], strict=True)
+    ]
     curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series if panel.range]
     return _in_chosen_unit(view, axis_range.declared(made, panel.range, view, curves))
+
+
+def _on_curve(mark: Mark, shown: dict[str, Any], panel: Panel, view: MachineView) -> dict[str, Any]:
+    """A mark with the sign of the curve: the greatest size of a curve says nothing of the side on which it stands."""
+    step = view.calc.step_or_input(mark.y)
+    is_size = isinstance(step, Reduction) and step.operation == "abs_max" and mark.x == place_name(step.id)
+    if not is_size or step.of not in [one.curve for one in panel.series]:
+        return shown
+    return shown | {"y": math.copysign(shown["y"], _height(step.id, step.of, view))}
+
+
+def _height(size: str, curve: str, view: MachineView) -> float:
+    """The value of a curve where its size is greatest; at a jump on the side that was found there."""
+    calc, place = view.calc, place_name(size)
+    x, rows = calc[place][:1], np.zeros(1, dtype=int)
+    return float(calc.sampler_of(calc.axis[curve], x, calc.middle[place][:1], rows).over(curve)[0, 0])
 
 
 def _in_chosen_unit(view: MachineView, made: dict[str, Any]) -> dict[str, Any]:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
+from diecut_report.engine.figure_views import shown_figures
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase
 from diecut_report.live.session import LiveMachine
@@ -23,12 +24,21 @@ class Pictures:
         """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""
         if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figure_titles(mechanism)):
             raise UserError(Problem(Phrase("There is no figure {n} of {name}.", n=index, name=repr(mechanism))))
-        figure = machine.run.figures(mechanism)[index]
+        figure = _shown(machine, mechanism, index)
         known = self._drawn.get((mechanism, index))
         if known is None or known[0] is not figure:
             known = figure, _drawn(figure, machine.run.curves(mechanism), mechanism, index)
             self._drawn[mechanism, index] = known
         return known[1]
+
+
+def _shown(machine: LiveMachine, mechanism: str, index: int) -> Data:
+    """The figure as data; a chart to which this machine gives no panel is not among them, though its title is told."""
+    declared = shown_figures(machine.run.calculations[mechanism])[index]
+    found = next((figure for figure in machine.run.figures(mechanism) if figure["id"] == declared.id), None)
+    if found is None:
+        raise UserError(Problem(Phrase("{title}: there is nothing of this machine to show.", title=declared.title)))
+    return found
 
 
 def _drawn(figure: Data, curves: Data, mechanism: str, index: int) -> Data:

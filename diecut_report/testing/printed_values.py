@@ -10,7 +10,7 @@ from diecut_report.quantities.units import pretty
 from diecut_report.testing.found_values import MechanismFound
 
 PRINTED = re.compile(r"\s*([+\-−]?\d+(?:\.\d*)?|[+\-−]?\.\d+)(?:e([+\-−]?\d+))?\s*(.*)", re.IGNORECASE)
-DIGITS = 5  # of our numbers in the table
+MORE, LEAST = 2, 5  # digits of our numbers in the table: so many more than are printed, and so many at least
 
 
 @dataclass(frozen=True)
@@ -44,7 +44,8 @@ class ComparedValue:
         return self.agrees is not bool(self.why)
 
     def __str__(self) -> str:
-        verdict = "agrees" if self.agrees else f"differs by {self.difference:+.2%}"
+        unit = f" {pretty(self.unit)}".rstrip()
+        verdict = "agrees" if self.agrees else f"differs by {self._off(unit)}"
         reason = (
             ""
             if not self.why
@@ -53,8 +54,19 @@ class ComparedValue:
             else ", though a reason is told why not: take it away"
         )
         place = f" ({self.place})" if self.place else ""
-        unit = f" {pretty(self.unit)}".rstrip()
-        return f"{self.name}{place}: printed {self.printed}{unit}, calculated {self.ours:.{DIGITS}g}{unit}, {verdict}{reason}"
+        return f"{self.name}{place}: printed {self.printed}{unit}, calculated {self._ours()}{unit}, {verdict}{reason}"
+
+    def _ours(self) -> str:
+        """Our number with more digits than the printed one, so that a difference in its last digit is seen."""
+        mantissa = re.split("e", self.printed, flags=re.IGNORECASE)[0]
+        shown = len(re.sub(r"\D", "", mantissa).lstrip("0"))
+        return f"{self.ours:.{max(shown + MORE, LEAST)}g}"
+
+    def _off(self, unit: str) -> str:
+        """The difference itself and, of a number that is not zero, as a share of it."""
+        value = float(self.printed)
+        absolute = f"{self.ours - value:+.3g}{unit}"
+        return f"{absolute} ({self.difference:+.2%})" if value else absolute
 
 
 class ComparedValues(tuple[ComparedValue, ...]):

@@ -38,7 +38,9 @@ class LineKeys(Block):
     path_efficiency: Annotated[
         float, Quantity("η", "1", "Efficiency from the main shaft to the shaft of the line's torque", gt=0, le=1)
     ] = 1
-    torque_curve: Annotated[str, Text("Curve of the line's torque, where it is not the one of its kind")] = ""
+    torque_curve: Annotated[
+        str, Text("Name of a curve of the line, such as `torque`, where its torque is not the one of its kind")
+    ] = ""
     passing: Annotated[list[Passage], Text("What the sheet passes on its way")] = []  # noqa: RUF012
 
 

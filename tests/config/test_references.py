@@ -125,7 +125,7 @@ WRONG = [
     ("force: 1, load: '${a.moment}'", "6:36: mechanisms.b.load: ${a.moment} is not a curve in N*m"),
     ("force: 1, load: [1, 2, 3, '${a.force}']",
      "6:46: mechanisms.b.load.3: ${a.force} is not a single quantity in N·m, as the other values are"),
-    ("force: 1, remark: '${a.force}'", "6:38: mechanisms.b.remark: ${a.force} is a number in N; a text is needed here"),
+    ("force: 1, remark: '${a.force}'", "6:38: mechanisms.b.remark: ${a.force} is a number in N; a text (Remark) is needed here"),
     ("force: 1, spring: '${a.force}'", "6:38: mechanisms.b.spring: ${a.force} is a number in N; a block of keys is needed here"),
     ("force: 1, arm: '${press.sheet}'",
      "6:35: mechanisms.b.arm: ${press.sheet} is a block or a list; refer to one of its values (length, width, thickness)."),

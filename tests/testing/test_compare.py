@@ -28,17 +28,25 @@ def test_the_table_names_each_number_with_its_difference() -> None:
     found = compare(FOUND, {"moment": PrintedValue("300 N*m", place="eq. 3"), "pressure": "0.66 MPa"})
     assert found[0].difference == pytest.approx(4.7 / 300)
     assert str(found) == (
-        "→ moment (eq. 3): printed 300 N·m, calculated 304.7 N·m, differs by +1.57%\n"
+        "→ moment (eq. 3): printed 300 N·m, calculated 304.7 N·m, differs by +4.7 N·m (+1.57%)\n"
         "  pressure: printed 0.66 MPa, calculated 0.65638 MPa, agrees"
     )
     with pytest.raises(AssertionError, match="→ moment"):
         assert found.agree, str(found)
 
 
+def test_a_difference_in_the_last_digits_is_seen() -> None:
+    assert str(compare(FOUND, {"moment": "304.7002 N*m"})) == (
+        "→ moment: printed 304.7002 N·m, calculated 304.7 N·m, differs by -0.0002 N·m (-0.00%)"
+    )
+    assert "calculated 0.65638333 MPa" in str(compare(FOUND, {"pressure": "0.656381 MPa"}))
+    assert "printed 0 N·m, calculated 304.7 N·m, differs by +305 N·m" in str(compare(FOUND, {"moment": "0 N*m"}))
+
+
 def test_a_difference_whose_reason_is_known_is_expected_and_no_other() -> None:
     mistake = PrintedValue("300 N*m", why="the source takes an arm of 150 mm")
     assert compare(FOUND, {"moment": mistake}).agree
-    assert "differs by +1.57%: the source takes an arm" in str(compare(FOUND, {"moment": mistake}))
+    assert "differs by +4.7 N·m (+1.57%): the source takes an arm" in str(compare(FOUND, {"moment": mistake}))
     mended = compare(FOUND, {"moment": PrintedValue("304.7 N*m", why="the source takes an arm of 150 mm")})
     assert not mended.agree and "though a reason is told why not: take it away" in str(mended)
 

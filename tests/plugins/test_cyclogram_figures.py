@@ -1,0 +1,57 @@
+"""A cyclogram of one line of a kind of which the program knows neither way nor torque: its figures, and how its torque is named."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+from diecut_report.cli.main import main
+from diecut_report.config.discovery import Discovery
+from tests.configs import HEAD, problems, saved
+
+PLUGIN = """
+import numpy as np
+
+from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Quantity
+
+
+class Feeder(Inputs):
+    end: Annotated[float, Quantity("φ_e", "deg", "End of the carrying")] = 120
+    rate: Annotated[float, Quantity("n", "1/h", "Turns")] = 6000
+    n_points: Annotated[int, POINTS] = 36
+
+
+chapter = Chapter("Motion")
+chapter.value("speed", "ω", "rad/s", "Speed", lambda rate: 2 * np.pi * rate)
+chapter.value("start", "φ_0", "deg", "Start of the carrying", lambda end: end / 4)
+chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi, speed="speed")
+chapter.phase("carrying", "working", "A sheet is carried", "angle", ("start", "end"))
+chapter.phase("returning", "moving", "Back without a sheet", "angle", rest_of=("carrying",))
+chapter.value("load", "F", "N", "Load", lambda angle: 2 + np.sin(angle))
+
+MECHANISM = Mechanism(kind="small_feeder", version="1.0", title="Feeder", summary="Carries", inputs=Feeder, chapters=(chapter,))
+"""
+LINES = """\
+  feeder: {kind: small_feeder}
+  cyc:
+    kind: cyclogram
+    lines: [{mechanism: feeder}]
+    interlocks: [{name: returns_free, phase: feeder.returning, apart_from: feeder.carrying}]
+"""
+
+
+def test_a_line_without_a_known_way_is_reported_without_the_figure_of_ways(tmp_path: Path) -> None:
+    saved(tmp_path, PLUGIN, "small_feeder.py")
+    more = ["--plugins", str(tmp_path), "-o", str(tmp_path / "out"), "--format", "html", "--quiet"]
+    assert main(["report", str(saved(tmp_path, HEAD + LINES)), *more]) == 0
+    page = (tmp_path / "out" / "press.html").read_text("utf-8")
+    assert "Cyclogram, once round" in page and "Ways and slack" not in page
+
+
+def test_a_curve_in_place_of_its_name_is_told(tmp_path: Path) -> None:
+    saved(tmp_path, PLUGIN, "small_feeder.py")
+    text = HEAD + LINES.replace("{mechanism: feeder}", "{mechanism: feeder, torque_curve: '${feeder.load}'}")
+    [told] = problems(tmp_path, text, Discovery([tmp_path]))
+    assert told.endswith(
+        "${feeder.load} is a curve in N; a text (Name of a curve of the line, such as `torque`, "
+        "where its torque is not the one of its kind) is needed here"
+    )
