@@ -108,7 +108,7 @@ def calc(
     text = results_text(results)
     if target is not None:
         _write({target: encoded(text)}, config, through=True)
-    return ReportOutcome(results, (target,) if target else (), broken, tuple(doubtful(results))), text
+    return ReportOutcome(results, (target,) if target else (), broken, tuple(doubtful(results, discovery))), text
 
 
 def report(
@@ -134,7 +134,9 @@ def report(
     files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
     _write(files, config)
     faults = (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
-    return ReportOutcome(results, tuple(files), faults, (*untranslated(results, catalogues), *doubtful(results)))
+    return ReportOutcome(
+        results, tuple(files), faults, (*untranslated(results, catalogues), *doubtful(results, discovery))
+    )
 
 
 def catalogues_of(results: Data, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:

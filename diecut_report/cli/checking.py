@@ -33,7 +33,7 @@ from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Counted, Phrase, phrase
-from diecut_report.languages.speech import localised, said, speaking
+from diecut_report.languages.speech import localised, said, say, speaking
 
 if TYPE_CHECKING:
     from diecut_report.config.yaml_tree import Tree
@@ -57,7 +57,9 @@ path_of = click.Path(path_type=Path)
 @click.command(cls=HelpfulCommand, epilog=exit_codes.OF_CHECKS)
 @click.argument("given", metavar="CONFIG|FOLDER…", nargs=-1, required=True, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Also write a summary of all machines there.")
-@click.option("--strict", is_flag=True, help="Warnings and checks without a limit count as failed.")
+@click.option(
+    "--strict", is_flag=True, help="Warnings, checks without a limit and plugins with faults count as failed."
+)
 @click.option(
     "--format",
     "formats",
@@ -81,7 +83,7 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
         found = _calculated(read, folders, jobs, progress)
     made = compared(in_language(found, spoken_catalogues(discovery)))
     for verdict in made.verdicts:
-        tell(f"{verdict.machine}: " + phrase(line) if verdict.status == "error" else line for line in verdict.words)
+        tell(f"{verdict.machine}: " + phrase(line) if verdict.status != "bad" else line for line in verdict.words)
     emit("".join(f"{line}\n" for line in _table(made.verdicts)))
     if folder is not None:
         _write(found, discovery, folder, formats, quiet, files)
@@ -117,7 +119,13 @@ def _row(verdict: Verdict) -> tuple[str, ...]:
         return verdict.machine, said(WORDS["bad"]), "", "", "", "", ""
     share = "" if verdict.utilisation is None else localised(f"{100 * verdict.utilisation:.1f} %")
     counts = (verdict.failed, verdict.not_checked, verdict.warnings)
-    return verdict.machine, said(WORDS[verdict.status]), verdict.governing, share, *map(str, counts)
+    return verdict.machine, _status(verdict), verdict.governing, share, *map(str, counts)
+
+
+def _status(verdict: Verdict) -> str:
+    """The verdict in words; one that formulas with faults gave says so."""
+    told = said(WORDS[verdict.status])
+    return say("{status}, formulas with faults", status=told) if verdict.formulas_with_faults else told
 
 
 def _write(
@@ -161,5 +169,7 @@ def _code(verdicts: Sequence[Verdict], strict: bool) -> int:
         return BAD_INPUT
     if "error" in states:
         return PLUGIN_BROKE
-    doubtful = strict and any(verdict.warnings or verdict.not_checked for verdict in verdicts)
+    doubtful = strict and any(
+        verdict.warnings or verdict.not_checked or verdict.formulas_with_faults for verdict in verdicts
+    )
     return CHECK_FAILED if "fail" in states or doubtful else PASSED

@@ -28,6 +28,7 @@ from diecut_report.cli.output import (
 from diecut_report.cli.verdict import WORDS, marked
 from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.languages.speech import say
+from diecut_report.results.doubtful_plugins import told_faults
 
 if TYPE_CHECKING:
     from diecut_report.study.execution.study_run import StudyOutcome
@@ -97,6 +98,7 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
     if not quiet:
         tell(_told(outcome, target))
     tell(_broken(outcome))
+    tell(line for kind, faults in outcome.doubtful.items() for line in told_faults(kind, faults))
     return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if outcome.is_failed else PASSED
 
 

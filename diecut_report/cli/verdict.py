@@ -13,6 +13,7 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
 from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import said, say, say_counted, spoken_language
+from diecut_report.results.doubtful_plugins import doubtful_kinds
 
 Data = Mapping[str, Any]
 Command = TypeVar("Command", bound=Callable[..., Any])
@@ -30,18 +31,19 @@ WORDS = {
 
 def strict_option(command: Command) -> Command:
     """Give a command the option ``--strict``."""
-    words = "Exit with 1 for warnings too, and for checks that are not made because a key is not given."
+    words = "Exit with 1 for warnings too, for checks that are not made because a key is not given, and for a plugin with faults."
     return click.option("--strict", is_flag=True, help=words)(command)
 
 
 def exit_code(results: Data, *, is_broken: bool, is_strict: bool) -> int:
-    """Return 3 where something broke, 1 where a check fails or something is skipped, or where it is strict and one warns or is not made."""
+    """Return 3 where something broke, 1 where a check fails or something is skipped, or, strict, where one warns or is not made."""
     if is_broken:
         return PLUGIN_BROKE
     found = results["summary"]
     counted = ORDER if is_strict else ORDER[:1]
     is_whole = not any(data["status"] == "skipped" for data in results["mechanisms"].values())
-    return PASSED if is_whole and not any(found[status] for status in counted) else CHECK_FAILED
+    is_doubtful = is_strict and doubtful_kinds(results)
+    return PASSED if is_whole and not is_doubtful and not any(found[status] for status in counted) else CHECK_FAILED
 
 
 def told(results: Data, discovery: Discovery | None = None) -> list[Line]:
@@ -93,6 +95,8 @@ def _whole(results: Data) -> Line:
     found = results["summary"]
     count = found["pass"] + found["warn"] + found["fail"]
     parts = [_failing(results, found["fail"], count, found["not_checked"])]
+    if doubtful_kinds(results):
+        parts.append(say("Formulas of a plugin have faults."))
     if found["warn"]:
         parts.append(say_counted(found["warn"], "{n} with a warning.", "{n} with a warning."))
     if found["not_checked"] and found["fail"]:
@@ -122,4 +126,8 @@ def _failing(results: Data, failed: int, count: int, unchecked: int) -> str:
         return say_counted(
             unchecked, "Nothing was checked, but {n} is not checked.", "Nothing was checked, but {n} are not checked."
         )
-    return coloured(say("No check fails."), "pass") if count else say("There are no checks.")
+    return (
+        coloured(say("No check fails."), "warn" if doubtful_kinds(results) else "pass")
+        if count
+        else say("There are no checks.")
+    )

@@ -73,7 +73,7 @@ class Discovery:
     def origins(self) -> dict[str, list[Origin]]:
         """Each kind with all places that give it; more than one is a fault that shows when the kind is used."""
         found: dict[str, list[Origin]] = {}
-        for origin in [*_built_in(), *_installed(), *(o for folder in self._folders for o in _local(folder))]:
+        for origin in [*_built_in(), *_installed(), *(o for folder in self._folders for o in in_folder(folder))]:
             found.setdefault(origin.kind, []).append(origin)
         return dict(sorted(found.items()))
 
@@ -207,7 +207,8 @@ def _extensions(folder: Path) -> Iterator[Origin]:
         yield Origin(file.stem, str(file), partial(_module_of, file), partial(Path, file))
 
 
-def _local(folder: Path) -> Iterator[Origin]:
+def in_folder(folder: Path) -> Iterator[Origin]:
+    """Yield the kinds of a folder of plugins, or of the project of a package; UserError where there is no such folder."""
     if not folder.is_dir():
         raise UserError(
             Problem(phrase("There is no such folder of plugins. Check the name given with --plugins."), str(folder))

@@ -15,6 +15,7 @@ from diecut_report.languages.catalogues import Catalogues
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
 from diecut_report.report.house_style import HouseStyle
+from diecut_report.results.doubtful_plugins import doubtful
 
 TEMPLATE = "template_sha256"
 Contents = dict[str, bytes]
@@ -45,7 +46,7 @@ def render(
     beside, unwritten = pipeline.exported(carried.results, tell)
     files = {folder / f"{file.stem}.{ending}": content for ending, content in (contents | beside).items()}
     write_all(files, keep=file)
-    warnings = tuple(pipeline.untranslated(carried.results, catalogues))
+    warnings = (*pipeline.untranslated(carried.results, catalogues), *doubtful(carried.results))
     return pipeline.ReportOutcome(carried.results, tuple(files), (), warnings), [*lost, *unwritten]
 
 

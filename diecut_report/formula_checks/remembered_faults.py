@@ -10,12 +10,13 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration import remembered
 from diecut_report.files import cache_folder
 from diecut_report.formula_checks import forms, quantities
+from diecut_report.formula_checks.fault_places import by_id
 
 FOLDER = "formulas"
 
 
 def faults_of_formulas(mechanism: Mechanism) -> tuple[str, ...]:
-    """Return dimensions that do not balance, and formulas that print something else than they compute.
+    """Return dimensions that do not balance, and formulas that print something else than they compute, each with file and line.
 
     What was found is judged again where one of the plugin's files, or the program, has changed. The declarations are sound.
     """
@@ -41,7 +42,7 @@ def _known(file: Path) -> tuple[str, ...] | None:
 
 def _judged(mechanism: Mechanism) -> tuple[str, ...]:
     try:
-        found = [text for form in forms(mechanism) for text in quantities(form)]
+        found = [by_id(mechanism, text) for form in forms(mechanism) for text in quantities(form)]
     except Exception as cause:  # a formula that cannot be gone through alone
         return (f"{type(cause).__name__}: {cause}",)
     return tuple(dict.fromkeys(map(str, found)))

@@ -8,7 +8,7 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any
 
-from diecut_report.config.discovery import Discovery, DuplicateKind, Origin, UnknownKind
+from diecut_report.config.discovery import Discovery, DuplicateKind, Origin, UnknownKind, in_folder
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.kit.example_machines import machine_beside, named_machine
@@ -37,13 +37,7 @@ class FolderFirst(Discovery):
     @cached_property
     def own_kinds(self) -> dict[str, Origin]:
         """Return the kinds of the folder."""
-        if self.first is None:
-            return {}
-        alone = Discovery([self.first]).origins
-        here = self.first.resolve()
-        return {
-            kind: one for kind, found in alone.items() for one in found if Path(one.told).resolve().is_relative_to(here)
-        }
+        return {} if self.first is None else {origin.kind: origin for origin in in_folder(self.first)}
 
 
 @dataclass

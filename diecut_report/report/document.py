@@ -77,8 +77,9 @@ class ReportDocument:
 
     @property
     def face(self) -> str:
-        """The verdict as it is shown: one that passes, but not in all, is incomplete."""
-        return "incomplete" if self.status == "pass" and self.unchecked else self.status
+        """The verdict as it is shown: one that passes, but not in all or by formulas with faults, is incomplete."""
+        is_left = self.unchecked or any(part.is_doubtful for part in self.chapters)
+        return "incomplete" if self.status == "pass" and is_left else self.status
 
     @property
     def faces(self) -> Data:
@@ -118,12 +119,12 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         block=block,
         press=results["press"],
         status=results["status"],
-        verdict=words[_verdict(results, every)],
+        verdict=words[_verdict(results, every, any(part.is_doubtful for part in chapters))],
         counts=[*_counts(every, chapters, words), *_left_out(results)],
         governing=_governing(results, checks),
         checks=checks,
         unchecked=[row for row in every if row.status == "not_checked"],
-        notes=[*_shown(whole, words), *_notes(every, words), *followed_line(results, words)],
+        notes=[*_doubts(chapters, words), *_shown(whole, words), *_notes(every, words), *followed_line(results, words)],
         failures=_failures(checks),
         press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
         chapters=chapters,
@@ -139,7 +140,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
     )
 
 
-def _verdict(results: Data, checks: list[CheckRow]) -> str:
+def _verdict(results: Data, checks: list[CheckRow], is_doubtful: bool) -> str:
     """The key of the words for the whole; where nothing is checked nothing has passed, and where not all is, not all has."""
     is_made, is_left = any(row.is_made for row in checks), any(row.status == "not_checked" for row in checks)
     status = results["status"]
@@ -147,6 +148,8 @@ def _verdict(results: Data, checks: list[CheckRow]) -> str:
         return "verdict_nothing" if is_left else "no_checks"
     if status in ("pass", "warn") and is_left:
         return "verdict_unchecked" if status == "pass" else "verdict_warn_unchecked"
+    if status in ("pass", "warn") and is_doubtful:
+        return "verdict_doubtful"
     of_comparisons = status == "error" and not any("error" in data for data in results["mechanisms"].values())
     return "verdict_error_comparison" if of_comparisons else f"verdict_{status}"
 
@@ -194,6 +197,12 @@ def _notes(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
     held = sum(row.is_self_test and row.status == "pass" for row in checks)
     if held:
         yield words.say("self_tests", n=held)
+
+
+def _doubts(chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:
+    """Which plugins have faults in their formulas."""
+    for kind in dict.fromkeys(part.kind for part in chapters if part.is_doubtful):
+        yield words.say("doubtful_plugin", kind=kind)
 
 
 def _shown(whole: Scope, words: Catalogue) -> Iterator[str]:

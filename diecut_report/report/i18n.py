@@ -27,6 +27,8 @@ ENGLISH: dict[str, str] = {
     "verdict_pass": "All checks pass.", "verdict_warn": "All checks pass, with warnings.", "verdict_fail": "Checks fail.",
     "verdict_unchecked": "No check fails, but not everything is checked.",
     "verdict_warn_unchecked": "No check fails, but some warn, and not everything is checked.", "verdict_nothing": "Nothing is checked.",
+    "verdict_doubtful": "No check fails, but formulas of a plugin have faults.",
+    "doubtful_plugin": "The formulas of the plugin of {kind} have faults: do not rely on its results.",
     "verdict_error": "Not all mechanisms could be calculated.", "verdict_error_comparison": "Not all comparisons could be calculated.",
     "count_fail": "{n} of {total} checks fail",
     "count_warn": "{n} with a warning", "count_pass": "{n} pass",

@@ -177,6 +177,11 @@ class PrintedChapter:
     headings: list[Heading] = field(default_factory=list)
 
     @property
+    def is_doubtful(self) -> bool:
+        """Whether the formulas of its plugin have faults."""
+        return self.source_check == "failed"
+
+    @property
     def lost(self) -> bool:
         """Whether it could not be calculated."""
         return self.status in ("error", "skipped")
@@ -192,8 +197,9 @@ class PrintedChapter:
 
     @property
     def face(self) -> str:
-        """The verdict as it is shown: one that passes, but not in all, is incomplete."""
-        return "incomplete" if self.status == "pass" and self.count("not_checked") else self.status
+        """The verdict as it is shown: one that passes, but not in all or by formulas with faults, is incomplete."""
+        is_left = self.is_doubtful or self.count("not_checked")
+        return "incomplete" if self.status == "pass" and is_left else self.status
 
 
 def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:

@@ -49,10 +49,11 @@ def title_block(results: Data, words: Catalogue) -> TitleBlock:
 
 
 def held(results: Data) -> bool:
-    """Return whether a calculation cannot be released: a check fails, is not made, or something could not be calculated."""
+    """Return whether a calculation cannot be released: a check fails, is not made, something could not be calculated, or formulas have faults."""
     calculated = (*results["mechanisms"].values(), *results.get("comparisons", {}).values())
     is_left = any(check["status"] == "not_checked" for data in calculated for check in data.get("checks", ()))
-    return is_left or results["status"] not in ("pass", "warn")
+    is_doubtful = any(data.get("plugin_check") == "failed" for data in calculated)
+    return is_left or is_doubtful or results["status"] not in ("pass", "warn")
 
 
 def _texts(project: Data, words: Catalogue) -> Data:

@@ -23,6 +23,7 @@ from diecut_report.declaration.texts import texts
 from diecut_report.engine import Impossible, Unproven, calculate
 from diecut_report.errors import UserError
 from diecut_report.formula_checks import forms, printing, quantities
+from diecut_report.formula_checks.fault_places import at_place, by_id
 from diecut_report.formula_checks.idle import idle_inputs
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, built_in, languages
 from diecut_report.languages.phrases import Counted, Phrase, phrase
@@ -34,7 +35,7 @@ from diecut_report.study.execution.time_limit import Overran, limited
 from diecut_report.testing.extreme_inputs import alone_with_its_needs, extremes_of, fault_of, input_of, with_value
 from diecut_report.testing.many_machines import MachineCase, one_of, unlike
 from diecut_report.testing.single_machine import Keys, WithMechanism, configured
-from diecut_report.testing.tried_rules import TITLES, TriedRule, at_place, by_id, rule
+from diecut_report.testing.tried_rules import TITLES, TriedRule, rule
 
 TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
 EXTREMES, BUDGET = 120, 60.0  # single extreme values that are tried at most, and the seconds for them

@@ -10,6 +10,7 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.kit.checking import meant
 from diecut_report.kit.scaffold import contents
 from diecut_report.testing import ContractTest, check_contract
 from diecut_report.testing.tried_rules import TITLES, TriedRule
@@ -193,3 +194,15 @@ def test_what_cannot_be_asked_ends_with_2(
 @pytest.mark.parametrize("kind", ["clutch", "geneva_transport", "platen_press", "parallel_key"])
 def test_kinds_of_the_program_hold_the_rules(tmp_path: Path, capfd: Capture, kind: str) -> None:
     assert main(["check-plugin", kind, "-o", str(tmp_path / "page.html")]) == 0, capfd.readouterr().out
+
+
+@pytest.mark.parametrize("as_package", [False, True])
+def test_the_folder_where_one_stands_has_its_own_kinds_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, as_package: bool
+) -> None:
+    for place, content in contents("toggle", as_package=as_package).items():
+        (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / place).write_text(content, "utf-8")
+    monkeypatch.chdir(tmp_path)
+    known, kinds = meant(".", ())
+    assert kinds == ["toggle"] and known.mechanism("toggle").kind == "toggle"

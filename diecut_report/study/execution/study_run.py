@@ -13,6 +13,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.model import PRESS
+from diecut_report.config.source_hashes import plugin_faults
 from diecut_report.contract.inputs import Quantity
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.study_file import Study
@@ -77,6 +78,9 @@ class StudyOutcome:
     broken: dict[str, str] = field(default_factory=dict)  # plugins that broke for some variants, and why
     broken_reports: dict[str, str] = field(default_factory=dict)  # plugins that broke in full reports, and why
     notes: tuple[str, ...] = ()  # what else the user should know
+    doubtful: dict[str, list[str]] = field(
+        default_factory=dict
+    )  # foreign plugins whose formulas have faults, and which
     overran: int = 0  # chunks that were ended for taking too long
 
     @property
@@ -114,7 +118,7 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
         finally:  # an interrupted run has spent its time too
             noted()
         store.finish({}, without_value(study))
-    return StudyOutcome(store, store.state["counts"], slow, broken, overran=overran)
+    return StudyOutcome(store, store.state["counts"], slow, broken, doubtful=_doubtful(study), overran=overran)
 
 
 def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterator[worker.Done]:
@@ -210,6 +214,12 @@ def _versions(study: Study) -> dict[str, str]:
     return {mechanism.kind: mechanism.version for mechanism in made if mechanism}
 
 
+def _doubtful(study: Study) -> dict[str, list[str]]:
+    """The kinds of foreign plugins whose formulas have faults, with these."""
+    made = [instance.mechanism for instance in study.base.instances.values() if instance]
+    return {each.kind: list(faults) for each in made if each and (faults := plugin_faults(each))}
+
+
 def varied_columns(study: Study) -> list[ResultColumn]:
     """Return a column for each varied path."""
     return [_varied(path, asked) for path, asked in study.inputs.items()]
@@ -240,5 +250,6 @@ def facts(study: Study) -> Mapping[str, Any]:
     """Return what else the summary and questions need to know of the study."""
     objectives = [{"minimise" if each.minimise else "maximise": each.output} for each in study.objectives]
     known: dict[str, Any] = {"varied": list(study.inputs), "objectives": objectives}
+    known |= {"doubtful": found} if (found := _doubtful(study)) else {}
     design = getattr(study.sample, "design", None)
     return known | ({"design": "saltelli", "n": design.points} if design else {})

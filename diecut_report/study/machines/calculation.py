@@ -25,7 +25,7 @@ BAD, BROKEN = "bad", "error"  # states beside pass, warn and fail: the file is b
 
 @dataclass
 class CheckedMachine:
-    """Hold what came out of a configuration: its results without curves and print, or the words of what is wrong with it."""
+    """Hold what came out of a configuration: its results without curves and print, and the words of what is wrong with it."""
 
     file: str
     status: str
@@ -104,7 +104,7 @@ def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMa
     except UserError as error:
         return CheckedMachine(file, BAD, {}, [str(problem) for problem in _all_faults(given, discovery, error)])
     status = BROKEN if outcome.broken else str(outcome.results["status"])
-    return CheckedMachine(file, status, _lean(outcome.results), [str(error) for error in outcome.broken])
+    return CheckedMachine(file, status, _lean(outcome.results), [*map(str, outcome.broken), *outcome.warnings])
 
 
 def _all_faults(given: Path | Tree, discovery: Discovery, error: UserError) -> Sequence[Problem]:

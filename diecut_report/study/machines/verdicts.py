@@ -12,6 +12,7 @@ from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import localised
 from diecut_report.quantities.units import pretty
 from diecut_report.report.translated import translated
+from diecut_report.results.doubtful_plugins import doubtful_kinds
 from diecut_report.results.summary import SELF_TEST
 from diecut_report.study.machines.calculation import BAD, BROKEN, CheckedMachine
 
@@ -30,7 +31,7 @@ STATES = {
 
 @dataclass(frozen=True)
 class Verdict:
-    """Hold a machine's line of the table of verdicts; ``words`` say what is wrong with a bad file, or which plugin broke."""
+    """Hold a machine's line of the table of verdicts; ``words`` say what is wrong with a bad file, or with a plugin."""
 
     machine: str
     file: str
@@ -41,6 +42,7 @@ class Verdict:
     not_checked: int = 0
     warnings: int = 0
     words: tuple[str, ...] = ()
+    formulas_with_faults: bool = False
 
 
 @dataclass(frozen=True)
@@ -84,7 +86,7 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
         name, machine.file, machine.status, named, ratio,
         sum(check["status"] == "fail" for _, check in checks),
         machine.results.get("summary", {}).get(NOT_CHECKED, sum(check["status"] == NOT_CHECKED for _, check in checks)),
-        sum(check["status"] == "warn" for _, check in checks), tuple(machine.words),
+        sum(check["status"] == "warn" for _, check in checks), tuple(machine.words), bool(machine.results and doubtful_kinds(machine.results)),
     )  # fmt: skip
 
 

@@ -87,6 +87,7 @@ class StateForm(_Form):
     n: Count | None = None
     slow: dict[str, str] = {}
     broken: dict[str, str] = {}
+    doubtful: dict[str, list[str]] = {}
     seconds: Annotated[float, Field(ge=0)] = 0.0
     libraries: dict[str, list[str]] = {}
     parts: Count | None = None

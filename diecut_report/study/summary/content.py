@@ -61,6 +61,7 @@ class Summary:
     is_sobol: bool
     ranked: Ranked | None
     slow: dict[str, str]
+    doubtful: list[str]
     figures: dict[str, SummaryFigure]
     any_two: data.SampledVariants
     varied: list[StoredColumn]
@@ -84,8 +85,16 @@ class Summary:
 
     @property
     def status(self) -> str:
-        """Return what the whole looks like: pass where some variant passes."""
-        return "pass" if self.statuses["pass"] else "warn" if self.statuses["warn"] else "fail"
+        """Return what the whole looks like: pass where some variant passes, by formulas without faults."""
+        return (
+            "incomplete"
+            if self.doubtful and self.statuses["pass"]
+            else "pass"
+            if self.statuses["pass"]
+            else "warn"
+            if self.statuses["warn"]
+            else "fail"
+        )
 
 
 def content(stored: Stored) -> Summary:
@@ -133,7 +142,7 @@ def content(stored: Stored) -> Summary:
         reports=best.reports(stored, reports[: matrix.LISTED]), more_reports=max(0, len(reports) - matrix.LISTED),
         front=front, best_head=[titled(column) for column in shown], best=best.best(stored, first[: matrix.BEST], shown),
         is_sobol=influence.is_saltelli(stored), ranked=ranked(found, figures) if found else None,
-        slow=dict(stored.study.get("slow") or {}),
+        slow=dict(stored.study.get("slow") or {}), doubtful=list(stored.study.get("doubtful") or ()),
         figures=figures.all(failures, [spreads[column.name] for column in panels][:PANELS], found),
         any_two=data.sample(stored, choices, drawn), varied=stored.varied, choices=choices,
     )  # fmt: skip
