@@ -193,7 +193,7 @@ def _curves(figure: Figure) -> list[str]:
 
 def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
     named: dict[str, tuple[Any, ...]] = {"levels": panel.levels, "marks": panel.marks, "spans": panel.spans}
-    made = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
+    made: dict[str, Any] = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
         key: [plain(part, view) for part in parts] for key, parts in named.items()
     }
     made["marks"] = [
@@ -206,8 +206,9 @@ def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
 def _on_curve(mark: Mark, shown: dict[str, Any], panel: Panel, view: MachineView) -> dict[str, Any]:
     """A mark with the sign of the curve: the greatest size of a curve says nothing of the side on which it stands."""
     step = view.calc.step_or_input(mark.y)
-    is_size = isinstance(step, Reduction) and step.operation == "abs_max" and mark.x == place_name(step.id)
-    if not is_size or step.of not in [one.curve for one in panel.series]:
+    if not isinstance(step, Reduction) or step.operation != "abs_max" or mark.x != place_name(step.id):
+        return shown
+    if step.of not in [one.curve for one in panel.series]:
         return shown
     return shown | {"y": math.copysign(shown["y"], _height(step.id, step.of, view))}
 
