@@ -3,9 +3,8 @@
 In scripts and notebooks: ``import diecut_report as dr; results = dr.load("press.yaml").calculate()`` (docs/python.md).
 """
 
-from typing import TYPE_CHECKING, Any
-
 __version__ = "0.1.0"
+TYPE_CHECKING = False  # as type checkers know it; importing typing would run a file of that name in the current folder
 
 if TYPE_CHECKING:
     from diecut_report.errors import ConfigError, PluginError, Problem, UnknownName, Unwritable, UserError
@@ -64,7 +63,7 @@ _HOMES = {
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 
 
-def __getattr__(name: str) -> Any:
+def __getattr__(name: str) -> object:
     """Return what scripts use, loaded when it is asked for: the command line does without it."""
     if name not in _HOME_OF:
         raise AttributeError(f"module {__name__!r} has no attribute {name!r}")

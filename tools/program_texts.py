@@ -117,7 +117,7 @@ def _counted() -> Iterator[ProgramText]:
 def _templates() -> Iterator[ProgramText]:
     """What templates say beside the words of a report."""
     environment = Environment()
-    for file in sorted((ROOT / "templates").glob("*.j2")):
+    for file in sorted((ROOT / "templates").rglob("*.j2")):
         for call in environment.parse(file.read_text("utf-8")).find_all(nodes.Call):
             name = call.node.name if isinstance(call.node, nodes.Name) else ""
             given = [each.value for each in call.args if isinstance(each, nodes.Const)]

@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
@@ -33,6 +34,7 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     if not config.is_file():
         words = phrase("There is no such file. Check the name and the folder.")
         raise UserError(Problem(words, str(config)))
+    from diecut_report.live.application import LiveApplication
     from diecut_report.live.server import serve
     from diecut_report.live.session import LiveSession
 
@@ -48,7 +50,7 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
             tell([say("No browser could be started; open the address by hand.")])
 
     with suppress(KeyboardInterrupt):  # how one ends it
-        serve(session, folders, port, ready)
+        serve(LiveApplication(session, folders, asked_language()), port, ready)
     tell(_unwritten(session))
     return PASSED
 

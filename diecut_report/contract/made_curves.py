@@ -25,5 +25,9 @@ class MadeCurveForm:
         self: StepHolder, id: str, function: Callable[..., Any], holds: tuple[str, ...], *, for_many: bool = False,
         again: bool = False, **when: Unpack[StepCondition],
     ) -> None:  # fmt: skip
-        """Declare what plain code makes of inputs once, for steps that take it by its id: see ``Prepared``."""
+        """Declare what plain code makes of inputs once, for steps that take it by its id: see ``Prepared``; ValueError for ``again`` alone."""
+        if again and not for_many:
+            raise ValueError(
+                f"{id} is prepared again=True, which calculates all machines at once: write it for many, with for_many=True"
+            )
         self.add(Prepared(id=id, function=function, holds=holds, for_many=for_many, again=again, **when))

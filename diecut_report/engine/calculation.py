@@ -39,6 +39,10 @@ class Impossible(Exception):
         self.key, self.message = self.reasons[0]
 
 
+class ImpossibleTogether(Impossible):
+    """Report that plain code refuses many machines at once, which does not say whether each of them cannot exist."""
+
+
 class Unproven(Exception):
     """Report that a result did not meet the equation or check that proves it; nothing is printed then. ``at`` is where it is declared."""
 

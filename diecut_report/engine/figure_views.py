@@ -110,8 +110,13 @@ def figures(calc: Calculation) -> list[dict[str, Any]]:
 
     A chart to which this machine gives no panel is left out.
     """
-    found = [_guarded(calc, figure) for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
+    found = [_guarded(calc, figure) for figure in shown_figures(calc)]
     return [made for made in found if made["type"] != "chart" or made["panels"]]
+
+
+def shown_figures(calc: Calculation) -> list[Figure]:
+    """Return the declarations of the figures whose needs are given; nothing is drawn for it."""
+    return [figure for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
 
 
 def _guarded(calc: Calculation, figure: Figure) -> dict[str, Any]:

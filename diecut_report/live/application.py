@@ -33,11 +33,11 @@ AGAIN = 1.0  # seconds between looks for a folder that is gone
 
 
 class LiveApplication:
-    """Serve a session. ``folders`` are those of foreign plugins, which a report is made with."""
+    """Serve a session. ``folders`` are those of foreign plugins, which a report is made with; ``language`` is asked for it."""
 
-    def __init__(self, session: LiveSession, folders: tuple[Path, ...]) -> None:
+    def __init__(self, session: LiveSession, folders: tuple[Path, ...], language: str | None) -> None:
         self.session = session
-        self.pictures, self.reports = Pictures(), LiveReports(folders)
+        self.pictures, self.reports = Pictures(), LiveReports(folders, language)
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="live")
         self._changed = asyncio.Condition()
         self._told = -1, b""

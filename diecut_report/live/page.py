@@ -5,6 +5,8 @@ from __future__ import annotations
 from functools import cache
 from typing import NamedTuple
 
+from diecut_report.languages.speech import say, spoken_language
+from diecut_report.live.words import words
 from diecut_report.report.html import filled_page, folder
 
 FONTS = ("report-sans-regular", "report-sans-bold", "report-sans-italic", "report-symbols")
@@ -32,5 +34,5 @@ def assets() -> dict[str, Asset]:
 
 
 def page(file: str) -> bytes:
-    """Return the page for a file of this name."""
-    return filled_page("live/live.html.j2", file=file).encode()
+    """Return the page for a file of this name, in the language that is spoken."""
+    return filled_page("live/live.html.j2", file=file, language=spoken_language(), say=say, words=words()).encode()

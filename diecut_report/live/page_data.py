@@ -59,22 +59,30 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
     instance = machine.config.instances[name]
     assert instance is not None, "a machine with a broken plugin is not shown"
     run = machine.run
-    own = {"inputs": [_input(each, start, edits) for each in machine.inputs.values() if each.asked.instance == name]}
+    kind = instance.mechanism.kind if instance.mechanism else ""
+    own = {
+        "inputs": [_input(each, kind, start, edits) for each in machine.inputs.values() if each.asked.instance == name]
+    }
     if instance.mechanism is None:
         return own | {"name": name, "title": PRESS, "checks": [], "outputs": [], "figures": [], "skipped": False}
     is_there = name in run.calculations
     before = {check["id"]: check for check in start.run.checks.get(name, ())}
     return own | {
         "name": name,
-        "title": instance.mechanism.title,
+        "title": said(instance.mechanism.title, kind),
         "skipped": not is_there,
-        "checks": [_check(each, before.get(each["id"])) for each in run.checks.get(name, ()) if each["class"] != "numerical"],
-        "outputs": list(_outputs(name, machine, start)) if is_there else [],
-        "figures": [_figure(index, figure) for index, figure in enumerate(run.figures(name))] if is_there else [],
+        "checks": [_check(each, kind, before.get(each["id"])) for each in run.checks.get(name, ()) if each["class"] != "numerical"],
+        "outputs": list(_outputs(name, kind, machine, start)) if is_there else [],
+        "figures": [_told(title, kind) for title in run.figure_titles(name)] if is_there else [],
     }  # fmt: skip
 
 
-def _input(asked: DesignInput, start: LiveMachine, edits: Mapping[str, str]) -> Data:
+def _told(text: object, kind: str) -> str:
+    """A text of a plugin of this kind as the page shows it."""
+    return tidy(said(str(text or ""), kind))
+
+
+def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
     assert asked.today is not None, "a number that the file gives has a value"
     low, high = slider(asked)
     own = unit(asked.unit)
@@ -82,7 +90,7 @@ def _input(asked: DesignInput, start: LiveMachine, edits: Mapping[str, str]) -> 
     return {
         "name": asked.name,
         "path": asked.asked.path,
-        "text": tidy(asked.meta.description),
+        "text": _told(asked.meta.description, kind),
         "symbol": asked.meta.symbol,
         "unit": "" if asked.unit == "1" else asked.unit,
         "value": _plain(own.from_si(asked.today)),
@@ -115,29 +123,29 @@ def _plain(number: float) -> float:
     return float(f"{number:.12g}")
 
 
-def _check(check: Mapping[str, Any], before: Mapping[str, Any] | None) -> Data:
+def _check(check: Mapping[str, Any], kind: str, before: Mapping[str, Any] | None) -> Data:
     ratio = check.get("utilisation")
     return {
         "id": check["id"],
-        "title": tidy(str(check["title"])),
+        "title": _told(check["title"], kind),
         "class": check["class"],
         "status": check["status"],
         "utilisation": ratio if isinstance(ratio, int | float) and math.isfinite(ratio) else None,
-        "message": tidy(str(check.get("message") or "")),
-        "advice": tidy(str(check.get("advice") or "")),
+        "message": _told(check.get("message"), kind),
+        "advice": _told(check.get("advice"), kind),
         "start_status": before["status"] if before else "",
         "start_utilisation": before.get("utilisation") if before else None,
     }
 
 
-def _outputs(name: str, machine: LiveMachine, start: LiveMachine) -> Iterator[Data]:
+def _outputs(name: str, kind: str, machine: LiveMachine, start: LiveMachine) -> Iterator[Data]:
     before = start.run.outputs(name) if name in start.run.calculations else {}
     for key, output in machine.run.outputs(name).items():
         if output.get("key"):
             first = before.get(key)
             yield {
                 "id": key,
-                "text": tidy(output["description"]),
+                "text": _told(output["description"], kind),
                 "symbol": output["symbol"],
                 "shown": _shown(output),
                 "start": "" if first is None else _shown(first),
@@ -156,12 +164,3 @@ def _change(value: Any, first: Any) -> float | None:
     """By how much a number has changed since the start, as a share; None where that says nothing."""
     numbers = isinstance(value, int | float) and isinstance(first, int | float) and not isinstance(value, bool)
     return (value - first) / abs(first) if numbers and first and value != first else None
-
-
-def _figure(index: int, figure: Mapping[str, Any]) -> Data:
-    return {
-        "index": index,
-        "title": tidy(str(figure["title"])),
-        "type": figure["type"],
-        "error": figure.get("error", ""),
-    }

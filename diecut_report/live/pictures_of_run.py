@@ -21,7 +21,7 @@ class Pictures:
 
     def figure(self, machine: LiveMachine, mechanism: str, index: int) -> Data:
         """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""
-        if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figures(mechanism)):
+        if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figure_titles(mechanism)):
             raise UserError(Problem(Phrase("There is no figure {n} of {name}.", n=index, name=repr(mechanism))))
         figure = machine.run.figures(mechanism)[index]
         known = self._drawn.get((mechanism, index))

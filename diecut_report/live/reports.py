@@ -25,10 +25,10 @@ class MadeReport(NamedTuple):
 
 
 class LiveReports:
-    """Make reports, one at a time; ``folders`` are those of foreign plugins."""
+    """Make reports, one at a time, in a language or in that of the project; ``folders`` are those of foreign plugins."""
 
-    def __init__(self, folders: tuple[Path, ...]) -> None:
-        self.folders = folders
+    def __init__(self, folders: tuple[Path, ...], language: str | None) -> None:
+        self.folders, self.language = folders, language
         self._one = asyncio.Lock()
 
     async def made(self, results: dict[str, Any], form: str) -> MadeReport:
@@ -48,7 +48,8 @@ class LiveReports:
 
     async def _rendered(self, folder: Path, results: bytes, form: str) -> bytes:
         (folder / f"{NAME}.json").write_bytes(results)
-        plugins = [part for place in self.folders for part in ("--plugins", str(place.absolute()))]
+        options = [part for place in self.folders for part in ("--plugins", str(place.absolute()))]
+        options += ["--language", self.language] if self.language else []
         command = [
             sys.executable,
             "-P",
@@ -62,7 +63,7 @@ class LiveReports:
             form,
             "--quiet",
         ]
-        process = await asyncio.create_subprocess_exec(*command, *plugins, cwd=folder, stdin=asyncio.subprocess.DEVNULL,
+        process = await asyncio.create_subprocess_exec(*command, *options, cwd=folder, stdin=asyncio.subprocess.DEVNULL,
                                                        stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE)  # fmt: skip
         try:
             _, told = await process.communicate()

@@ -6,7 +6,6 @@ import errno
 import secrets
 import socket
 from collections.abc import Callable
-from pathlib import Path
 
 import uvicorn
 
@@ -14,17 +13,15 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.live.application import LiveApplication
 from diecut_report.live.guard import Guard
-from diecut_report.live.session import LiveSession
 
 HOST = "127.0.0.1"
 ENDING = 2  # seconds that open answers have at the end
 
 
-def serve(session: LiveSession, folders: tuple[Path, ...], port: int, ready: Callable[[str], None]) -> None:
-    """Serve the session until Ctrl-C; ``ready`` is called with the address. UserError where the port cannot be had."""
+def serve(application: LiveApplication, port: int, ready: Callable[[str], None]) -> None:
+    """Serve a session until Ctrl-C; ``ready`` is called with the address. UserError where the port cannot be had."""
     with _bound(port) as listening:
         own, token = int(listening.getsockname()[1]), secrets.token_urlsafe(24)
-        application = LiveApplication(session, folders)
         guarded = Guard(application.starlette, own, token)
         settings = uvicorn.Config(guarded, log_level="critical", access_log=False, server_header=False, date_header=False,
                                   timeout_graceful_shutdown=ENDING, lifespan="on", ws="none")  # fmt: skip

@@ -30,7 +30,7 @@ from diecut_report.contract.inputs import Block, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, calculate
 from diecut_report.engine.chosen_units import ChosenUnits
-from diecut_report.engine.figure_views import figures
+from diecut_report.engine.figure_views import figures, shown_figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.results.checks import check_results
 from diecut_report.results.curves import curves
@@ -180,6 +180,10 @@ class WarmRun(Run):
         """Return the figures of a mechanism."""
         found: list[Data] = self.remembered[name].of(figures)
         return found
+
+    def figure_titles(self, name: str) -> list[str]:
+        """Return the titles of ``figures``, in their order; no figure is made for it."""
+        return [figure.title for figure in shown_figures(self.calculations[name])]
 
     def sections(self, name: str) -> list[Data]:
         """Return the printed calculation of a mechanism."""

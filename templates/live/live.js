@@ -2,9 +2,12 @@
 (function () {
   "use strict";
   var MARKS = { pass: "✓", warn: "!", fail: "✗", error: "✗", skipped: "–", not_checked: "?" };
-  var VERDICTS = { pass: "No check fails", warn: "No check fails, some warn", fail: "Checks fail", error: "Not all mechanisms could be calculated" };
+  var WORDS = JSON.parse(document.body.dataset.words);
   var byId = function (id) { return document.getElementById(id); };
   var state = null, open = null, chosen = null, effect = null, sending = false, waiting = {}, shownFigures = {}, isLost = false;
+
+  /* A text of the page in its language, its places filled. */
+  function t(name, values) { return WORDS[name].replace(/\{(\w+)\}/g, function (place, key) { return String(values[key]); }); }
 
   function make(name, attributes, children) {
     var node = document.createElement(name);
@@ -34,13 +37,13 @@
   function post(path, body) {
     return fetch(path, { method: "POST", headers: { "Content-Type": "application/json" }, body: JSON.stringify(body || {}) }).then(function (answer) {
       if (answer.status === 422) { return answer.json().then(function (told) { throw told; }); }
-      if (!answer.ok) { throw { refused: "The program does not take this (" + answer.status + ")." }; }
+      if (!answer.ok) { throw { refused: t("refused", { status: answer.status }) }; }
       say("");
       return answer.json();
     });
   }
 
-  function failed(fault) { say(fault.refused || "The program does not answer; is it still running?"); }
+  function failed(fault) { say(fault.refused || t("no_answer")); }
 
   /* One request at a time: what is moved meanwhile is sent with the next. */
   function send() {
@@ -69,22 +72,22 @@
   /* ---- what is told ---- */
   function verdict() {
     var machine = state.machine, summary = machine && machine.summary, status = state.faults.length ? "error" : machine.status;
-    var line = byId("verdict"), words = "The file cannot be calculated";
+    var line = byId("verdict"), words = t("verdict_fault");
     line.querySelector(".mark").className = "mark s-" + status;
     line.querySelector(".mark").textContent = MARKS[status];
     if (!state.faults.length) {
-      words = VERDICTS[status] + ": " + summary.pass + " pass";
-      if (summary.warn) { words += ", " + summary.warn + " warn"; }
-      if (summary.fail) { words += ", " + summary.fail + " fail"; }
-      if (summary.not_checked) { words += ", " + summary.not_checked + " not checked"; }
-      if (summary.governing) { words += "; governing: " + summary.governing; }
-      if (machine.start.summary.fail !== summary.fail) { words += " (at the start " + machine.start.summary.fail + " failed)"; }
+      words = t("verdict_" + status) + ": " + t("count_pass", { n: summary.pass });
+      if (summary.warn) { words += ", " + t("count_warn", { n: summary.warn }); }
+      if (summary.fail) { words += ", " + t("count_fail", { n: summary.fail }); }
+      if (summary.not_checked) { words += ", " + t("count_not_checked", { n: summary.not_checked }); }
+      if (summary.governing) { words += "; " + t("governing", { check: summary.governing }); }
+      if (machine.start.summary.fail !== summary.fail) { words += " (" + t("failed_before", { n: machine.start.summary.fail }) + ")"; }
     }
     line.querySelector(".words").textContent = words;
     document.body.classList.toggle("stale-state", state.faults.length > 0);
     var count = Object.keys(state.edits).length;
     byId("write").disabled = byId("back").disabled = !count;
-    byId("write").textContent = count ? "Write " + count + " to file" : "Write to file";
+    byId("write").textContent = count ? t("write_n", { n: count }) : t("write");
     document.title = (MARKS[status] || "") + " " + state.file;
     byId("title").textContent = machine ? machine.title : state.file;
   }
@@ -97,7 +100,7 @@
       var place = fault.line ? state.file + ":" + fault.line + (fault.column ? ":" + fault.column : "") + " " : "";
       return make("li", {}, [make("span", { "class": "place" }, place), fault.path ? fault.path + ": " : "", fault.text]);
     }));
-    if (state.more_faults) { list.append(make("li", {}, "and " + state.more_faults + " more")); }
+    if (state.more_faults) { list.append(make("li", {}, t("more_faults", { n: state.more_faults }))); }
   }
 
   function worst(mechanism) {
@@ -132,14 +135,14 @@
       rows.replaceChildren.apply(rows, own.map(inputRow));
     }
     own.forEach(function (each, index) { fill(rows.children[index], each); });
-    if (!own.length) { rows.replaceChildren(make("p", { "class": "hint" }, "The file gives no number here that is not taken from elsewhere.")); }
+    if (!own.length) { rows.replaceChildren(make("p", { "class": "hint" }, t("no_inputs"))); }
   }
 
   function inputRow(each) {
     var id = "in-" + each.name.replace(/\W/g, "-");
-    var slider = make("input", { type: "range", "aria-label": each.text + ", slider" });
+    var slider = make("input", { type: "range", "aria-label": t("slider", { input: each.text }) });
     var typed = make("input", { type: "text", id: id, autocomplete: "off", spellcheck: "false", maxlength: "100" });
-    var back = make("button", { type: "button", title: "Take back", "aria-label": "Take back " + each.text }, "↺");
+    var back = make("button", { type: "button", title: t("take_back"), "aria-label": t("take_back_of", { input: each.text }) }, "↺");
     var row = make("div", { "class": "input", "data-name": each.name }, [
       make("label", { "for": id }, [each.text + " "].concat(each.symbol ? sign(each.symbol) : [])),
       make("div", { "class": "line" }, [slider, typed, back]), make("div", { "class": "was" }), make("div", { "class": "wrong", role: "alert" })]);
@@ -167,7 +170,7 @@
     row.classList.toggle("edited", isEdited);
     row.classList.toggle("chosen", each.name === chosen);
     row.querySelector("button").hidden = !isEdited;
-    row.querySelector(".was").textContent = each.start && each.start !== each.typed ? "at the start " + each.start : "";
+    row.querySelector(".was").textContent = each.start && each.start !== each.typed ? t("before", { value: each.start }) : "";
   }
 
   /* 1, 2 or 5 of a power of ten, not above the size. */
@@ -204,7 +207,7 @@
     var known = found.utilisation.filter(function (y) { return y !== null; }), svg = drawn("svg", { "class": "effect", viewBox: "0 0 130 26", role: "img" });
     var moves = known.length && Math.max.apply(null, known) - Math.min.apply(null, known) > 1e-4 * Math.max(1, Math.abs(known[0]));
     if (!moves) { return ""; }
-    svg.setAttribute("aria-label", "utilisation from " + percent(found.utilisation[0]) + " to " + percent(found.utilisation[found.utilisation.length - 1]));
+    svg.setAttribute("aria-label", t("effect_line", { first: percent(found.utilisation[0]), last: percent(found.utilisation[found.utilisation.length - 1]) }));
     svg.append(drawn("path", { "class": "limit", d: "M0 " + up(1) + "H130" }));
     var path = "", isPen = false;
     found.utilisation.forEach(function (y, index) {
@@ -225,16 +228,16 @@
     });
     var rank = { fail: 0, warn: 1, pass: 2, not_checked: 3 };
     rows.sort(function (a, b) { return rank[a[1].status] - rank[b[1].status] || (b[1].utilisation || 0) - (a[1].utilisation || 0); });
-    byId("effect-head").textContent = input ? "Effect of " + chosen : "Effect";
+    byId("effect-head").textContent = input ? t("effect_of", { input: chosen }) : t("effect");
     byId("checks").tBodies[0].replaceChildren.apply(byId("checks").tBodies[0], rows.map(function (row) {
       var each = row[0], check = row[1], words = [check.message, check.advice].filter(Boolean).join(" ");
       var title = (every ? each.name + ": " : "") + check.title, was = check.start_status;
       var told = make("td", {}, words ? make("details", {}, [make("summary", {}, title), make("p", {}, words)]) : title);
       var isOther = was && (was !== check.status || percent(check.start_utilisation) !== percent(check.utilisation));
       return make("tr", { "data-check": each.name + "." + check.id }, [
-        make("td", {}, [mark(check.status), " " + check.status.replace("_", " ")]), told,
+        make("td", {}, [mark(check.status), " " + t("status_" + check.status)]), told,
         make("td", { "class": "number" }, percent(check.utilisation)),
-        make("td", { "class": "number" + (isOther ? " changed" : "") }, was ? [mark(was), " " + percent(check.start_utilisation)] : "new"),
+        make("td", { "class": "number" + (isOther ? " changed" : "") }, was ? [mark(was), " " + percent(check.start_utilisation)] : t("absent_before")),
         make("td", {}, input ? line(each.name + "." + check.id, input.value) : "")]);
     }));
   }
@@ -255,12 +258,12 @@
   }, { rootMargin: "200px" });
 
   function figures() {
-    var box = byId("figures"), wanted = current().figures.map(function (each) { return open + "/" + each.index; });
+    var box = byId("figures"), wanted = current().figures.map(function (title, index) { return open + "/" + index; });
     var there = Array.from(box.children).map(function (figure) { return figure.dataset.figure; });
     if (there.join() !== wanted.join()) {
       Array.from(box.children).forEach(function (figure) { sight.unobserve(figure); clear(figure); });
-      box.replaceChildren.apply(box, current().figures.map(function (each) {
-        var figure = make("figure", { "data-figure": open + "/" + each.index }, [make("figcaption", {}, each.title), make("div", { "class": "picture" }, make("span", { "class": "waiting" }, "drawing …"))]);
+      box.replaceChildren.apply(box, current().figures.map(function (title, index) {
+        var figure = make("figure", { "data-figure": open + "/" + index }, [make("figcaption", {}, title), make("div", { "class": "picture" }, make("span", { "class": "waiting" }, t("drawing")))]);
         sight.observe(figure);
         return figure;
       }));
@@ -361,9 +364,9 @@
     asks();
     document.body.dataset.serial = state.serial;
   };
-  source.onerror = function () { isLost = true; say("The program does not answer; the page goes on when it is there again."); };
+  source.onerror = function () { isLost = true; say(t("lost")); };
 
-  byId("write").addEventListener("click", function () { post("write").then(function () { say("Written to " + state.file + "."); }, failed); });
+  byId("write").addEventListener("click", function () { post("write").then(function () { say(t("written", { file: state.file })); }, failed); });
   byId("back").addEventListener("click", function () { post("back").catch(failed); });
   byId("all-checks").addEventListener("change", checks);
 })();

@@ -25,6 +25,7 @@ MIXED = re.compile(r"[а-яіїєґА-ЯІЇЄҐ][a-zA-Z]|[a-zA-Z][а-яіїєґ
 TYPED = re.compile(r"`[^`]*`")  # what is typed stands as it is
 SIGNS = re.compile(r"['\"“”]|  ")  # the apostrophe is ’, quotation marks are « »
 ADDED_NUMBERS = {
+    "`3,17`",  # two numbers, typed
     "figure 2a",
     "figure 2b",
     "figure 2c",

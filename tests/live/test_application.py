@@ -25,9 +25,9 @@ SECONDS = 120
 class Server:
     """The command as a process, with its address."""
 
-    def __init__(self, file: Path) -> None:
+    def __init__(self, file: Path, *options: str) -> None:
         self.file = file
-        command = [sys.executable, "-m", "diecut_report", "live", str(file), "--no-open", "--quiet"]
+        command = [sys.executable, "-m", "diecut_report", "live", str(file), "--no-open", "--quiet", *options]
         self.process = subprocess.Popen(command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, encoding="utf-8")
         assert self.process.stdout is not None
         address = urlsplit(self.process.stdout.readline().strip())
@@ -105,6 +105,22 @@ def _follow(server: Server, events: Iterator[dict[str, object]]) -> None:
     assert next(events)["edits"] == {"knife.depth": "111 mm"}
     server.asked("POST", f"{server.path}write")
     assert next(events)["edits"] == {} and "111 mm" in server.file.read_text("utf-8")
+
+
+def test_page_script_numbers_and_refusals_are_in_the_language_that_is_asked_for(tmp_path: Path) -> None:
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    server = Server(file, "--language", "uk")
+    try:
+        _, page = server.asked("GET", server.path)
+        with closing(server.events()) as events:
+            told = json.dumps(next(events)["machine"], ensure_ascii=False)
+        _, refused = server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "5 kg"}})
+    finally:
+        server.process.kill()
+        server.process.communicate()
+    assert '<html lang="uk">' in page and "Записати у файл" in page and "Програма не відповідає" in page
+    assert "Рух протягом розрізу" in told and "маса" in json.loads(refused)["refused"]
 
 
 def test_ctrl_c_ends_it_and_tells_what_is_not_written(tmp_path: Path) -> None:

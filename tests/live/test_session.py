@@ -2,13 +2,16 @@
 
 from __future__ import annotations
 
+import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.errors import UserError
+from diecut_report.languages.speech import speaking
 from diecut_report.live.effects import effect
 from diecut_report.live.page_data import page_data
 from diecut_report.live.pictures_of_run import Pictures
@@ -19,6 +22,7 @@ from diecut_report.results.warm_press import WarmRun
 from tests.configs import EXAMPLES
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
+CYRILLIC = re.compile("[а-яіїєґ]")
 
 
 @pytest.fixture
@@ -31,6 +35,13 @@ def session(tmp_path: Path) -> LiveSession:
 def force(session: LiveSession) -> float:
     assert session.machine is not None
     return float(session.machine.run.outputs("knife")["force_max"]["value"])
+
+
+def shown_of(session: LiveSession, mechanism: str) -> dict[str, Any]:
+    found: dict[str, Any] = next(
+        each for each in page_data(session)["machine"]["mechanisms"] if each["name"] == mechanism
+    )
+    return found
 
 
 def replaced(session: LiveSession, old: str, new: str) -> None:
@@ -145,6 +156,25 @@ def test_the_effect_of_an_input_is_that_of_machines_calculated_one_by_one(sessio
         for check in session.machine.run.checks["knife"]:
             if (name := f"knife.{check['id']}") in lines and check["status"] != "not_checked":
                 assert lines[name][place] == pytest.approx(check["utilisation"], rel=1e-3), name
+
+
+def test_the_page_names_the_figures_of_a_mechanism_and_makes_none(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    assert session.machine is not None
+    titles = [figure["title"] for figure in session.machine.run.figures("knife")]
+    session.change({"knife.eccentricity": "22 mm"})
+    monkeypatch.setattr(WarmRun, "figures", lambda *_: pytest.fail("a figure is made that nobody looks at"))
+    assert shown_of(session, "knife")["figures"] == titles
+
+
+def test_what_it_shows_is_told_in_the_language_that_is_spoken(session: LiveSession) -> None:
+    with speaking("uk"):
+        knife = shown_of(session, "knife")
+    described = [each["text"] for part in ("inputs", "outputs") for each in knife[part]]
+    told = [knife["title"], *knife["figures"], *described]
+    told += [text for check in knife["checks"] for text in (check["title"], check["message"]) if text]
+    assert len(told) > 30 and [text for text in told if not CYRILLIC.search(text)] == []
 
 
 def test_figures_are_curves_or_drawings_and_drawn_once_for_a_machine(session: LiveSession) -> None:

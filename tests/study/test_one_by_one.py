@@ -60,3 +60,27 @@ def test_machines_that_refer_to_a_calculated_text_are_calculated_one_by_one(tmp_
     )
     assert list(rows.errors) == [None, None]
     assert list(rows.columns["a.size"]) == ["small", "large"]
+
+
+TEETH = """\
+schema_version: 1
+project: {title: Test}
+press: {name: P, productivity: 6000 1/h, sheet: {length: 700 mm, thickness: 0.6 mm}}
+mechanisms:
+  gears: {kind: gears, ratio: 1.2, most: 50}
+"""
+
+
+def test_a_machine_that_array_code_refuses_costs_no_other(tmp_path: Path) -> None:
+    """The example of the reference: 17 to 30 teeth, so that a ratio of 9.9 has no wheel of at most 50 teeth."""
+    folder = tmp_path / "plugins"
+    folder.mkdir()
+    example = Path(__file__).parents[2] / "docs" / "reference" / "examples" / "Computed.py"
+    (folder / "gears.py").write_text(example.read_text("utf-8"), "utf-8")
+    known = study(tmp_path, varied("[1.2, 2.0, 9.9]", path="mechanisms.gears.ratio"), TEETH, Discovery([folder]))
+    path = "mechanisms.gears.ratio"
+    rows = calculate_rows(known.base, {known.inputs[path]: known.sample.rows(0, 3)[path]}, 3)
+    assert [str(each) for each in rows.status] == ["pass", "pass", "error"]
+    assert "is too great for the wheels" in rows.errors[2] and list(rows.errors[:2]) == [None, None]
+    assert list(rows.columns["gears.driven_teeth"][:2]) == [24, 34]
+    assert "it refuses some of many" in rows.slow["gears"]

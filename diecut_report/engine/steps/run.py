@@ -36,7 +36,7 @@ from diecut_report.contract.steps import (
     Value,
     Words,
 )
-from diecut_report.engine.calculation import Calculation, Impossible, SampledCurve
+from diecut_report.engine.calculation import Calculation, Impossible, ImpossibleTogether, SampledCurve
 from diecut_report.engine.numerics import extrema, roots_integrals
 from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.steps import (
@@ -84,7 +84,7 @@ def calculate(
                     smooth_pieces.require(calc, step.id, step.of)
                 RUN[type(step)](calc, step)
             except Impossible as first:
-                raise Impossible([*first.reasons, *feasibility.reasons(calc, steps[i + 1 :])]) from None
+                raise type(first)([*first.reasons, *feasibility.reasons(calc, steps[i + 1 :])]) from None
             finite(calc, step)
             whole(calc, step)
             named_parts.name_row(calc, step)
@@ -208,21 +208,22 @@ def _prepared(calc: Calculation, step: Prepared) -> None:
     if step.again:
         known["again"] = Again(calc, calculate)
     alone = calc.count == 1 or step.for_many
-    calc.inputs[step.id] = _called(step, [known]) if alone else one_by_one.prepared(calc, step, known)
+    calc.inputs[step.id] = _called(calc, step, [known]) if alone else one_by_one.prepared(calc, step, known)
 
 
 def _made_curve(calc: Calculation, step: MadeCurve) -> None:
     if calc.count > 1:
         raise TypeError(f"{step.id} is made for one machine, and was asked for {calc.count}")
-    calc.inputs[step.id] = _called(step, [calc[name] for name in step.takes])
+    calc.inputs[step.id] = _called(calc, step, [calc[name] for name in step.takes])
     _from_curve(calc, step)
 
 
-def _called(step: Computed | MadeCurve | Prepared, taken: list[Any]) -> Any:
+def _called(calc: Calculation, step: Computed | MadeCurve | Prepared, taken: list[Any]) -> Any:
     try:
         return step.function(*taken)
     except Refusal as refused:
-        raise Impossible([(refused.key, refused.words)]) from None
+        kind = Impossible if calc.count == 1 else ImpossibleTogether
+        raise kind([(refused.key, refused.words)]) from None
 
 
 def _laid_out(calc: Calculation, step: FromCurve, shares: Array) -> Array:
@@ -250,7 +251,7 @@ def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
 def _computed(calc: Calculation, step: Computed) -> None:
     taken = [calc[name] for name in step.takes]
     of_each = any(isinstance(each, Machines) for each in taken)
-    found = one_by_one.computed(calc, step, taken) if of_each else _called(step, taken)
+    found = one_by_one.computed(calc, step, taken) if of_each else _called(calc, step, taken)
     if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):
         raise TypeError(f"{step.id} was given {calc.count} machines and has one value for all")
     if step.is_text:

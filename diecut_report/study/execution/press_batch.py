@@ -18,7 +18,7 @@ from diecut_report.config.validation import declared, validate
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import SI, Quantity, flatten
 from diecut_report.contract.phases import PREFIX
-from diecut_report.engine import Calculation, Impossible, Unproven, calculate
+from diecut_report.engine import Calculation, Impossible, ImpossibleTogether, Unproven, calculate
 from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
@@ -200,6 +200,8 @@ class _Rows(Run):
         try:
             with of_plugin(instance.mechanism.kind):
                 found = calculate(instance.mechanism, flatten(block), self.variants.count)
+        except ImpossibleTogether as fault:
+            raise NotOnArrays(instance.mechanism.kind, f"it refuses some of many: {fault.reasons[0][1]}") from fault
         except (Impossible, Unproven) as fault:
             self._alone(name, instance, fault)
             return
