@@ -111,7 +111,7 @@ def figures(calc: Calculation) -> list[dict[str, Any]]:
     A chart to which this machine gives no panel is left out.
     """
     found = [_guarded(calc, figure) for figure in shown_figures(calc)]
-    return [made for made in found if "error" in made or made["type"] != "chart" or made["panels"]]
+    return [made for made in found if made["type"] != "chart" or made["panels"]]
 
 
 def shown_figures(calc: Calculation) -> list[Figure]:
@@ -198,7 +198,7 @@ def _curves(figure: Figure) -> list[str]:
 
 def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
     named: dict[str, tuple[Any, ...]] = {"levels": panel.levels, "marks": panel.marks, "spans": panel.spans}
-    made = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
+    made: dict[str, Any] = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
         key: [plain(part, view) for part in parts] for key, parts in named.items()
     }
     made["marks"] = [
@@ -211,8 +211,9 @@ def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
 def _on_curve(mark: Mark, shown: dict[str, Any], panel: Panel, view: MachineView) -> dict[str, Any]:
     """A mark with the sign of the curve: the greatest size of a curve says nothing of the side on which it stands."""
     step = view.calc.step_or_input(mark.y)
-    is_size = isinstance(step, Reduction) and step.operation == "abs_max" and mark.x == place_name(step.id)
-    if not is_size or step.of not in [one.curve for one in panel.series]:
+    if not isinstance(step, Reduction) or step.operation != "abs_max" or mark.x != place_name(step.id):
+        return shown
+    if step.of not in [one.curve for one in panel.series]:
         return shown
     return shown | {"y": math.copysign(shown["y"], _height(step.id, step.of, view))}
 
