@@ -206,3 +206,14 @@ def test_the_folder_where_one_stands_has_its_own_kinds_alone(
     monkeypatch.chdir(tmp_path)
     known, kinds = meant(".", ())
     assert kinds == ["toggle"] and known.mechanism("toggle").kind == "toggle"
+
+
+def test_a_list_without_parts_is_refused_in_words(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path)
+    example = home / "examples" / "toggle.yaml"
+    parts = "    springs:\n      - {wire: 3 mm, coil: 24 mm, turns: 8}\n      - {wire: 2.5 mm, coil: 20 mm, turns: 6}\n"
+    text = example.read_text("utf-8")
+    assert parts in text
+    example.write_text(text.replace(parts, "    springs: []\n"), "utf-8")
+    assert main(["calc", str(example), "--plugins", str(home), "--quiet"]) == 2
+    assert "toggle.yaml:16:14: mechanisms.toggle.springs: is empty; give at least one" in capfd.readouterr().err

@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.code_steps import ComputedCurve, Fact, PartCurves, PartNames, PartTable
+from diecut_report.contract.inputs import list_inputs
 from diecut_report.contract.listings import Listing
 from diecut_report.contract.machines import Machines
 from diecut_report.contract.mechanism import Mechanism
@@ -57,6 +58,8 @@ from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import pretty, unit
 
+EMPTY = "is empty; give at least one"
+
 
 def calculate(
     mechanism: Mechanism, values: Mapping[str, Any], variants: int = 1, only: Container[str] | None = None
@@ -83,6 +86,8 @@ def calculate(
                 if isinstance(step, prefetch.Asking):
                     smooth_pieces.require(calc, step.id, step.of)
                 RUN[type(step)](calc, step)
+            except KeyError as missing:
+                raise _empty_list(calc, missing) from None
             except Impossible as first:
                 raise type(first)([*first.reasons, *feasibility.reasons(calc, steps[i + 1 :])]) from None
             finite(calc, step)
@@ -216,6 +221,13 @@ def _made_curve(calc: Calculation, step: MadeCurve) -> None:
         raise TypeError(f"{step.id} is made for one machine, and was asked for {calc.count}")
     calc.inputs[step.id] = _called(calc, step, [calc[name] for name in step.takes])
     _from_curve(calc, step)
+
+
+def _empty_list(calc: Calculation, missing: KeyError) -> Exception:
+    """What to raise where a step asks for the rows of a list that has no parts; the fault itself where it is another one."""
+    asked = str(missing.args[0]).removeprefix("inputs.") if missing.args else ""
+    home = list_inputs(calc.mechanism.inputs).get(asked)
+    return missing if home is None or home in calc.given else Impossible([(home, EMPTY)])
 
 
 def _called(calc: Calculation, step: Computed | MadeCurve | Prepared, taken: list[Any]) -> Any:
