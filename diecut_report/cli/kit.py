@@ -103,7 +103,7 @@ def _lines(found: CheckedPlugin) -> Iterator[str]:
     for rule in found.rules:
         told = f": {said(rule.told)}" if rule.told else ""
         yield f"  {said(STATES[rule.status])}  {said(rule.title)}{told}"
-        yield from (f"      {said(fault)}" for fault in rule.faults)
+        yield from (f"      {said(fault)}" for fault in rule.short_list)
 
 
 def _write_page(found: CheckedPlugin, page: Path, configs: tuple[Path, ...], quiet: bool, is_shown: bool) -> None:

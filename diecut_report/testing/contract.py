@@ -273,4 +273,4 @@ def check_contract(
     config = configured(mechanism, inputs, press, others, plugins)
     test = ContractTest(mechanism, WithMechanism(mechanism, map(Path, plugins)), config, mechanism.kind)
     broken = [each for each in test.tried() if each.status in ("fail", "broke")]
-    assert not broken, "\n".join(f"{each.title}: {fault}" for each in broken for fault in each.faults)
+    assert not broken, "\n".join(f"{each.title}: {fault}" for each in broken for fault in each.short_list)

@@ -10,7 +10,7 @@ from typing import Literal
 from diecut_report.languages.phrases import Counted, Phrase, phrase
 
 RuleStatus = Literal["pass", "note", "not_tried", "fail", "broke"]
-TOLD = 5  # faults of a rule that are told
+TOLD = 5  # faults of a rule that a short list tells
 TITLES = {
     "declaration": phrase("Declarations"),
     "dimensions": phrase("Dimensions of formulas"),
@@ -43,11 +43,15 @@ class TriedRule:
         """Return what the rule is about."""
         return TITLES[self.id]
 
+    @property
+    def short_list(self) -> tuple[str, ...]:
+        """Return the first faults, and how many more there are."""
+        left = len(self.faults) - TOLD
+        more = (Counted(left, "{n} more fault", "{n} more faults"),) if left > 0 else ()
+        return (*self.faults[:TOLD], *more)
+
 
 def rule(id: str, told: str, faults: Iterable[str], otherwise: RuleStatus = "fail") -> TriedRule:
-    """Return a rule that passes where there is no fault; where there are many, their first and how many more."""
-    found = list(dict.fromkeys(islice(faults, 1000)))
-    if not found:
-        return TriedRule(id, "pass", told)
-    more = [Counted(len(found) - TOLD, "{n} more fault", "{n} more faults")] if len(found) > TOLD else []
-    return TriedRule(id, otherwise, told, (*found[:TOLD], *more))
+    """Return a rule that passes where there is no fault; of many faults the first thousand."""
+    found = tuple(dict.fromkeys(islice(faults, 1000)))
+    return TriedRule(id, otherwise if found else "pass", told, found)

@@ -215,5 +215,5 @@ def test_a_list_without_parts_is_refused_in_words(tmp_path: Path, capfd: Capture
     text = example.read_text("utf-8")
     assert parts in text
     example.write_text(text.replace(parts, "    springs: []\n"), "utf-8")
-    assert main(["calc", str(example), "--plugins", str(home), "--quiet"]) == 2
-    assert "toggle.yaml:16:14: mechanisms.toggle.springs: is empty; give at least one" in capfd.readouterr().err
+    assert main(["calc", str(example), "--plugins", str(home / "plugins"), "--quiet"]) == 2
+    assert "toggle.yaml:17:14: mechanisms.toggle.springs: is empty; give at least one" in capfd.readouterr().err
