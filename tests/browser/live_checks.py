@@ -13,20 +13,11 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, expect, sync_playwright
+from playwright.sync_api import Browser, Page, expect
 
 CONFIG = Path("configs/circular_knife.yaml")
 SECONDS = 60_000  # of patience with a machine that does other things as well, in milliseconds
 SERIOUS = {"serious", "critical"}
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as driver:
-        program = os.environ.get("CHROMIUM", "/usr/bin/chromium")
-        made = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield made
-        made.close()
 
 
 class Live:

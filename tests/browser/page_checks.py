@@ -12,7 +12,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
 CONFIGS = os.environ.get("BROWSER_CONFIGS", "").split() or [
     "benchmarks/two_mechanisms.yaml", "configs/circular_knife.yaml", "configs/flat_cylinder_mechanisms.yaml",
@@ -24,15 +24,6 @@ TOO_WIDE = """() => Array.from(document.querySelectorAll("main table, main .scro
 OUT_OF_BOX = """() => Array.from(document.querySelectorAll("math")).filter(e => e.getBoundingClientRect().right > innerWidth
     && !e.closest(".math, .why")).map(e => e.textContent.slice(0, 60))"""
 SERIOUS = {"serious", "critical"}
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as driver:
-        program = os.environ.get("CHROMIUM", "/usr/bin/chromium")
-        made = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield made
-        made.close()
 
 
 @pytest.fixture(scope="module", params=CONFIGS)

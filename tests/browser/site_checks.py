@@ -5,12 +5,11 @@ from __future__ import annotations
 
 import json
 import os
-from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
 import pytest
-from playwright.sync_api import Browser, Page, sync_playwright
+from playwright.sync_api import Browser, Page
 
 SITE = Path("build/site").resolve()
 PAGES = sorted(
@@ -19,15 +18,6 @@ PAGES = sorted(
 LOOKED_AT = ("index.html", "gallery/circular_knife.html", "reference/figures.html", "validation.html", "search.html")
 WIDE, NARROW = {"width": 1280, "height": 900}, {"width": 390, "height": 844}
 SERIOUS = {"serious", "critical"}
-
-
-@pytest.fixture(scope="module")
-def browser() -> Iterator[Browser]:
-    with sync_playwright() as driver:
-        program = os.environ.get("CHROMIUM", "/usr/bin/chromium")
-        made = driver.chromium.launch(executable_path=program, args=["--no-sandbox"])
-        yield made
-        made.close()
 
 
 class Opened:
