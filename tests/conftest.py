@@ -88,3 +88,12 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Example:
 def without_summary(monkeypatch: pytest.MonkeyPatch) -> None:
     """Studies are left without their summary, which takes seconds."""
     monkeypatch.setattr("diecut_report.study.command.summarise", lambda _: None)
+
+
+@pytest.fixture
+def with_html_summary(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Studies get their summary as HTML alone."""
+    from diecut_report.study import command
+    from diecut_report.study.summary import summarise
+
+    monkeypatch.setattr(command, "summarise", lambda folder: summarise(folder, ["html"]))

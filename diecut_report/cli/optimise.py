@@ -25,6 +25,7 @@ from diecut_report.cli.output import (
 )
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import say
+from diecut_report.results.doubtful_plugins import told_faults
 
 if TYPE_CHECKING:
     from diecut_report.optimisation.command import OptimiseOutcome
@@ -105,7 +106,7 @@ def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Pat
 
 
 def _faults(outcome: OptimiseOutcome) -> Iterator[str]:
-    """Which plugins broke, or were slow."""
+    """Which plugins broke, were slow, or have faults in their formulas."""
     slow = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
     broke = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
     search = outcome.search
@@ -113,5 +114,7 @@ def _faults(outcome: OptimiseOutcome) -> Iterator[str]:
         Phrase(slow, kind=kind, why=phrase(why)) for kind, why in search.slow.items() if kind not in search.broken
     )
     yield from (Phrase(broke, kind=repr(kind), why=phrase(why)) for kind, why in search.broken.items())
+    for kind, faults in (search.store.state.get("doubtful") or {}).items():
+        yield from told_faults(kind, faults)
     for kind, why in outcome.broken_reports.items():
         yield Phrase("plugin {kind} broke {why}", kind=repr(kind), why=phrase(why))

@@ -182,7 +182,7 @@ class WarmRun(Run):
         return found
 
     def figure_titles(self, name: str) -> list[str]:
-        """Return the titles of ``figures``, in their order; no figure is made for it."""
+        """Return the titles of the figures whose needs are given, also of charts that turn out empty; no figure is made for it."""
         return [figure.title for figure in shown_figures(self.calculations[name])]
 
     def sections(self, name: str) -> list[Data]:

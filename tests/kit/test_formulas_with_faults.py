@@ -59,8 +59,20 @@ def test_check_and_calc_are_strict_and_tell_it(tmp_path: Path, home: Path, capfd
         capfd.readouterr()
 
 
+@pytest.mark.usefixtures("with_html_summary")
 def test_a_study_tells_it_at_its_end_and_on_its_page(tmp_path: Path, home: Path, capfd: Capture) -> None:
     assert run(home, "batch", str(home / "examples" / "toggle_study.yaml"), "-o", str(tmp_path / "s")) in (0, 1)
     told = capfd.readouterr().err
     assert SAID in told and FAULT in told
     assert "The formulas of the plugin of toggle have faults" in text(tmp_path / "s" / "summary.html")
+
+
+def test_a_search_tells_it_at_its_end_and_on_its_page(tmp_path: Path, home: Path, capfd: Capture) -> None:
+    study = home / "examples" / "toggle_study.yaml"
+    head = study.read_text("utf-8").partition("sample:")[0]
+    search = "optimise: {objectives: [{minimise: toggle.force}], evaluations: 8, population: 4}\n"
+    study.write_text(head + "vary: {mechanisms.toggle.travel: {from: 6 mm, to: 18 mm}}\n" + search, "utf-8")
+    assert run(home, "optimise", str(study), "-o", str(tmp_path / "o"), "--jobs", "1") == 0
+    told = capfd.readouterr().err
+    assert SAID in told and FAULT in told
+    assert "The formulas of the plugin of toggle have faults" in text(tmp_path / "o" / "optimisation.html")
