@@ -73,8 +73,9 @@
   function verdict() {
     var machine = state.machine, summary = machine && machine.summary, status = state.faults.length ? "error" : machine.status;
     var line = byId("verdict"), words = t("verdict_fault");
-    line.querySelector(".mark").className = "mark s-" + status;
-    line.querySelector(".mark").textContent = MARKS[status];
+    var shown = status === "pass" && summary.not_checked ? "not_checked" : status;  /* a tick would say that all is checked */
+    line.querySelector(".mark").className = "mark s-" + shown;
+    line.querySelector(".mark").textContent = MARKS[shown];
     if (!state.faults.length) {
       words = t("verdict_" + status) + ": " + t("count_pass", { n: summary.pass });
       if (summary.warn) { words += ", " + t("count_warn", { n: summary.warn }); }
@@ -88,7 +89,7 @@
     var count = Object.keys(state.edits).length;
     byId("write").disabled = byId("back").disabled = !count;
     byId("write").textContent = count ? t("write_n", { n: count }) : t("write");
-    document.title = (MARKS[status] || "") + " " + state.file;
+    document.title = (MARKS[shown] || "") + " " + state.file;
     byId("title").textContent = machine ? machine.title : state.file;
   }
 
