@@ -67,10 +67,16 @@ def is_nothing(value: float, unit_text: str) -> bool:
     return (own.si in NEVER_SMALL or own.text == "%") and abs(value) < NOTHING * own.factor
 
 
+def finest_step(unit_text: str) -> float | None:
+    """Return the finest step of a quantity that can be made or measured, in its unit; None where none is known."""
+    own = unit(unit_text)
+    return UNIT_STEPS.get(own.text) or (STEPS[own.si] / own.factor if own.si in STEPS else None)
+
+
 def meant_digits(value: float, unit_text: str, digits: int) -> int:
     """Return how many of the significant digits of an SI value mean something: none finer than can be made or measured."""
     own = unit(unit_text)
-    step = UNIT_STEPS.get(own.text) or (STEPS[own.si] / own.factor if own.si in STEPS else None)
+    step = finest_step(unit_text)
     number = abs(value) / own.factor
     if step is None or number == 0 or not math.isfinite(number):
         return digits

@@ -6,7 +6,7 @@ import math
 import re
 from decimal import Decimal
 
-from diecut_report.quantities.display import is_nothing, meant_digits
+from diecut_report.quantities.display import finest_step, is_nothing, meant_digits
 from diecut_report.quantities.units import pretty, unit
 
 DIGITS = 4
@@ -69,6 +69,16 @@ def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
         "text": number_text(unit(unit_text).from_si(value), shown_digits(value, unit_text, digits)),
         "unit": unit_text,
     }
+
+
+def listed_text(value: float, unit_text: str, digits: int = 6) -> str:
+    """Return an SI value among others of a column: to the step that can be made or measured, so that all have as many decimals."""
+    number, step = value / unit(unit_text).factor, finest_step(unit_text)
+    if step is None:
+        return number_text(number, digits)
+    text = f"{number:.{max(-math.floor(math.log10(step) + EXACT), 0)}f}"
+    short = text.rstrip("0").rstrip(".") if "." in text else text
+    return "0" if short == "-0" else short
 
 
 def given_shown(value: float, unit_text: str) -> dict[str, str]:

@@ -142,7 +142,7 @@ class Equations:
             end = item["at"]["symbol"]
             upper = self.latex.symbol(end)
             latex = rf"\int_{{0}}^{{{upper}}} {curve}\,\mathrm{{d}}{upper}"
-            return [Link(latex, f"∫ {plain} d{end} from 0 to {end}", form=["accumulated", of, ["sym", end]])]
+            return [Link(latex, f"∫_0^{end} {plain} d{end}", form=["accumulated", of, ["sym", end]])]
         word = SIGNS.get(operation, operation)
         if operation in OPERATORS:
             form = ["nary", SIGNS[operation], of] if operation in SIGNS else ["call", operation, of]

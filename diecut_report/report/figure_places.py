@@ -11,7 +11,8 @@ from diecut_report.report.model import Item
 Data = Mapping[str, Any]
 BEFORE = -1  # the first step of a section
 NEAR = 2  # sections later a figure may stand, beside another one
-LONGEST_LEGEND = 110  # letters in the names of a diagram's lines that have room over half the width
+LONGEST_LEGEND = 110  # letters in the names of a diagram's lines, or of its marks, that have room over half the width
+VALUE = 16  # letters of the numbers behind the name of a mark
 
 
 class Place(NamedTuple):
@@ -84,7 +85,12 @@ def _is_narrow(figure: Data) -> bool:
         sum(len(line.get("label", "")) for key in ("lines", "fills", "series") for line in panel.get(key, ()))
         for panel in figure.get("panels", ())
     ]
-    return figure["type"] != "bars" and not figure.get("schematic") and max(names, default=0) <= LONGEST_LEGEND
+    marked = [
+        sum(len(mark["label"]) + VALUE for mark in panel.get("marks", ()) if mark.get("label"))
+        for panel in figure.get("panels", ())
+    ]
+    longest = max([*names, *marked], default=0)
+    return figure["type"] != "bars" and not figure.get("schematic") and longest <= LONGEST_LEGEND
 
 
 def _are_near(one: Place, other: Place) -> bool:

@@ -11,11 +11,10 @@ from diecut_report.engine.phases import intervals, period_of, phases_of, speed_o
 from diecut_report.engine.shown_units import declared_unit
 from diecut_report.languages.phrases import Phrase, named
 from diecut_report.mechanics.timing.intervals import Interval
-from diecut_report.quantities.formatting import shown
+from diecut_report.quantities.formatting import listed_text
 from diecut_report.quantities.units import unit
 
 Data = dict[str, Any]
-PLACE_DIGITS = 6
 
 
 def phases(calc: Calculation) -> Data:
@@ -45,8 +44,8 @@ def _shown(interval: Interval, display: str, speed: float | None) -> dict[str, s
     """An interval as texts: both ends and its length in the abscissa's unit, and its time in ms where the speed is known."""
     start, end = interval
     texts = {"from": start, "to": end, "length": end - start}
-    told = {key: shown(value, display, PLACE_DIGITS)["text"] for key, value in texts.items()}
-    return told | ({"time": shown((end - start) / speed, "ms")["text"]} if speed else {})
+    told = {key: listed_text(value, display) for key, value in texts.items()}
+    return told | ({"time": listed_text((end - start) / speed, "ms")} if speed else {})
 
 
 def phases_absent(calc: Calculation) -> Data:

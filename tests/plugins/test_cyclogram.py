@@ -292,7 +292,7 @@ def test_an_interlock_at_a_fixed_offset_is_told_the_best_one() -> None:
     check = check_of(press("cross", locks("cutting passing", "cross"), "0 deg"), "interlock_cutting")
     assert check["status"] == "fail"
     assert "The best offset of cross is 38.1164" in check["message"]
-    assert "leaves a slack of 11.327" in check["message"]
+    assert "leaves a slack of 11.33°" in check["message"]
 
 
 def test_a_dwell_of_the_length_that_is_needed_holds_the_cutting() -> None:

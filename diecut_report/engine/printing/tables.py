@@ -14,7 +14,7 @@ from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
 from diecut_report.engine.steps.part_rows import given_of, series_of
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import given_shown, shown, with_unit
+from diecut_report.quantities.formatting import DIGITS, given_shown, shown, with_unit
 from diecut_report.standards import StandardSeries, StandardTable, sources_told
 
 Item = dict[str, Any]
@@ -71,8 +71,9 @@ def _cell(calc: Calculation, name: str, display: str, part: int) -> str:
         return value
     if np.isnan(float(value)):
         return "–"
-    told = shown if name in calc.values else given_shown
-    return told(float(value), display)["text"]
+    if name not in calc.values:
+        return given_shown(float(value), display)["text"]
+    return shown(float(value), display, getattr(calc.step_or_input(name), "digits", DIGITS))["text"]
 
 
 def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
@@ -157,7 +158,7 @@ def crossings(calc: Calculation, step: Crossings) -> Item:
     if not places:
         return head | {"type": "note", "text": Phrase("{title}: there is none.", title=phrase(step.description))}
     display = unit_for(calc, step.id, step.unit, places)
-    lines = [[str(i), shown(x, display, 6)["text"]] for i, x in enumerate(places, 1)]
+    lines = [[str(i), shown(x, display, step.digits)["text"]] for i, x in enumerate(places, 1)]
     columns = [
         {"title": "No.", "symbol": "", "unit": "1"},
         _column(step, display),
