@@ -30,6 +30,14 @@ class AssumedGroup:
     name: str
     values: list[tuple[str, str, str]]
 
+    @property
+    def runs(self) -> list[tuple[str, list[tuple[str, str]]]]:
+        """The keys with their values by the check that they move, those first that move one."""
+        found: dict[str, list[tuple[str, str]]] = {}
+        for key, value, check in self.values:
+            found.setdefault(check, []).append((key, value))
+        return sorted(found.items(), key=lambda run: not run[0])
+
 
 def assumed_groups(results: Data, words: Catalogue) -> list[AssumedGroup]:
     """Return all assumed values by what they belong to, in the file's order."""

@@ -20,6 +20,7 @@ NAMES = {
     "ceil": "ceil", "floor": "floor", "round": "round", "arctan2": "arctan2",
 }  # fmt: skip
 SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
+OPPOSITE = {"+": "-", "-": "+"}
 LEVEL = ("min", "max", "minimum", "maximum")  # of as many arguments as there are
 BRACKETS = {"abs": ("|", "|"), "ceil": ("⌈", "⌉"), "floor": ("⌊", "⌋")}
 
@@ -217,7 +218,9 @@ def _plain_sign(term: tuple[str, Tree]) -> tuple[str, Tree]:
     sign, tree = term
     match tree:
         case ["*", ["neg", ["num", _] as number], right]:
-            return ("-" if sign == "+" else "+"), ["*", number, right]
+            return OPPOSITE[sign], ["*", number, right]
+        case ["*", ["num", text], right] if text.startswith("-"):
+            return OPPOSITE[sign], ["*", ["num", text[1:]], right]
         case ["*", ["*", *_] as left, right]:
             new, first = _plain_sign((sign, left))
             return new, ["*", first, right]

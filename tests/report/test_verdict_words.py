@@ -1,0 +1,28 @@
+"""What stands on the page of the verdict: sentences, and what is assumed by the check that it moves."""
+
+from __future__ import annotations
+
+from diecut_report.report.advice import followed_line
+from diecut_report.report.assumed import AssumedGroup
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.number_format import sentence
+
+
+def test_the_counts_begin_a_sentence() -> None:
+    assert sentence("не виконано 6 перевірок з 135") == "Не виконано 6 перевірок з 135"
+    assert sentence("6 of 135 checks fail") == "6 of 135 checks fail"
+
+
+def test_advice_has_the_numbers_of_the_language() -> None:
+    changes = [{"path": "cylinder.radius", "value": "105.2 mm"}, {"path": "clutch.single_position", "value": "true"}]
+    results = {"summary": {"advice": {"changes": changes, "failing": [], "error": None}}}
+    (line,) = followed_line(results, Catalogue("uk"))
+    assert "cylinder.radius 105,2 mm, clutch.single_position true" in line
+
+
+def test_assumed_values_stand_by_the_check_that_they_move_those_first_that_move_one() -> None:
+    values = [("a", "1 mm", ""), ("b", "2 mm", "shaft.slope"), ("c", "3 mm", ""), ("d", "4 mm", "shaft.slope")]
+    assert AssumedGroup("shaft", values).runs == [
+        ("shaft.slope", [("b", "2 mm"), ("d", "4 mm")]),
+        ("", [("a", "1 mm"), ("c", "3 mm")]),
+    ]
