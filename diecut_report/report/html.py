@@ -20,7 +20,7 @@ from diecut_report.report.model import Item
 from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_columns
-from diecut_report.report.symbols import pieces, prose, symbol
+from diecut_report.report.symbols import cited, pieces, prose, symbol
 
 if TYPE_CHECKING:
     from diecut_report.report.sheet_frames import SheetBlocks
@@ -38,7 +38,7 @@ POLICY = (
 READER = ("uplot/uPlot.min.css", "reader.css")
 SCRIPTS = ("uplot/uPlot.iife.min.js", "reader.js")
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
-FILTERS: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy, "in_columns": in_columns, "pieces": pieces, "behind": partial(joined, ""), "sentence": sentence}
+FILTERS: dict[str, Callable[..., Any]] = {"prose": prose, "cited": cited, "symbol": symbol, "tidy": tidy, "in_columns": in_columns, "pieces": pieces, "behind": partial(joined, ""), "sentence": sentence}
 END = "</body>\n</html>"
 MATH = {("Report Math", 400, "normal"): "report-math"}
 

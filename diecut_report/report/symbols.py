@@ -34,6 +34,11 @@ def pieces(typed: str) -> Markup:
     return Markup(" ").join(joint.join(Markup("<span class=whole>{}</span>").format(part) for part in word) for word in words)
 
 
+def cited(source: str) -> Markup:
+    """A source beside a formula, its numbers kept with what they number: ISO 6336-3, eq. 4."""
+    return prose(re.sub(r" (?=\d)", "\u00a0", source))
+
+
 def prose(sentence: str) -> Markup:
     """A sentence as HTML, its symbols set as symbols."""
     text = tidy(sentence)

@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from diecut_report.report.symbols import pieces, prose
+from diecut_report.report.symbols import cited, pieces, prose
 
 
 @pytest.mark.parametrize(
@@ -33,3 +33,8 @@ def test_a_path_breaks_behind_its_dots_and_nowhere_else(typed: str, whole: list[
 )
 def test_a_unit_is_not_a_symbol_and_a_long_subscript_is_one(sentence: str, symbols: list[str]) -> None:
     assert re.findall(r"<i class=sy>(.*?)</i>", prose(sentence)) == symbols
+
+
+def test_the_number_of_a_source_stays_with_it() -> None:
+    assert cited("ISO 6336-3:2006, 6") == "ISO\u00a06336-3:2006,\u00a06"
+    assert cited("000, after eq. 19") == "000, after eq.\u00a019"

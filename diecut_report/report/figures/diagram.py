@@ -73,6 +73,7 @@ class Diagram:
         areas = [marked(panel.fills[index].label) for index in self.names.outside]
         notes = [panel.marks[index].text for index in self.names.told_marks]
         notes += [panel.levels[index].text for index in self.names.told_levels]
+        notes += [panel.verticals[index].text for index in self.names.told_uprights]
         self.told = [tag for tag in self.tags if tag] + areas + notes
         self.title = wrapped(self._title(), width)
         self.legend = legend(self.told, width, text_size(self.title)[0])
@@ -166,14 +167,14 @@ class Diagram:
 
     def _notes(self, axes: Axes) -> list[Line2D]:
         """The zero line, levels, vertical lines, marked points and ranges, without their texts; those that the legend names."""
-        panel, marks, levels = self.panel, [], []
+        panel, marks, levels, uprights = self.panel, [], [], []
         axes.axhline(0, color=INK, linewidth=0.6, zorder=1)
         for index, level in enumerate(panel.levels):
             levels.append(
                 axes.axhline(level.y, color=INK, linewidth=0.7, linestyle=LEVELS[index % len(LEVELS)], zorder=2)
             )
         for upright in panel.verticals:
-            axes.axvline(upright.x, color=INK, linewidth=0.6, linestyle=UPRIGHT, zorder=2)
+            uprights.append(axes.axvline(upright.x, color=INK, linewidth=0.6, linestyle=UPRIGHT, zorder=2))
         for index, mark in enumerate(panel.marks):
             marks += axes.plot([mark.x], [mark.y], MARKS[index % len(MARKS)], markersize=4.5, markerfacecolor="white",
                                markeredgecolor=INK, zorder=5, clip_on=False)  # fmt: skip
@@ -181,6 +182,7 @@ class Diagram:
             axes.axvspan(span.start, span.end, color=PALE, linewidth=0, zorder=0)
         told = [(marks[index], panel.marks[index]) for index in self.names.told_marks]
         told += [(levels[index], panel.levels[index]) for index in self.names.told_levels]
+        told += [(uprights[index], panel.verticals[index]) for index in self.names.told_uprights]
         for handle, note in told:
             handle.set_label(note.text)
         return [handle for handle, _ in told]

@@ -46,8 +46,9 @@ class LabelLayout:
         self._spans()
         self.tags = self._tags()
         self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
-        self.told_marks: list[int] = []  # marks and levels that have no room, and stand in the legend
+        self.told_marks: list[int] = []  # marks, levels and vertical lines whose names have no room, and stand in the legend
         self.told_levels: list[int] = []
+        self.told_uprights: list[int] = []
         self._notes()
 
     def _noted(self) -> Array:
@@ -98,10 +99,11 @@ class LabelLayout:
             places = beside_level(height, frame.width, text_size(note.text, SIZE))
             if note.text and not self._write(note.text, places, most=IN_THE_WAY):
                 self.told_levels.append(index)
-        for note in panel.verticals:
-            if note.text:
-                place = float(frame.points(note.x, 0)[0])
-                self._write(note.text, beside_vertical(place, frame.width, frame.height, text_size(note.text, SIZE)))
+        for index, note in enumerate(panel.verticals):
+            at = float(frame.points(note.x, 0)[0])
+            places = beside_vertical(at, frame.width, frame.height, text_size(note.text, SIZE))
+            if note.text and not self._write(note.text, places, most=IN_THE_WAY):
+                self.told_uprights.append(index)
 
     # areas
     def _inside(self, area: Line) -> bool:
