@@ -1,4 +1,4 @@
-"""Steps over repeated parts (rows), and numbers from standard series and tables, for all variants."""
+"""Steps over repeated parts (rows), and numbers from standard series, for all variants."""
 
 from __future__ import annotations
 
@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.part_steps import Neighbour, Part, Pick, Running, Total
 from diecut_report.engine.calculation import Calculation, Impossible
 from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import told
@@ -46,29 +46,6 @@ def part(calc: Calculation, step: Part) -> None:
         words = f"has {count} {'entry' if count == 1 else 'entries'}, but {step.description} ({step.id}) takes {which}; add what is missing"
         raise Impossible([(calc.axis[step.of], words)])
     calc.values[step.id] = calc[step.of][:, [step.index]]
-
-
-def lookup(calc: Calculation, step: Lookup) -> None:
-    """Take a number from a table by a text, a row where there is a text for each part; or as it is given."""
-    given = given_of(calc, step)
-    if isinstance(given, np.ndarray):
-        calc.values[step.id] = given
-        return
-    numbers, display = step.rows()
-    text = calc.inputs[step.by]
-    found = [
-        np.nan if key is None else numbers[key] * unit(display).factor
-        for key in (text if isinstance(text, tuple) else (text,))
-    ]
-    calc.values[step.id] = np.tile(np.asarray(found, dtype=float), (calc.count, 1))
-    for part, value in enumerate(given or ()):
-        if value is not None:
-            calc.values[step.id][:, part] = value
-
-
-def given_of(calc: Calculation, step: Lookup) -> Any:
-    """Return what is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
-    return calc.inputs.get(step.given.removeprefix("inputs.")) if step.given else None
 
 
 def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, StandardSeries | None]:
