@@ -135,7 +135,9 @@ def _key(step: Interpolated | Lookup, taken: str, names: DeclaredNames, *, is_co
     if step.key and step.key not in inputs:
         yield f"key is {step.key}, which is not an input{nearest(step.key, inputs)}"
     elif not step.key and taken.removeprefix("inputs.") not in inputs and not is_covered:
-        where = "lie outside of the table" if isinstance(step, Interpolated) else "be a number that the table does not have"
+        where = (
+            "lie outside of the table" if isinstance(step, Interpolated) else "be a number that the table does not have"
+        )
         yield f'takes {taken}, which may {where}; name the input that is then to be changed, key="…"'
 
 

@@ -23,7 +23,6 @@ from diecut_report.results.unchecked import check_unit
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-12
-AT_LIMIT = 1e-9  # relative
 PLACE_DIGITS = 6
 
 
@@ -155,7 +154,7 @@ def _check(calc: Calculation, check: Check) -> Data:
         "message": message,
         **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
         **_further(calc, check, display, found, pair, part),
-        **({"sized_to_limit": True} if is_sized(calc.given, check) or _is_at_limit(told) else {}),
+        **({"sized_to_limit": True} if is_sized(calc.given, check) else {}),
         **({"presumed": True} if check.presumed else {}),
     }
 
@@ -163,12 +162,6 @@ def _check(calc: Calculation, check: Check) -> Data:
 def is_sized(given: frozenset[str], check: Check) -> bool:
     """Return whether the program sized what a check compares to its limit, so that the check shows no reserve."""
     return check.sized_unless is not None and given.isdisjoint(check.sized_unless)
-
-
-def _is_at_limit(told: Data) -> bool:
-    """Whether a size that passes is its limit, as one that was taken over from it, and so neither shows nor lacks a reserve."""
-    ratio = told["utilisation"]
-    return told["status"] == "pass" and ratio is not None and abs(ratio - 1) <= AT_LIMIT
 
 
 def _told(check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> Data:

@@ -48,9 +48,7 @@ sizes.lookup("mass", "m", "kg", "Mass of the motor", MOTORS, by="rating", sought
 several = Chapter("Columns", needs=("columns",), absent="no columns")
 several.lookup("rods", "d_i", "mm", "Rods of the columns", RODS, by="columns.bore", column="rod")
 
-MECHANISM = Mechanism(
-    kind="lift", version="1", title="Lift", summary="A lift.", inputs=Lift, chapters=(sizes, several)
-)
+MECHANISM = Mechanism(kind="lift", version="1", title="Lift", summary="A lift.", inputs=Lift, chapters=(sizes, several))
 
 
 def lift(**inputs: Any) -> Calculation:
