@@ -262,10 +262,13 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
     def pick(
         self, id: str, symbol: str, unit: str, description: str, rule: Literal["above", "below", "nearest"], of: str,
         series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries], *, by: str = "",
-        beyond: Literal["impossible", "last"] = "impossible", **options: Unpack[Options],
+        beyond: Literal["impossible", "last"] = "impossible", given: str = "", key: str = "", **options: Unpack[Options],
     ) -> None:  # fmt: skip
-        """Declare a value of a standard series, taken by the quantity ``of``; its neighbours are printed: see ``Pick``."""
-        own = {"rule": rule, "of": of, "series": series, "by": by, "beyond": beyond}
+        """Declare a value of a standard series, taken by the quantity ``of``; its neighbours are printed: see ``Pick``.
+
+        With the optional input ``given`` its value is taken where it is given.
+        """
+        own = {"rule": rule, "of": of, "series": series, "by": by, "beyond": beyond, "given": given, "key": key}
         self._give(Pick, id, symbol, unit, description, options, **own)
 
     def _give(

@@ -122,10 +122,13 @@ class Pick(Step):
 
     ``series`` are the standard values: in the display unit, or a standard series; or one for each value of the text
     input ``by``. The neighbours that were not taken are printed too. A quantity beyond the end of the series makes the machine
-    impossible; ``beyond="last"`` takes the last value there, for a mechanism that judges it by a check of its own.
+    impossible, for which ``key`` is then the input to change, else ``of``; ``beyond="last"`` takes the last value there, for a mechanism
+    that judges it by a check of its own. ``given`` is an optional input: where it is given the step has its value, whatever it is.
     """
 
     of: str
+    given: str = ""
+    key: str = ""
     series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries]
     by: str = ""
     rule: Literal["above", "below", "nearest"]

@@ -36,6 +36,9 @@ def _wrong(step: Step, names: DeclaredNames) -> Iterator[str]:
             yield from _unlike(f"the column {across.name} of the table", across.unit, _taken(names, step.of), step.of)
             yield from _key(step, step.of, names, is_covered=_covered(step, names))
         case Pick(series=series):
+            yield from _given(step, names)
+            if step.key:
+                yield from _key(step, step.of, names, is_covered=True)
             for own in series.values() if isinstance(series, Mapping) else (series,):
                 if isinstance(own, StandardTable):
                     yield "takes from a table; name its column, table.series(…)"
@@ -111,7 +114,7 @@ def _idle(step: Lookup, names: DeclaredNames) -> Iterator[str]:
             )
 
 
-def _given(step: Lookup, names: DeclaredNames) -> Iterator[str]:
+def _given(step: Lookup | Pick, names: DeclaredNames) -> Iterator[str]:
     """What is wrong with the input that may stand in the table's place."""
     path = step.given.removeprefix("inputs.")
     if not path:
@@ -121,15 +124,16 @@ def _given(step: Lookup, names: DeclaredNames) -> Iterator[str]:
         known = [name for name, other in names.world.keys.items() if isinstance(other.meta, Quantity)]
         yield f"given is {path}, which is not an input that is a number{nearest(path, known)}"
         return
-    by = names.world.keys.get(step.by)
+    by = names.world.keys.get(step.by if isinstance(step, Lookup) else step.of)
     if not key.may_be_absent or key.has_default:
         yield f"given is {path}, which is always there; let it be float | None with the default None"
     if by is not None and by.home != key.home:
-        yield f"given is {path}, by is {step.by}; both must be inputs of one list, or of none"
+        other = "by" if isinstance(step, Lookup) else "of"
+        yield f"given is {path}, {other} is {by.path}; both must be inputs of one list, or of none"
     yield from _unlike(f"given, {path},", key.meta.unit, _units(step), "the step")
 
 
-def _key(step: Interpolated | Lookup, taken: str, names: DeclaredNames, *, is_covered: bool) -> Iterator[str]:
+def _key(step: Interpolated | Lookup | Pick, taken: str, names: DeclaredNames, *, is_covered: bool) -> Iterator[str]:
     """An impossible machine is told at an input."""
     inputs = [name for name in names.world.keys if "=" not in name]
     if step.key and step.key not in inputs:

@@ -82,6 +82,8 @@ def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
     match step:
         case Lookup():
             return _lookup(calc, step) | {"result": result}
+        case Pick() if given_of(calc, step) is not None:
+            return _as_given(calc, step) | {"result": result}
         case Pick():
             values = _pick(calc, step)
         case Total(operation=operation, among=among):
@@ -116,8 +118,7 @@ def _texts(calc: Calculation, step: Lookup) -> Sequence[str]:
 
 def _lookup(calc: Calculation, step: Lookup) -> Item:
     if given_of(calc, step) is not None:
-        declared = calc.meta[step.given.removeprefix("inputs.")]
-        return {"type": "lookup", "by": declared.description, "key": AS_GIVEN, "table": ""}
+        return _as_given(calc, step)
     by = calc.step_or_input(step.by)
     return {
         "type": "lookup",
@@ -127,6 +128,11 @@ def _lookup(calc: Calculation, step: Lookup) -> Item:
         **({"column": step.column} if step.column else {}),
         **_tables(step.table),
     }
+
+
+def _as_given(calc: Calculation, step: Lookup | Pick) -> Item:
+    declared = calc.meta[step.given.removeprefix("inputs.")]
+    return {"type": "lookup", "by": declared.description, "key": AS_GIVEN, "table": ""}
 
 
 def once(before: list[Item], new: list[Item]) -> list[Item]:

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.part_steps import Lookup
+from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.steps.feasibility import refuse
 from diecut_report.expressions import Array
@@ -33,7 +33,7 @@ def lookup(calc: Calculation, step: Lookup) -> None:
     calc.values[step.id] = found
 
 
-def given_of(calc: Calculation, step: Lookup) -> Any:
+def given_of(calc: Calculation, step: Lookup | Pick) -> Any:
     """Return what is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
     return calc.inputs.get(step.given.removeprefix("inputs.")) if step.given else None
 

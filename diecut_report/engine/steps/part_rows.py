@@ -9,6 +9,7 @@ import numpy as np
 
 from diecut_report.contract.part_steps import Neighbour, Part, Pick, Running, Total
 from diecut_report.engine.calculation import Calculation, Impossible
+from diecut_report.engine.steps.lookups import given_of
 from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
@@ -58,6 +59,10 @@ def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, St
 
 def pick(calc: Calculation, step: Pick) -> None:
     """Take the standard value; beyond the ends of the series its last one, or no machine."""
+    given = given_of(calc, step)
+    if given is not None:
+        calc.values[step.id] = given
+        return
     values, display, _ = series_of(calc, step)
     series: Array = np.asarray(values) * unit(display).factor
     sought = calc[step.of]
@@ -83,10 +88,10 @@ def _within(calc: Calculation, step: Pick, sought: Array, series: Array) -> None
         )
         title = getattr(series_of(calc, step)[2], "title", "the series")
         words = f"{step.description} ({step.id}): {_sought(calc, step, float(sought[variant, part]))} is beyond {title}, of which {end}"
-        key = step.of.removeprefix("inputs.")
+        key = step.key or step.of.removeprefix("inputs.")
         if calc.count == 1:
-            raise Impossible([(key if key in calc.inputs else "", words)])
-        calc.flaws.setdefault(int(variant), (step.id, words))
+            raise Impossible([(key if step.key or key in calc.inputs else "", words)])
+        calc.flaws.setdefault(int(variant), (step.key or step.id, words))
 
 
 def _sought(calc: Calculation, step: Pick, value: float) -> str:
