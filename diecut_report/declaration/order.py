@@ -38,7 +38,13 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 
 def asked(step: Step) -> set[str]:
     """Return the ids that a step takes from elsewhere."""
-    own = {step.unknown, step.id} if isinstance(step, Root) else {step.given} if isinstance(step, Lookup | Pick) else set()
+    own = (
+        {step.unknown, step.id}
+        if isinstance(step, Root)
+        else {step.given}
+        if isinstance(step, Lookup | Pick)
+        else set()
+    )
     return {name for name in taken(step) if name not in own}
 
 
