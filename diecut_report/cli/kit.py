@@ -45,14 +45,22 @@ path_of = click.Path(path_type=Path)
 @click.option(
     "--package", "as_package", is_flag=True, help="As a package that can be installed, not a folder for --plugins."
 )
+@click.option(
+    "--like",
+    default="parts",
+    type=click.Choice(["parts", "motion", "selection"]),
+    help="What to begin with: parts (default; a list of springs), motion (curves over a turn), selection (a size of a table).",
+)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="The folder to make (default: NAME, here).")
 @common
-def new_plugin(name: str, as_package: bool, folder: Path | None, folders: tuple[Path, ...], quiet: bool) -> int:
+def new_plugin(
+    name: str, as_package: bool, like: str, folder: Path | None, folders: tuple[Path, ...], quiet: bool
+) -> int:
     """Write a new mechanism of the kind NAME that runs: plugin, tests, example, study, words."""
     from diecut_report.kit.scaffold import scaffold
 
     home = folder or Path(name)
-    written = scaffold(name, home, as_package=as_package)
+    written = scaffold(name, home, as_package=as_package, like=like)
     if not quiet:
         tell_written(written)
         tell([Phrase("next: read {file}", file=home / "README.md")])

@@ -12,6 +12,8 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.kit.checking import meant
 from diecut_report.kit.scaffold import contents
+from diecut_report.kit.missing_words import write_missing
+from diecut_report.languages.catalogues import catalogue
 from diecut_report.languages.po_files import read
 from diecut_report.testing import ContractTest, check_contract
 from diecut_report.testing.tried_rules import TITLES, TriedRule
@@ -123,6 +125,15 @@ def test_each_list_is_tried_as_an_empty_one(tmp_path: Path, monkeypatch: pytest.
     assert [json.loads(text)["mechanisms"]["toggle"]["springs"] for text in tried].count([]) == 1 and len(tried) == 3
 
 
+def test_a_text_that_a_lambda_makes_is_one_of_the_plugin(tmp_path: Path) -> None:
+    words = 'springs.words("more", lambda rate: Phrase("make it {rate}", rate=rate), takes=("rate",))\n'
+    home = contract(
+        tmp_path, ("strength = Chapter", f"{words}strength = Chapter"), ("    Mechanism,\n", "    Mechanism,\n    Phrase,\n"),
+        ('consequence="', 'consequence="{more}; '), ("yields; a thinner wire", "yields")
+    )  # fmt: skip
+    assert any("“make it {rate}” (toggle.py) is not translated" in fault for fault in found(home, "languages").faults)
+
+
 def test_the_texts_that_a_catalogue_lacks_are_written_into_it(tmp_path: Path, capfd: Capture) -> None:
     change = ('title="Springs of an ejector"', 'title="Springs that eject"')
     home = toggle(tmp_path, change)
@@ -132,10 +143,12 @@ def test_the_texts_that_a_catalogue_lacks_are_written_into_it(tmp_path: Path, ca
     told = capfd.readouterr()
     assert f"written: {file}: 1 text to be translated" in told.err
     assert file.read_text("utf-8") == f'{before.rstrip()}\n\n#. mechanism\nmsgid "Springs that eject"\nmsgstr ""\n\n'
-    assert main(["check-plugin", str(home), "--write-po", *page]) == 0  # what waits already is not written twice
-    assert "to be translated" not in capfd.readouterr().err
+    known = Discovery([home / "plugins"])
+    test, origin = ContractTest(known.mechanism("toggle"), known), known.origins["toggle"][0]
+    assert write_missing(test, origin) == {}  # what waits already is not written twice
     file.unlink()
-    assert main(["check-plugin", str(home), "--write-po", *page]) == 0
+    catalogue.cache_clear()
+    assert list(write_missing(test, origin)) == [file]
     assert 'msgid "Diameter of the wire"\nmsgstr ""' in file.read_text("utf-8")
     assert all(not message.string for message in read(file, "uk") if message.id)
 
