@@ -124,7 +124,9 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
         found = origin.load()
         digest = module_hash(origin.file())
     except (Exception, SystemExit) as cause:
-        error = PluginError(f"it cannot be loaded from {origin.told}: {said(cause)}", origin.kind)
+        error = PluginError(
+            f"it cannot be loaded from {origin.told}: {said(cause)}{_beside(origin, cause)}", origin.kind
+        )
         error.__cause__ = cause
         return error
     if not isinstance(found, Mechanism):
@@ -133,6 +135,20 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
         return PluginError(f"{origin.told} gives the kind {found.kind!r}; name it {origin.kind!r} there", origin.kind)
     note_plugin(found, digest, None if origin.is_own else origin.file())
     return found if origin.is_own else _sound(origin, found)
+
+
+def _beside(origin: Origin, cause: BaseException) -> str:
+    """What to do where a plugin of one file imports another file of its folder, which it cannot."""
+    file = origin.file()
+    if not isinstance(cause, ImportError) or file.name == "__init__.py":
+        return ""
+    asked = RELATIVE.search(str(getattr(cause, "msg", ""))) is not None
+    if not asked and not (cause.name and file.with_name(f"{cause.name.partition('.')[0]}.py").is_file()):
+        return ""
+    return (
+        f"; a plugin of one file cannot import what lies beside it: make a folder {file.stem}/ of it, with {file.name} as its __init__.py, "
+        "and import from there, as in from ._helpers import …"
+    )
 
 
 def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
@@ -161,12 +177,13 @@ def said(cause: BaseException) -> str:
         return str(cause)
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
     own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
-    tells_place = isinstance(cause, SyntaxError | FormulaError)
+    tells_place = isinstance(cause, SyntaxError | FormulaError) or getattr(cause, "tells_place", False)
     declared = Path(getattr(cause, "at", "")).name  # of what is not proved, which the engine tells
     place = f" ({declared or f'{Path(own[-1].filename).name}:{own[-1].lineno}'})" if own and not tells_place else ""
     return f"{type(cause).__name__}: {other_program(cause) or ' '.join(str(cause).split())}{place}"
 
 
+RELATIVE = re.compile("relative import")
 PROGRAM = Path(__file__).parents[1]
 LIBRARIES = ("numpy", "scipy", "pydantic", "pint")
 STANDARD = Path(traceback.__file__).parent

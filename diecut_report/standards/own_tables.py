@@ -43,8 +43,8 @@ def own_table(
         _fault(title, 'needs one of unit="…" (a value for each name) and columns={"name": "unit", …}')
     names, cells = _cells(title, rows)
     units = dict(columns) if columns else {"": unit}
-    for where, row in zip(names or cells, cells, strict=True):
-        _row(title, where, row, len(units))
+    for number, (where, row) in enumerate(zip(names or cells, cells, strict=True)):
+        _row(title, where, row, len(units), number)
     made = [
         Column(name, shown, tuple(float(v) for v in values))
         for (name, shown), values in zip(units.items(), zip(*cells, strict=True), strict=True)
@@ -94,25 +94,24 @@ def _cells(title: str, rows: Rows) -> tuple[list[str], list[tuple[Any, ...]]]:
     if not isinstance(listed[0][0], str):
         return [], listed
     names = [row[0] for row in listed]
-    strange = next((name for name in names if not isinstance(name, str) or not name.strip()), None)
-    if strange is not None:
-        _fault(title, f"has the name {strange!r} of a row, which is not a text")
-    twice = next((name for name in names if names.count(name) > 1), None)
-    if twice is not None:
-        _fault(title, f"has two rows of the name {twice!r}")
+    for number, name in enumerate(names):
+        if not isinstance(name, str) or not name.strip():
+            _fault(title, f"has the name {name!r} of a row, which is not a text", row=number)
+        if name in names[:number]:
+            _fault(title, f"has two rows of the name {name!r}", row=number)
     return names, [row[1:] for row in listed]
 
 
-def _row(title: str, where: object, row: tuple[Any, ...], count: int) -> None:
+def _row(title: str, where: object, row: tuple[Any, ...], count: int, number: int) -> None:
     if len(row) != count:
-        _fault(title, f"has {len(row)} values in the row {where!r}, where {count} are needed")
+        _fault(title, f"has {len(row)} values in the row {where!r}, where {count} are needed", row=number)
     for value in row:
-        _number(title, f"the row {where!r}", value)
+        _number(title, f"the row {where!r}", value, number)
 
 
-def _number(title: str, where: str, value: object) -> None:
+def _number(title: str, where: str, value: object, row: int | None = None) -> None:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        _fault(title, f"holds {value!r} in {where}, which is not a finite number")
+        _fault(title, f"holds {value!r} in {where}, which is not a finite number", row=row)
 
 
 def _units(title: str, columns: Iterable[Column]) -> None:
@@ -129,14 +128,16 @@ def _ascending(title: str, columns: Sequence[Column], least: int = 2) -> None:
         _fault(title, "goes by the numbers of its first column and has no other; name its rows, or add a column")
     if len(columns[0].values) < least:
         _fault(title, "has too few values; give two rows at least" if least > 1 else "has no values")
-    for before, after in pairwise(columns[0].values):
+    for number, (before, after) in enumerate(pairwise(columns[0].values), 1):
         if not before < after:
             name = columns[0].name
-            _fault(title, f"must ascend in {name} without repetition, but {after:g} follows {before:g}")
+            _fault(title, f"must ascend in {name} without repetition, but {after:g} follows {before:g}", row=number)
 
 
-def _fault(title: str, what: str, cause: Exception | None = None) -> NoReturn:
-    raise StandardFault(f"The table “{title}” {what}.") from cause
+def _fault(title: str, what: str, cause: Exception | None = None, row: int | None = None) -> NoReturn:
+    found = StandardFault(f"The table “{title}” {what}.")
+    found.row = row
+    raise found from cause
 
 
 # --- files beside a plugin -------------------------------------------------------------------------------------------
@@ -165,15 +166,35 @@ def table_beside(plugin: str, name: str) -> StandardTable:
     file = Path(plugin).with_name(name)
     try:
         text = file.read_text(encoding="utf-8")
-        data = _from_csv(text) if file.suffix == ".csv" else _once(yaml.compose(text, yaml.SafeLoader))
+        data, lines = _from_csv(text) if file.suffix == ".csv" else _from_yaml(text)
         written = _Written.model_validate(data)
+        made = own_table(**written.model_dump())
     except (OSError, UnicodeDecodeError, yaml.YAMLError, csv.Error) as error:
-        raise StandardFault(f"The table {file} cannot be read: {error}.") from error
+        raise _of_file(f"The table {file} cannot be read: {error}.") from error
     except ValidationError as error:
         told = "; ".join(f"{'.'.join(map(str, each['loc']))}: {each['msg']}" for each in error.errors())
-        raise StandardFault(f"The table {file} is not written as a table: {told}.") from error
-    made = own_table(**written.model_dump())
+        raise _of_file(f"The table {file} is not written as a table: {told}.") from error
+    except StandardFault as fault:
+        line = f":{lines[fault.row]}" if fault.row is not None else ""
+        raise _of_file(f"{file.name}{line}: {fault}") from fault
     return StandardTable(**{**vars(made), "id": file.stem, "file": str(file)})
+
+
+def _of_file(words: str) -> StandardFault:
+    """A fault of a file, which is not to be sought where the file is read."""
+    found = StandardFault(words)
+    found.tells_place = True
+    return found
+
+
+def _from_yaml(text: str) -> tuple[Any, list[int]]:
+    """What a file holds, and the line of each of its rows."""
+    node = yaml.compose(text, yaml.SafeLoader)
+    rows = [own for key, own in node.value if key.value == "rows"] if isinstance(node, yaml.MappingNode) else []
+    first = [
+        each[0] if isinstance(each, tuple) else each for own in rows for each in own.value if not isinstance(each, str)
+    ]
+    return _once(node), [each.start_mark.line + 1 for each in first]
 
 
 def _once(node: yaml.Node | None) -> Any:
@@ -204,20 +225,24 @@ def _headed(cell: str) -> tuple[str, str]:
     return (found[1], found[2]) if found else (cell, "")
 
 
-def _from_csv(text: str) -> dict[str, Any]:
-    lines = [line for line in text.splitlines() if line.strip()]
-    said = [found.groups() for line in lines if (found := SAID.match(line))]
-    table = list(csv.reader((line for line in lines if not line.startswith("#")), skipinitialspace=True))
+def _from_csv(text: str) -> tuple[dict[str, Any], list[int]]:
+    """What a file holds, and the line of each of its rows."""
+    lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
+    said = [found.groups() for _, line in lines if (found := SAID.match(line))]
+    written = [(number, line) for number, line in lines if not line.startswith("#")]
+    reader = csv.reader((line for _, line in written), skipinitialspace=True)
+    table = [(written[reader.line_num - 1][0], row) for row in reader]
     if not table:
         raise csv.Error("it has no line with the names of its columns")
-    heads = [_headed(cell.strip()) for cell in table[0]]
+    heads = [_headed(cell.strip()) for cell in table[0][1]]
     named = not heads[0][1]
     heads = heads[1:] if named else heads
     if len(dict(heads)) < len(heads):
-        raise csv.Error("two of its columns have one name")
-    return {
+        raise csv.Error(f"two of its columns have one name, in line {table[0][0]}")
+    data = {
         **{key: value for key, value in said if key != "source"},
         "sources": [value for key, value in said if key == "source"],
         "columns": dict(heads),
-        "rows": [[*row[:named], *map(_number_or_text, row[named:])] for row in table[1:]],
+        "rows": [[*row[:named], *map(_number_or_text, row[named:])] for _, row in table[1:]],
     }
+    return data, [number for number, _ in table[1:]]
