@@ -11,6 +11,8 @@ from diecut_report.languages.speech import said, say
 from diecut_report.study.storage.description import ResultColumn
 
 MECHANISMS = "mechanisms."
+PART = re.compile(r"(.+)\.(\d+)\.\w+")  # of a list of the inputs
+LISTED = re.compile(rf"{re.escape(MECHANISMS)}[^.]+\.{PART.pattern}")
 UTILISATION, VERDICT_OF = ".utilisation", ".status"  # ends of the columns of a check
 
 
@@ -38,7 +40,9 @@ def home(name: str) -> str:
 
 
 def _short(column: ResultColumn) -> str:
-    """Without what a closing bracket explains."""
+    """Without what a closing bracket explains; of a part with its number, whatever else is varied."""
+    if LISTED.fullmatch(column.name):
+        return _with_name(column)
     return _placed(column, re.sub(r" \([^()]*\)$", "", _told(column)))
 
 
@@ -48,7 +52,7 @@ def _whole(column: ResultColumn) -> str:
 
 def _with_name(column: ResultColumn) -> str:
     name = column.name.removeprefix(MECHANISMS).partition(".")[2]
-    listed = re.fullmatch(r"(.+)\.(\d+)\.\w+", name)
+    listed = PART.fullmatch(name)
     if listed:
         return _placed(
             column,
