@@ -19,6 +19,7 @@ from diecut_report.engine.drawable import Undrawable, curve_named, guarded
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.steps.rerun import varied, varied_curves
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 
 FRAMES = 36  # of a turn that moves on a screen, at most; between them places are interpolated
 MOVABLE = ("polyline", "circle", "point")
@@ -35,7 +36,7 @@ class MachineView:
     def __getitem__(self, name: str) -> float:
         """A number by its id, SI."""
         if name not in self:
-            raise Undrawable(f"there is no number {name!r} in this machine")
+            raise Undrawable(Phrase("there is no number {name} in this machine", name=repr(name)))
         self.asked[name] = None
         return float(self.calc[name][0, 0])
 
@@ -148,7 +149,7 @@ def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: Machine
             return head | drawn | ({"schematic": True} if schematic else {}) | _moving(calc, figure)
         case Chart(build=build):
             return head | {"type": "chart", "panels": [axis_range.of_lines(panel) for panel in _listed(build, view)]}
-    raise TypeError(f"{figure.id} is not a known figure")
+    raise TypeError(Phrase("{id} is not a known figure", id=figure.id))
 
 
 def _moving(calc: Calculation, drawing: Drawing) -> dict[str, Any]:
@@ -162,7 +163,13 @@ def _moving(calc: Calculation, drawing: Drawing) -> dict[str, Any]:
     frames = [_listed(partial(_at_place, moving, place), view) for place in places]
     kinds = {tuple((shape["shape"], shape["role"]) for shape in frame) for frame in frames}
     if len(kinds) > 1 or not all(kind in MOVABLE for kind, _ in next(iter(kinds))):
-        raise Undrawable(f"what moves in {drawing.title!r} must be the same {', '.join(MOVABLE)} at each place")
+        raise Undrawable(
+            Phrase(
+                "what moves in {title} must be the same {movable} at each place",
+                title=repr(drawing.title),
+                movable=", ".join(MOVABLE),
+            )
+        )
     return {"moving": {"over": drawing.over, "places": places, "frames": frames}}
 
 
@@ -174,15 +181,21 @@ def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:
     """What an author's function draws, which must be a list of shapes; a function without a return gives none."""
     drawn = build(view)
     if not isinstance(drawn, list) or not all(isinstance(shape, dict) for shape in drawn):
-        name = getattr(build, "__name__", "its function")
+        name = getattr(build, "__name__", phrase("its function"))
         given = (
             "nothing"
             if drawn is None
             else f"a {type(drawn).__name__}"
             if not isinstance(drawn, list)
-            else "other things in its list"
+            else phrase("other things in its list")
         )
-        raise Undrawable(f"{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give")
+        raise Undrawable(
+            Phrase(
+                "{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give",
+                name=name,
+                given=given,
+            )
+        )
     return drawn
 
 
@@ -243,7 +256,11 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
     ]
     ranged = axis_range.declared(head | made, figure.range, view, distances)
     if (ranged.get("range", [None])[0] or 0) < 0:
-        raise Undrawable(f"the range of {figure.title!r} begins below zero, where no distance from the pole is")
+        raise Undrawable(
+            Phrase(
+                "the range of {title} begins below zero, where no distance from the pole is", title=repr(figure.title)
+            )
+        )
     return ranged
 
 
