@@ -11,8 +11,8 @@ from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.kit.checking import meant
-from diecut_report.kit.scaffold import contents
 from diecut_report.kit.missing_words import write_missing
+from diecut_report.kit.scaffold import contents
 from diecut_report.languages.catalogues import catalogue
 from diecut_report.languages.po_files import read
 from diecut_report.testing import ContractTest, check_contract
