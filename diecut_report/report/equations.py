@@ -145,7 +145,9 @@ class Equations:
         differential = rf"\mathrm{{d}}{by.latex}"
         if item["operation"] == "derivative":
             form = ["derivative", curve.form, by.form]
-            return Link(rf"\frac{{\mathrm{{d}}{curve.latex}}}{{{differential}}}", f"d{curve.text}/d{by.text}", form=form)
+            return Link(
+                rf"\frac{{\mathrm{{d}}{curve.latex}}}{{{differential}}}", f"d{curve.text}/d{by.text}", form=form
+            )
         end = self._result(item["over"]) if "over" in item else by
         latex = rf"\int_{{0}}^{{{end.latex}}} {curve.latex}\,{differential}"
         form = ["integral", curve.form, by.form, end.form]

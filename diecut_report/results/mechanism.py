@@ -38,7 +38,9 @@ class SelfTestFailed(Exception):
 
     def __init__(self, checks: list[Data]) -> None:
         told = " ".join(f"{check['title']}: {check['message']}" for check in checks)
-        super().__init__(f"The calculation contradicts itself, and its numbers must not be used. {told}")
+        super().__init__(
+            Phrase("The calculation contradicts itself, and its numbers must not be used. {told}", told=told)
+        )
         self.checks = checks
 
 

@@ -142,7 +142,14 @@ def exact_row(calc: Calculation, step: Interpolated) -> Item | None:
         return None
     by = calc.step_or_input(step.of)
     key = f"{by.symbol} = {printed(calc, step.of)}"
-    return {"type": "lookup", "by": by.description, "key": key, "table": step.table.title, "column": taken.name, **_tables(step.table)}
+    return {
+        "type": "lookup",
+        "by": by.description,
+        "key": key,
+        "table": step.table.title,
+        "column": taken.name,
+        **_tables(step.table),
+    }
 
 
 def once(before: list[Item], new: list[Item]) -> list[Item]:
