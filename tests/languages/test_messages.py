@@ -44,6 +44,7 @@ def fixed(file: Path) -> Iterator[tuple[str, str]]:
         if isinstance(function, ast.FunctionDef):
             for call in _told(function):
                 given = call.args if _name(call.func) in REPORTING else call.args[:1]
+                named = _named(function) if any(isinstance(each, ast.Name) for each in given) else {}
                 values = [
                     v for each in given for v in (named.get(each.id, ()) if isinstance(each, ast.Name) else [each])
                 ]
