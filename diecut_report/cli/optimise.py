@@ -23,7 +23,6 @@ from diecut_report.cli.output import (
     tell,
     tell_written,
 )
-from diecut_report.cli.untranslated import untranslated
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import say
 from diecut_report.results.doubtful_plugins import told_faults
@@ -92,7 +91,7 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
           "json": lambda: json.dumps(outcome.data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"}[form]())  # fmt: skip
     if not quiet:
         tell_written(outcome.written)
-        tell([*outcome.notes, *untranslated(target, folders)])
+        tell(outcome.notes)
     tell(_faults(outcome))
     return PLUGIN_BROKE if outcome.is_broken else PASSED if outcome.is_found else CHECK_FAILED
 

@@ -25,7 +25,6 @@ from diecut_report.cli.output import (
     emit,
     tell,
 )
-from diecut_report.cli.untranslated import untranslated
 from diecut_report.cli.verdict import WORDS, marked
 from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.languages.speech import say
@@ -97,7 +96,7 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
         tell([Phrase(words, folder=target)])
         return INTERRUPTED
     if not quiet:
-        tell([*_told(outcome, target), *untranslated(target, folders)])
+        tell(_told(outcome, target))
     tell(_broken(outcome))
     tell(line for kind, faults in outcome.doubtful.items() for line in told_faults(kind, faults))
     return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if outcome.is_failed else PASSED

@@ -100,6 +100,6 @@ def test_a_study_tells_which_plugin_has_no_words(tmp_path: Path, capfd: pytest.C
     saved(lever(tmp_path, WORDS), LEVER)
     study, out = saved(tmp_path, STUDY, "study.yaml"), tmp_path / "out"
     main(["batch", str(study), "-o", str(out), "--jobs", "1", "--plugins", str(tmp_path), "--language", "uk"])
-    assert re.search(r"У каталозі uk модуля виду 'lever' бракує текстів: \d+", capfd.readouterr().err)
+    assert re.search(r"У каталозі uk плагіна виду 'lever' бракує текстів: \d+", capfd.readouterr().err)
     page = (out / "summary.html").read_text("utf-8")
     assert "Сила на кінці (a)" in page and "Force (a)" not in page
