@@ -82,8 +82,8 @@ def answer_workbook(directory: Path, asked: Request, notation: Notation = SI, *,
         found = question(stored, asked, is_table=False)
         if not transposed:
             return as_workbook(stored, found, notation)
-        head, lines = side_by_side(stored, found, notation)
-        return workbook({"variants": [head, *lines]})
+        (_, _, *numbers), lines = side_by_side(stored, found, notation)
+        return workbook({say("variants"): [[say("quantity"), say("unit"), *numbers], *lines]})
 
 
 def unfinished(directory: Path) -> Iterator[str]:

@@ -123,7 +123,7 @@ class _Rows(Run):
         if column.dtype == object:
             if self.variants.count == 1:
                 return column[0]
-            raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
+            raise NotOnArrays(calculation.mechanism.kind, Phrase("its text {name} is referred to", name=name))
         return SI(without_rounding(column.astype(float), str(target.unit)), str(target.unit), target.path)
 
     def _phase(self, calculation: Calculation, name: str, target: Target) -> PhaseHandle:
