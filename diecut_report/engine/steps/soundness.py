@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from pathlib import Path
 
 import numpy as np
@@ -45,6 +46,8 @@ def finite(calc: Calculation, step: Step) -> None:
     """Require that no number of a possible machine is NaN or infinite, but for an absent output and the padding of crossings."""
     values = calc.values.get(step.id)
     if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
+        return
+    if values.size == 1 and isfinite(values.item()):
         return
     is_finite = np.isfinite(values)
     if is_finite.all():
