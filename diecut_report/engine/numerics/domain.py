@@ -126,7 +126,9 @@ class Domain:
         if not places.shape[1] or (is_place.any() and _all_near(known, inside, SAME * self.period)):
             return known
         edges = np.sort(np.concatenate([known, inside], axis=1), axis=1)
-        for i in range(1, edges.shape[1] - 1):  # one place that came twice, with other rounding, stays one
+        steps = np.diff(edges[:, :-1], axis=1)
+        is_twice = ((steps > 0) & (steps < SAME * self.period)).any()
+        for i in range(1, edges.shape[1] - 1 if is_twice else 1):  # one place that came with other rounding stays one
             close = edges[:, i] - edges[:, i - 1] < SAME * self.period[:, 0]
             edges[:, i] = np.where(close, edges[:, i - 1], edges[:, i])
         return _without_doubles(edges)

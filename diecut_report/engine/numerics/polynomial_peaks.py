@@ -113,7 +113,7 @@ def _derived(powers: Array, order: int) -> Array:
 
 def _value(powers: Array, x: Array) -> Array:
     """The polynomials' values by Horner's rule."""
-    found = powers[-1]
+    found: Array = powers[-1]
     for coefficient in powers[-2::-1]:
         found = coefficient + found * x
     return found

@@ -24,6 +24,9 @@ def possible(calc: Calculation) -> Array:
 
 def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> None:
     """Refuse a result that is not proved for a single machine; mark the variant among several."""
+    if calc.count == 1 and residual[0, 0] <= tolerance:
+        calc.proof[step.id] = max(float(residual[0, 0]), 0.0)
+        return
     unproved = ~(residual[:, 0] <= tolerance) & possible(calc)
     calc.proof[step.id] = float(np.max(residual[possible(calc) & ~unproved], initial=0.0))
     if unproved.any():
