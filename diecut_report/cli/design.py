@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterable
-from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +11,16 @@ import click
 
 from diecut_report.cli import completion
 from diecut_report.cli.given import source
-from diecut_report.cli.output import CHECK_FAILED, PASSED, HelpfulCommand, common, emit, tell, tell_written
+from diecut_report.cli.output import (
+    CHECK_FAILED,
+    PASSED,
+    HelpfulCommand,
+    common,
+    emit,
+    tell,
+    tell_written,
+    without_output,
+)
 from diecut_report.cli.progress import Progress
 from diecut_report.config.discovery import Discovery
 from diecut_report.languages.phrases import Phrase, phrase
@@ -66,7 +73,7 @@ def solve(
     from diecut_report.design.questions import question
     from diecut_report.design.solving import solved
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
         progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
@@ -110,7 +117,7 @@ def advise(
     from diecut_report.design.advice import data, mended
     from diecut_report.design.advice_text import lines
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
         progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
@@ -192,7 +199,7 @@ def influence(
     from diecut_report.design.influence import tornados, within_tolerances
     from diecut_report.design.influence_text import data, lines, page
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
         progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)

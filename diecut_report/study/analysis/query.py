@@ -14,6 +14,7 @@ from diecut_report.study.analysis.question import Question, Request, question
 from diecut_report.study.analysis.stored_variants import Stored, opened
 from diecut_report.study.storage.spreadsheets import workbook
 from diecut_report.study.storage.state import read_state
+from diecut_report.study.storage.state_form import continuing
 
 FORMATS = ("table", "csv", "json")
 
@@ -83,7 +84,7 @@ def unfinished(directory: Path) -> Iterator[str]:
         parts, rows, chunk = len(list((directory / "variants").glob("part-*.parquet"))), state["rows"], state["chunk"]
         yield (
             f"This study is not finished: {parts} of {-(-rows // chunk)} parts are calculated. Go on with: "
-            f"diecut-report batch --resume {directory}"
+            f"{continuing(directory, state['columns'])}"
         )
 
 

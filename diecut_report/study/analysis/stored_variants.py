@@ -15,6 +15,7 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.study.analysis.titles import UTILISATION, VERDICT_OF, titles
 from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind
+from diecut_report.study.storage.state_form import continuing
 from diecut_report.study.storage.store import Store
 
 if TYPE_CHECKING:
@@ -121,7 +122,8 @@ def opened(folder: Path) -> Iterator[Stored]:
     store = Store.open(folder)
     paths = store.whole_parts()
     if not paths:
-        words = "No variants are stored here yet. Continue the run with `batch --resume`."
+        columns = dict.fromkeys(column.name for column in store.description.columns)
+        words = f"No variants are stored here yet. Continue the run with: {continuing(folder, columns)}"
         raise UserError(Problem(words, str(folder)))
     description = store.description
     config: dict[str, str | bool | int | float | list[str]] = {

@@ -94,6 +94,15 @@ class StateForm(_Form):
     counts: NotedCounts | None = None
 
 
+SEARCHED = "violation"  # the column that only the machines of a search have
+
+
+def continuing(folder: object, columns: object, study: str = "") -> str:
+    """Return the command that goes on with the run of a folder whose results have these columns by name, of a study or of a search."""
+    is_search = isinstance(columns, Mapping) and SEARCHED in columns
+    return f"diecut-report {'optimise' if is_search else 'batch'} {study}--resume {folder}"
+
+
 def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
     """Refuse what is no study.json: UserError with the file, the key, what was given and what is allowed.
 
@@ -112,7 +121,7 @@ def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
     if disagreeing := list(_disagreeing(found)):
         raise _told(disagreeing, file)
     if is_final and found.state == "complete" and (faults := list(_incomplete(found))):
-        raise _told(faults, file, f"Let the program mend it: diecut-report batch --resume {file.parent}")
+        raise _told(faults, file, f"Let the program mend it: {continuing(file.parent, found.columns)}")
 
 
 def _told(faults: list[tuple[str, str]], file: Path, mend: str = MEND) -> UserError:
