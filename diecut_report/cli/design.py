@@ -103,11 +103,18 @@ def solve(
 @click.option(
     "--keep", metavar="INPUT", shell_complete=completion.inputs, multiple=True, help="An input that stays as it is."
 )
+@click.option(
+    "--most",
+    metavar="N",
+    type=click.IntRange(1),
+    default=10_000,
+    help="Machines that are calculated at most (default: 10000).",
+)
 @target_option
 @form_option
 @common
 def advise(
-    config: Path, free: tuple[str, ...], keep: tuple[str, ...], target: Path | None, form: str,
+    config: Path, free: tuple[str, ...], keep: tuple[str, ...], most: int, target: Path | None, form: str,
     folders: tuple[Path, ...], quiet: bool,
 ) -> int:  # fmt: skip
     """Find the smallest changes with which no check fails: the advice of all checks tried together, then less and less.
@@ -121,7 +128,7 @@ def advise(
         discovery = Discovery(folders)
         progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
-        found = mended(loaded, discovery, free=free, keep=keep, tell=progress)
+        found = mended(loaded, discovery, free=free, keep=keep, most=most, tell=progress)
         if target is not None and found.machine is not None:
             _write(loaded, found.machine, target)
     emit(_json(data(found)) if form == "json" else _text(lines(found)))

@@ -44,7 +44,9 @@ def misnamed(config: Config) -> list[Problem]:
     asked, problems = config.report.influence, list[Problem]()
     if asked is None:
         return problems
-    finds = [partial(_tolerance, config, name, str(size)) for name, size in (asked.tolerances or {}).items()]
+    finds: list[Callable[[], object]] = [
+        partial(_tolerance, config, name, str(size)) for name, size in (asked.tolerances or {}).items()
+    ]
     finds += [partial(_asked, config, index, name) for index, name in enumerate(asked.of)]
     for find in finds:
         try:
