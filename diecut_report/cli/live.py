@@ -12,7 +12,7 @@ import click
 
 from diecut_report.cli.given import DASH
 from diecut_report.cli.language import asked_language
-from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell
+from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell, without_output
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.standard_input import SHOWN
@@ -42,7 +42,8 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     if not quiet:
         tell([say("reading and calculating {config} …", config=config)])
     discovery = Discovery(folders)
-    session = LiveSession(config.absolute(), discovery)
+    with without_output():  # a plugin that prints does not spoil the address
+        session = LiveSession(config.absolute(), discovery)
 
     def ready(address: str) -> None:
         emit(f"{address}\n")

@@ -27,6 +27,8 @@ WORDS = {
     "write": phrase("Write to file"),
     "write_n": phrase("Write {n} to file"),
     "written": phrase("Written to {file}."),
+    "taken_back": phrase("Taken back: {n}."),
+    "put_back": phrase("Put back again"),
     "take_back": phrase("Take back"),
     "take_back_of": phrase("Take back {input}"),
     "slider": phrase("{input}, slider"),

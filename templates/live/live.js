@@ -89,6 +89,19 @@
     return post(path, body).then(function () { return true; }, function (fault) { failed(fault); return false; }).then(function (isDone) { ready(); return isDone; });
   }
 
+  /* What is taken back can be put back again, until something else is said. */
+  function takeBack(names) {
+    var former = {};
+    names.forEach(function (name) { if (name in state.edits) { former[name] = state.edits[name]; } });
+    act("back", { names: names }).then(function (isDone) {
+      if (!isDone || !Object.keys(former).length) { return; }
+      var again = make("button", { type: "button" }, t("put_back"));
+      again.addEventListener("click", function () { Object.keys(former).forEach(function (name) { waiting[name] = former[name]; }); send(); });
+      say(t("taken_back", { n: Object.keys(former).length }) + " ", true);
+      byId("told").append(again);
+    });
+  }
+
   function change(name, typed) { waiting[name] = typed; send(); }
 
   function wrong(changes, text) {
@@ -203,7 +216,7 @@
     if (slider) { slider.addEventListener("input", function () { typed.value = slider.value + (row.unit ? " " + row.unit : ""); change(each.name, typed.value); }); }
     typed.addEventListener("change", function () { row.sent = typed.value; change(each.name, typed.value); });
     typed.addEventListener("keydown", function (event) { if (event.key === "Escape" && slider) { typed.value = row.typed; wrong(Object.fromEntries([[each.name, ""]]), ""); } });
-    back.addEventListener("click", function () { delete waiting[each.name]; act("back", { names: [each.name] }); });
+    back.addEventListener("click", function () { delete waiting[each.name]; takeBack([each.name]); });
     if (slider) { [slider, typed].forEach(function (field) { field.addEventListener("focus", function () { choose(each.name); }); }); }
     return row;
   }
@@ -466,7 +479,7 @@
   source.onerror = function () { isLost = true; say(t("lost")); };
 
   byId("write").addEventListener("click", function () { act("write").then(function (isDone) { if (isDone) { say(t("written", { file: state.file }), true); } }); });
-  byId("back").addEventListener("click", function () { waiting = {}; act("back"); });
+  byId("back").addEventListener("click", function () { waiting = {}; takeBack(Object.keys(state.edits)); });
   document.querySelectorAll("a.button").forEach(function (link) { link.addEventListener("click", function () { say(t("making"), true); }); });
   byId("all-checks").addEventListener("change", checks);
   byId("search").addEventListener("input", function () { if (state && state.machine) { byId("inputs").querySelector(".rows").replaceChildren(); inputs(); } });
