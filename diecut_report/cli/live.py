@@ -17,7 +17,7 @@ from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.standard_input import SHOWN
 from diecut_report.errors import Problem, UserError
-from diecut_report.languages.phrases import phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import say, speaking, spoken_language
 
 if TYPE_CHECKING:
@@ -68,6 +68,12 @@ def _require_file(config: Path) -> None:
         raise UserError(Problem(words, SHOWN))
     if config.is_dir():
         raise UserError(Problem(phrase("This is a folder. Name one configuration in it."), str(config)))
+    folder, _, number = str(config).rpartition("#")
+    if number.isdecimal() and Path(folder).is_dir() and not config.exists():
+        words = Phrase(
+            "A stored variant is not a file. Make it one: diecut-report take {variant} -o my_press.yaml", variant=config
+        )
+        raise UserError(Problem(words, str(config)))
     if not config.is_file():
         raise UserError(Problem(phrase("There is no such file. Check the name and the folder."), str(config)))
 
