@@ -52,6 +52,12 @@ def spoken_language() -> str:
     return _NOW.get().language
 
 
+def catalogues_spoken() -> Catalogues | None:
+    """Return the catalogues of the language that is spoken; None for the one that texts are written in."""
+    translator = _NOW.get().translator
+    return None if translator is None else translator.catalogues
+
+
 def decimal_sign() -> str:
     """Return its sign of decimals."""
     return _NOW.get().decimal

@@ -14,11 +14,12 @@ from typing import TYPE_CHECKING, Any
 from diecut_report.config import yaml_tree
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import Phrase
 from diecut_report.languages.speech import know_plugins, spoken_language
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.study.analysis.titles import UTILISATION, VERDICT_OF, titles
 from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind
+from diecut_report.study.storage.state_form import continuing
 from diecut_report.study.storage.store import Store
 
 if TYPE_CHECKING:
@@ -125,7 +126,10 @@ def opened(folder: Path) -> Iterator[Stored]:
     store = Store.open(folder)
     paths = store.whole_parts()
     if not paths:
-        words = phrase("No variants are stored here yet. Continue the run with `batch --resume`.")
+        columns = dict.fromkeys(column.name for column in store.description.columns)
+        words = Phrase(
+            "No variants are stored here yet. Continue the run with: {continued}", continued=continuing(folder, columns)
+        )
         raise UserError(Problem(words, str(folder)))
     description = store.description
     config: dict[str, str | bool | int | float | list[str]] = {
