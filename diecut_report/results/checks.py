@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from diecut_report.engine.shown_units import declared_unit
 from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import shown, with_unit
+from diecut_report.quantities.formatting import place_shown, shown, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.results import unchecked
 from diecut_report.results.unchecked import check_unit
@@ -24,7 +25,7 @@ Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-12
 AT_LIMIT = 1e-9  # relative
-PLACE_DIGITS = 6
+MARGIN_DIGITS = (4, 3, 2)
 
 
 class JudgedCheck(NamedTuple):
@@ -236,7 +237,7 @@ def _part_names(calc: Calculation, check: Check) -> tuple[str, ...]:
 def _at(calc: Calculation, check: Check, pair: int) -> dict[str, str]:
     side = calc.judged[check.id, pair]
     axis = calc.steps[side.axis]
-    place = shown(float(side.place[0, 0]), declared_unit(calc, axis.id, axis.unit), PLACE_DIGITS)
+    place = place_shown(float(side.place[0, 0]), declared_unit(calc, axis.id, axis.unit))
     return {"symbol": axis.symbol} | place
 
 
@@ -268,4 +269,11 @@ def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str
         seen = (float(texts[1]["text"]) - float(texts[0]["text"])) * unit(display).factor
         if abs(seen - margin) <= 0.05 * abs(margin):
             break
-    return {"demand": texts[0], "limit": texts[1], "margin": shown(margin, display)}
+    return {"demand": texts[0], "limit": texts[1], "margin": _margin(margin, display, texts)}
+
+
+def _margin(margin: float, display: str, texts: list[dict[str, str]]) -> dict[str, str]:
+    """A margin with as many digits as the printed demand and limit show of it: who subtracts them finds no other one."""
+    seen = Decimal(texts[1]["text"]) - Decimal(texts[0]["text"])
+    told = [shown(margin, display, digits) for digits in MARGIN_DIGITS]
+    return next((each for each in told if seen.quantize(number := Decimal(each["text"])) == number), told[-1])

@@ -20,7 +20,7 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.engine.shown_units import declared_unit, unit_for
 from diecut_report.engine.steps import facts
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import given_shown, shown
+from diecut_report.quantities.formatting import given_shown, place_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of
 from diecut_report.results.curves import curves
@@ -224,7 +224,7 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     place = place_name(step.id)
     if place in calc.values:
         axis = calc.steps[calc.axis[step.of]]  # type: ignore[attr-defined]
-        at = shown(float(calc[place][0, 0]), declared_unit(calc, axis.id, axis.unit), 6)
+        at = place_shown(float(calc[place][0, 0]), declared_unit(calc, axis.id, axis.unit))
         found["at"] = {"symbol": axis.symbol} | at
     return {step.id: found}
 

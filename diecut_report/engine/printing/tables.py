@@ -14,7 +14,7 @@ from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
 from diecut_report.engine.steps.part_rows import given_of, series_of
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import given_shown, shown, with_unit
+from diecut_report.quantities.formatting import given_shown, place_shown, shown, with_unit
 from diecut_report.standards import StandardSeries, StandardTable, sources_told
 
 Item = dict[str, Any]
@@ -157,7 +157,7 @@ def crossings(calc: Calculation, step: Crossings) -> Item:
     if not places:
         return head | {"type": "note", "text": Phrase("{title}: there is none.", title=phrase(step.description))}
     display = unit_for(calc, step.id, step.unit, places)
-    lines = [[str(i), shown(x, display, 6)["text"]] for i, x in enumerate(places, 1)]
+    lines = [[str(i), place_shown(x, display)["text"]] for i, x in enumerate(places, 1)]
     columns = [
         {"title": "No.", "symbol": "", "unit": "1"},
         _column(step, display),
