@@ -87,7 +87,9 @@ def _is_narrow(figure: Data) -> bool:
     ]
     if figure["type"] == "bars" or figure.get("schematic"):
         return False
-    return max(names, default=0) <= LONGEST_LEGEND and max(map(_notes, figure.get("panels", ())), default=0) <= MOST_NOTES
+    return (
+        max(names, default=0) <= LONGEST_LEGEND and max(map(_notes, figure.get("panels", ())), default=0) <= MOST_NOTES
+    )
 
 
 def _notes(panel: Data) -> int:

@@ -182,7 +182,9 @@ def test_a_name_rather_covers_a_vertical_line_than_a_curve() -> None:
 
 @pytest.mark.usefixtures("style")
 def test_a_vertical_line_through_several_diagrams_is_named_once() -> None:
-    each = panel("y", "N", ("Angle", "φ", "deg"), lines=[line([0, 1], [0, 1])], verticals=[{"x": 0.5, "label": "contact"}])
+    each = panel(
+        "y", "N", ("Angle", "φ", "deg"), lines=[line([0, 1], [0, 1])], verticals=[{"x": 0.5, "label": "contact"}]
+    )
     found = _boxes(chart("x", "x", [each, each, each]), {}, Size.LARGE)[0]
     assert [box.text for box in found].count("contact") == 1
 

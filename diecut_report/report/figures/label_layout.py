@@ -17,7 +17,10 @@ Array = NDArray[Any]
 SIZE = 8.0
 AWAY = 14.0  # from a mark to its name, for which a thin line leads there, points
 DASHES_DIFFER = 4  # so many lines are told apart by their dashes alone; more are named at the lines
-OVER_CURVE, OVER_NOTE = 8.0, 3.0  # how much each point counts that a text covers: of a curve, of what is noted beside it
+OVER_CURVE, OVER_NOTE = (
+    8.0,
+    3.0,
+)  # how much each point counts that a text covers: of a curve, of what is noted beside it
 AIR = 1.0
 WIDE_ENOUGH = 4.0  # between a line's name and the other lines, points
 MARGIN = 8.0  # between a line's name and the frame
@@ -45,9 +48,7 @@ class LabelLayout:
         self.notes = self._noted()
         curves = np.concatenate([np.empty((0, 2)), *self.lines])
         weights = np.repeat([OVER_CURVE, OVER_NOTE], [len(curves), len(self.notes)])
-        self.labels = Labels(
-            np.concatenate([curves, self.notes]), (2, 2, frame.width - 2, frame.height - 2), weights
-        )
+        self.labels = Labels(np.concatenate([curves, self.notes]), (2, 2, frame.width - 2, frame.height - 2), weights)
         self._spans()
         self.tags = self._tags()
         self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
