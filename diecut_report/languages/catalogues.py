@@ -39,8 +39,9 @@ class TextCatalogue:
             self._plural = c2py(found.plural_expr)
             judge(found, self._plural)
         except Exception as error:  # of any kind: that of a plugin may hold anything
-            words = (
-                f"This catalogue of texts cannot be read: {error}. Mend it, or remove it: its texts are English then."
+            words = Phrase(
+                "This catalogue of texts cannot be read: {error}. Mend it, or remove it: its texts are English then.",
+                error=error,
             )
             raise UserError(Problem(words, str(file))) from error
         self._texts: dict[tuple[str | None, str], tuple[str, ...]] = {}

@@ -108,7 +108,7 @@ ENGLISH: dict[str, str] = {
     "changed_mark": "changed, before: {old}", "marked": "What changed is marked in the margin.",
     # the tools of a reader on a screen; what stands in braces is filled in by the page's script
     "search": "Search", "dark": "Dark", "hits": "{n} found", "all_checks": "All checks", "check_class": "Class", "all_classes": "all",
-    "text_within": "Text", "shown_checks": "{n} of {total} checks", "copy_text": "Copy {text}", "copied": "Copied: {text}",
+    "text_within": "Text", "shown_checks": "{n} of {total} checks", "copy_text": "Copy {text}", "copied": "Copied: {text}", "play": "Play a turn",
     "copy_refused": "The browser does not let the page copy {text}", "as_printed": "As printed",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",

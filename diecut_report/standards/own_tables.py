@@ -13,6 +13,7 @@ from typing import Any, NoReturn
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.standards.tables import Column, StandardFault, StandardSeries, StandardTable
 
@@ -40,7 +41,7 @@ def own_table(
     """
     _texts(title, sources, only_source)
     if bool(unit) is bool(columns):
-        _fault(title, 'needs one of unit="…" (a value for each name) and columns={"name": "unit", …}')
+        _fault(title, phrase('needs one of unit="…" (a value for each name) and columns={"name": "unit", …}'))
     names, cells = _cells(title, rows)
     units = dict(columns) if columns else {"": unit}
     for where, row in zip(names or cells, cells, strict=True):
@@ -67,7 +68,7 @@ def own_series(
     """Return a standard series that an author brings, checked as ``own_table`` checks; its values ascend."""
     _texts(title, sources, only_source)
     for value in values:
-        _number(title, "the series", value)
+        _number(title, phrase("the series"), value)
     column = Column("values", unit, tuple(float(value) for value in values))
     _units(title, [column])
     _ascending(title, [column], least=1)
@@ -76,11 +77,11 @@ def own_series(
 
 def _texts(title: object, sources: Any, only_source: str) -> None:
     if not isinstance(title, str) or not title.strip():
-        _fault(str(title), "has no title")
+        _fault(str(title), phrase("has no title"))
     if isinstance(sources, str) or not all(isinstance(text, str) and text.strip() for text in sources):
-        _fault(title, "needs its sources as texts in brackets, that say what was published where")
+        _fault(title, phrase("needs its sources as texts in brackets, that say what was published where"))
     if not sources or (len(set(sources)) < 2 and not only_source):
-        _fault(title, 'needs two sources that agree, or one and only_source="why there is no other"')
+        _fault(title, phrase('needs two sources that agree, or one and only_source="why there is no other"'))
 
 
 def _cells(title: str, rows: Rows) -> tuple[list[str], list[tuple[Any, ...]]]:
@@ -90,29 +91,37 @@ def _cells(title: str, rows: Rows) -> tuple[list[str], list[tuple[Any, ...]]]:
     else:
         listed = [tuple(row) if isinstance(row, list | tuple) else (row,) for row in rows]
     if not listed:
-        _fault(title, "has no rows")
+        _fault(title, phrase("has no rows"))
     if not isinstance(listed[0][0], str):
         return [], listed
     names = [row[0] for row in listed]
     strange = next((name for name in names if not isinstance(name, str) or not name.strip()), None)
     if strange is not None:
-        _fault(title, f"has the name {strange!r} of a row, which is not a text")
+        _fault(title, Phrase("has the name {strange} of a row, which is not a text", strange=repr(strange)))
     twice = next((name for name in names if names.count(name) > 1), None)
     if twice is not None:
-        _fault(title, f"has two rows of the name {twice!r}")
+        _fault(title, Phrase("has two rows of the name {twice}", twice=repr(twice)))
     return names, [row[1:] for row in listed]
 
 
 def _row(title: str, where: object, row: tuple[Any, ...], count: int) -> None:
     if len(row) != count:
-        _fault(title, f"has {len(row)} values in the row {where!r}, where {count} are needed")
+        _fault(
+            title,
+            Phrase(
+                "has {count} values in the row {where}, where {wanted} are needed",
+                count=len(row),
+                where=repr(where),
+                wanted=count,
+            ),
+        )
     for value in row:
-        _number(title, f"the row {where!r}", value)
+        _number(title, Phrase("the row {where}", where=repr(where)), value)
 
 
 def _number(title: str, where: str, value: object) -> None:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        _fault(title, f"holds {value!r} in {where}, which is not a finite number")
+        _fault(title, Phrase("holds {value} in {where}, which is not a finite number", value=repr(value), where=where))
 
 
 def _units(title: str, columns: Iterable[Column]) -> None:
@@ -120,23 +129,41 @@ def _units(title: str, columns: Iterable[Column]) -> None:
         try:
             unit(column.unit)
         except UnitError as error:
-            _fault(title, f"has no usable unit{f' of {column.name}' if column.name else ''}: {error}", error)
+            _fault(
+                title,
+                Phrase(
+                    "has no usable unit{where}: {error}",
+                    where=Phrase(" of {name}", name=column.name) if column.name else "",
+                    error=error,
+                ),
+                error,
+            )
 
 
 def _ascending(title: str, columns: Sequence[Column], least: int = 2) -> None:
     """Check the first column; a table that goes by numbers needs two rows and a column of values."""
     if len(columns) < least:
-        _fault(title, "goes by the numbers of its first column and has no other; name its rows, or add a column")
+        _fault(
+            title, phrase("goes by the numbers of its first column and has no other; name its rows, or add a column")
+        )
     if len(columns[0].values) < least:
-        _fault(title, "has too few values; give two rows at least" if least > 1 else "has no values")
+        _fault(title, phrase("has too few values; give two rows at least") if least > 1 else phrase("has no values"))
     for before, after in pairwise(columns[0].values):
         if not before < after:
             name = columns[0].name
-            _fault(title, f"must ascend in {name} without repetition, but {after:g} follows {before:g}")
+            _fault(
+                title,
+                Phrase(
+                    "must ascend in {name} without repetition, but {after} follows {before}",
+                    name=name,
+                    after=format(after, "g"),
+                    before=format(before, "g"),
+                ),
+            )
 
 
 def _fault(title: str, what: str, cause: Exception | None = None) -> NoReturn:
-    raise StandardFault(f"The table “{title}” {what}.") from cause
+    raise StandardFault(Phrase("The table “{title}” {what}.", title=title, what=what)) from cause
 
 
 # --- files beside a plugin -------------------------------------------------------------------------------------------
@@ -168,10 +195,12 @@ def table_beside(plugin: str, name: str) -> StandardTable:
         data = _from_csv(text) if file.suffix == ".csv" else _once(yaml.compose(text, yaml.SafeLoader))
         written = _Written.model_validate(data)
     except (OSError, UnicodeDecodeError, yaml.YAMLError, csv.Error) as error:
-        raise StandardFault(f"The table {file} cannot be read: {error}.") from error
+        raise StandardFault(Phrase("The table {file} cannot be read: {error}.", file=file, error=error)) from error
     except ValidationError as error:
         told = "; ".join(f"{'.'.join(map(str, each['loc']))}: {each['msg']}" for each in error.errors())
-        raise StandardFault(f"The table {file} is not written as a table: {told}.") from error
+        raise StandardFault(
+            Phrase("The table {file} is not written as a table: {told}.", file=file, told=told)
+        ) from error
     made = own_table(**written.model_dump())
     return StandardTable(**{**vars(made), "id": file.stem, "file": str(file)})
 
@@ -182,7 +211,7 @@ def _once(node: yaml.Node | None) -> Any:
         keys = [key.value for key, _ in node.value]
         twice = next((key for key in keys if keys.count(key) > 1), None)
         if twice is not None:
-            raise yaml.YAMLError(f"{twice!r} stands twice in it")
+            raise yaml.YAMLError(Phrase("{twice} stands twice in it", twice=repr(twice)))
         return {key.value: _once(value) for key, value in node.value}
     if isinstance(node, yaml.SequenceNode):
         return [_once(each) for each in node.value]
@@ -209,12 +238,12 @@ def _from_csv(text: str) -> dict[str, Any]:
     said = [found.groups() for line in lines if (found := SAID.match(line))]
     table = list(csv.reader((line for line in lines if not line.startswith("#")), skipinitialspace=True))
     if not table:
-        raise csv.Error("it has no line with the names of its columns")
+        raise csv.Error(phrase("it has no line with the names of its columns"))
     heads = [_headed(cell.strip()) for cell in table[0]]
     named = not heads[0][1]
     heads = heads[1:] if named else heads
     if len(dict(heads)) < len(heads):
-        raise csv.Error("two of its columns have one name")
+        raise csv.Error(phrase("two of its columns have one name"))
     return {
         **{key: value for key, value in said if key != "source"},
         "sources": [value for key, value in said if key == "source"],

@@ -74,8 +74,15 @@ class StandardTable:
             return self.of_values[0]
         known = {column.name: column for column in self.columns}
         if name not in known:
-            asked = f"has no column {name!r}" if name else "has several columns; name one"
-            raise StandardFault(f"The table “{self.title}” {asked}; it has {', '.join(known)}.")
+            asked = Phrase("has no column {name}", name=repr(name)) if name else phrase("has several columns; name one")
+            raise StandardFault(
+                Phrase(
+                    "The table “{title}” {asked}; it has {known}.",
+                    title=self.title,
+                    asked=asked,
+                    known=", ".join(known),
+                )
+            )
         return known[name]
 
     def by_name(self, column: str = "") -> Mapping[str, float]:

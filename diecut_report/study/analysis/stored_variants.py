@@ -12,6 +12,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.study.analysis.titles import UTILISATION, VERDICT_OF, titles
 from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind
@@ -121,7 +122,7 @@ def opened(folder: Path) -> Iterator[Stored]:
     store = Store.open(folder)
     paths = store.whole_parts()
     if not paths:
-        words = "No variants are stored here yet. Continue the run with `batch --resume`."
+        words = phrase("No variants are stored here yet. Continue the run with `batch --resume`.")
         raise UserError(Problem(words, str(folder)))
     description = store.description
     config: dict[str, str | bool | int | float | list[str]] = {
@@ -138,7 +139,10 @@ def opened(folder: Path) -> Iterator[Stored]:
         except (
             duckdb.Error
         ) as error:  # the parts are as they were written: what is asked gives no answer, or there is no room
-            words = f"The stored variants give no answer to this ({_first(error)}). Ask for something else, or for less at a time."
+            words = Phrase(
+                "The stored variants give no answer to this ({first}). Ask for something else, or for less at a time.",
+                first=_first(error),
+            )
             raise UserError(Problem(words, str(folder))) from error
 
 

@@ -14,6 +14,7 @@ from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.execution.engines import Engine, InProcess, Pool, Warm, results
 from diecut_report.study.execution.process_settings import settle
 
@@ -48,10 +49,19 @@ def configurations(given: Sequence[Path]) -> list[Path]:
     for path in given:
         found += _of_folder(path) if path.is_dir() else [path]
     if not found:
-        words = f"There is no configuration in {', '.join(map(str, given))}. Name files, or folders with .yaml files."
+        words = Phrase(
+            "There is no configuration in {given}. Name files, or folders with .yaml files.",
+            given=", ".join(map(str, given)),
+        )
         raise UserError(Problem(words))
     if len(found) > MOST:
-        raise UserError(Problem(f"These are {len(found)} configurations; at most {MOST} are checked at once."))
+        raise UserError(
+            Problem(
+                Phrase(
+                    "These are {count} configurations; at most {most} are checked at once.", count=len(found), most=MOST
+                )
+            )
+        )
     return list(dict.fromkeys(found))
 
 
