@@ -86,7 +86,11 @@ def _figure(name: str, figure: Data, curves: Data, words: Catalogue, pool: Pool)
 def _unrolled(figure: Data) -> Data:
     """A polar figure's curves as a diagram over its angle, which is read beside it."""
     notes: dict[str, Any] = {"levels": [], "marks": [], "spans": []}
-    return {**figure, "type": "plot", "panels": [{"title": figure["title"], "unit": figure["unit"], "series": figure["series"], **notes}]}
+    return {
+        **figure,
+        "type": "plot",
+        "panels": [{"title": figure["title"], "unit": figure["unit"], "series": figure["series"], **notes}],
+    }
 
 
 def _is_readable(panel: PanelData) -> bool:

@@ -153,7 +153,14 @@ def test_a_line_is_read_where_it_has_one_height_at_a_place(x: list[float], reada
 
 ANGLE = {"unit": "rad", "display_unit": "deg", "symbol": "φ", "description": "Angle", "period": 2 * math.pi,
          "values": [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]}  # fmt: skip
-FORCE = {"unit": "N", "display_unit": "N", "symbol": "F", "description": "Force", "abscissa": "angle", "values": [1.0, -2.0, 3.0, -4.0]}
+FORCE = {
+    "unit": "N",
+    "display_unit": "N",
+    "symbol": "F",
+    "description": "Force",
+    "abscissa": "angle",
+    "values": [1.0, -2.0, 3.0, -4.0],
+}
 
 
 def _chart(symbol: str, over: str = "") -> dict[str, Any]:
@@ -174,7 +181,13 @@ def test_diagrams_of_a_mechanism_over_the_same_angle_share_their_cursor() -> Non
 
 
 def test_a_polar_figure_is_read_over_its_angle_with_the_sign_of_its_curve() -> None:
-    polar = {"type": "polar", "title": "T", "abscissa": "angle", "unit": "N", "series": [{"curve": "force", "label": "F"}]}
+    polar = {
+        "type": "polar",
+        "title": "T",
+        "abscissa": "angle",
+        "unit": "N",
+        "series": [{"curve": "force", "label": "F"}],
+    }
     found = figure_readings("a", polar, {"angle": ANGLE, "force": FORCE}, Catalogue("en"))
     assert found and found["beside"]
     (own,) = found["panels"][0]["lines"]
@@ -194,7 +207,9 @@ def test_a_moving_drawing_has_the_numbers_of_its_shapes_at_each_place() -> None:
     pins = [[math.cos(a), math.sin(a)] for a in angles]
     spoke = {"shape": "polyline", "points": [[0.0, 0.0], [2.0, 0.0]], "closed": False, "role": "body"}
     pool = Pool()
-    crank = _shape({"shape": "polyline", "role": "link", "closed": False, "moves": [[0.0, 0.0, *pin] for pin in pins]}, pool)
+    crank = _shape(
+        {"shape": "polyline", "role": "link", "closed": False, "moves": [[0.0, 0.0, *pin] for pin in pins]}, pool
+    )
     wheel = _shape({"shape": "rigid", "shapes": [spoke], "moves": [[0.0, 5.0, a - math.pi / 2] for a in angles]}, pool)
     still = _shape({"shape": "circle", "center": [1.0, 2.0], "radius": 0.123456789, "role": "ghost"}, pool)
     assert [pool.rows[row] for row in crank["rows"]] == [[0], [0], [1, 0, -1], [0, 1, 0]]
@@ -204,8 +219,11 @@ def test_a_moving_drawing_has_the_numbers_of_its_shapes_at_each_place() -> None:
 
 def test_a_moving_drawing_has_room_for_all_that_it_ever_reaches() -> None:
     spoke = {"shape": "polyline", "points": [[0.0, 0.0], [2.0, 0.0]], "closed": False, "role": "body"}
-    wheel = {"shape": "rigid", "shapes": [spoke], "moves": [[1.0, 0.0, angle] for angle in np.linspace(0, 2 * math.pi, 73)]}
+    wheel = {
+        "shape": "rigid",
+        "shapes": [spoke],
+        "moves": [[1.0, 0.0, angle] for angle in np.linspace(0, 2 * math.pi, 73)],
+    }
     roller = {"shape": "circle", "role": "mark", "moves": [[0.0, 3.0, 1.0], [0.0, 1.0, 1.0]]}
     left, top, width, height = _room([wheel, roller])
     assert np.allclose([left, top, width, height], [-1.18, -4.18, 4.36, 6.36])
-
