@@ -291,13 +291,18 @@
     });
   }
 
-  /* ---- what scrolls in a box of its own can be reached by the keyboard ---- */
+  /* ---- what scrolls in a box of its own can be reached by the keyboard; a box is measured when it comes near ---- */
+  var near = null;
   function reach() {
-    var boxes = all("main .math, main .why, main .remark, main .scroll");
-    var wide = boxes.map(function (box) { return box.scrollWidth > box.clientWidth + 1; }); // measured at once, then changed at once
-    boxes.forEach(function (box, index) {
-      if (wide[index]) { box.tabIndex = 0; } else { box.removeAttribute("tabindex"); }
-    });
+    if (near) { near.disconnect(); }
+    near = new IntersectionObserver(function (entries) {
+      var boxes = entries.filter(function (entry) { return entry.isIntersecting; }).map(function (entry) { return entry.target; });
+      var wide = boxes.map(function (box) { return box.scrollWidth > box.clientWidth + 1; }); // measured at once, then changed at once
+      boxes.forEach(function (box, index) {
+        if (wide[index]) { box.tabIndex = 0; } else { box.removeAttribute("tabindex"); }
+      });
+    }, { rootMargin: "300px" });
+    all("main .math, main .why, main .remark, main .scroll").forEach(function (box) { near.observe(box); });
   }
 
   /* ---- curves read at the cursor ---- */
