@@ -19,10 +19,10 @@ _HIDDEN = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufffe
 UNSAID = (b'"Generated-By', b'"Report-Msgid-Bugs-To', b'"Last-Translator', b'"Language-Team')  # lines of the head
 
 
-def empty(language: str, project: str) -> Catalog:
+def empty(language: str, project: str, holder: str = "the authors of diecut-report") -> Catalog:
     """Return a catalogue without messages."""
     return Catalog(locale=language, project=project, version="1", charset="utf-8", fuzzy=False, creation_date=NEVER, revision_date=NEVER,
-                   copyright_holder="the authors of diecut-report", header_comment=f"# Words of {project} in the language {language}.",)  # fmt: skip
+                   copyright_holder=holder, header_comment=f"# Words of {project} in the language {language}.",)  # fmt: skip
 
 
 def read(file: Path, language: str) -> Catalog:

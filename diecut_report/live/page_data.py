@@ -139,18 +139,17 @@ def _check(check: Mapping[str, Any], kind: str, before: Mapping[str, Any] | None
 
 
 def _outputs(name: str, kind: str, machine: LiveMachine, start: LiveMachine) -> Iterator[Data]:
-    before = start.run.outputs(name) if name in start.run.calculations else {}
-    for key, output in machine.run.outputs(name).items():
-        if output.get("key"):
-            first = before.get(key)
-            yield {
-                "id": key,
-                "text": _told(output["description"], kind),
-                "symbol": output["symbol"],
-                "shown": _shown(output),
-                "start": "" if first is None else _shown(first),
-                "change": _change(output["value"], first and first["value"]),
-            }
+    before = start.run.key_outputs(name) if name in start.run.calculations else {}
+    for key, output in machine.run.key_outputs(name).items():
+        first = before.get(key)
+        yield {
+            "id": key,
+            "text": _told(output["description"], kind),
+            "symbol": output["symbol"],
+            "shown": _shown(output),
+            "start": "" if first is None else _shown(first),
+            "change": _change(output["value"], first and first["value"]),
+        }
 
 
 def _shown(output: Mapping[str, Any]) -> str:

@@ -10,7 +10,7 @@ from typing import Any
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery, said
 from diecut_report.config.loader import Config, load_config
-from diecut_report.config.written_values import as_file, written
+from diecut_report.config.written_values import as_file, rewritten
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.design.design_inputs import DesignInput, given_numbers
 from diecut_report.errors import PluginError, Problem, UserError
@@ -100,7 +100,7 @@ class LiveSession:
                 "Nothing is written, as this cannot be calculated; take a change back, or mend the file first."
             )
             raise UserError(Problem(words, str(self.file)))
-        tree, text = self.tree, written(self.tree, self._edited())
+        tree, text = self.tree, rewritten(self.tree, self._edited()).text
         if text != tree.text:
             write(self.file.resolve(), as_file(tree, text))
         self.edits = {}
@@ -143,10 +143,7 @@ class LiveSession:
             self.serial += 1
 
     def _made(self, tree: Tree) -> LiveMachine:
-        text = written(tree, self._edited())
-        if text != tree.text:
-            changed = yaml_tree.parse(text, tree.file)
-            tree = Tree(changed.root, tree.file, text, changed.sha256, tree.name)
+        tree = rewritten(tree, self._edited())
         config = load_config(tree, self.discovery)
         for error in config.broken.values():
             raise error
@@ -162,9 +159,9 @@ class LiveSession:
 
 
 def _require_shown(run: WarmRun) -> None:
-    """Raise PluginError for what is refused only where results are shown: here it is told, a page that looks would get nothing."""
+    """Raise PluginError for what the page shows at once and is refused only there: here it is told, a page that looks would get nothing."""
     for name, calculation in run.calculations.items():
         try:
-            run.outputs(name)
+            run.key_outputs(name)
         except Exception as cause:  # of any kind: the plugin's own, as wherever it is calculated
             raise PluginError(said(cause), calculation.mechanism.kind, name) from cause

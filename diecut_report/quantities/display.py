@@ -17,6 +17,7 @@ FAMILIES = (
     ("us", "ms", "s"),
     ("N*m", "kN*m", "MN*m"),
     ("g", "kg", "t"),
+    ("mm/s", "m/s"),
 )
 # The finest step of a machine's quantity that can be made or measured, SI.
 STEPS = {

@@ -10,6 +10,7 @@ from diecut_report.quantities.display import is_nothing, meant_digits
 from diecut_report.quantities.units import pretty, unit
 
 DIGITS = 4
+PLACE_DIGITS = 6  # of a place on an abscissa, at most
 EXACT = 1e-12  # relative: the rounding of the computer
 TYPED = 12  # digits: a number with no more of them is one that somebody typed
 NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")  # what a message names: ``{id}``, rounded by ``{id:up}``
@@ -69,6 +70,11 @@ def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
         "text": number_text(unit(unit_text).from_si(value), shown_digits(value, unit_text, digits)),
         "unit": unit_text,
     }
+
+
+def place_shown(value: float, unit_text: str, more: int = 0) -> dict[str, str]:
+    """Return a place on an abscissa as text: with up to six digits, of which those stand that mean something, and so many more."""
+    return shown(value, unit_text, min(meant_digits(value, unit_text, PLACE_DIGITS) + more, PLACE_DIGITS))
 
 
 def given_shown(value: float, unit_text: str) -> dict[str, str]:

@@ -130,25 +130,26 @@ class Equations:
         if operation == "abs_max":
             form = ["call", "max", ["call", "abs", of]]
             return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|", form=form)]
-        if operation == "derivative":
-            by = item["at"]["symbol"]
-            below = rf"\mathrm{{d}}{self.latex.symbol(by)}"
-            return [
-                Link(
-                    rf"\frac{{\mathrm{{d}}{curve}}}{{{below}}}", f"d{plain}/d{by}", form=["derivative", of, ["sym", by]]
-                )
-            ]
-        if operation == "accumulated":
-            end = item["at"]["symbol"]
-            upper = self.latex.symbol(end)
-            latex = rf"\int_{{0}}^{{{upper}}} {curve}\,\mathrm{{d}}{upper}"
-            return [Link(latex, f"∫ {plain} d{end} from 0 to {end}", form=["accumulated", of, ["sym", end]])]
+        if "over" in item or operation in ("derivative", "accumulated"):
+            return [self._of_calculus(item, self._symbol(name))]
         word = SIGNS.get(operation, operation)
         if operation in OPERATORS:
             form = ["nary", SIGNS[operation], of] if operation in SIGNS else ["call", operation, of]
             return [Link(f"{OPERATORS[operation]} {curve}", f"{word} {plain}", form=form)]
         word = self.words[operation]
         return [Link(rf"\operatorname{{{word}}} {curve}", f"{word} {plain}", form=["call", word, of])]
+
+    def _of_calculus(self, item: Item, curve: Link) -> Link:
+        """The derivative of a curve, or its integral: up to the place that is shown, or over all of its abscissa."""
+        by = self._symbol(item["over" if "over" in item else "at"]["symbol"])
+        differential = rf"\mathrm{{d}}{by.latex}"
+        if item["operation"] == "derivative":
+            form = ["derivative", curve.form, by.form]
+            return Link(rf"\frac{{\mathrm{{d}}{curve.latex}}}{{{differential}}}", f"d{curve.text}/d{by.text}", form=form)
+        end = self._result(item["over"]) if "over" in item else by
+        latex = rf"\int_{{0}}^{{{end.latex}}} {curve.latex}\,{differential}"
+        form = ["integral", curve.form, by.form, end.form]
+        return Link(latex, f"∫ {curve.text} d{by.text} from 0 to {end.text}", form=form)
 
     def _place(self, item: Item) -> Link:
         """Where a curve's numbers are shown, or where an extreme lies."""

@@ -60,7 +60,7 @@ ENGLISH: dict[str, str] = {
     "refers": "from {path}", "from_press": "default, from {path}",
     "assumed": "assumed", "measured": "measured", "catalogue": "from a catalogue", "standard": "by a standard", "drawing": "from a drawing",
     "rests_on": "Rests on {n} assumed values", "moving_first": ", those first that move a governing check",
-    "moves": "moves {check}", "more_assumed": " and {n} more",
+    "moves": "moves “{check}”", "move_each": "each moves “{check}”", "more_assumed": " and {n} more",
     "influence": "Influence of inputs",
     "influence_lead": "Each input that is given as a number is lowered and raised by {by}, or by its tolerance; all else stays as it is.",
     "influence_on": "Influence on {what}", "influence_today": "Now: {value}.", "influence_none": "no machine",

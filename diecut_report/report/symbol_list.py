@@ -49,7 +49,7 @@ def symbol_rows(mechanism: Data) -> list[SymbolRow]:
 def in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
     """The rows in columns for paper, of about as many lines each."""
     lines = [ceil((len(row.meaning) + len(row.unit) + 2) / ROOM) for row in rows]
-    share = sum(lines) / COLUMNS
+    share = ceil(sum(lines) / COLUMNS)
     before = [0, *accumulate(lines)]
     columns: list[list[SymbolRow]] = [[] for _ in range(COLUMNS)]
     for row, above, height in zip(rows, before, lines, strict=False):

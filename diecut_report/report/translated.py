@@ -101,7 +101,7 @@ class _Mechanism:
         if key in SAID:
             return self.text(text)
         if key == "source":
-            return self.words.source(text)
+            return self.words.source(text, self.kind)
         if key in ("text", "key", "column", "note", "part_name", "name"):
             return self._shown(text)
         return text

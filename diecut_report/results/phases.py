@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from decimal import Decimal
 from typing import Any
 
 from diecut_report.contract.phases import PREFIX
@@ -11,11 +12,10 @@ from diecut_report.engine.phases import intervals, period_of, phases_of, speed_o
 from diecut_report.engine.shown_units import declared_unit
 from diecut_report.languages.phrases import Phrase, named
 from diecut_report.mechanics.timing.intervals import Interval
-from diecut_report.quantities.formatting import shown
+from diecut_report.quantities.formatting import place_shown, shown
 from diecut_report.quantities.units import unit
 
 Data = dict[str, Any]
-PLACE_DIGITS = 6
 
 
 def phases(calc: Calculation) -> Data:
@@ -45,8 +45,14 @@ def _shown(interval: Interval, display: str, speed: float | None) -> dict[str, s
     """An interval as texts: both ends and its length in the abscissa's unit, and its time in ms where the speed is known."""
     start, end = interval
     texts = {"from": start, "to": end, "length": end - start}
-    told = {key: shown(value, display, PLACE_DIGITS)["text"] for key, value in texts.items()}
+    tried = [{key: place_shown(value, display, more)["text"] for key, value in texts.items()} for more in range(3)]
+    told = next(filter(_agree, tried), tried[0])
     return told | ({"time": shown((end - start) / speed, "ms")["text"]} if speed else {})
+
+
+def _agree(told: dict[str, str]) -> bool:
+    """Whether the printed ends give the printed length."""
+    return Decimal(told["to"]) - Decimal(told["from"]) == Decimal(told["length"])
 
 
 def phases_absent(calc: Calculation) -> Data:

@@ -190,14 +190,14 @@ def test_figures_are_curves_or_drawings_and_drawn_once_for_a_machine(session: Li
 def test_what_breaks_only_where_results_are_shown_is_a_fault_and_the_last_machine_stays(
     session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    machine, outputs = session.machine, WarmRun.outputs
+    machine, outputs = session.machine, WarmRun.key_outputs
 
     def broken(run: WarmRun, name: str) -> dict[str, object]:
         raise ArithmeticError("the numbers contradict the result")
 
-    monkeypatch.setattr(WarmRun, "outputs", broken)
+    monkeypatch.setattr(WarmRun, "key_outputs", broken)
     session.change({"knife.eccentricity": "22 mm"})
     assert "the numbers contradict the result" in session.faults[0].message and session.machine is machine
-    monkeypatch.setattr(WarmRun, "outputs", outputs)
+    monkeypatch.setattr(WarmRun, "key_outputs", outputs)
     session.read()
     assert session.faults == [] and session.machine is not machine

@@ -45,7 +45,7 @@ def test_the_neighbours_of_a_place_lie_in_its_own_piece() -> None:
         (3, (0.2, 0.2, 0.6, 0.6)),
         (4, (0.6, 0.2, 1.0, 0.6)),
     ):
-        found = duty()._about(np.array([index]), share)
+        found = duty()._about(np.array([0]), np.array([index]), share)
         assert [each[0, 0] for each in found] == pytest.approx(expected)
 
 

@@ -246,6 +246,14 @@ def test_reductions(operation: str, text: str) -> None:
     assert equation.text == text
 
 
+def test_an_integral_tells_over_what_it_is_taken() -> None:
+    over = {"symbol": "φ", "text": "360", "unit": "deg"}
+    equation = _equations()[0].of(_item(type="reduction", operation="integral", of="V", over=over))
+    assert equation is not None
+    assert equation.text == "c = ∫ V dφ from 0 to 360° = 5 mm"
+    assert equation.latex.startswith(r"c = \int_{0}^{360°} V\,\mathrm{d}φ = ")
+
+
 def test_condition_is_shown_in_symbols_and_with_numbers() -> None:
     item = {"condition": ["cmp", ">", A, B], "condition_substituted": ["cmp", ">", MM, ["qty", "30", "mm"]]}
     condition = _equations()[0].condition(item)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import itertools
 import re
 import sys
@@ -13,11 +14,13 @@ import pytest
 
 from diecut_report import api
 from diecut_report.config.discovery import Discovery, UnknownKind
+from diecut_report.contract.options import Options
 from diecut_report.errors import PluginError, UserError
 from diecut_report.expressions.functions import FUNCTIONS, OF_TWO, SAID
 from diecut_report.quantities.units import UnitError, parse_quantity
 from diecut_report.report.figures.drawing import ROLES
 from diecut_report.testing import check_mechanism
+from tools import make_form_page
 from tools.site import drawing_page, functions_page
 from tools.site.api_groups import GROUPS, TOLD
 
@@ -188,6 +191,14 @@ def test_a_function_takes_and_gives_what_the_page_says(tmp_path: Path, name: str
 def test_each_function_and_each_role_has_a_meaning() -> None:
     assert functions_page.MEANINGS.keys() == set(FUNCTIONS.values()) and functions_page.SAYING.keys() == SAID.keys()
     assert drawing_page.MEANINGS.keys() == ROLES.keys()
+
+
+def test_the_page_of_the_authors_form_is_made_of_what_there_is() -> None:
+    for file, text in make_form_page.pages().items():
+        assert file.read_text(encoding="utf-8") == text, "run: python -m tools.make_form_page"
+        told = set(re.findall(r"^### `(?:chapter\.)?(\w+)`", text, re.MULTILINE))
+        called = {name for name in dir(api.Steps) if inspect.isfunction(getattr(api.Steps, name)) and name[0] != "_"}
+        assert called <= told and make_form_page.MEANINGS.keys() == Options.__annotations__.keys()
 
 
 def test_each_name_stands_on_one_page_of_the_reference() -> None:

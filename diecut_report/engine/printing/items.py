@@ -249,6 +249,9 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
     item = _head(step) | _reduced(calc, step, step.of) | {"operation": step.operation}
     item["method"] = METHODS["mean" if integrated else "max"]
     item["residual"] = {"text": number_text(calc.proof[step.id], 2), "unit": "1"}
+    if step.operation == "integral":
+        axis = calc.axis[step.of]
+        item["over"] = place_of(calc, axis, float(calc.domains[axis].period_of(None)[0, 0]))
     place = place_name(step.id)
     if place in calc.values:
         item["at"] = place_of(calc, calc.axis[step.of], float(calc[place][0, 0]))

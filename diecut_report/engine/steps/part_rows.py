@@ -1,4 +1,4 @@
-"""Steps over repeated parts (rows), and numbers from standard series and tables, for all variants."""
+"""Steps over repeated parts (rows), and numbers from standard series, for all variants."""
 
 from __future__ import annotations
 
@@ -7,8 +7,9 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.part_steps import Neighbour, Part, Pick, Running, Total
 from diecut_report.engine.calculation import Calculation, Impossible
+from diecut_report.engine.steps.lookups import given_of
 from diecut_report.expressions import Array
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
@@ -48,29 +49,6 @@ def part(calc: Calculation, step: Part) -> None:
     calc.values[step.id] = calc[step.of][:, [step.index]]
 
 
-def lookup(calc: Calculation, step: Lookup) -> None:
-    """Take a number from a table by a text, a row where there is a text for each part; or as it is given."""
-    given = given_of(calc, step)
-    if isinstance(given, np.ndarray):
-        calc.values[step.id] = given
-        return
-    numbers, display = step.rows()
-    text = calc.inputs[step.by]
-    found = [
-        np.nan if key is None else numbers[key] * unit(display).factor
-        for key in (text if isinstance(text, tuple) else (text,))
-    ]
-    calc.values[step.id] = np.tile(np.asarray(found, dtype=float), (calc.count, 1))
-    for part, value in enumerate(given or ()):
-        if value is not None:
-            calc.values[step.id][:, part] = value
-
-
-def given_of(calc: Calculation, step: Lookup) -> Any:
-    """Return what is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
-    return calc.inputs.get(step.given.removeprefix("inputs.")) if step.given else None
-
-
 def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, StandardSeries | None]:
     """Return the standard values that a step takes from, ascending; their unit; and the standard series, if it is one."""
     series = step.series[str(calc.inputs[step.by])] if isinstance(step.series, Mapping) else step.series
@@ -81,6 +59,10 @@ def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, St
 
 def pick(calc: Calculation, step: Pick) -> None:
     """Take the standard value; beyond the ends of the series its last one, or no machine."""
+    given = given_of(calc, step)
+    if given is not None:
+        calc.values[step.id] = given
+        return
     values, display, _ = series_of(calc, step)
     series: Array = np.asarray(values) * unit(display).factor
     sought = calc[step.of]
@@ -106,10 +88,10 @@ def _within(calc: Calculation, step: Pick, sought: Array, series: Array) -> None
         )
         title = getattr(series_of(calc, step)[2], "title", "the series")
         words = f"{step.description} ({step.id}): {_sought(calc, step, float(sought[variant, part]))} is beyond {title}, of which {end}"
-        key = step.of.removeprefix("inputs.")
+        key = step.key or step.of.removeprefix("inputs.")
         if calc.count == 1:
-            raise Impossible([(key if key in calc.inputs else "", words)])
-        calc.flaws.setdefault(int(variant), (step.id, words))
+            raise Impossible([(key if step.key or key in calc.inputs else "", words)])
+        calc.flaws.setdefault(int(variant), (step.key or step.id, words))
 
 
 def _sought(calc: Calculation, step: Pick, value: float) -> str:

@@ -45,6 +45,7 @@ from diecut_report.engine.steps import (
     facts,
     feasibility,
     interpolation,
+    lookups,
     named_parts,
     one_by_one,
     part_rows,
@@ -281,6 +282,6 @@ RUN: dict[type[Step], Callable[[Calculation, Any], None]] = {
     PartNames: plain_code.part_names, PartTable: lambda _, __: None,
     Fact: facts.judge,
     Require: feasibility.require, Clash: feasibility.clash,
-    Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: part_rows.lookup,
+    Total: part_rows.total, Neighbour: part_rows.neighbour, Running: part_rows.running, Part: part_rows.part, Lookup: lookups.lookup,
     Pick: part_rows.pick, Interpolated: interpolation.interpolated,
 }  # fmt: skip

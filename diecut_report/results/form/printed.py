@@ -83,6 +83,7 @@ class ReductionItemKeys(ResultingKeys):
     operation: str = always(
         "What is taken: `max`, `abs_max`, `min`, `range`, `mean`, `rms`, `integral`, `sum`, `first`, `last`, `pick` …"
     )
+    over: PlaceKeys = sometimes("Of an integral what it runs over, from 0 to this place.")
     method: str = always("How it was found.")
     residual: ShownKeys = sometimes("How far a proof by other means differs.")
     series: str = sometimes("The standard series that it is taken from.")
