@@ -291,18 +291,24 @@
     });
   }
 
-  /* ---- what scrolls in a box of its own can be reached by the keyboard; a box is measured when it comes near ---- */
-  var near = null;
+  /* ---- what scrolls in a box of its own can be reached by the keyboard; boxes are measured where the page has nothing else to do ---- */
+  var measuring = 0;
   function reach() {
-    if (near) { near.disconnect(); }
-    near = new IntersectionObserver(function (entries) {
-      var boxes = entries.filter(function (entry) { return entry.isIntersecting; }).map(function (entry) { return entry.target; });
-      var wide = boxes.map(function (box) { return box.scrollWidth > box.clientWidth + 1; }); // measured at once, then changed at once
-      boxes.forEach(function (box, index) {
+    var boxes = all("main .math, main .why, main .remark, main .scroll"), own = measuring += 1;
+    var wait = window.requestIdleCallback || function (go) { window.setTimeout(go, 20); };
+    function some() {
+      if (own !== measuring) { return; }
+      var part = boxes.splice(0, 12);
+      var wide = part.map(function (box) { // by what it holds: what is far away is not laid out by itself; measured at once, then changed at once
+        var edge = box.getBoundingClientRect().right + 1;
+        return box.scrollWidth > box.clientWidth + 1 || Array.from(box.children).some(function (part) { return part.getBoundingClientRect().right > edge; });
+      });
+      part.forEach(function (box, index) {
         if (wide[index]) { box.tabIndex = 0; } else { box.removeAttribute("tabindex"); }
       });
-    }, { rootMargin: "300px" });
-    all("main .math, main .why, main .remark, main .scroll").forEach(function (box) { near.observe(box); });
+      if (boxes.length) { wait(some); } else { root.dataset.reached = "all"; }
+    }
+    wait(some);
   }
 
   /* ---- curves read at the cursor ---- */

@@ -72,6 +72,7 @@ class Opened:
             for (const number of Object.keys(data.figures)) { const figure = document.getElementById("fig-" + number);
                 figure.scrollIntoView();
                 while (!figure.querySelector(".r-chart canvas")) { await new Promise(done => setTimeout(done, 20)); } }
+            while (!document.documentElement.dataset.reached) { await new Promise(done => setTimeout(done, 20)); }
             scrollTo(0, 0); }""")
 
 
