@@ -137,10 +137,10 @@ def test_titles_that_are_wider_than_their_diagram_stand_in_lines() -> None:
     assert sum("\n" in box.text for box in _boxes(figure, {}, Size.HALF)[0]) == 3
 
 
-def _crowded() -> LabelLayout:
+def _crowded(line_count: int = 3) -> LabelLayout:
     """Five marks close together, a level through steep curves, and a named range, in a diagram 400 by 90 points large."""
     x = np.linspace(0.0, 10.0, 400)
-    lines = [Line(x, 5 + 5 * np.sin(8 * x + phase), "") for phase in (0.0, 1.0, 2.0)]
+    lines = [Line(x, 5 + 5 * np.sin(8 * x + phase), "") for phase in (0.0, 1.0, 2.0)[:line_count]]
     marks = [Note(5.0 + 0.2 * n, 5.0, f"place {n} of five 1.234") for n in range(5)]
     panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=lines, marks=marks,
                       levels=[Note(0.0, 5.0, "allowed")], spans=[SpanData(2.0, 8.0, "stroke")])  # fmt: skip
@@ -149,7 +149,7 @@ def _crowded() -> LabelLayout:
 
 @pytest.mark.usefixtures("style")
 def test_a_name_that_stands_away_from_its_mark_has_a_line_to_it() -> None:
-    layout = _crowded()
+    layout = _crowded(line_count=0)
     names = [text for text in layout.texts if text.text.startswith("place")]
     assert len(names) == 5
     for name, mark in zip(names, layout.panel.marks, strict=True):
@@ -195,3 +195,27 @@ def test_a_diagram_with_many_names_is_as_wide_as_the_sheet() -> None:
     narrow, wide = ({"sections": [], "figures": [chart("x", "x", [each])] * 2} for each in (few, many))
     assert [len(row.figures) for row in rows_of(placed("A", narrow), paired=True)] == [2]
     assert [len(row.figures) for row in rows_of(placed("A", wide), paired=True)] == [1, 1]
+
+
+@pytest.mark.usefixtures("style")
+def test_a_name_that_has_no_room_beside_the_lines_stands_in_the_legend_and_covers_none() -> None:
+    layout = _crowded()
+    assert layout.told_marks == [0, 1, 2, 3, 4]
+    assert layout.told_levels == [0]
+    assert [text.text for text in layout.texts] == ["stroke"]
+
+
+@pytest.mark.usefixtures("style")
+def test_the_legend_names_such_marks_and_levels_by_their_signs() -> None:
+    x = np.linspace(0.0, 2 * np.pi, 200)
+    wave = {"x": list(x), "y": list(100 * np.sin(7 * x)), "label": "torque"}
+    mark = {"x": 1.57, "y": 99.0, "label": "greatest driving torque of the turn"}
+    panel = {
+        "title": "Torque", "unit": "N*m", "x": {"title": "Angle", "symbol": "φ", "unit": "deg"}, "fills": [], "marks": [mark],
+        "lines": [wave], "levels": [{"value": 30.0, "label": "mean of the whole turn"}], "verticals": [],
+    }  # fmt: skip
+    figure = {"id": "narrow", "type": "chart", "panels": [panel]}
+    boxes = {box.text: box for box in _boxes(figure, {}, Size.HALF)[0]}
+    names = [box for text, box in boxes.items() if text.startswith(("greatest driving", "mean of"))]
+    assert len(names) == 2 and all(box.bottom > boxes["Torque, N·m"].top - 20 for box in names)
+    assert list(_faults(figure, {}, Size.HALF)) == []
