@@ -33,6 +33,7 @@ from diecut_report.contract.figures import (
     polyline,
     radius_dimension,
     region,
+    rigid,
 )
 from diecut_report.contract.from_tables import FromTable
 from diecut_report.contract.inputs import (
@@ -218,6 +219,7 @@ __all__ = [
     "prefixed",
     "radius_dimension",
     "region",
+    "rigid",
     "si",
     "standard_series",
     "standard_series_by",

@@ -36,12 +36,16 @@
     });
   }
 
-  /* A number as the report prints it, to four digits. */
-  function printed(value) {
+  /* A number as the report prints it: to four digits, none finer than means something in its unit (the power of ten of the last one,
+     and how many a small number keeps), nor than the page knows it (a power of ten). */
+  function printed(value, finest, known) {
     if (value === null || !isFinite(value)) { return "–"; }
     if (value === 0) { return "0"; }
     var power = Math.floor(Math.log10(Math.abs(Number(value.toPrecision(4)))));
-    var scaled = power < -4 || power >= 6, shown = scaled ? (value / Math.pow(10, power)).toFixed(3) : value.toFixed(Math.max(3 - power, 0));
+    var digits = Math.min(4, finest ? Math.max(power - finest[0] + 1, finest[1]) : 4, known === undefined ? 4 : power - known + 1);
+    if (digits < 1) { return "0"; }
+    power = Math.floor(Math.log10(Math.abs(Number(value.toPrecision(digits)))));
+    var scaled = power < -4 || power >= 6, shown = scaled ? (value / Math.pow(10, power)).toFixed(digits - 1) : value.toFixed(Math.max(digits - 1 - power, 0));
     var parts = shown.replace("-", "\u2212").split(".");
     if (parts[0].replace("\u2212", "").length > 4) { parts[0] = parts[0].replace(/(?<=\d)(?=(\d{3})+$)/g, "\u202f"); }
     return parts.join(data.decimal) + (scaled ? "\u2009×\u200910" + String(power).replace(/./g, function (c) { return c === "-" ? "⁻" : "⁰¹²³⁴⁵⁶⁷⁸⁹"[c]; }) : "");
@@ -287,18 +291,29 @@
     });
   }
 
-  /* ---- what scrolls in a box of its own can be reached by the keyboard ---- */
+  /* ---- what scrolls in a box of its own can be reached by the keyboard; boxes are measured where the page has nothing else to do ---- */
+  var measuring = 0;
   function reach() {
-    var boxes = all("main .math, main .why, main .remark, main .scroll");
-    var wide = boxes.map(function (box) { return box.scrollWidth > box.clientWidth + 1; }); // measured at once, then changed at once
-    boxes.forEach(function (box, index) {
-      if (wide[index]) { box.tabIndex = 0; } else { box.removeAttribute("tabindex"); }
-    });
+    var boxes = all("main .math, main .why, main .remark, main .scroll"), own = measuring += 1;
+    var wait = window.requestIdleCallback || function (go) { window.setTimeout(go, 20); };
+    function some() {
+      if (own !== measuring) { return; }
+      var part = boxes.splice(0, 12);
+      var wide = part.map(function (box) { // by what it holds: what is far away is not laid out by itself; measured at once, then changed at once
+        var edge = box.getBoundingClientRect().right + 1;
+        return box.scrollWidth > box.clientWidth + 1 || Array.from(box.children).some(function (part) { return part.getBoundingClientRect().right > edge; });
+      });
+      part.forEach(function (box, index) {
+        if (wide[index]) { box.tabIndex = 0; } else { box.removeAttribute("tabindex"); }
+      });
+      if (boxes.length) { wait(some); } else { root.dataset.reached = "all"; }
+    }
+    wait(some);
   }
 
   /* ---- curves read at the cursor ---- */
   var groups = [];
-  for (var n = 0; n < data.groups; n += 1) { groups.push({ place: null, members: [], drawings: [] }); }
+  data.turns.forEach(function (turn) { groups.push({ place: null, members: [], turn: turn, moving: data.moving.filter(function (each) { return each.group === groups.length; }) }); });
   var LOOKS = [["accent", [], 1.9], ["ink", [7, 3], 1.5], ["soft", [8, 2, 2, 2], 1.5], ["ink", [2, 2], 1.5], ["ink", [], 0.9], ["accent", [13, 3], 1.8], ["soft", [8, 2, 2, 2, 2, 2], 1.5], ["accent", [4, 2], 1.9]];
 
   function colour(name) { return getComputedStyle(root).getPropertyValue("--r-" + name).trim(); }
@@ -306,7 +321,9 @@
   /* The height of a line at a place: on the straight piece between its points, the right one of a jump; null beside it. */
   function height(line, x) {
     var xs = data.rows[line.x], ys = data.rows[line.y], low = 0, high = xs.length - 1;
-    if (x < xs[low] || x > xs[high]) { return null; }
+    var hair = 1e-5 * (xs[high] - xs[low]); // by which rounded places may lie beside the ends of the range
+    if (x < xs[low] - hair || x > xs[high] + hair) { return null; }
+    x = Math.max(xs[low], Math.min(x, xs[high]));
     while (high - low > 1) {
       var middle = (low + high) >> 1;
       if (xs[middle] <= x) { low = middle; } else { high = middle; }
@@ -324,18 +341,32 @@
     return tables.every(function (table) { return table[0] === tables[0][0]; }) && tables.length === 1 ? tables[0] : window.uPlot.join(tables);
   }
 
-  function move(group, x) {
-    group.place = x;
-    group.members.forEach(function (member) { member.at(x); });
+  /* A place as a member counts it, whose range may lie whole turns off. */
+  function within(x, range, turn) {
+    var low = range[0] - 1e-9 * turn, high = range[1] + 1e-9 * turn;
+    if (!turn || (x >= low && x <= high)) { return x; }
+    var moved = x + turn * Math.ceil((low - x) / turn);
+    return moved <= high ? moved : x;
   }
 
+  function move(group, x) {
+    group.place = x;
+    group.members.forEach(function (member) { member.at(within(x, member.range, group.turn)); });
+  }
+
+  /* A text on a chart, clear of the lines below it. */
   function write(context, text, x, y) {
+    context.save();
+    context.textAlign = "left"; context.textBaseline = "alphabetic"; // the chart's axes leave theirs
+    context.strokeStyle = colour("paper"); context.lineWidth = 3 * window.devicePixelRatio; context.lineJoin = "round"; context.setLineDash([]);
     pieces(text).forEach(function (piece) {
       var below = piece.role === "below", size = below ? 8.5 : 11;
       context.font = (piece.role === "sign" ? "italic " : "") + size * window.devicePixelRatio + "px 'Report Sans', sans-serif";
+      context.strokeText(piece.text, x, y + (below ? 3 * window.devicePixelRatio : 0));
       context.fillText(piece.text, x, y + (below ? 3 * window.devicePixelRatio : 0));
       x += context.measureText(piece.text).width;
     });
+    context.restore();
   }
 
   function wide(context, text) {
@@ -408,8 +439,9 @@
     });
     var place = make("div", { "class": "r-chart", role: "img", "aria-label": panel.title });
     box.append(head, place);
+    var known = Math.floor(Math.log10(Math.max(Math.abs(panel.range[0]), Math.abs(panel.range[1])))) - 4; // rows have five digits
     var span = panel.across.range, hair = (span[1] - span[0]) * 1e-9;
-    var member = { chart: null, at: null, isReady: false };
+    var member = { chart: null, at: null, isReady: false, range: span };
     function draw() {
       if (member.chart) { member.chart.destroy(); }
       member.isReady = false;
@@ -428,7 +460,7 @@
           return { stroke: colour(area ? "soft" : look[0]), width: area ? 0.6 : look[2], dash: area ? [] : look[1], fill: area ? colour("pale") : undefined, fillTo: 0, points: { show: false } };
         })),
         hooks: {
-          ready: [function () { member.isReady = true; if (group.place !== null) { member.at(group.place); } }],
+          ready: [function () { member.isReady = true; if (group.place !== null) { member.at(within(group.place, span, group.turn)); } }],
           drawClear: [function (u) { behind(u, panel); }], draw: [function (u) { before(u, panel); }],
           setCursor: [function (u) {
             if (u.cursor.event && u.cursor.left >= 0) { move(group, Math.max(span[0], Math.min(u.posToVal(u.cursor.left, "x"), span[1]))); }
@@ -436,11 +468,14 @@
         }
       }, joined(lines, hair), place);
       member.chart.over.addEventListener("mouseleave", function () { // the chart hides its cursor then
-        if (group.place !== null) { window.setTimeout(function () { member.at(group.place); }); }
+        if (group.place !== null) { window.setTimeout(function () { member.at(within(group.place, span, group.turn)); }); }
       });
     }
     member.at = function (x) {
-      told.forEach(function (value, index) { value.textContent = withUnit(printed(height(lines[index], x)), panel.unit); });
+      told.forEach(function (value, index) {
+        var y = height(lines[index], x);
+        value.textContent = y === null ? "–" : withUnit(printed(y, panel.finest, known), panel.unit);
+      });
       if (member.isReady && !(member.chart.cursor.event && member.chart.over.matches(":hover"))) {
         member.chart.setCursor({ left: member.chart.valToPos(x, "x"), top: 0 }, false);
       }
@@ -459,10 +494,11 @@
     var output = make("output", {}, ""), input = make("input", { type: "range", min: span[0], max: span[1], step: (span[1] - span[0]) / 720, "aria-label": across.title });
     input.value = span[0];
     input.addEventListener("input", function () { move(group, Number(input.value)); });
-    group.members.push({ at: function (x) {
+    group.members.push({ range: span, at: function (x) {
+      var text = withUnit(printed(Number(x.toPrecision(4))).replace(/(?<=[.,]\d*)0+$|[.,]0+$/, ""), across.unit);
       input.value = x;
-      output.textContent = withUnit(printed(x), across.unit);
-      input.setAttribute("aria-valuetext", withUnit(printed(x), across.unit));
+      output.textContent = text;
+      input.setAttribute("aria-valuetext", text);
     } });
     box.append(make("label", { "class": "r-slide" }, [make("span", {}, [across.title + " "].concat(said(across.symbol))), input, output]));
   }
@@ -474,67 +510,96 @@
     return node;
   }
 
-  function bounds(moving) {
-    var low = [Infinity, Infinity], high = [-Infinity, -Infinity];
-    moving.shapes.forEach(function (shape) {
-      shape.rows.forEach(function (row) {
-        var numbers = data.rows[row], room = shape.shape === "circle" ? numbers[2] : 0, end = shape.shape === "polyline" ? numbers.length : 2;
-        for (var k = 0; k < end; k += 1) { low[k % 2] = Math.min(low[k % 2], numbers[k] - room); high[k % 2] = Math.max(high[k % 2], numbers[k] + room); }
-      });
+  function placed(shape, node, now, dot) {
+    if (shape.shape === "rigid") { node.setAttribute("transform", "translate(" + now[0] + " " + -now[1] + ") rotate(" + -now[2] + ")"); return; }
+    if (shape.shape === "polyline") { node.setAttribute("points", now.map(function (value, at) { return at % 2 ? -value : value; }).join(" ")); return; }
+    node.setAttribute("cx", now[0]); node.setAttribute("cy", -now[1]); node.setAttribute("r", shape.shape === "circle" ? now[2] : dot);
+  }
+
+  /* The nodes of shapes, drawn where they stand still; those that move are told to ``moves``. */
+  function drawn(shapes, sheet, dot, moves) {
+    shapes.forEach(function (shape) {
+      var name = shape.shape === "rigid" ? "g" : shape.shape === "polyline" ? (shape.closed ? "polygon" : "polyline") : "circle";
+      var node = svg(name, shape.role ? { "class": "m-" + shape.role } : {});
+      sheet.append(node);
+      if (shape.shapes) { drawn(shape.shapes, node, dot, moves); }
+      if (shape.numbers) { placed(shape, node, shape.numbers, dot); } else { moves.push([shape, node]); }
     });
-    var air = 0.03 * Math.max(high[0] - low[0], high[1] - low[1]);
-    return { left: low[0] - air, top: -high[1] - air, width: high[0] - low[0] + 2 * air, height: high[1] - low[1] + 2 * air };
   }
 
   function mover(moving, box) {
-    var room = bounds(moving), places = data.rows[moving.places], dot = Math.max(room.width, room.height) / 90;
-    var sheet = svg("svg", { viewBox: [room.left, room.top, room.width, room.height].join(" "), role: "img", "aria-label": moving.title, "class": "moving" });
-    var nodes = moving.shapes.map(function (shape) {
-      var node = svg(shape.shape === "polyline" ? (shape.closed ? "polygon" : "polyline") : "circle", { "class": "m-" + shape.role });
-      sheet.append(node);
-      return node;
-    });
+    var places = data.rows[moving.places], dot = Math.max(moving.room[2], moving.room[3]) / 90, moves = [];
+    var sheet = svg("svg", { viewBox: moving.room.join(" "), role: "img", "aria-label": moving.title, "class": "moving" });
+    drawn(moving.shapes, sheet, dot, moves);
     box.append(sheet);
-    groups[moving.group].members.push({ at: function (x) {
+    groups[moving.group].members.push({ range: moving.across.range, at: function (x) {
       var k = 1;
       while (k < places.length - 1 && places[k] < x) { k += 1; }
       var share = Math.max(0, Math.min(1, (x - places[k - 1]) / (places[k] - places[k - 1] || 1)));
-      moving.shapes.forEach(function (shape, index) {
-        var from = data.rows[shape.rows[k - 1]], to = data.rows[shape.rows[k]], node = nodes[index];
-        var now = from.map(function (value, at) { return (value + share * (to[at] - value)) * (shape.shape !== "polyline" && at === 2 || at % 2 === 0 ? 1 : -1); });
-        if (shape.shape === "polyline") { node.setAttribute("points", now.join(" ")); return; }
-        node.setAttribute("cx", now[0]); node.setAttribute("cy", now[1]); node.setAttribute("r", shape.shape === "circle" ? now[2] : dot);
+      moves.forEach(function (pair) {
+        placed(pair[0], pair[1], pair[0].rows.map(function (number) {
+          var row = data.rows[number];
+          return row.length === 1 ? row[0] : row[k - 1] + share * (row[k] - row[k - 1]);
+        }), dot);
       });
     } });
   }
 
+  /* A turn on its own, from where the cursor is, in six seconds. */
+  function player(group, span, box) {
+    var button = make("button", { type: "button", "class": "r-play", "aria-pressed": "false" }, words.play), started = null, from = 0;
+    function step(now) {
+      if (started === null || !box.isConnected) { return; }
+      started = started || now;
+      var share = (now - started) / 6000;
+      if (share >= 1) { stop(); move(group, from); return; }
+      move(group, span[0] + (from - span[0] + share * (span[1] - span[0])) % (span[1] - span[0]));
+      window.requestAnimationFrame(step);
+    }
+    function stop() { started = null; button.setAttribute("aria-pressed", "false"); }
+    button.addEventListener("click", function () {
+      if (started !== null) { stop(); return; }
+      started = 0;
+      from = within(group.place, span, group.turn);
+      button.setAttribute("aria-pressed", "true");
+      window.requestAnimationFrame(step);
+    });
+    box.append(button);
+  }
+
   function beside(group, box) {
-    data.moving.forEach(function (moving) { if (moving.group === group) { mover(moving, box); } });
+    if (!group.moving.length) { return; }
+    var row = make("div", { "class": "r-moving" });
+    group.moving.forEach(function (moving) { mover(moving, row); });
+    box.append(row);
   }
 
   function movable(moving) {
-    var figure = document.getElementById("fig-" + moving.figure), box = make("div", { "class": "reading large" });
+    var figure = document.getElementById("fig-" + moving.figure), box = make("div", { "class": "reading large" }), group = groups[moving.group];
     figure.querySelector(".fig").after(box);
     mover(moving, box);
     slider(moving, box);
-    if (groups[moving.group].place === null) { move(groups[moving.group], moving.across.range[0]); }
+    player(group, moving.across.range, box);
+    move(group, group.place === null ? moving.across.range[0] : group.place);
   }
 
   function readable(number) {
-    var figure = document.getElementById("fig-" + number), svg = figure.querySelector(".fig"), panels = data.figures[number].panels;
+    var figure = document.getElementById("fig-" + number), svg = figure.querySelector(".fig"), panels = data.figures[number].panels, isBeside = data.figures[number].beside;
     var box = make("div", { "class": "reading" }), button = make("button", { type: "button", "class": "as-printed", "aria-pressed": "false" }, words.printed);
-    var tall = Math.max(130, Math.min(240, svg.clientHeight / panels.length - 30));
-    figure.insertBefore(box, svg);
+    var tall = isBeside ? 130 : Math.max(130, Math.min(240, svg.clientHeight / panels.length - 30));
+    figure.insertBefore(box, isBeside ? svg.nextSibling : svg);
     panels.forEach(function (panel, index) {
       diagram(panel, box, tall);
-      if (!panels[index + 1] || panels[index + 1].group !== panel.group) { slider(panel, box); beside(panel.group, box); }
+      if (!panels[index + 1] || panels[index + 1].group !== panel.group) { slider(panel, box); beside(groups[panel.group], box); }
     });
-    box.after(button);
-    button.addEventListener("click", function () {
-      var printed = figure.classList.toggle("printed");
-      button.setAttribute("aria-pressed", String(printed));
-    });
-    figure.classList.add("read");
+    if (!isBeside) {
+      box.after(button);
+      button.addEventListener("click", function () {
+        var printed = figure.classList.toggle("printed");
+        button.setAttribute("aria-pressed", String(printed));
+      });
+      figure.classList.add("read");
+    }
     panels.forEach(function (panel) {
       var group = groups[panel.group];
       move(group, group.place === null ? panel.across.range[0] : group.place);

@@ -23,7 +23,7 @@ from diecut_report.cli.output import (
     tell_written,
     without_output,
 )
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.languages.speech import said, say, spoken_language
 
 if TYPE_CHECKING:
@@ -45,14 +45,22 @@ path_of = click.Path(path_type=Path)
 @click.option(
     "--package", "as_package", is_flag=True, help="As a package that can be installed, not a folder for --plugins."
 )
+@click.option(
+    "--like",
+    default="parts",
+    type=click.Choice(["parts", "motion", "selection"]),
+    help="What to begin with: parts (default; a list of springs), motion (curves over a turn), selection (a size of a table).",
+)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="The folder to make (default: NAME, here).")
 @common
-def new_plugin(name: str, as_package: bool, folder: Path | None, folders: tuple[Path, ...], quiet: bool) -> int:
+def new_plugin(
+    name: str, as_package: bool, like: str, folder: Path | None, folders: tuple[Path, ...], quiet: bool
+) -> int:
     """Write a new mechanism of the kind NAME that runs: plugin, tests, example, study, words."""
     from diecut_report.kit.scaffold import scaffold
 
     home = folder or Path(name)
-    written = scaffold(name, home, as_package=as_package)
+    written = scaffold(name, home, as_package=as_package, like=like)
     if not quiet:
         tell_written(written)
         tell([Phrase("next: read {file}", file=home / "README.md")])
@@ -65,10 +73,12 @@ def new_plugin(name: str, as_package: bool, folder: Path | None, folders: tuple[
               help="A configuration with a machine to try it on (default: one that lies beside the plugin).")  # fmt: skip
 @click.option("--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json.")
 @click.option("-o", "page", metavar="FILE", type=path_of, help="The rendered chapter (default: NAME.html, here).")
+@click.option("--write-po", is_flag=True, help="Write the texts that its catalogues lack into them, to be translated.")
 @click.option("--open", "is_shown", is_flag=True, help="Show the rendered chapter in the browser.")
 @common
 def check_plugin(
-    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, is_shown: bool, folders: tuple[Path, ...], quiet: bool
+    plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, folders: tuple[Path, ...],
+    quiet: bool,
 ) -> int:  # fmt: skip
     """Try a plugin on the rules of its contract, and set its chapter as HTML. Ends with 1 where a rule is broken."""
     from diecut_report.kit.checking import CheckedPlugin, checked, meant
@@ -81,7 +91,7 @@ def check_plugin(
     found: list[CheckedPlugin] = []
     for kind in kinds:
         with without_output():
-            for each in checked(known, kind, configs, asked_language() or spoken_language()):
+            for each in checked(known, kind, configs, asked_language() or spoken_language(), write_po=write_po):
                 if isinstance(each, CheckedPlugin):
                     found.append(each)
     if form == "json":
@@ -89,6 +99,7 @@ def check_plugin(
     else:
         emit("".join(f"{line}\n" for each in found for line in _lines(each)))
     for each in found:
+        _tell_added(each, quiet)
         _write_page(each, page or Path(f"{each.kind}.html"), configs, quiet, is_shown)
     states = {each.status for each in found}
     return PLUGIN_BROKE if "broke" in states else CHECK_FAILED if "fail" in states else PASSED
@@ -104,6 +115,13 @@ def _lines(found: CheckedPlugin) -> Iterator[str]:
         told = f": {said(rule.told)}" if rule.told else ""
         yield f"  {said(STATES[rule.status])}  {said(rule.title)}{told}"
         yield from (f"      {said(fault)}" for fault in rule.short_list)
+
+
+def _tell_added(found: CheckedPlugin, quiet: bool) -> None:
+    """Which texts wait for their translation."""
+    for file, count in found.added.items() if not quiet else ():
+        told = Counted(count, "{n} text to be translated", "{n} texts to be translated")
+        tell([Phrase("written: {file}: {told}", file=file, told=told)])
 
 
 def _write_page(found: CheckedPlugin, page: Path, configs: tuple[Path, ...], quiet: bool, is_shown: bool) -> None:

@@ -15,9 +15,19 @@ def linked(instances: Mapping[str, Instance | None]) -> Linker:
     What a mechanism gives may depend on that, and so whether a reference to it is a curve: it is asked until nothing moves.
     """
     linker = Linker(instances)
-    while any(_moved(instance, linker) for instance in instances.values() if instance is not None):
+    while _any_moved(instances, linker):
         linker = Linker(instances)
     return linker
+
+
+def _any_moved(instances: Mapping[str, Instance | None], linker: Linker) -> bool:
+    """Lay curves under their own keys, but where that is asked of an instance that has just changed; return whether there were any."""
+    moved: set[str] = set()
+    for instance in filter(None, instances.values()):
+        asked = (linker.links.get((instance.name, key)) for key in instance.model.curve_keys)
+        if not any(target.instance in moved for target in asked if target) and _moved(instance, linker):
+            moved.add(instance.name)
+    return bool(moved)
 
 
 def _moved(instance: Instance, linker: Linker) -> bool:

@@ -8,17 +8,27 @@ import hashlib
 import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
+from functools import lru_cache
 from typing import Any
 
 import yaml
 
 from diecut_report.config.yaml_tree import LOADER, KeyPath, Tree, parse
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import phrase
 
 ANCHOR = re.compile(r"&\S+\s+")
-EXPRESSION = "holds ${…}, a reference or an expression, and is not written over; change what it refers to, or write a number there first"
-SHARED = "stands in a part that an anchor (&) and its aliases (*) share, so that it cannot be changed here alone; write it out"
-NO_HOME = "cannot be put into the file, as the block that it belongs to does not stand there; write that block first"
+EXPRESSION = phrase(
+    "holds ${…}, a reference or an expression, and is not written over; change what it refers to, "
+    "or write a number there first"
+)
+SHARED = phrase(
+    "stands in a part that an anchor (&) and its aliases (*) share, so that it cannot be changed "
+    "here alone; write it out"
+)
+NO_HOME = phrase(
+    "cannot be put into the file, as the block that it belongs to does not stand there; write that block first"
+)
 
 
 @dataclass(frozen=True)
@@ -32,7 +42,12 @@ class _Span:
 
 
 def written(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> str:
-    """Return the text of the file with these scalars, as they are to be typed; a key that is not there is put into its block.
+    """Return the text of the file with these scalars, as they are to be typed; UserError as of ``rewritten``."""
+    return rewritten(tree, values, over_references=over_references).text
+
+
+def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> Tree:
+    """Return the file with these scalars, as they are to be typed; a key that is not there is put into its block.
 
     UserError in words where a value cannot be written: it is shared by an anchor, or an expression stands there which is not
     to be written over.
@@ -46,8 +61,7 @@ def written(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool 
     text = tree.text
     for start, end, new in sorted(edits, reverse=True):
         text = text[:start] + new + text[end:]
-    _require_same(tree, values, text)
-    return text
+    return tree if text == tree.text else _read_again(tree, values, text)
 
 
 def as_file(tree: Tree, text: str) -> bytes:
@@ -56,6 +70,7 @@ def as_file(tree: Tree, text: str) -> bytes:
     return (codecs.BOM_UTF8 if had_mark else b"") + text.encode()
 
 
+@lru_cache(maxsize=4)
 def _spans(text: str) -> dict[tuple[int, int], _Span]:
     """Where each scalar stands, by its line and column as the tree has them."""
     found: dict[tuple[int, int], _Span] = {}
@@ -117,16 +132,19 @@ def _keys(data: Any, home: KeyPath) -> Iterator[str]:
     yield from data if isinstance(data, dict) else ()
 
 
-def _require_same(tree: Tree, values: Mapping[KeyPath, str], text: str) -> None:
-    """Read the new text, which must differ from the file in these values alone."""
+def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
+    """The new text read, which must differ from the file in these values alone."""
     expected = copy.deepcopy(tree.data)
     for path, value in values.items():
         home = expected
         for key in path[:-1]:
             home = home[key]
         home[path[-1]] = parse(f"value: {value}\n", tree.file).data["value"]
-    if parse(text, tree.file).data != expected:
+    found = parse(text, tree.file)
+    if found.data != expected:
         raise UserError(_problem(tree, next(iter(values)), SHARED))
+    found.name = tree.name
+    return found
 
 
 def _problem(tree: Tree, path: KeyPath, words: str) -> Problem:

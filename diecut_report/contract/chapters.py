@@ -41,6 +41,7 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.errors import nearest
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 from diecut_report.standards import StandardSeries, StandardTable
 
 
@@ -58,7 +59,7 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
         for step in steps:
             if isinstance(step, Step):
                 if any(step is other for other in self.steps):
-                    raise Misdeclared(f"{step.id} is added twice; add it once")
+                    raise Misdeclared(Phrase("{id} is added twice; add it once", id=step.id))
                 self.steps = (*self.steps, step)
             else:
                 self.add(*step)
@@ -240,23 +241,15 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
         self._give(Part, id, symbol, unit, description, options, of=of, index=index)
 
     def lookup(
-        self,
-        id: str,
-        symbol: str,
-        unit: str,
-        description: str,
-        table: Mapping[str, float] | StandardTable,
-        by: str,
-        *,
-        column: str = "",
-        given: str = "",
-        **options: Unpack[Options],
-    ) -> None:
-        """Declare a number from a table by the text input ``by``; a row where the text is one of repeated parts.
+        self, id: str, symbol: str, unit: str, description: str, table: Mapping[str, float] | StandardTable, by: str, *,
+        column: str = "", given: str = "", sought_in: str = "", key: str = "", **options: Unpack[Options],
+    ) -> None:  # fmt: skip
+        """Declare a number from a row of a table, by the text input or the number ``by``: see ``Lookup``.
 
         ``column`` is one of several columns; with the optional input ``given`` its value is taken where it is given.
         """
-        self._give(Lookup, id, symbol, unit, description, options, table=table, by=by, column=column, given=given)
+        own = {"table": table, "by": by, "column": column, "given": given, "sought_in": sought_in, "key": key}
+        self._give(Lookup, id, symbol, unit, description, options, **own)
 
     def interpolated(
         self, id: str, symbol: str, unit: str, description: str, table: StandardTable, of: str, *, column: str = "", key: str = "",
@@ -270,10 +263,13 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
     def pick(
         self, id: str, symbol: str, unit: str, description: str, rule: Literal["above", "below", "nearest"], of: str,
         series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries], *, by: str = "",
-        beyond: Literal["impossible", "last"] = "impossible", **options: Unpack[Options],
+        beyond: Literal["impossible", "last"] = "impossible", given: str = "", key: str = "", **options: Unpack[Options],
     ) -> None:  # fmt: skip
-        """Declare a value of a standard series, taken by the quantity ``of``; its neighbours are printed: see ``Pick``."""
-        own = {"rule": rule, "of": of, "series": series, "by": by, "beyond": beyond}
+        """Declare a value of a standard series, taken by the quantity ``of``; its neighbours are printed: see ``Pick``.
+
+        With the optional input ``given`` its value is taken where it is given.
+        """
+        own = {"rule": rule, "of": of, "series": series, "by": by, "beyond": beyond, "given": given, "key": key}
         self._give(Pick, id, symbol, unit, description, options, **own)
 
     def _give(
@@ -283,8 +279,8 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
         given: dict[str, Any] = {"symbol": symbol, "unit": unit, "description": description, **options, **own}
         exists = options.get("exists")
         given["exists"] = None if exists is None else as_binding(exists, f"{id} (exists)")
-        for name in given.keys() - kind.__dataclass_fields__.keys():
-            raise Misdeclared(f"{id} has no option {name}{nearest(name, kind.__dataclass_fields__)}")
+        for name in given.keys() - (known := kind.__dataclass_fields__).keys():
+            raise Misdeclared(Phrase("{id} has no option {name}{near}", id=id, name=name, near=nearest(name, known)))
         self.add(kind(id=id, **given))
 
 

@@ -27,12 +27,15 @@ def chart_panel(
     levels: Sequence[Data] = (),
     verticals: Sequence[Data] = (),
     range: tuple[float | None, float | None] | None = None,
+    over: str = "",
 ) -> Data:
     """Return one diagram of a chart; ``unit`` and ``x_unit`` are display units, ``title`` says what stands upwards.
 
-    ``range`` is that of the upright axis, (0, None), in ``unit``; None for an end that follows from the lines.
+    ``range`` is that of the upright axis, (0, None), in ``unit``; None for an end that follows from the lines. ``over`` names
+    the abscissa of the machine's curves whose places these are, or whole turns off: on a screen they share its cursor.
     """
-    limits = {"range": [None if end is None else si(end, unit) for end in range]} if range else {}
+    limits: Data = {"range": [None if end is None else si(end, unit) for end in range]} if range else {}
+    limits |= {"over": over} if over else {}
     return {"title": title, "unit": unit, "x": {"title": x_title, "symbol": x_symbol, "unit": x_unit},
             "lines": list(lines), "fills": list(fills), "marks": list(marks), "levels": list(levels),
             "verticals": list(verticals), **limits}  # fmt: skip

@@ -58,6 +58,9 @@ class View(Protocol):
     ) -> tuple[Array, dict[str, Array]]:
         """Return the abscissa and the values, over the whole abscissa, of curves of the machine calculated again with other inputs."""
 
+    def once(self, make: Callable[[Any], Any]) -> Any:
+        """Return what a function of the view makes, made once for all places of what moves: an outline that only turns."""
+
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Series:
@@ -168,8 +171,8 @@ class Drawing(Figure):
 
     ``scaled_by`` names the optional input without which the shapes have relative lengths (``unit`` is then a pure number).
     A ``schematic`` one is not to scale: its coordinates only say what stands beside what.
-    ``moving`` gives polylines, circles and points at a place of the curves' abscissa ``over``, always the same ones in the same
-    order: on a screen they move with the cursor of the curves.
+    ``moving`` gives polylines, circles, points and what is ``rigid`` at a place of the curves' abscissa ``over``, always the same ones
+    in the same order: on a screen they move with the cursor of the curves.
     """
 
     build: Callable[[View], list[Shape]]
@@ -250,6 +253,11 @@ def box(center: Point, width: float, height: float, lines: Sequence[str], role: 
 def point(at: Point, role: str = "mark", text: str = "") -> Shape:
     """Return a marked point or pivot."""
     return {"shape": "point", "at": list(at), "role": role} | ({"label": text} if text else {})
+
+
+def rigid(shapes: Sequence[Shape], at: Point = (0.0, 0.0), turned: float = 0.0) -> Shape:
+    """Return polylines, circles and points that move as one: they are turned (rad, counter-clockwise), then shifted by ``at``."""
+    return {"shape": "rigid", "shapes": list(shapes), "at": list(at), "turned": turned}
 
 
 def plain(declared: Any, value_of: View) -> dict[str, Any]:

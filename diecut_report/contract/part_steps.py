@@ -10,7 +10,7 @@ from typing import Literal
 from diecut_report.contract.between import Between, difference
 from diecut_report.contract.binding import bind, bound
 from diecut_report.contract.steps import Step, Value
-from diecut_report.standards import StandardSeries, StandardTable
+from diecut_report.standards import Column, StandardSeries, StandardTable
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -48,16 +48,36 @@ class Part(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Lookup(Step):
-    """Declare a number from a table by a text input, in the step's display unit; a row where the text is one of repeated parts.
+    """Declare a number from a row of a table: the one that a text input names, or the one that has the number ``by``.
 
-    ``column`` names the column of a table that has several. ``given`` is an optional input: where it is given the step has
-    its value, and no text is needed.
+    ``by`` is a text input for a table whose rows have names, and any number for one whose rows go by numbers, as one that was picked
+    from it; with ``sought_in``, a column, the number is sought there. It is a row where ``by`` is one of repeated parts. ``column`` is
+    the column that is taken, where a table has several. A number that the table does not have makes the machine impossible:
+    ``key`` is then the input to change, else ``by``. ``given`` is an optional input: where it is given the step has its value.
     """
 
     by: str
     table: Mapping[str, float] | StandardTable
     column: str = ""
     given: str = ""
+    sought_in: str = ""
+    key: str = ""
+
+    @property
+    def is_by_number(self) -> bool:
+        """Return whether the row is the one that has a number, not the one of a name."""
+        return isinstance(self.table, StandardTable) and bool(self.sought_in or not self.table.names)
+
+    @property
+    def sought(self) -> Column:
+        """Return the column in which the number is sought; StandardFault where there is none of this name."""
+        assert isinstance(self.table, StandardTable)
+        return self.table.column(self.sought_in) if self.sought_in else self.table.columns[0]
+
+    def of_number(self) -> Column:
+        """Return the column that is taken for the row with a number."""
+        assert isinstance(self.table, StandardTable)
+        return self.table.column(self.column)
 
     def rows(self) -> tuple[Mapping[str, float], str]:
         """Return the numbers by the rows' names, and their unit."""
@@ -102,10 +122,13 @@ class Pick(Step):
 
     ``series`` are the standard values: in the display unit, or a standard series; or one for each value of the text
     input ``by``. The neighbours that were not taken are printed too. A quantity beyond the end of the series makes the machine
-    impossible; ``beyond="last"`` takes the last value there, for a mechanism that judges it by a check of its own.
+    impossible, for which ``key`` is then the input to change, else ``of``; ``beyond="last"`` takes the last value there, for a mechanism
+    that judges it by a check of its own. ``given`` is an optional input: where it is given the step has its value, whatever it is.
     """
 
     of: str
+    given: str = ""
+    key: str = ""
     series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries]
     by: str = ""
     rule: Literal["above", "below", "nearest"]

@@ -60,6 +60,10 @@ class _Finder(ast.NodeVisitor):
         if isinstance(node.func, ast.Name) and node.func.id in SILENT_CALLS:
             return
         self._note_label(node)
+        if (
+            not self.depth and isinstance(node.func, ast.Name) and node.func.id == "Phrase"
+        ):  # of a lambda in a declaration
+            self.found += [text for each in node.args[:1] for text in _spoken(each) if WORDS.search(text)]
         self.visit(node.func)
         for argument in node.args:
             self.visit(argument)

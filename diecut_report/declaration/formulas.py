@@ -84,7 +84,7 @@ def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
         if isinstance(declared, ByText):
             yield from _complete(names, declared.key, declared.formulas, when, "formula")
     match step:
-        case Lookup(by=by):
+        case Lookup(by=by) if not step.is_by_number:
             yield from _complete(names, by, rows_of(step), when_asked(step, when), "row in the table")
         case Pick(by=by, series=Mapping() as series):
             yield from _complete(names, by, series, when, "series")

@@ -45,6 +45,7 @@ NUMBER, ROW, CURVE = (
     frozenset({"number", "row", "curve", "abscissa"}),
 )
 CURVE_INPUT = frozenset({"curve input"})
+BY_NAME = "a text input, as the table's rows have names; for a number name the column that it is sought in, sought_in"
 PARTS = frozenset({"list of parts", "block"})
 PLAIN = ROW | {"text", "curve input", "phase", "mechanism", "prepared", "crossings", "varying"}
 SAID = {
@@ -144,7 +145,7 @@ def _over(step: Step) -> Iterator[Asked]:
         case CurvePeriod(given=given):
             yield "given", given, CURVE_INPUT, ""
         case Lookup(by=by):
-            yield "by", by, frozenset({"text"}), "a text input"
+            yield ("by", by, ROW, "") if step.is_by_number else ("by", by, frozenset({"text"}), BY_NAME)
 
 
 def _of(part: Binding, field: str, allowed: frozenset[str]) -> Iterator[Asked]:

@@ -8,7 +8,7 @@ from typing import Any
 
 from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.part_steps import Lookup
+from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import SILENT, Root, Step, Words
 from diecut_report.declaration.names import DeclaredNames
@@ -38,13 +38,19 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 
 def asked(step: Step) -> set[str]:
     """Return the ids that a step takes from elsewhere."""
-    own = {step.unknown, step.id} if isinstance(step, Root) else {step.given} if isinstance(step, Lookup) else set()
+    own = (
+        {step.unknown, step.id}
+        if isinstance(step, Root)
+        else {step.given}
+        if isinstance(step, Lookup | Pick)
+        else set()
+    )
     return {name for name in taken(step) if name not in own}
 
 
 def when_asked(step: Step, when: When) -> When:
-    """Return when a step takes what it asks for: a text that looks up what may be given, where that is not given."""
-    given = step.given.removeprefix("inputs.") if isinstance(step, Lookup) else ""
+    """Return when a step takes what it asks for: what may be given instead, where that is not given."""
+    given = step.given.removeprefix("inputs.") if isinstance(step, Lookup | Pick) else ""
     return when.with_(When(frozenset(), frozenset((given,)))) if given else when
 
 

@@ -9,7 +9,7 @@ from typing import NamedTuple
 from diecut_report.contract.binding import bound
 from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.part_steps import Lookup
+from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.result_names import has_own_names, names_ahead, numbered_symbol
 from diecut_report.contract.steps import SILENT, Choice, FromCurve, Step, Value
 from diecut_report.declaration.names import DeclaredNames
@@ -74,7 +74,7 @@ def _clash(names: DeclaredNames, one: Printed, other: Printed) -> bool:
 def _taken_over(step: Step) -> set[str]:
     """The quantities that a step gives again as they are."""
     found: set[str] = set()
-    if isinstance(step, FromCurve | Lookup):
+    if isinstance(step, FromCurve | Lookup | Pick):
         found = {step.given}
     elif isinstance(step, Value | Choice):
         parts = [step.formula] if isinstance(step, Value) else [case.value for case in step.cases]

@@ -27,14 +27,18 @@ def _wrong(step: Step, names: DeclaredNames) -> Iterator[str]:
     match step:
         case Lookup():
             yield from _column(step)
+            yield from _sought(step, names)
             yield from _idle(step, names)
             yield from _given(step, names)
         case Interpolated():
             across, upwards = step.between.columns
             yield from _unlike(f"the column {upwards.name} of the table", upwards.unit, _units(step), "the step")
             yield from _unlike(f"the column {across.name} of the table", across.unit, _taken(names, step.of), step.of)
-            yield from _key(step, names)
+            yield from _key(step, step.of, names, is_covered=_covered(step, names))
         case Pick(series=series):
+            yield from _given(step, names)
+            if step.key:
+                yield from _key(step, step.of, names, is_covered=True)
             for own in series.values() if isinstance(series, Mapping) else (series,):
                 if isinstance(own, StandardTable):
                     yield "takes from a table; name its column, table.series(…)"
@@ -61,11 +65,40 @@ def _column(step: Lookup) -> Iterator[str]:
     except StandardFault as fault:
         yield str(fault).removesuffix(".")
         return
-    if not step.table.names:
-        yield f"looks up a text in the table “{step.table.title}”, which goes by numbers; take interpolated"
     yield from _unlike(
         "the table" if not own.name else f"the column {own.name} of the table", own.unit, _units(step), "the step"
     )
+
+
+def _sought(step: Lookup, names: DeclaredNames) -> Iterator[str]:
+    """What is wrong with the number by which a row is sought."""
+    if not step.is_by_number:
+        if step.key:
+            yield f"names the key {step.key}, but its row is that of a text, which is always there; take key away"
+        return
+    assert isinstance(step.table, StandardTable)
+    try:
+        own = step.sought
+    except StandardFault as fault:
+        yield str(fault).removesuffix(".")
+        return
+    if len(set(own.values)) < len(own.values):
+        yield f"seeks the row by the column {own.name} of the table “{step.table.title}”, which has a number twice; take another column"
+    title = f"the column {own.name} of the table" if own.name else "the table"
+    yield from _unlike(title, own.unit, _taken(names, step.by), step.by)
+    yield from _key(step, step.by, names, is_covered=_is_picked(step, names))
+
+
+def _is_picked(step: Lookup, names: DeclaredNames) -> bool:
+    """Whether the number is always one that was picked from a series of numbers that the table has."""
+    own = set(step.sought.values)
+    given = [giver.step for giver in names.givers(step.by)]
+    return all(isinstance(each, Pick) and not each.given and _series_of(each) <= own for each in given)
+
+
+def _series_of(step: Pick) -> set[float]:
+    several = step.series.values() if isinstance(step.series, Mapping) else (step.series,)
+    return {value for one in several for value in (one.values if isinstance(one, StandardSeries) else one)}
 
 
 def _idle(step: Lookup, names: DeclaredNames) -> Iterator[str]:
@@ -81,7 +114,7 @@ def _idle(step: Lookup, names: DeclaredNames) -> Iterator[str]:
             )
 
 
-def _given(step: Lookup, names: DeclaredNames) -> Iterator[str]:
+def _given(step: Lookup | Pick, names: DeclaredNames) -> Iterator[str]:
     """What is wrong with the input that may stand in the table's place."""
     path = step.given.removeprefix("inputs.")
     if not path:
@@ -91,21 +124,25 @@ def _given(step: Lookup, names: DeclaredNames) -> Iterator[str]:
         known = [name for name, other in names.world.keys.items() if isinstance(other.meta, Quantity)]
         yield f"given is {path}, which is not an input that is a number{nearest(path, known)}"
         return
-    by = names.world.keys.get(step.by)
+    by = names.world.keys.get(step.by if isinstance(step, Lookup) else step.of)
     if not key.may_be_absent or key.has_default:
         yield f"given is {path}, which is always there; let it be float | None with the default None"
     if by is not None and by.home != key.home:
-        yield f"given is {path}, by is {step.by}; both must be inputs of one list, or of none"
+        other = "by" if isinstance(step, Lookup) else "of"
+        yield f"given is {path}, {other} is {by.path}; both must be inputs of one list, or of none"
     yield from _unlike(f"given, {path},", key.meta.unit, _units(step), "the step")
 
 
-def _key(step: Interpolated, names: DeclaredNames) -> Iterator[str]:
+def _key(step: Interpolated | Lookup | Pick, taken: str, names: DeclaredNames, *, is_covered: bool) -> Iterator[str]:
     """An impossible machine is told at an input."""
     inputs = [name for name in names.world.keys if "=" not in name]
     if step.key and step.key not in inputs:
         yield f"key is {step.key}, which is not an input{nearest(step.key, inputs)}"
-    elif not step.key and step.of.removeprefix("inputs.") not in inputs and not _covered(step, names):
-        yield f'takes {step.of}, which may lie outside of the table; name the input that is then to be changed, key="…"'
+    elif not step.key and taken.removeprefix("inputs.") not in inputs and not is_covered:
+        where = (
+            "lie outside of the table" if isinstance(step, Interpolated) else "be a number that the table does not have"
+        )
+        yield f'takes {taken}, which may {where}; name the input that is then to be changed, key="…"'
 
 
 def _covered(step: Interpolated, names: DeclaredNames) -> bool:

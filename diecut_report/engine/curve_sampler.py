@@ -67,6 +67,8 @@ class CurveSampler:
         if step is None:
             number = self.owner[name]
             return number if self.rows is None else number[self.rows]
+        if type(step) is Value and not step.per_piece:  # most are, and matching takes as long as a formula
+            return self._apply(step.formula)
         match step:
             case FromCurve():
                 return self._taken_over(step)

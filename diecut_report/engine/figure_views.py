@@ -16,26 +16,31 @@ from diecut_report.engine import axis_range
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.curve_sampler import CurveSampler
 from diecut_report.engine.drawable import Undrawable, curve_named, guarded
+from diecut_report.engine.moving_shapes import frame_places, laid_out, moving_shapes
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.steps.rerun import varied, varied_curves
 from diecut_report.expressions import Array
-
-FRAMES = 36  # of a turn that moves on a screen, at most; between them places are interpolated
-MOVABLE = ("polyline", "circle", "point")
+from diecut_report.languages.phrases import Phrase, phrase
 
 
 class MachineView:
-    """Give a drawing what it may ask of the calculated machine (the first variant), and keep what was asked for."""
+    """Give a drawing what it may ask of the calculated machine (the first variant), and keep what was asked for.
 
-    def __init__(self, calc: Calculation) -> None:
+    ``places`` are those of the abscissa at which curves will be asked for: they are taken at all of them at once.
+    """
+
+    def __init__(self, calc: Calculation, places: tuple[float, ...] = ()) -> None:
         self.calc = calc
         self.asked: dict[str, None] = {}
-        self._last: CurveSampler | None = None  # the place that was asked for last, mostly by several curves
+        self._places = dict.fromkeys(places)
+        self._last: CurveSampler | None = None  # the places that were asked for last, mostly by several curves
+        self._heights: dict[str, dict[float, float]] = {}
+        self._made: dict[Callable[[Any], Any], Any] = {}
 
     def __getitem__(self, name: str) -> float:
         """A number by its id, SI."""
         if name not in self:
-            raise Undrawable(f"there is no number {name!r} in this machine")
+            raise Undrawable(Phrase("there is no number {name} in this machine", name=repr(name)))
         self.asked[name] = None
         return float(self.calc[name][0, 0])
 
@@ -51,11 +56,23 @@ class MachineView:
     def at(self, curve: str, place: float) -> float:
         """Return a curve's value at a place of its abscissa, SI."""
         self.asked[curve] = None
-        axis = self.calc.axis[curve]
-        if self._last is None or self._last.axis != axis or self._last.x[0, 0] != place:
-            x, rows = np.array([[place]]), np.zeros(1, dtype=int)
+        known = self._heights.setdefault(curve, {})
+        if place not in known:
+            places = list(self._places) if place in self._places else [place]
+            known |= zip(places, self._sampler(self.calc.axis[curve], places).over(curve)[0].tolist(), strict=True)
+        return known[place]
+
+    def _sampler(self, axis: str, places: list[float]) -> CurveSampler:
+        if self._last is None or self._last.axis != axis or self._last.x[0].tolist() != places:
+            x, rows = np.array([places]), np.zeros(1, dtype=int)
             self._last = self.calc.sampler_of(axis, x, self.calc.domains[axis].middle_of(x, rows), rows)
-        return float(self._last.over(curve)[0, 0])
+        return self._last
+
+    def once(self, make: Callable[[Any], Any]) -> Any:
+        """Return what a function of the view makes, made once."""
+        if make not in self._made:
+            self._made[make] = make(self)
+        return self._made[make]
 
     def text(self, name: str) -> str:
         """Return a quantity as it is printed: ``h = 40 mm``."""
@@ -144,26 +161,25 @@ def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: Machine
             return head | {"type": "bars", "groups": [_group(g, view) for g in groups]}
         case Drawing(build=build, unit=unit, scaled_by=scale, schematic=schematic):
             relative = schematic or (scale and scale not in calc.given)
-            drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": _listed(build, view)}
+            drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": laid_out(_listed(build, view))}
             return head | drawn | ({"schematic": True} if schematic else {}) | _moving(calc, figure)
         case Chart(build=build):
-            return head | {"type": "chart", "panels": [axis_range.of_lines(panel) for panel in _listed(build, view)]}
-    raise TypeError(f"{figure.id} is not a known figure")
+            own = [axis_range.of_lines(panel) for panel in _listed(build, view)]
+            for over in (panel["over"] for panel in own if "over" in panel):
+                curve_named(calc, over, over)
+            return head | {"type": "chart", "panels": own}
+    raise TypeError(Phrase("{id} is not a known figure", id=figure.id))
 
 
 def _moving(calc: Calculation, drawing: Drawing) -> dict[str, Any]:
     """What moves in a drawing at places of its abscissa; what it asks for is told by the drawing itself."""
-    moving, view = drawing.moving, MachineView(calc)
-    if moving is None:
+    if drawing.moving is None:
         return {}
     curve_named(calc, drawing.over, drawing.over)
-    samples = view.curve(drawing.over)
-    places = [*samples[:: -(-len(samples) // FRAMES)], samples[-1]]
-    frames = [_listed(partial(_at_place, moving, place), view) for place in places]
-    kinds = {tuple((shape["shape"], shape["role"]) for shape in frame) for frame in frames}
-    if len(kinds) > 1 or not all(kind in MOVABLE for kind, _ in next(iter(kinds))):
-        raise Undrawable(f"what moves in {drawing.title!r} must be the same {', '.join(MOVABLE)} at each place")
-    return {"moving": {"over": drawing.over, "places": places, "frames": frames}}
+    places = frame_places(calc.domains[drawing.over])
+    view = MachineView(calc, places)
+    frames = [_listed(partial(_at_place, drawing.moving, place), view) for place in places]
+    return {"moving": {"over": drawing.over, "places": list(places), "shapes": moving_shapes(drawing.title, frames)}}
 
 
 def _at_place(moving: Callable[[MachineView, float], Any], place: float, view: MachineView) -> Any:
@@ -174,15 +190,21 @@ def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:
     """What an author's function draws, which must be a list of shapes; a function without a return gives none."""
     drawn = build(view)
     if not isinstance(drawn, list) or not all(isinstance(shape, dict) for shape in drawn):
-        name = getattr(build, "__name__", "its function")
+        name = getattr(build, "__name__", phrase("its function"))
         given = (
             "nothing"
             if drawn is None
             else f"a {type(drawn).__name__}"
             if not isinstance(drawn, list)
-            else "other things in its list"
+            else phrase("other things in its list")
         )
-        raise Undrawable(f"{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give")
+        raise Undrawable(
+            Phrase(
+                "{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give",
+                name=name,
+                given=given,
+            )
+        )
     return drawn
 
 
@@ -243,7 +265,11 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
     ]
     ranged = axis_range.declared(head | made, figure.range, view, distances)
     if (ranged.get("range", [None])[0] or 0) < 0:
-        raise Undrawable(f"the range of {figure.title!r} begins below zero, where no distance from the pole is")
+        raise Undrawable(
+            Phrase(
+                "the range of {title} begins below zero, where no distance from the pole is", title=repr(figure.title)
+            )
+        )
     return ranged
 
 

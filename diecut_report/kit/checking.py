@@ -12,6 +12,7 @@ from diecut_report.config.discovery import Discovery, DuplicateKind, Origin, Unk
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.kit.example_machines import machine_beside, named_machine
+from diecut_report.kit.missing_words import write_missing
 from diecut_report.languages.phrases import Phrase
 from diecut_report.languages.speech import said
 from diecut_report.testing.contract import ContractTest
@@ -50,6 +51,7 @@ class CheckedPlugin:
     rules: list[TriedRule] = field(default_factory=list)
     page: str = ""
     error: str = ""
+    added: dict[Path, int] = field(default_factory=dict)
 
     @property
     def status(self) -> str:
@@ -108,9 +110,12 @@ def _unknown(known: Discovery, kind: str) -> str:
 
 
 def checked(
-    known: FolderFirst, kind: str, configs: Sequence[Path], language: str
+    known: FolderFirst, kind: str, configs: Sequence[Path], language: str, *, write_po: bool = False
 ) -> Iterator[TriedRule | CheckedPlugin]:
-    """Yield each rule when it was tried, and at last the whole; UserError where a configuration cannot be used."""
+    """Yield each rule when it was tried, and at last the whole; UserError where a configuration cannot be used.
+
+    With ``write_po`` the texts that the plugin's catalogues lack are written into them before its words are tried.
+    """
     origin = known.origins[kind][0]
     found = CheckedPlugin(kind, origin.told)
     try:
@@ -125,6 +130,8 @@ def checked(
         words = Phrase("There is no mechanism of the kind {kind} in it.", kind=repr(kind))
         raise UserError(Problem(words, str(configs[0])))
     test = ContractTest(found.mechanism, known, config, name, language)
+    if write_po:
+        found.added = write_missing(test, origin)
     for rule in test.tried():
         found.rules.append(rule)
         yield rule

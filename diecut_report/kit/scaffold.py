@@ -1,4 +1,7 @@
-"""The files of a new mechanism: a plugin that runs, its tests, an example, a study, its Ukrainian words; as a package or as a folder."""
+"""The files of a new mechanism: a plugin that runs, its tests, an example, a study, its Ukrainian words; as a package or as a folder.
+
+What it is made like are the folders of ``files``.
+"""
 
 from __future__ import annotations
 
@@ -19,9 +22,12 @@ RESERVED = ("press", "study", "kind", "kinds", "project", "report", "diecut_repo
 LONGEST = 40  # letters of a name, which stands in many files
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 ENDING = ".txt"  # of the templates here: they are no modules of the program
+LIKE = ("parts", "motion", "selection")
+"""What a new mechanism may be made like, each a folder of templates; the first one where nothing is said."""
+TABLES = {"selection": "sizes.csv"}  # those that have a table beside the plugin
 
 
-def scaffold(name: str, folder: Path, *, as_package: bool) -> list[Path]:
+def scaffold(name: str, folder: Path, *, as_package: bool, like: str = "parts") -> list[Path]:
     """Write a new mechanism into a folder that is not there yet; UserError in words where the name or the folder cannot be.
 
     Returns the files, the plugin's module first.
@@ -30,7 +36,9 @@ def scaffold(name: str, folder: Path, *, as_package: bool) -> list[Path]:
     if folder.exists() or folder.is_symlink():
         words = "There is something of this name already, and it is not written over. Name another folder with -o."
         raise UserError(Problem(Phrase(words), str(folder)))
-    made = {folder / place: content.encode() for place, content in contents(name, as_package=as_package).items()}
+    made = {
+        folder / place: content.encode() for place, content in contents(name, as_package=as_package, like=like).items()
+    }
     write_all(made, keep=folder)
     return list(made)
 
@@ -59,33 +67,47 @@ def _wrong(name: str) -> str:
     return ""
 
 
-def contents(name: str, *, as_package: bool) -> dict[str, str]:
-    """Return the files of a new mechanism by their places in its folder."""
+def contents(name: str, *, as_package: bool, like: str = "parts") -> dict[str, str]:
+    """Return the files of a new mechanism by their places in its folder, made like one of ``LIKE``."""
     home = f"src/diecut_{name}" if as_package else "plugins"
-    plugin, words = (
-        (f"{home}/__init__.py", f"{home}/locale/uk.po") if as_package else (f"{home}/{name}.py", f"{home}/{name}.uk.po")
-    )
     option = "" if as_package else " --plugins plugins"
-    table = {
-        plugin: "the plugin: inputs, calculation, checks, figure, sources",
-        words: "its words in Ukrainian; `msgid` is the English text",
-        f"tests/test_{name}.py": "its tests, with a worked example",
-        f"examples/{name}.yaml": "a configuration with one machine",
-        f"examples/{name}_study.yaml": "a study of it",
-        **({"pyproject.toml": "the package, which announces the kind to diecut-report"} if as_package else {}),
-    }
+    sources = _sources(name, home, like, as_package=as_package)
     told = {
         "kind": name, "Class": "".join(part.capitalize() for part in name.split("_")), "option": option, "program": __version__,
         "dashed": name.replace("_", "-"), "imports": _imports(name, as_package=as_package),
-        "files": "\n".join(f"| `{place}` | {what} |" for place, what in table.items()),
+        "table": next((Path(place).name for place in sources if place.endswith(".csv")), ""),
+        "files": "\n".join(f"| `{place}` | {WHAT[Path(source).name]} |" for place, source in sources.items() if source != README),
         "commands": _commands(name, option, as_package=as_package),
     }  # fmt: skip
-    sources = {
-        plugin: "plugin.py", words: "uk.po", f"tests/test_{name}.py": "test.py", f"examples/{name}.yaml": "example.yaml",
-        f"examples/{name}_study.yaml": "study.yaml", "README.md": "README.md",
-    } | ({"pyproject.toml": "pyproject.toml"} if as_package else {})  # fmt: skip
     typed = {f"{home}/py.typed": ""} if as_package else {}
     return {place: _filled(source, told) for place, source in sources.items()} | typed
+
+
+README = "README.md"
+WHAT = {
+    "plugin.py": "the plugin: inputs, calculation, checks, figure, sources",
+    "sizes.csv": "its table, with the source of the numbers",
+    "uk.po": "its words in Ukrainian; `msgid` is the English text",
+    "test.py": "its tests, with a worked example",
+    "example.yaml": "a configuration with one machine",
+    "study.yaml": "a study of it",
+    "pyproject.toml": "the package, which announces the kind to diecut-report",
+}
+
+
+def _sources(name: str, home: str, like: str, *, as_package: bool) -> dict[str, str]:
+    """The template of each file."""
+    table = TABLES.get(like)
+    own = {
+        f"{home}/__init__.py" if as_package else f"{home}/{name}.py": "plugin.py",
+        **({f"{home}/{table}" if as_package else f"{home}/{name}_{table}": table} if table else {}),
+        f"{home}/locale/uk.po" if as_package else f"{home}/{name}.uk.po": "uk.po",
+        f"tests/test_{name}.py": "test.py",
+        f"examples/{name}.yaml": "example.yaml",
+        f"examples/{name}_study.yaml": "study.yaml",
+    }
+    shared = {README: README, **({"pyproject.toml": "pyproject.toml"} if as_package else {})}
+    return {place: f"{like}/{source}" for place, source in own.items()} | shared
 
 
 def _filled(source: str, told: Mapping[str, str]) -> str:

@@ -7,7 +7,7 @@ from collections.abc import Callable, Mapping
 from functools import cached_property
 from typing import Any
 
-from diecut_report.languages.catalogues import Catalogues
+from diecut_report.languages.catalogues import Catalogues, built_in
 from diecut_report.languages.phrases import Phrase, filled, wording
 
 DECIMAL = re.compile(r"(?<![\w.,])(\d+)\.(\d+)(?![\w.]*\.?\d)")
@@ -67,8 +67,14 @@ class Translator:
         """Return a text with the language's sign of decimals in its numbers."""
         return with_decimal(text, self.decimal)
 
-    def source(self, text: str) -> str:
-        """Return where a formula comes from: its words in the language, names of authors and standards as they are."""
+    def source(self, text: str, kind: str = "") -> str:
+        """Return where a formula comes from: its words in the language, names of authors and standards as they are.
+
+        What a plugin of others names is in its catalogue as a whole, or stands as it is: its words may be part of a title.
+        """
+        if kind and not built_in(kind):
+            own = self.catalogues.of(kind)
+            return (own.text(text) if own else None) or text
         for pattern, template in EQUATIONS.items():
             text = pattern.sub(_filler(self._citation.get(template, template)), text)
         return self._cited.sub(lambda words: self._citation[words[0]], text)

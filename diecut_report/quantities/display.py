@@ -17,6 +17,7 @@ FAMILIES = (
     ("us", "ms", "s"),
     ("N*m", "kN*m", "MN*m"),
     ("g", "kg", "t"),
+    ("mm/s", "m/s"),
 )
 # The finest step of a machine's quantity that can be made or measured, SI.
 STEPS = {
@@ -75,11 +76,17 @@ def finest_step(unit_text: str) -> float | None:
 
 def meant_digits(value: float, unit_text: str, digits: int) -> int:
     """Return how many of the significant digits of an SI value mean something: none finer than can be made or measured."""
-    own = unit(unit_text)
-    step = finest_step(unit_text)
-    number = abs(value) / own.factor
-    if step is None or number == 0 or not math.isfinite(number):
+    number, known = abs(value) / unit(unit_text).factor, finest(unit_text)
+    if known is None or number == 0 or not math.isfinite(number):
         return digits
     first = math.floor(math.log10(float(f"{number:.{digits - 1}e}")))
-    fewest = FEWEST_OF_LENGTH if own.si == "m" else FEWEST
-    return min(digits, max(first - round(math.log10(step)) + 1, fewest))
+    return min(digits, max(first - known[0] + 1, known[1]))
+
+
+@cache
+def finest(unit_text: str) -> tuple[int, int] | None:
+    """Return the place (a power of ten) of the last digit that means something in a unit, and how many digits a small number keeps."""
+    step = finest_step(unit_text)
+    return (
+        None if step is None else (round(math.log10(step)), FEWEST_OF_LENGTH if unit(unit_text).si == "m" else FEWEST)
+    )

@@ -4,12 +4,14 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from decimal import Decimal
 
 from diecut_report.quantities.display import finest_step, is_nothing, meant_digits
 from diecut_report.quantities.units import pretty, unit
 
 DIGITS = 4
+PLACE_DIGITS = 6  # of a place on an abscissa, at most
 EXACT = 1e-12  # relative: the rounding of the computer
 TYPED = 12  # digits: a number with no more of them is one that somebody typed
 NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")  # what a message names: ``{id}``, rounded by ``{id:up}``
@@ -71,6 +73,11 @@ def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
     }
 
 
+def place_shown(value: float, unit_text: str, more: int = 0) -> dict[str, str]:
+    """Return a place on an abscissa as text: with up to six digits, of which those stand that mean something, and so many more."""
+    return shown(value, unit_text, min(meant_digits(value, unit_text, PLACE_DIGITS) + more, PLACE_DIGITS))
+
+
 def listed_text(value: float, unit_text: str, digits: int = 6) -> str:
     """Return an SI value among others of a column: to the step that can be made or measured, so that all have as many decimals."""
     number, step = value / unit(unit_text).factor, finest_step(unit_text)
@@ -104,9 +111,19 @@ def rounded(value: float, unit_text: str, digits: int = DIGITS) -> str:
     return f"{value / unit(unit_text).factor:.{digits - 1}e}"
 
 
-def told(value: float, unit_text: str, digits: int = DIGITS, *, up: bool | None = None) -> str:
-    """Return an SI value as one would say it, ``40 mm``; rounded up or down where ``up`` says so."""
+def told(
+    value: float, unit_text: str, digits: int = DIGITS, *, up: bool | None = None, listed: Sequence[float] = ()
+) -> str:
+    """Return an SI value as one would say it, ``40 mm``; rounded up or down where ``up`` says so.
+
+    ``listed`` are the only numbers that there are, in this unit: the next of them above or below, or the nearest; beyond them the number itself.
+    """
     number = value / unit(unit_text).factor
+    allowed = [
+        each for each in listed if up is None or math.isclose(each, number, rel_tol=1e-9) or bool(each > number) is up
+    ]
+    if allowed:
+        return with_unit(number_text(min(allowed, key=lambda each: abs(each - number)), digits), unit_text)
     return with_unit(number_text(number if up is None else outward(number, up, digits), digits), unit_text)
 
 

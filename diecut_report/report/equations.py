@@ -13,6 +13,7 @@ Item = Mapping[str, Any]
 Measure = Callable[[str], float]  # the width of LaTeX in em
 
 WIDTH = 48.0  # of the text column, in em of the formulas' size
+SHORT = 3.0  # a factor that does not stand alone in a line
 ONE_LINE = 46.0  # an equation no wider stands in one line
 BLANK: Tree = ["sym", ""]  # what a broken-off rest of a sum is added to
 OPERATORS = {"max": r"\max", "min": r"\min", "sum": r"\sum", "product": r"\prod", "integral": r"\int"}
@@ -130,25 +131,28 @@ class Equations:
         if operation == "abs_max":
             form = ["call", "max", ["call", "abs", of]]
             return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|", form=form)]
-        if operation == "derivative":
-            by = item["at"]["symbol"]
-            below = rf"\mathrm{{d}}{self.latex.symbol(by)}"
-            return [
-                Link(
-                    rf"\frac{{\mathrm{{d}}{curve}}}{{{below}}}", f"d{plain}/d{by}", form=["derivative", of, ["sym", by]]
-                )
-            ]
-        if operation == "accumulated":
-            end = item["at"]["symbol"]
-            upper = self.latex.symbol(end)
-            latex = rf"\int_{{0}}^{{{upper}}} {curve}\,\mathrm{{d}}{upper}"
-            return [Link(latex, f"∫_0^{end} {plain} d{end}", form=["accumulated", of, ["sym", end]])]
+        if "over" in item or operation in ("derivative", "accumulated"):
+            return [self._of_calculus(item, self._symbol(name))]
         word = SIGNS.get(operation, operation)
         if operation in OPERATORS:
             form = ["nary", SIGNS[operation], of] if operation in SIGNS else ["call", operation, of]
             return [Link(f"{OPERATORS[operation]} {curve}", f"{word} {plain}", form=form)]
         word = self.words[operation]
         return [Link(rf"\operatorname{{{word}}} {curve}", f"{word} {plain}", form=["call", word, of])]
+
+    def _of_calculus(self, item: Item, curve: Link) -> Link:
+        """The derivative of a curve, or its integral: up to the place that is shown, or over all of its abscissa."""
+        by = self._symbol(item["over" if "over" in item else "at"]["symbol"])
+        differential = rf"\mathrm{{d}}{by.latex}"
+        if item["operation"] == "derivative":
+            form = ["derivative", curve.form, by.form]
+            return Link(
+                rf"\frac{{\mathrm{{d}}{curve.latex}}}{{{differential}}}", f"d{curve.text}/d{by.text}", form=form
+            )
+        end = self._result(item["over"]) if "over" in item else by
+        latex = rf"\int_{{0}}^{{{end.latex}}} {curve.latex}\,{differential}"
+        form = ["integral", curve.form, by.form, end.form]
+        return Link(latex, f"∫ {curve.text} d{by.text} from 0 to {end.text}", form=form)
 
     def _place(self, item: Item) -> Link:
         """Where a curve's numbers are shown, or where an extreme lies."""
@@ -203,6 +207,8 @@ class Equations:
                 lines[-1] = [*lines[-1], *group]
             else:
                 lines.append(group)
+        if joined == self._product and len(lines) > 1 and self.measure(joined(lines[0], first=True).latex) < SHORT:
+            lines[:2] = [[*lines[0], *lines[1]]]  # a little too wide rather than a number alone
         return [joined(line, first=index == 0) for index, line in enumerate(lines)]
 
     def _sum(self, parts: list[tuple[str, Tree]], *, first: bool) -> Link:

@@ -234,7 +234,11 @@ def _nested(name: str, args: list[Tree]) -> list[Tree]:
     return [
         inner
         for each in args
-        for inner in (_nested(name, each[2:]) if each[0] == "call" and NAMES.get(each[1], each[1]) == NAMES.get(name, name) else [each])
+        for inner in (
+            _nested(name, each[2:])
+            if each[0] == "call" and NAMES.get(each[1], each[1]) == NAMES.get(name, name)
+            else [each]
+        )
     ]
 
 

@@ -38,7 +38,16 @@ POLICY = (
 READER = ("uplot/uPlot.min.css", "reader.css")
 SCRIPTS = ("uplot/uPlot.iife.min.js", "reader.js")
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
-FILTERS: dict[str, Callable[..., Any]] = {"prose": prose, "cited": cited, "symbol": symbol, "tidy": tidy, "in_columns": in_columns, "pieces": pieces, "behind": partial(joined, ""), "sentence": sentence}
+FILTERS: dict[str, Callable[..., Any]] = {
+    "prose": prose,
+    "cited": cited,
+    "symbol": symbol,
+    "tidy": tidy,
+    "in_columns": in_columns,
+    "pieces": pieces,
+    "behind": partial(joined, ""),
+    "sentence": sentence,
+}
 END = "</body>\n</html>"
 MATH = {("Report Math", 400, "normal"): "report-math"}
 

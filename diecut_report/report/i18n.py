@@ -60,7 +60,7 @@ ENGLISH: dict[str, str] = {
     "refers": "from {path}", "from_press": "default, from {path}",
     "assumed": "assumed", "measured": "measured", "catalogue": "from a catalogue", "standard": "by a standard", "drawing": "from a drawing",
     "rests_on": "Rests on {n} assumed values", "moving_first": ", those first that move a governing check",
-    "moves": "moves {check}", "more_assumed": " and {n} more",
+    "moves": "moves “{check}”", "move_each": "each moves “{check}”", "more_assumed": " and {n} more",
     "influence": "Influence of inputs",
     "influence_lead": "Each input that is given as a number is lowered and raised by {by}, or by its tolerance; all else stays as it is.",
     "influence_on": "Influence on {what}", "influence_today": "Now: {value}.", "influence_none": "no machine",
@@ -108,7 +108,7 @@ ENGLISH: dict[str, str] = {
     "changed_mark": "changed, before: {old}", "marked": "What changed is marked in the margin.",
     # the tools of a reader on a screen; what stands in braces is filled in by the page's script
     "search": "Search", "dark": "Dark", "hits": "{n} found", "all_checks": "All checks", "check_class": "Class", "all_classes": "all",
-    "text_within": "Text", "shown_checks": "{n} of {total} checks", "copy_text": "Copy {text}", "copied": "Copied: {text}",
+    "text_within": "Text", "shown_checks": "{n} of {total} checks", "copy_text": "Copy {text}", "copied": "Copied: {text}", "play": "Play a turn",
     "copy_refused": "The browser does not let the page copy {text}", "as_printed": "As printed",
     # programme
     "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",

@@ -26,7 +26,10 @@ from diecut_report.report.sheet_frames import SheetBlocks, sheet_blocks
 
 BESIDE_WIDTH = 33.0  # em of a formula that stands beside its description
 BESIDE_LETTERS = 60  # of a description of two lines beside a formula
-NARROW_WIDTH, ROOMY_LETTERS = 22.0, 100  # em of a formula beside which a description has more room, and its letters then
+NARROW_WIDTH, ROOMY_LETTERS = (
+    22.0,
+    100,
+)  # em of a formula beside which a description has more room, and its letters then
 SMALLER = 0.85  # of the letters of a source
 BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, which WeasyPrint finds in its cache
 
@@ -60,7 +63,9 @@ class Paper:
             return False
         if self.has_room_beside(item):
             return True
-        return _letters(item) <= BESIDE_LETTERS and self.material.typesetter.measure(item.equation.latex) <= BESIDE_WIDTH
+        return (
+            _letters(item) <= BESIDE_LETTERS and self.material.typesetter.measure(item.equation.latex) <= BESIDE_WIDTH
+        )
 
     def has_room_beside(self, item: Item) -> bool:
         """Whether a formula is so narrow that its description may be wider."""

@@ -51,7 +51,9 @@ class PrintedSteps:
         """A section with its figures."""
         notes: set[str] = set()
         steps = [_PrintedStep(item) for item in figures_at(self.figures, Place(index, BEFORE))]
-        for place, item in enumerate(section["items"] if self.told is None else gathered_notes(brought_together(section))):
+        for place, item in enumerate(
+            section["items"] if self.told is None else gathered_notes(brought_together(section))
+        ):
             steps += [] if item is None else list(self._step(item, notes))
             steps += [_PrintedStep(each) for each in figures_at(self.figures, Place(index, place))]
         return PrintedSection(heading, self._text(section), _gathered(steps), self._shown(section.get("shown", ())))
@@ -124,7 +126,7 @@ class PrintedSteps:
             yield self._looked_up(item)
         if item.get("series") and not item.get("note", "").startswith(item["series"]):
             yield f"{self.words['series']}: {item['series']}"
-        if self.told is None:
+        if self.told is None or _is_picked(item):  # why this value and no other is never told elsewhere
             yield from self._proof(item, notes)
         yield from self.said.conversions(item)
         if note := self._new_note(item, notes):
@@ -148,11 +150,15 @@ class PrintedSteps:
         return f"{item['by']}: {worded(item['key'])}"
 
 
+def _is_picked(item: Data) -> bool:
+    """Return whether a value was taken from a series."""
+    return bool(item["type"] == "reduction" and item["operation"] == "pick")
+
+
 def _is_bare(item: Data) -> bool:
     """Whether a step gives a value and nothing else: it has no formula, branch or table that it comes from."""
-    is_picked = item["type"] == "reduction" and item["operation"] == "pick"
     is_found = item["type"] == "found" and not item.get("relation") and not item.get("equation")
-    return (is_picked or is_found) and not item.get("words") and len(item["source"]) <= LONGEST_SOURCE
+    return is_found and not item.get("words") and len(item["source"]) <= LONGEST_SOURCE
 
 
 def _gathered(steps: list[_PrintedStep]) -> list[Item]:

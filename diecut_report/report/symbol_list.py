@@ -51,7 +51,7 @@ def in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
     """The rows in columns for paper, of about as many lines each."""
     lines = [ceil((len(row.meaning) + len(row.unit) + 2) / ROOM) for row in rows]
     count = min(COLUMNS, len(rows))
-    share = sum(lines) / count
+    share = ceil(sum(lines) / count)
     before = [0, *accumulate(lines)]
     columns: list[list[SymbolRow]] = [[] for _ in range(count)]
     for row, above, height in zip(rows, before, lines, strict=False):

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -15,7 +16,7 @@ from diecut_report.engine.shown_units import declared_unit
 from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import shown, with_unit
+from diecut_report.quantities.formatting import place_shown, shown, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.results import unchecked
 from diecut_report.results.unchecked import check_unit
@@ -23,8 +24,7 @@ from diecut_report.results.unchecked import check_unit
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-12
-AT_LIMIT = 1e-9  # relative
-PLACE_DIGITS = 6
+MARGIN_DIGITS = (4, 3, 2)
 
 
 class JudgedCheck(NamedTuple):
@@ -49,12 +49,12 @@ class JudgedCheck(NamedTuple):
 
 def check_results(calc: Calculation) -> list[Data]:
     """Return each check with demand, limit, margin, utilisation and verdict; one that needs more keys as not checked."""
-    checks = [(check, applies(calc, check)) for check in checks_of(calc)]
-    ids = {check.id for check, is_there in checks if is_there}
+    checks = [(check, _there(calc, check)) for check in checks_of(calc)]
+    ids = {check.id for check, sides in checks if sides is not None}
     found = []
-    for check, is_there in checks:
-        if is_there:
-            found.append(_check(calc, check))
+    for check, sides in checks:
+        if sides is not None:
+            found.append(_check(calc, check, _judged(check, *sides)))
         elif check.id not in ids and (missing := unchecked.missing(calc, check)):
             ids.add(check.id)
             found.append(unchecked.result(calc, check, missing))
@@ -68,15 +68,23 @@ def checks_of(calc: Calculation) -> list[Check]:
 
 def applies(calc: Calculation, check: Check) -> bool:
     """Return whether a check is made. It is left out where an optional input of it is not given, or what it judges is absent."""
+    return _there(calc, check) is not None
+
+
+def _there(calc: Calculation, check: Check) -> Array | None:
+    """What a check that is made compares, as in ``_compared``."""
     if not is_made(calc, check):
-        return False
-    demand, limit = _compared(calc, check)
-    return not (np.isnan(demand) | np.isnan(limit))[0].all()
+        return None
+    sides = _compared(calc, check)
+    return None if np.isnan(sides[:, 0]).any(axis=0).all() else sides
 
 
 def judged(calc: Calculation, check: Check) -> JudgedCheck:
     """Judge a check of all machines: each pair of its sides, for each part of a row."""
-    demand, limit = _compared(calc, check)
+    return _judged(check, *_compared(calc, check))
+
+
+def _judged(check: Check, demand: Array, limit: Array) -> JudgedCheck:
     held, ratio = verdict(check, demand, limit)
     there = np.isfinite(demand) & np.isfinite(limit)
     flat = [part.reshape(len(demand), -1) for part in (demand, limit, held, ratio, there)]
@@ -93,6 +101,8 @@ def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
 
 def worst(demand: Array, limit: Array, held: Array, ratio: Array, there: Array) -> Array:
     """Return along the last axis which one governs: one that fails, then the greatest utilisation, then what is furthest beyond."""
+    if held.shape[-1] == 1:
+        return np.zeros(held.shape[:-1], dtype=int)
     with np.errstate(all="ignore"):
         beyond = np.where(there, demand - limit, -np.inf)
     unknown = np.where(held, -np.inf, np.inf)
@@ -108,8 +118,10 @@ def _compared(calc: Calculation, check: Check) -> Array:
         calc.judged[check.id, number][:2] if (check.id, number) in calc.judged else _sides(calc, check, pair)
         for number, pair in enumerate(check.pairs)
     ]
-    alike = np.broadcast_arrays(*(side for pair in pairs for side in pair), np.empty((calc.count, 1)))[:-1]
-    found = np.stack([np.stack(alike[::2], axis=1), np.stack(alike[1::2], axis=1)])
+    sides = [side for pair in pairs for side in pair]
+    if any(side.shape != (calc.count, 1) for side in sides):
+        sides = list(np.broadcast_arrays(*sides, np.empty((calc.count, 1)))[:-1])
+    found = np.moveaxis(np.array(sides).reshape(len(pairs), 2, calc.count, -1), 0, 2)
     return found if check.index is None else found[..., [check.index]]
 
 
@@ -127,8 +139,7 @@ def _side(calc: Calculation, name: str) -> Array:
     return np.asarray(found, dtype=float)
 
 
-def _check(calc: Calculation, check: Check) -> Data:
-    found = judged(calc, check)
+def _check(calc: Calculation, check: Check, found: JudgedCheck) -> Data:
     if np.isinf([found.demand[0], found.limit[0]]).any():
         raise ValueError(f"check {check.id} compares {found.demand[0].ravel()} with {found.limit[0].ravel()}")
     pair, part = divmod(int(found.worst[0]), found.demand.shape[2])
@@ -155,7 +166,7 @@ def _check(calc: Calculation, check: Check) -> Data:
         "message": message,
         **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
         **_further(calc, check, display, found, pair, part),
-        **({"sized_to_limit": True} if is_sized(calc.given, check) or _is_at_limit(told) else {}),
+        **({"sized_to_limit": True} if is_sized(calc.given, check) else {}),
         **({"presumed": True} if check.presumed else {}),
     }
 
@@ -163,12 +174,6 @@ def _check(calc: Calculation, check: Check) -> Data:
 def is_sized(given: frozenset[str], check: Check) -> bool:
     """Return whether the program sized what a check compares to its limit, so that the check shows no reserve."""
     return check.sized_unless is not None and given.isdisjoint(check.sized_unless)
-
-
-def _is_at_limit(told: Data) -> bool:
-    """Whether a size that passes is its limit, as one that was taken over from it, and so neither shows nor lacks a reserve."""
-    ratio = told["utilisation"]
-    return told["status"] == "pass" and ratio is not None and abs(ratio - 1) <= AT_LIMIT
 
 
 def _told(check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> Data:
@@ -236,7 +241,7 @@ def _part_names(calc: Calculation, check: Check) -> tuple[str, ...]:
 def _at(calc: Calculation, check: Check, pair: int) -> dict[str, str]:
     side = calc.judged[check.id, pair]
     axis = calc.steps[side.axis]
-    place = shown(float(side.place[0, 0]), declared_unit(calc, axis.id, axis.unit), PLACE_DIGITS)
+    place = place_shown(float(side.place[0, 0]), declared_unit(calc, axis.id, axis.unit))
     return {"symbol": axis.symbol} | place
 
 
@@ -268,4 +273,11 @@ def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str
         seen = (float(texts[1]["text"]) - float(texts[0]["text"])) * unit(display).factor
         if abs(seen - margin) <= 0.05 * abs(margin):
             break
-    return {"demand": texts[0], "limit": texts[1], "margin": shown(margin, display)}
+    return {"demand": texts[0], "limit": texts[1], "margin": _margin(margin, display, texts)}
+
+
+def _margin(margin: float, display: str, texts: list[dict[str, str]]) -> dict[str, str]:
+    """A margin with as many digits as the printed demand and limit show of it: who subtracts them finds no other one."""
+    seen = Decimal(texts[1]["text"]) - Decimal(texts[0]["text"])
+    told = [shown(margin, display, digits) for digits in MARGIN_DIGITS]
+    return next((each for each in told if seen.quantize(number := Decimal(each["text"])) == number), told[-1])

@@ -11,7 +11,7 @@ import numpy as np
 
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list_titles
-from diecut_report.contract.result_names import ResultName, count_name, pattern, place_name, result_names
+from diecut_report.contract.result_names import ResultName, count_name, named, pattern, place_name, result_names
 from diecut_report.contract.steps import SILENT, Crossings, Step
 from diecut_report.contract.varying import Varying
 from diecut_report.engine import Calculation, listings
@@ -20,7 +20,7 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.engine.shown_units import declared_unit, unit_for
 from diecut_report.engine.steps import facts
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import given_shown, shown
+from diecut_report.quantities.formatting import given_shown, place_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of
 from diecut_report.results.curves import curves
@@ -38,7 +38,9 @@ class SelfTestFailed(Exception):
 
     def __init__(self, checks: list[Data]) -> None:
         told = " ".join(f"{check['title']}: {check['message']}" for check in checks)
-        super().__init__(f"The calculation contradicts itself, and its numbers must not be used. {told}")
+        super().__init__(
+            Phrase("The calculation contradicts itself, and its numbers must not be used. {told}", told=told)
+        )
         self.checks = checks
 
 
@@ -209,12 +211,30 @@ def numbers(calc: Calculation) -> Data:
     """Return outputs and intermediate values: each step's number, with the place where an extreme occurs."""
     groups: dict[bool, Data] = {True: {}, False: {}}
     for step in calc.steps.values():
-        if step.id in calc.values and not isinstance(step, SILENT):
-            groups[step.output] |= _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
+        groups[step.output] |= _numbers_of(calc, step)
+    return {"outputs": _with_keys(calc, groups[True]), "values": groups[False]}
+
+
+def key_outputs(calc: Calculation) -> Data:
+    """Return of the outputs those that tell most, in their order."""
+    asked = {each.id for name in calc.mechanism.key_results if (each := named(name, calc.steps))}
+    steps = (step for step in calc.steps.values() if step.id in asked and step.output)
+    found = _with_keys(calc, {name: each for step in steps for name, each in _numbers_of(calc, step).items()})
+    return {name: each for name, each in found.items() if "key" in each}
+
+
+def _with_keys(calc: Calculation, outputs: Data) -> Data:
     for name in calc.mechanism.key_results:
-        if name in groups[True]:
-            groups[True][name]["key"] = True
-    return {"outputs": groups[True], "values": groups[False]}
+        if name in outputs:
+            outputs[name]["key"] = True
+    return outputs
+
+
+def _numbers_of(calc: Calculation, step: Step) -> Data:
+    """The numbers that a step gives."""
+    if step.id not in calc.values or isinstance(step, SILENT):
+        return {}
+    return _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
 
 
 def _rowed(calc: Calculation, step: Step) -> Data:
@@ -231,8 +251,9 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     place = place_name(step.id)
     if place in calc.values:
         axis = calc.steps[calc.axis[step.of]]  # type: ignore[attr-defined]
-        at = shown(float(calc[place][0, 0]), declared_unit(calc, axis.id, axis.unit), 6)
-        found["at"] = {"symbol": axis.symbol} | at
+        value = float(calc[place][0, 0])
+        found["at"] = {"symbol": axis.symbol, "value": value}
+        found["at"] |= place_shown(value, declared_unit(calc, axis.id, axis.unit))
     return {step.id: found}
 
 

@@ -35,7 +35,7 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.results.checks import check_results
 from diecut_report.results.curves import curves
 from diecut_report.results.document import document, verdict
-from diecut_report.results.mechanism import inputs, mechanism_results, numbers, require_self_tests, worst
+from diecut_report.results.mechanism import inputs, key_outputs, mechanism_results, numbers, require_self_tests, worst
 from diecut_report.results.origins import origin_of
 from diecut_report.results.press_run import Run, Tell, require_possible
 from diecut_report.results.reference_origins import told_checks
@@ -169,6 +169,11 @@ class WarmRun(Run):
     def outputs(self, name: str) -> Data:
         """Return the outputs of a mechanism; KeyError where it is broken or skipped (``errors``, ``skipped``), as below."""
         found: Data = self.remembered[name].of(numbers)["outputs"]
+        return found
+
+    def key_outputs(self, name: str) -> Data:
+        """Return of the outputs of a mechanism those that tell most: what a page shows without making all others."""
+        found: Data = self.remembered[name].of(key_outputs)
         return found
 
     def curves(self, name: str) -> Data:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import random
 import time
+import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from functools import cached_property
@@ -32,7 +33,16 @@ from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
 from diecut_report.study.execution.time_limit import Overran, limited
-from diecut_report.testing.extreme_inputs import alone_with_its_needs, extremes_of, fault_of, input_of, with_value
+from diecut_report.testing import wide_machines
+from diecut_report.testing.extreme_inputs import (
+    Extreme,
+    alone_with_its_needs,
+    empty_lists,
+    extremes_of,
+    fault_of,
+    input_of,
+    with_value,
+)
 from diecut_report.testing.many_machines import MachineCase, one_of, unlike
 from diecut_report.testing.single_machine import Keys, WithMechanism, configured
 from diecut_report.testing.tried_rules import TITLES, TriedRule, rule
@@ -83,7 +93,8 @@ class ContractTest:
         """Return what one rule finds; where the plugin breaks in it, that is its fault."""
         tried: Callable[[], TriedRule] = getattr(self, id)
         try:
-            with limited(LONGEST):
+            with limited(LONGEST), warnings.catch_warnings():
+                warnings.simplefilter("ignore", RuntimeWarning)  # of NumPy: what comes out is judged, not on the way
                 return tried()
         except Overran as cause:
             words = Phrase("it did not come back within {seconds} s ({said})", seconds=f"{LONGEST:g}", said=said(cause))
@@ -162,6 +173,10 @@ class ContractTest:
         told = Phrase("{count} machines at once, {alone} of them alone too", count=TOGETHER, alone=ALONE)
         try:
             found = list(unlike(self.case, TOGETHER, ALONE, SEED))
+            if wide_machines.has_picks(self.case):
+                wide, changing, picks = wide_machines.picks(self.case, SEED, TOGETHER)
+                found += unlike(wide, TOGETHER, ALONE, SEED)
+                told += Phrase("; again where {changing} of {picks} picks change", changing=changing, picks=picks)
         except (Impossible, Unproven):
             raise
         except Exception as cause:
@@ -173,8 +188,10 @@ class ContractTest:
         """Try whether single extreme values give numbers, or are refused in words."""
         assert self.config is not None
         data = alone_with_its_needs(self.config, self.name)
-        cases = list(extremes_of(self.mechanism.inputs, data["mechanisms"][self.name], ("mechanisms", self.name)))
-        chosen = cases if len(cases) <= EXTREMES else random.Random(SEED).sample(cases, EXTREMES)
+        of_it = self.mechanism.inputs, data["mechanisms"][self.name], ("mechanisms", self.name)
+        numbers, lists = list(extremes_of(*of_it)), list(empty_lists(*of_it))
+        some = numbers if len(numbers) <= EXTREMES else random.Random(SEED).sample(numbers, EXTREMES)
+        cases, chosen = [*lists, *numbers], [*lists, *some]
         faults, ends = list[str](), time.process_time() + BUDGET
         for tried, (path, value) in enumerate(chosen):
             if time.process_time() > ends:
@@ -184,12 +201,13 @@ class ContractTest:
         told = Phrase("{count} of {all} single extreme values", count=len(chosen), all=len(cases))
         return rule("hostile", told, faults)
 
-    def _extreme(self, data: Mapping[str, Any], path: KeyPath, value: float) -> Iterator[str]:
+    def _extreme(self, data: Mapping[str, Any], path: KeyPath, value: Extreme) -> Iterator[str]:
         assert self.config is not None
         folder = Path(self.config.tree.file).parent
         fault = fault_of(with_value(data, path, value), self.discovery, lambda name: folder / name)
         if fault:
-            words = Phrase("with {value}: {fault}", value=f"{value:g}", fault=fault)
+            given = str(value) if isinstance(value, list) else f"{value:g}"
+            words = Phrase("with {value}: {fault}", value=given, fault=fault)
             yield at_place(self.mechanism, input_of(path), words)
 
     def figures(self) -> TriedRule:

@@ -25,6 +25,9 @@ BEYOND = (1e-300, 1e-12, 1e12, 1e300)
 BESIDE = 1e-6  # how far inside its bounds a value stands, as a share of it
 
 
+Extreme = float | int | list[Any]
+
+
 def extreme_values(quantity: Quantity) -> Iterator[float | int]:
     """Yield the extremes of a quantity, in its display unit.
 
@@ -61,6 +64,17 @@ def extremes_of(model: type[Block], data: Mapping[str, Any], prefix: KeyPath) ->
     for path, quantity in numeric_inputs(model, data, prefix):
         if path[-1] != "n_points":
             yield from ((path, value) for value in dict.fromkeys(extreme_values(quantity)))
+
+
+def empty_lists(model: type[Block], data: Mapping[str, Any], prefix: KeyPath) -> Iterator[tuple[KeyPath, list[Any]]]:
+    """Yield each list that is given in a block, in the blocks of it and in the first ones of its lists, as an empty one."""
+    for name, field in model.model_fields.items():
+        block, given, key = nested(field.annotation), data.get(name), (*prefix, name)
+        if isinstance(given, list):
+            yield key, []
+        first, place = (given[0], (*key, 0)) if isinstance(given, list) and given else (given, key)
+        if block and isinstance(first, dict):
+            yield from empty_lists(block[0], first, place)
 
 
 def input_of(path: KeyPath) -> str:

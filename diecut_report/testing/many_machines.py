@@ -164,10 +164,12 @@ def is_place(calc: Calculation, name: str) -> bool:
 
 def unlike_curves(together: Calculation, alone: Calculation, i: int) -> Iterator[tuple[str, str]]:
     """Yield the curves whose samples are not the machine's own."""
+    scale = scales(alone)
     for name in alone.curves:
         found, expected = together.curve_samples(name)[i], alone.curve_samples(name)[0]
         great = float(np.max(np.abs(expected), initial=0.0))
-        same = np.isclose(found, expected, rtol=CLOSE, atol=CLOSE * great, equal_nan=True)
+        within = max(CLOSE * great, OF_SCALE * scale.get(unit_of(alone, name), 0.0))  # a curve may be rounding alone
+        same = np.isclose(found, expected, rtol=CLOSE, atol=within, equal_nan=True)
         if not same.all():
             yield name, _among(_first(found, ~same), _first(expected, ~same))
 

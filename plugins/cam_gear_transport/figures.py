@@ -26,7 +26,7 @@ from diecut_report.api import (
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.cam_gear_transport import formulas
 from diecut_report.plugins.cam_gear_transport.cams import LOADED
-from diecut_report.plugins.cam_gear_transport.drawing import cam_1, cam_2, rolling
+from diecut_report.plugins.cam_gear_transport.drawing import cam_1, cam_1_at, cam_2, cam_2_at, rolling, rolling_at
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, SHEET, TORQUE
 
 BETWEEN = "Between the shaded phases II (dwell) and IV (return) the sector stops in phase III; after IV it starts again in phase I."
@@ -106,7 +106,7 @@ def _panel(
 
 
 FIGURES = (
-    Drawing(id="rolling", title="Gear and sector", build=rolling,
+    Drawing(id="rolling", title="Gear and sector", build=rolling, moving=rolling_at, over="disc_angle",
             caption="Pitch circles to scale: the sector at the start of the dwell (dark) and at its end (light). The arc A₁A₂ of the gear is "
             "that of the sector which rolls off on it, so the gear stands (figure 3 of 003)."),
     Plot(id="phase_diagram", title="Phase diagram of the sector", abscissa="disc_angle",
@@ -133,11 +133,11 @@ FIGURES = (
     Plot(id="torque", title="Torque", abscissa="disc_angle", needs=TORQUE,
          caption="Torque at the shafts of disc and gear, without losses; negative where the conveyor drives back. " + SHADED,
          panels=(_panel("Torque", "N*m", ("drive_torque", "disc"), ("gear_torque", "gear"), named=True),)),
-    *(Drawing(id=f"cam_{number}", title=f"Cam {number}", build=build, needs=CAMS,
+    *(Drawing(id=f"cam_{number}", title=f"Cam {number}", build=build, moving=moving, over="disc_angle", needs=CAMS,
               caption=f"Cam {number} to scale, with the path of its roller's centre (dashed) and that of the pin O₃ (dash-dotted); arm and roller in "
               "the middle of the dwell, light: where the sector stops. The cam stands still, the disc turns counter-clockwise; its angle counts "
               "from the right.")
-      for number, build in (("1", cam_1), ("2", cam_2))),
+      for number, build, moving in (("1", cam_1, cam_1_at), ("2", cam_2, cam_2_at))),
     Plot(id="cam_angles", title="Pressure angle and curvature of the cams", abscissa="disc_angle", needs=CAMS,
          caption="Pressure angle, and curvature of the pitch curves: convex above zero, hollow below. " + SHADED,
          panels=(_panel("Pressure angle", "deg", ("cam_1_pressure_angle", "cam 1"), ("cam_2_pressure_angle", "cam 2"),

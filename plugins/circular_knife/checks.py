@@ -24,7 +24,7 @@ CHECKS = (
           demand_label="least distance of the edge from the axis, R − r", limit_label="board's upper front edge from the axis", source="geometry",
           consequence="over the whole turn this front edge is inside the edge's circle, so that the blade's end comes down on the board from "
           "above; {entering_advice}."),
-    Check(id="shear_resistance", check_class="practice", title="Shear resistance against the force of a rule",
+    Check(id="shear_resistance", check_class="practice", presumed=True, title="Shear resistance against the force of a rule",
           demand="rule_force", limit="guillotine_line_force",
           unit="N/mm", tolerance=1e-9, severity="warn", needs=("rule_force",), demand_label="a straight rule needs",
           limit_label="by the shear resistance", source="practice",

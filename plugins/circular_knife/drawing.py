@@ -19,6 +19,7 @@ from diecut_report.api import (
     polyline,
     radius_dimension,
     region,
+    rigid,
     si,
     told,
 )
@@ -62,6 +63,33 @@ def _knife(view: View, angle: float, offset: float) -> list[Shape]:
         polyline([axis, center], "link"),
         point(axis, "pivot"),
         point(center, "joint", "O₁"),
+    ]
+
+
+def _blade(view: View) -> list[Shape]:
+    """The knife at the angle zero, from its shaft to the edge, with the edge's centre."""
+    center = center_at(view, 0.0)
+    arc = edge_arc(view, 0.0, *drawn_edge(view, 0.0))
+    return [
+        polyline([(0.0, 0.0), *arc], "body", closed=True),
+        polyline([(0.0, 0.0), center], "link"),
+        point(center, "joint"),
+    ]
+
+
+def _still(view: View) -> list[Shape]:
+    """What stands: board and counter-knife, and the circle on which the edge's centre runs."""
+    board, counter = _board(view, 0.0)
+    return [polyline(counter["outer"], "body", closed=True), board, circle((0.0, 0.0), view["eccentricity"], "ghost")]
+
+
+def turning(view: View, angle: float) -> list[Shape]:
+    """The knife at an angle, which turns clockwise, over board and counter-knife; outside the cut the cutting point waits at its start."""
+    return [
+        rigid(view.once(_blade), (0.0, 0.0), -angle),
+        *view.once(_still),
+        point((0.0, 0.0), "pivot"),
+        point((view.at("cut_position", angle), -view["depth"]), "mark"),
     ]
 
 

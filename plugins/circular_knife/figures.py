@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, level, line, mark, phrase, vertical
-from diecut_report.plugins.circular_knife.drawing import front, positions
+from diecut_report.plugins.circular_knife.drawing import front, positions, turning
 
 ANGLE = (phrase("knife angle"), "φ", "deg")
 INSIDE = 1e-9  # share of the cut by which the curves' ends are taken inside it
@@ -25,7 +25,7 @@ def panel(view: View, title: str, unit: str, *curves: tuple[str, str], **more: A
     """Curves over the cut."""
     angles, places = over_cut(view)
     lines = [line(angles, [view.at(curve, place) for place in places], words) for curve, words in curves]
-    return chart_panel(title, unit, *ANGLE, lines=lines, **more)
+    return chart_panel(title, unit, *ANGLE, lines=lines, over="knife_angle", **more)
 
 
 def place_of(view: View, name: str) -> float:
@@ -97,6 +97,8 @@ FIGURES = (
         "circle. The cross marks the cutting point; thick: the board on the counter-knife (hatched). Of the edge that part is drawn which cuts, "
         "6° more at both ends.",
         build=positions,
+        moving=turning,
+        over="knife_angle",
     ),
     Drawing(
         id="front",

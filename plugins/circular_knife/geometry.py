@@ -70,7 +70,7 @@ def _at_distance(name: str, symbol: str, description: str, distance: str) -> Ste
     steps = Steps()
     steps.root(name, symbol, "deg", description, bind(f.past_centre, angle=name, distance=distance), low=lambda touch_angle: touch_angle,
                high=lambda return_angle: return_angle, left=bind(f.from_centre_squared, angle=name, distance=distance),
-               right=lambda edge_radius: edge_radius ** 2, source=OWN, digits=6, unknown=name)
+               right=lambda edge_radius: edge_radius ** 2, source=OWN, unknown=name)
     return steps
 
 

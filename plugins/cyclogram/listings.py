@@ -30,7 +30,12 @@ OFFSETS = (
     ListedColumn("end", "to", "Φ_b", "deg"),
 )
 LACKING = (ListedColumn("what", "What"), ListedColumn("because", "Because"))
-ROLES = {"working": phrase("working"), "rest": phrase("at rest"), "moving": phrase("moving"), "window": phrase("room for another part")}
+ROLES = {
+    "working": phrase("working"),
+    "rest": phrase("at rest"),
+    "moving": phrase("moving"),
+    "window": phrase("room for another part"),
+}
 
 
 def phases(given: Mapping[str, Any]) -> Rows:

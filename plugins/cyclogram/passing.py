@@ -8,14 +8,14 @@ from math import pi
 from typing import Any
 
 import numpy as np
-from scipy.optimize import elementwise
 
 from diecut_report.api import GivenMechanism, Phrase, Refusal, told
+from diecut_report.mechanics.bracketed_roots import root
 from diecut_report.plugins.cyclogram.inputs import Passage
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
 
 TURN = 2 * pi
-CLOSE: Any = {"xatol": 1e-14, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
+CLOSE = 1e-14  # share of the period to which a place is known
 LONGER = 1 + 1e-12  # by which rounding may let a way pass its step
 
 
@@ -94,13 +94,13 @@ def _angles(mechanism: Any, wanted: Any) -> tuple[Any, Any]:
     before = _way(position, step, low, np.arange(len(step)))
     rows = np.repeat(np.arange(len(step)), 2)
 
-    def above(share: Any, row: Any, place: Any) -> Any:
-        row = row.astype(int)
-        return _way(position, step, share, row) - before[row] - place
-
     places = np.broadcast_to(wanted, (len(step), 2)).ravel()
-    found = elementwise.find_root(above, (low[rows], high[rows]), args=(rows, places), tolerances=CLOSE)
-    ends = np.select([places <= 0, places >= step[rows]], [low[rows], high[rows]], found.x).reshape(-1, 2)
+
+    def above(share: Any, end: Any) -> Any:
+        return _way(position, step, share, rows[end]) - before[rows[end]] - places[end]
+
+    found = root(above, low[rows], high[rows], CLOSE)
+    ends = np.select([places <= 0, places >= step[rows]], [low[rows], high[rows]], found).reshape(-1, 2)
     return TURN * ends[:, 0], TURN * ends[:, 1]
 
 

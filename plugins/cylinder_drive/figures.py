@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from math import cos, pi, sin
 
+import numpy as np
+
 from diecut_report.api import (
     Drawing,
     Level,
@@ -22,6 +24,7 @@ from diecut_report.api import (
     label,
     point,
     polyline,
+    rigid,
 )
 
 STROKES = (Span(start="dead_center_outer", end="dead_center_inner", label="forward stroke"),)
@@ -57,19 +60,25 @@ def _sector(view: View, phi: float) -> list[Shape]:
         return []
     pivot = _joints(view, phi)[3]
     radius, pinion = view["sector_radius"], view["pinion_radius"]
-    middle = view["outer_direction"] + view["swing_angle"] / 2 + pi
-    turned = view.at("rocker_direction", phi) - (middle - pi)
-    half = view["swing_angle"] / 2 + 0.1
-    start, end = middle + turned - half, middle + turned + half
-    center = (pivot[0] + (radius + pinion) * cos(middle), pivot[1] + (radius + pinion) * sin(middle))
-    rim = [(pivot[0] + radius * cos(start + (end - start) * i / 40), pivot[1] + radius * sin(start + (end - start) * i / 40))
-           for i in range(41)]  # fmt: skip
+    middle, direction = view["outer_direction"] + view["swing_angle"] / 2, view.at("rocker_direction", phi)
+    center = (pivot[0] - (radius + pinion) * cos(middle), pivot[1] - (radius + pinion) * sin(middle))
     return [
-        polyline([pivot, *rim], "body", closed=True),
-        circle(center, pinion, "outline"),
+        rigid(view.once(_rim), pivot, direction),
+        rigid(
+            [circle((0.0, 0.0), pinion), polyline([(0.0, 0.0), (pinion, 0.0)])],
+            center,
+            middle - (direction - middle) * radius / pinion,
+        ),
         point(center, "pivot", "pinion"),
         *_cylinder(view, phi, (center[0], center[1] - radius - pinion)),
     ]
+
+
+def _rim(view: View) -> list[Shape]:
+    """The sector about its pivot, opposite the rocker, which points to the right."""
+    half = view["swing_angle"] / 2 + 0.1
+    rim = [view["sector_radius"] * np.exp(1j * angle) for angle in np.linspace(pi - half, pi + half, 41)]
+    return [polyline([(0.0, 0.0), *((float(at.real), float(at.imag)) for at in rim)], "body", closed=True)]
 
 
 def _cylinder(view: View, phi: float, middle: Point) -> list[Shape]:
@@ -110,22 +119,16 @@ def linkage(view: View) -> list[Shape]:
 
 
 def moving(view: View, place: float) -> list[Shape]:
-    """The linkage at a crank angle, with sector and cylinder where they are known."""
+    """The linkage at a crank angle, with sector, pinion and cylinder where they are known."""
     crank_pivot, pin, joint, rocker_pivot = _joints(view, place)
-    of_sector = [shape for shape in _sector(view, place) if shape["role"] in ("body", "hidden", "outline")]
     return [
-        *(_coarser(shape) for shape in of_sector),
+        *_sector(view, place),
         polyline([crank_pivot, pin, joint, rocker_pivot], "link"),
         *(
             point(at, "pivot" if at in (crank_pivot, rocker_pivot) else "joint")
             for at in (crank_pivot, pin, joint, rocker_pivot)
         ),
     ]
-
-
-def _coarser(shape: Shape) -> Shape:
-    """A rim with every fifth of its points: it is drawn small, at many places."""
-    return shape | {"points": [shape["points"][0], *shape["points"][1::5]]} if "points" in shape else shape
 
 
 FIGURES = (

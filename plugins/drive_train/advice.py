@@ -7,10 +7,10 @@ from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
-from scipy.optimize import elementwise
 
 from diecut_report.api import Phrase, joined, phrase, si, standard_series, standard_series_by, told
 from diecut_report.mechanics import belt_path
+from diecut_report.mechanics.bracketed_roots import root
 from diecut_report.plugins.drive_train.belts import length_left_over
 
 Array = NDArray[Any]
@@ -74,11 +74,13 @@ class Demand:
 def distance_of(belt: Array, small: Array, large: Array) -> Array:
     """Distance of the shafts with belts of these lengths, NaN where they are too short for the pulleys."""
     touching = small + large
-    found = elementwise.find_root(
-        length_left_over, (touching, np.maximum(belt / 2, touching)), args=(small, large, belt)
-    )
-    distance: Array = np.where(found.success, found.x, np.nan)
-    return distance
+    small, large, belt, touching = np.broadcast_arrays(small, large, belt, touching)
+
+    def left_over(distance: Array, row: Array) -> Array:
+        return np.asarray(length_left_over.function(distance, *(each.ravel()[row] for each in (small, large, belt))))
+
+    found = root(left_over, touching.ravel(), np.maximum(belt / 2, touching).ravel())
+    return found.reshape(belt.shape)
 
 
 def is_wrapped(distance: Array, small: Array, large: Array) -> Array:

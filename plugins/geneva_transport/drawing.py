@@ -6,7 +6,7 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from diecut_report.api import Point, Shape, View, circle, dimension, point, polyline, radius_dimension
+from diecut_report.api import Point, Shape, View, circle, dimension, point, polyline, radius_dimension, rigid
 
 
 def _around(center: Point, radius: float, start: float, end: float, points: int = 25) -> list[Point]:
@@ -55,10 +55,14 @@ def _turned(points: list[Point], angle: float, center: Point) -> list[Point]:
 
 def wheel_outline(view: View, angle: float) -> list[Point]:
     """The wheel's outline; at angle 0 a slot points to the crank's axis. A positive angle turns it as it moves."""
+    return _turned(wheel(view), pi - angle, (view["center_distance"], 0.0))
+
+
+def wheel(view: View) -> list[Point]:
+    """The wheel's outline about its axis, a slot along +x."""
     one = [*_slot(view), *_rim(view)[1:-1]]
-    center = (view["center_distance"], 0.0)
     steps = range(round(view["slots"]))
-    return [p for k in steps for p in _turned(one, pi - angle + k * view["step_angle"], center)]
+    return [p for k in steps for p in _turned(one, k * view["step_angle"], (0.0, 0.0))]
 
 
 def disc_outline(view: View, angle: float) -> list[Point]:
@@ -121,3 +125,25 @@ def positions(view: View) -> list[Shape]:
     """The middle of the motion and, beside it, the middle of the dwell."""
     apart = view["center_distance"] + view["rim_radius"] + 1.35 * view["crank_radius"] + view["roller_radius"]
     return [*_machine(view, 0.0, 0.0), *_machine(view, pi, view["step_angle"] / 2, apart)]
+
+
+def _driven(view: View) -> list[Shape]:
+    return [polyline(wheel(view), "body", closed=True)]
+
+
+def _driving(view: View) -> list[Shape]:
+    """The crank with its roller and the locking disc, along +x."""
+    disc, roller = disc_outline(view, 0.0), (view["crank_radius"], 0.0)
+    locking = [polyline(disc, "body", closed=True)] if disc else []
+    return [*locking, polyline([(0.0, 0.0), roller], "link"), circle(roller, view["roller_radius"], "mark")]
+
+
+def turning(view: View, crank: float) -> list[Shape]:
+    """Wheel, disc and crank at a crank angle."""
+    distance = view["center_distance"]
+    return [
+        rigid(view.once(_driven), (distance, 0.0), pi - view.at("wheel_angle", crank)),
+        rigid(view.once(_driving), (0.0, 0.0), crank),
+        point((0.0, 0.0), "pivot"),
+        point((distance, 0.0), "pivot"),
+    ]

@@ -8,10 +8,11 @@ import numpy as np
 
 from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, level, line, mark, phrase, vertical
 from diecut_report.plugins.geneva_transport import formulas, loads
-from diecut_report.plugins.geneva_transport.drawing import at_entry, positions
+from diecut_report.plugins.geneva_transport.drawing import at_entry, positions, turning
 
 COUNTED = "Angles are counted from the middle of the motion: what the results name as α of more than 180° stands here 360° lower, at the same place."
 FROM_MIDDLE = (phrase("Crank angle from the middle of the motion"), "α", "deg")
+OVER = "crank_angle"
 Curves = dict[str, Any]
 
 
@@ -40,7 +41,9 @@ def panel(title: str, unit: str, alpha: Any, values: Any, label: str, view: View
     """One curve over the crank angle, with entry and exit."""
     half = view["engagement_half_angle"]
     edges = [vertical(-half, "entry"), vertical(half, "exit")]
-    return chart_panel(title, unit, *FROM_MIDDLE, lines=[line(alpha, values, label)], verticals=edges, **more)
+    return chart_panel(
+        title, unit, *FROM_MIDDLE, lines=[line(alpha, values, label)], verticals=edges, over=OVER, **more
+    )
 
 
 def motion(view: View) -> list[Shape]:
@@ -80,10 +83,10 @@ def engagement(view: View) -> list[Shape]:
     places = {name: view[f"{name}_at"] - 2 * np.pi for name in ("torque_peak", "roller_force_peak")}
     return [
         chart_panel("Torque at the crank", "N*m", *FROM_MIDDLE, lines=[line(alpha, torque, "M")],
-                    marks=[mark(places["torque_peak"], view["torque_peak"], "greatest")], verticals=[vertical(0.0, "middle")]),
+                    marks=[mark(places["torque_peak"], view["torque_peak"], "greatest")], verticals=[vertical(0.0, "middle")], over=OVER),
         chart_panel("Roller force", "N", *FROM_MIDDLE, lines=[line(alpha, force, "F")],
                     marks=[mark(places["roller_force_peak"], view["roller_force_peak"], "greatest")],
-                    verticals=[vertical(0.0, "middle: the roller changes flanks")]),
+                    verticals=[vertical(0.0, "middle: the roller changes flanks")], over=OVER),
     ]  # fmt: skip
 
 
@@ -94,6 +97,8 @@ FIGURES = (
         caption="Wheel, crank with roller and locking disc to scale at the instant of entry: crank and slot stand square to each other, "
         "and the disc's edge stands on the line of centres. Light: the roller's path, the roller in the middle of the motion and at its exit.",
         build=at_entry,
+        moving=turning,
+        over="crank_angle",
     ),
     Drawing(
         id="positions",

@@ -21,7 +21,7 @@ ANGLES = {"contact": "contact_angle", "grip": "grip_begin"}
 
 CONTACT = Steps()
 CONTACT.value("contact_angle", "φ_t", "deg", "Crank angle of the contact at the table",
-              lambda lowest_angle, working_angle: lowest_angle - working_angle, source="kinematics", digits=6)
+              lambda lowest_angle, working_angle: lowest_angle - working_angle, source="kinematics")
 CONTACT.value("leave_angle", "φ_a", "deg", "Crank angle at which the edge is at the table again",
               lambda lowest_angle, working_angle: lowest_angle + working_angle, source="symmetry", output=False)
 GRIP = Steps()
@@ -38,7 +38,7 @@ PLANETARY.value("acceleration", "a_", "m/s**2", "Acceleration of the edge", bind
                 source="004 eq. 1", source_symbol="W_")
 PLANETARY.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point", lambda: 3 * np.pi / 2, source="004 eq. 1")
 PLANETARY.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke", bind(formulas.planetary_working_angle, carrier_radius=RADIUS),
-                source="004 eq. 1, solved", digits=6)
+                source="004 eq. 1, solved")
 PLANETARY.add(CONTACT)
 PLANETARY.value("contact_rate", "v_t", "m/s", "Velocity of the edge as it meets the signature",
                 bind(formulas.planetary_velocity, crank_angle="contact_angle", carrier_radius=RADIUS), source="004 eq. 1", output=False)
@@ -89,8 +89,7 @@ CRANK_SLIDER.value("acceleration", "a_", "m/s**2", "Acceleration of the edge",
                    bind(slider_crank.acceleration, coupler_angle="rod_angle", crank_radius=CRANK), source="004 eq. 2", source_symbol="W_")
 CRANK_SLIDER.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point: a turn after φ = 0", lambda: 2 * np.pi, source="004 eq. 2")
 CRANK_SLIDER.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke",
-                   bind(slider_crank.crank_angle_at, displacement="working_depth", crank_radius=CRANK, rod_length=ROD), source="004 eq. 2, solved",
-                   digits=6)
+                   bind(slider_crank.crank_angle_at, displacement="working_depth", crank_radius=CRANK, rod_length=ROD), source="004 eq. 2, solved")
 CRANK_SLIDER.add(CONTACT)
 CRANK_SLIDER.add(_slider_at("contact", "t", "as it meets the signature"))
 CRANK_SLIDER.value("acceleration_end", "a_0", "m/s**2", "Acceleration of the edge at its lowest point",

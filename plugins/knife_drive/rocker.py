@@ -75,13 +75,13 @@ GEOMETRY.require("turns_fully", four_bar.is_crank_rocker, key="crank_rocker.cran
                          "together shorter than the other two together (Grashof); {crank_rocker_link_advice}")
 GEOMETRY.value("outer_direction", "γ_3", "deg", "Direction of the rocker at its outer dead centre", four_bar.outer_rocker_direction,
                source="law of cosines", output=False)
-GEOMETRY.value("swing_angle", "ψ_s", "deg", "Swing of the rocker", four_bar.swing_angle, source="law of cosines", digits=6)
+GEOMETRY.value("swing_angle", "ψ_s", "deg", "Swing of the rocker", four_bar.swing_angle, source="law of cosines")
 GEOMETRY.value("stroke", "H_", "mm", "Stroke of the edge along its arc", bind(common.product, first="swing_angle", second=ARM), source="004 eq. 3")
 GEOMETRY.add(working.reaches(working.CRANK_ROCKER))
 GEOMETRY.value("dead_center", "φ_d", "deg", "Crank angle of the outer dead centre", four_bar.outer_dead_center, source="law of cosines", output=False,
-               needs=OUTER, digits=6)
+               needs=OUTER)
 GEOMETRY.add(_either("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point (counted on over the full turn)",
-                     bind(formulas.turn_later, angle="dead_center"), four_bar.inner_dead_center, source="dead centre", digits=6))
+                     bind(formulas.turn_later, angle="dead_center"), four_bar.inner_dead_center, source="dead centre"))
 
 CURVES = Steps()
 CURVES.add(_speed_ratio("crank_angle"))
@@ -107,14 +107,13 @@ PLACES.value("table_distance", "e_h", "1", "Distance of the rocker's joint from 
              bind(four_bar.joint_distance, rocker_direction="table_direction"), source="law of cosines", output=False)
 PLACES.add(_either("contact_angle", "φ_t", "deg", "Crank angle of the contact at the table",
                    bind(four_bar.crank_angle_return, rocker_direction="table_direction", joint_distance="table_distance"),
-                   bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"), source="law of cosines",
-                   digits=6))
+                   bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"), source="law of cosines"))
 PLACES.add(_either("leave_angle", "φ_a", "deg", "Crank angle at which the edge is at the table again",
                    bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"),
                    bind(four_bar.crank_angle_return, rocker_direction="table_direction", joint_distance="table_distance"), source="law of cosines",
                    output=False))
 PLACES.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke", lambda lowest_angle, contact_angle: lowest_angle - contact_angle,
-             source="kinematics", digits=6)
+             source="kinematics")
 PLACES.add(_speed_ratio("contact_angle", "contact_", "t", " at contact"))
 PLACES.add(_rate("contact_rate", "v_t", "Velocity of the edge as it meets the signature", "contact_rocker_speed_ratio", output=False))
 PLACES.add(_either("dead_span", "λ_d", "1", "Crank and coupler in line at the lowest point, in crank lengths",

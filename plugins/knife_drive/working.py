@@ -54,7 +54,7 @@ speeds = Chapter("Knife's shaft and folding rollers",
 speeds.require("any_drive", lambda: 0 >= 1, key="planetary",
                message="no drive is given; give at least one of the blocks planetary, crank_slider and crank_rocker", lacks=DRIVES)
 speeds.value("crank_speed", "ω_1", "rad/s", "Angular speed of the knife's shaft",
-             lambda cylinder_rate, drive_ratio: 2 * np.pi * cylinder_rate * drive_ratio, source="kinematics", digits=6)
+             lambda cylinder_rate, drive_ratio: 2 * np.pi * cylinder_rate * drive_ratio, source="kinematics")
 speeds.value("cycle_time", "T", "ms", "Time of a turn of the knife's shaft", lambda crank_speed: 2 * np.pi / crank_speed, source="004, after Fig. 3")
 speeds.value("roller_velocity", "V_r", "m/s", "Speed of the rollers' surface", formulas.roller_velocity, source="kinematics")
 speeds.value("grip_time", "t_g", "ms", "Time in which the rollers bring the signature to their speed",

@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from math import asin, cos, pi, sin, sqrt
 
-from diecut_report.api import Point, Shape, View, arc, circle, dimension, label, point, polyline, radius_dimension
+from diecut_report.api import (
+    Point,
+    Shape,
+    View,
+    arc,
+    circle,
+    dimension,
+    label,
+    point,
+    polyline,
+    radius_dimension,
+    rigid,
+)
 
 SHOWN = -pi / 3  # crank angle of the main position: a sixth of a turn before the dead centre
 
@@ -47,6 +59,25 @@ def machine(view: View) -> list[Shape]:
         dimension(pin, platen, -1.5 * height, view.text("rod_length")),
         dimension((shut[0], 0.0), (far[0], 0.0), -1.7 * height, view.text("stroke")),
     ]  # fmt: skip
+
+
+def turning(view: View, phi: float) -> list[Shape]:
+    """Crank, rods and platen at a crank angle: on the die the rods stretch, and the platen stands until they have relaxed."""
+    r, gap, height = view["crank_radius"], 1.3 * view["platen_pin_radius"], 2.2 * view["crank_radius"]
+    shut = view["rod_length"] - r
+    pin, platen = (-r * cos(phi), r * sin(phi)), (shut + view.at("platen_displacement_true", phi), 0.0)
+    own = [polyline(_platen(view, 0.0), "body", closed=True), circle((0.0, 0.0), view["platen_pin_radius"])]
+    return [
+        circle((0.0, 0.0), r, "ghost"),
+        polyline([(shut - gap, -1.3 * height), (shut - gap, 1.3 * height)], "ground"),
+        rigid(own, platen),
+        polyline([(0.0, 0.0), pin, platen], "link"),
+        circle((0.0, 0.0), view["journal_radius"]),
+        circle(pin, view["crank_pin_radius"]),
+        point((0.0, 0.0), "pivot"),
+        point(pin, "joint"),
+        point(platen, "joint"),
+    ]
 
 
 def relaxed(view: View) -> list[Shape]:

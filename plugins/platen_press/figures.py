@@ -24,7 +24,7 @@ from diecut_report.api import (
     phrase,
     vertical,
 )
-from diecut_report.plugins.platen_press.drawing import machine, relaxed
+from diecut_report.plugins.platen_press.drawing import machine, relaxed, turning
 
 POINTS = 28_801  # over the turn, of which a small part about the dead centre is drawn
 MARGIN = 1.2  # of what is drawn to the angles of cutting and relaxing
@@ -53,7 +53,7 @@ def panel(view: View, title: str, unit: str, lines: list[Shape], **more: Any) ->
         vertical(0.0, "dead centre"),
         vertical(view["dwell_end_angle"], "relaxed"),
     ]
-    return chart_panel(title, unit, *FROM_DEAD_CENTER, lines=lines, verticals=events, **more)
+    return chart_panel(title, unit, *FROM_DEAD_CENTER, lines=lines, verticals=events, over="crank_angle", **more)
 
 
 def is_source_machine(view: View) -> bool:
@@ -108,7 +108,7 @@ def beside_source(view: View) -> list[Shape]:
         chart_panel("Torque while cutting", "N*m", *FROM_DEAD_CENTER,
                     lines=[line(phi, torque, "corrected"), line(phi, printed, "eq. 14 as printed")],
                     fills=[fill(phi, curves["torque_friction"][cut], "friction")],
-                    marks=marks, levels=levels),
+                    marks=marks, levels=levels, over="crank_angle"),
     ]  # fmt: skip
 
 
@@ -135,6 +135,8 @@ FIGURES = (
         caption="The mechanism to scale a sixth of a turn before the dead centre, with journal, crank pin and platen's pin; light: the platen closed "
         "and open. Size of the platen and place of the die on it are chosen here.",
         build=machine,
+        moving=turning,
+        over="crank_angle",
     ),
     Chart(
         id="cutting",

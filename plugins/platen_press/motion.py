@@ -50,7 +50,7 @@ machine.require("rod_longer", lambda rod_length, crank_radius: rod_length > 1.00
 machine.value("crank_speed", "ω", "rad/s", "Angular speed of the crank", lambda cycles_per_hour: 2 * np.pi * cycles_per_hour)
 machine.value("stroke", "H", "mm", "Stroke of the platen", lambda crank_radius: 2 * crank_radius)
 machine.value("lambda_ratio", "λ", "1", "Radius of the crank to the length of the rods", lambda crank_radius, rod_length: crank_radius / rod_length,
-              source="001, after eq. 2", digits=6)
+              source="001, after eq. 2")
 machine.value("drive_deformation", "Δl_m", "mm", "Stretch of the drive under the greatest cutting force: as given",
               bind(lambda drive_deformation: drive_deformation, drive_deformation="inputs.drive_deformation"), source="input",
               needs=("drive_deformation",))
@@ -81,22 +81,22 @@ contact = Chapter("Contact, dead centre and dwell",
 contact.value("contact_travel", "u_c", "mm", "Travel of the unloaded drive from contact to the dead centre",
               lambda material_thickness, drive_deformation: material_thickness + drive_deformation, source="001, before eq. 12")
 contact.value("cutting_start_angle", "φ_c", "deg", "Crank angle before the dead centre at which cutting begins",
-              bind(slider_crank.inner_crank_angle_at, displacement="contact_travel"), source="closed form", digits=6)
+              bind(slider_crank.inner_crank_angle_at, displacement="contact_travel"), source="closed form")
 contact.value("dwell_end_angle", "φ_d", "deg", "Crank angle after the dead centre at which the rods have relaxed",
-              bind(slider_crank.inner_crank_angle_at, displacement="drive_deformation"), source="001, after eq. 17, closed form", digits=6)
+              bind(slider_crank.inner_crank_angle_at, displacement="drive_deformation"), source="001, after eq. 17, closed form")
 contact.value("contact_rod_angle", "β_c", "deg", "Angle of the rods to the guides at contact",
               bind(slider_crank.inner_coupler_angle, crank_angle="cutting_start_angle", crank_ratio="lambda_ratio"), output=False)
 contact.value("velocity_at_contact", "V_c", "m/s", "Speed of the platen at contact with the board",
               bind(slider_crank.inner_velocity, crank_angle="cutting_start_angle", coupler_angle="contact_rod_angle"), source="loop")
-contact.value("friction_arm", "X", "mm", "Arm of the joints' friction at the dead centre", formulas.friction_arm, source="001 eq. 10, 11", digits=5)
+contact.value("friction_arm", "X", "mm", "Arm of the joints' friction at the dead centre", formulas.friction_arm, source="001 eq. 10, 11")
 contact.value("acceleration_dead_center", "a_0", "m/s**2", "Acceleration of the platen at the dead centre",
               lambda crank_radius, crank_speed, lambda_ratio: crank_radius * crank_speed ** 2 * (1 - lambda_ratio), output=False)
 contact.value("inertia_dead_center", "P_i0", "N", "Inertia force at the dead centre", bind(formulas.inertia, acceleration="acceleration_dead_center"))
 contact.value("torque_dead_center", "M_0", "N*m", "Torque at the dead centre, with the inertia force",
               lambda cutting_force_max, inertia_dead_center, friction_arm: abs(cutting_force_max - inertia_dead_center) * friction_arm,
-              source="001 eq. 10, 11", digits=6)
+              source="001 eq. 10, 11")
 contact.value("torque_relaxing", "M_1", "N*m", "Torque just after the dead centre, where the platen stands",
-              lambda cutting_force_max, friction_arm: cutting_force_max * friction_arm, source="001 eq. 17", digits=6)
+              lambda cutting_force_max, friction_arm: cutting_force_max * friction_arm, source="001 eq. 17")
 
 motion_chapter = Chapter("Motion over a turn of the crank",
                          text="The ideal displacement is that of a drive which does not stretch. Beside the exact speed stands the first-order "
@@ -146,7 +146,6 @@ window.value("clear_travel", "u_w", "mm", "Travel of the platen from the dead ce
              lambda carriage_clearance, drive_deformation: carriage_clearance + drive_deformation, output=False)
 window.value("window_start", "φ_w1", "deg", "Crank angle at which the window opens",
              bind(slider_crank.inner_crank_angle_at, displacement="clear_travel"),
-             source="closed form", digits=6)
-window.value("window_end", "φ_w2", "deg", "Crank angle at which it closes", lambda window_start: 2 * np.pi - window_start, source="symmetry",
-             digits=6)
+             source="closed form")
+window.value("window_end", "φ_w2", "deg", "Crank angle at which it closes", lambda window_start: 2 * np.pi - window_start, source="symmetry")
 window.phase("carriage_window", "window", "Room for the carriages", "crank_angle", ("window_start", "window_end"))

@@ -25,7 +25,7 @@ forces = Chapter("Force of the rods",
                  text="Both rods together, along the guides, tension positive. The force of the rods' stretch is that of cutting, until the dead "
                       "centre; after it the platen stands and the rods relax.")
 forces.value("standing_distance", "x_p", "mm", "Distance of the standing platen's pins from the shaft", formulas.standing_distance,
-             source="001 eq. 16", digits=6, output=False)
+             source="001 eq. 16", output=False)
 forces.value("stretched_length", "L", "mm", "Length of the rods while the platen stands", formulas.stretched_length, source="001 eq. 16, exact",
              output=False)
 forces.choice("rod_stretch", "Δl", "mm", "Stretch of the rods",
@@ -128,7 +128,7 @@ work.value("start_velocity", "V_d", "m/s", "Speed with which the platen leaves t
 work.value("start_energy", "W_d", "J", "Energy that sets the platen moving",
            lambda platen_mass, start_velocity: platen_mass * start_velocity ** 2 / 2, source="energy", output=False)
 work.value("work_per_cycle", "W_c", "J", "Work of a cycle, setting the platen moving included",
-           lambda torque_work, start_energy: torque_work + start_energy, source="energy", digits=6)
+           lambda torque_work, start_energy: torque_work + start_energy, source="energy")
 work.value("cutting_work", "W_s", "J", "Work of cutting the board", formulas.cutting_work, source="energy")
 work.reduction("friction_work", "W_f", "J", "Work of friction", "integral", of="torque_friction")
 work.value("strain_energy", "W_e", "J", "Energy that the rods store and give back",

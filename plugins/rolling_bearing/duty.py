@@ -26,12 +26,14 @@ from diecut_report.plugins.rolling_bearing.ratings import Ratings
 
 Array = NDArray[Any]
 Load = Callable[[Array, Array], Array]  # of both forces
-Over = Callable[[Array, Array], Array]  # of shares of the cycle and the middles of their pieces, (variants, places)
+Over = Callable[
+    [Array, Array, Array], Array
+]  # of shares of the cycle (rows, places), the middles of their pieces (rows, 1), and variants
 
 GRID = 24  # least number of pieces of the cycle
 STEP = 1e-5  # share of the cycle, to either side, by which an angle is differentiated at any place
 PEAKS = 4  # highest places about which the greatest value is sought
-SCANNED, ZOOMS = 9, 5  # places between its neighbours, and how often they are drawn nearer about the highest
+SCANNED, ZOOMS = 17, 3  # places between its neighbours, and how often they are drawn nearer about the highest
 
 
 @dataclass(frozen=True)
@@ -162,9 +164,12 @@ class Duty:
     def greatest(self, load: Load, nodes: Nodes | None = None) -> tuple[Array, Array]:
         """Return both forces where a load of them is greatest; it is known best at nodes that end where it has corners."""
         known = nodes or self.first
-        place, middle = self._extreme(
-            lambda share, mid: load(*self.forces(share, mid)), load(flat(known.radial), flat(known.axial)), known.share
-        )
+
+        def loads(share: Array, middle: Array, rows: Array) -> Array:
+            of_each = (each.reshape(self.variants, -1) for each in self.forces(share, middle, rows))
+            return load(*of_each).reshape(share.shape)
+
+        place, middle = self._extreme(loads, load(flat(known.radial), flat(known.axial)), known.share)
         return self.forces(place, middle)
 
     def _extreme(self, function: Over, known: Array, share: Array) -> tuple[Array, Array]:
@@ -172,35 +177,37 @@ class Duty:
         beside = np.pad(known, ((0, 0), (1, 1)), mode="edge")
         is_peak = (known >= beside[:, :-2]) & (known >= beside[:, 2:])
         order = np.argsort(np.where(is_peak, known, -np.inf), axis=1)[:, ::-1]
+        rows = np.arange(self.variants)
         if not self.curves:
-            place, _, _, middle = self._about(order[:, 0], share)
+            place, _, _, middle = self._about(rows, order[:, 0], share)
             return place, middle
-        peaks = [self._scan(function, *self._about(order[:, rank], share)) for rank in range(PEAKS)]
-        heights = np.concatenate([function(peak[0], peak[3]) for peak in peaks], axis=1)
-        first = np.argmax(heights, axis=1)[:, None]
-        best = tuple(
-            np.take_along_axis(np.concatenate(each, axis=1), first, axis=1) for each in zip(*peaks, strict=True)
-        )
+        peaks = order[:, :PEAKS]
+        every = np.repeat(rows, peaks.shape[1])  # all peaks at once: one look at the curves costs hardly less than many
+        *found, heights = self._scan(function, every, *self._about(every, peaks.ravel(), share))
+        first = np.argmax(heights.reshape(peaks.shape), axis=1) + rows * peaks.shape[1]
+        best, low, high, middle = (each[first] for each in found)
         for _ in range(ZOOMS):
-            best = self._scan(function, *best)
-        return best[0], best[3]
+            best, low, high, middle, _ = self._scan(function, rows, best, low, high, middle)
+        return best, middle
 
-    def _about(self, index: Array, share: Array) -> tuple[Array, Array, Array, Array]:
-        """A place, its neighbours within its piece, and the middle of that."""
-        last, rows = share.shape[2] - 1, np.arange(self.variants)
+    def _about(self, rows: Array, index: Array, share: Array) -> tuple[Array, Array, Array, Array]:
+        """A place, its neighbours within its piece, and the middle of that; a row each."""
+        last = share.shape[2] - 1
         piece, place = np.divmod(index, share.shape[2])
         found = (share[rows, piece, at] for at in (place, np.maximum(place - 1, 0), np.minimum(place + 1, last)))
         best, low, high = (each[:, None] for each in found)
         return best, low, high, ((share[rows, piece, 0] + share[rows, piece, -1]) / 2)[:, None]
 
     def _scan(
-        self, function: Over, best: Array, low: Array, high: Array, middle: Array
-    ) -> tuple[Array, Array, Array, Array]:
-        """The greatest of places between two, of which one is known, with its neighbours."""
+        self, function: Over, rows: Array, best: Array, low: Array, high: Array, middle: Array
+    ) -> tuple[Array, Array, Array, Array, Array]:
+        """The greatest of places between two, of which one is known, with its neighbours, the middle of its piece, and its height."""
         step = (high - low) / (SCANNED - 1)
         tried = np.concatenate([best, low + step * np.arange(SCANNED)], axis=1)
-        found = np.take_along_axis(tried, np.argmax(function(tried, middle), axis=1)[:, None], axis=1)
-        return found, np.maximum(found - step, low), np.minimum(found + step, high), middle
+        heights = function(tried, middle, rows)
+        top = np.argmax(heights, axis=1)[:, None]
+        found, height = (np.take_along_axis(each, top, axis=1) for each in (tried, heights))
+        return found, np.maximum(found - step, low), np.minimum(found + step, high), middle, height
 
     @cached_property
     def travel(self) -> Array:
@@ -224,7 +231,9 @@ class Duty:
     def _reached(self, sign: float, known: Array) -> Array:
         """Return the greatest angle (sign 1) or the least (sign -1)."""
         place, middle = self._extreme(
-            lambda share, mid: sign * self.at(self.angle, share, mid), sign * known, self.first.share
+            lambda share, middle, rows: sign * self.at(self.angle, share, middle, rows),
+            sign * known,
+            self.first.share,
         )
         return self.at(self.angle, place, middle)
 

@@ -134,7 +134,10 @@ def body(
     kinds = (*steps, *(types or ()), *[NO_NOTCH] * rest)
     told = (
         *(Phrase("shoulder {i}", i=i + 1) for i in range(count - 1)),
-        *(Phrase("notch {i} ({kind})", i=i + 1, kind=phrase(kind.replace("_", " "))) for i, kind in enumerate(types or ())),
+        *(
+            Phrase("notch {i} ({kind})", i=i + 1, kind=phrase(kind.replace("_", " ")))
+            for i, kind in enumerate(types or ())
+        ),
         "bearing A",
         "bearing B",
         *(Phrase("load {name}", name=name) for name in names),

@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from pathlib import Path
 
 import pytest
 
+from diecut_report.config import curve_keys
 from diecut_report.config.discovery import Discovery
+from diecut_report.config.instances import Instance
+from diecut_report.config.references import Linker
 from diecut_report.config.schema import block_schema
 from diecut_report.errors import UserError
 from diecut_report.plugins.gear_pair.inputs import ExternalGearPair
@@ -70,3 +74,21 @@ def test_both_keys_are_too_many(tmp_path: Path) -> None:
 def test_the_schema_allows_a_list_too() -> None:
     ways = block_schema(ExternalGearPair, True)["properties"]["torque"]["anyOf"]
     assert any(way.get("type") == "array" for way in ways) and any(way.get("type") == "number" for way in ways)
+
+
+def test_curves_of_several_mechanisms_are_laid_under_their_keys_together(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    made: list[Linker] = []
+
+    class CountedLinker(Linker):
+        def __init__(self, instances: Mapping[str, Instance | None]) -> None:
+            made.append(self)
+            super().__init__(instances)
+
+    monkeypatch.setattr(curve_keys, "Linker", CountedLinker)
+    torque = 'torque: "${drive.total_moment}"'
+    text = HEAD + "".join(gears(name, torque) for name in ("first", "next", "last")) + DRIVE
+    instances = loaded(tmp_path, text, PLUGINS).instances
+    assert all("torque_curve" in instances[name].given for name in ("first", "next", "last") if instances[name])
+    assert len(made) == 2

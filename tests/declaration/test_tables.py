@@ -35,6 +35,9 @@ SOURCES = ("One", "Two")
 BEARINGS = own_table(
     title="Bearings", columns={"bore": "mm", "C": "kN"}, rows={"small": (20, 13.5), "big": (25, 14.8)}, sources=SOURCES
 )
+ALIKE = own_table(
+    title="Alike", columns={"bore": "mm", "C": "kN"}, rows={"small": (20, 13.5), "big": (20, 14.8)}, sources=SOURCES
+)
 ONLY_SMALL = own_table(title="Small", unit="mm", rows={"small": 20}, sources=SOURCES)
 FACTORS = own_table(title="Factors", columns={"teeth": "1", "Y": "1"}, rows=((12, 0.2), (15, 0.3)), sources=SOURCES)
 LIFTS = own_table(title="Lifts", columns={"turn": "deg", "lift": "mm"}, rows=((0, 0), (90, 1)), sources=SOURCES)
@@ -50,6 +53,7 @@ class Shaft(Inputs):
     teeth: Annotated[float, Quantity("z", "1", "Teeth")] = 13
     length: Annotated[float, Quantity("l", "mm", "Length")] = 13
     bore: Annotated[float | None, Quantity("d_g", "mm", "Bore")] = None
+    count: Annotated[float | None, Quantity("z_x", "1", "Count")] = None
     force: Annotated[float | None, Quantity("F", "N", "Force")] = None
     wheels: Annotated[list[Wheel], Text("Wheels")] = []  # noqa: RUF012
     n_points: Annotated[int, POINTS] = 36
@@ -67,6 +71,29 @@ def told(declare: Callable[[Chapter], None], *figures: Any) -> list[str]:
 def lookup(table: Any = BEARINGS, **more: Any) -> Callable[[Chapter], None]:
     wanted = {"by": "bearing", "column": "bore", **more}
     return lambda chapter: chapter.lookup("d", "d", "mm", "Bore", table, **wanted)
+
+
+def by_number(table: Any, by: str, **more: Any) -> Callable[[Chapter], None]:
+    """A row by a number: an input, what is calculated, what is picked from the table and from elsewhere."""
+
+    def declare(chapter: Chapter) -> None:
+        chapter.value("twice", "2z", "1", "Twice the teeth", lambda teeth: 2 * teeth)
+        chapter.pick("own_teeth", "z_o", "1", "Teeth of the table", "above", of="teeth", series=FACTORS.series("teeth"))
+        chapter.pick(
+            "given_teeth",
+            "z_g",
+            "1",
+            "Teeth, given or picked",
+            "above",
+            of="teeth",
+            series=FACTORS.series("teeth"),
+            given="count",
+        )
+        chapter.pick("other_teeth", "z_e", "1", "Teeth of elsewhere", "above", of="teeth", series=(12, 13))
+        unit, column = ("1", "Y") if table is FACTORS else ("kN", "C")
+        chapter.lookup("found", "f", unit, "Found", table, by, column=column, **more)
+
+    return declare
 
 
 def between(table: Any = FACTORS, of: str = "teeth", unit: str = "1", **more: Any) -> Callable[[Chapter], None]:
@@ -87,7 +114,15 @@ MISTAKES = {
     "no column named": (lookup(column=""), "has several columns; name one; it has bore, C"),
     "a column of a plain table": (lookup({"small": 1.0, "big": 2.0}), "names the column bore, but its table has none"),
     "a column in another unit": (lookup(column="C"), "the column C of the table is in kN, the step in mm"),
-    "a table of numbers looked up": (lookup(FACTORS, column="Y"), "which goes by numbers; take interpolated"),
+    "a table of numbers by a text": (lookup(FACTORS, column="Y"), "by is bearing, a text; a number or a row over repeated parts is wanted"),
+    "a table of names by a number": (lookup(by="length"), "for a number name the column that it is sought in, sought_in"),
+    "a column to seek in that is not there": (by_number(BEARINGS, "length", sought_in="bor"), "has no column 'bor'; it has bore, C"),
+    "a column to seek in, in another unit": (by_number(BEARINGS, "teeth", sought_in="bore"), "the column bore of the table is in mm, teeth in 1"),
+    "a number that two rows have": (by_number(ALIKE, "length", sought_in="bore"), "the table “Alike”, which has a number twice"),
+    "no key of a number that may be none of the table": (by_number(FACTORS, "twice"), "which may be a number that the table does not have"),
+    "no key of what is picked elsewhere": (by_number(FACTORS, "other_teeth"), "takes other_teeth, which may be a number"),
+    "no key of what may be given": (by_number(FACTORS, "given_teeth"), "takes given_teeth, which may be a number"),
+    "a key of a text": (lookup(key="length"), "names the key length, but its row is that of a text"),
     "a text without a row": (lookup(ONLY_SMALL, column=""), "has no row in the table for bearing=big"),
     "given that is not an input": (lookup(given="boer"), "given is boer, which is not an input that is a number (did you mean 'bore'?)"),
     "given that is a text": (lookup(given="bearing"), "given is bearing, which is not an input that is a number"),
@@ -131,6 +166,10 @@ def test_what_cannot_be_gone_between_is_told_at_once(table: Any, column: str, wo
     [
         lookup(),
         lookup(given="bore"),
+        by_number(FACTORS, "teeth"),
+        by_number(FACTORS, "own_teeth"),
+        by_number(FACTORS, "twice", key="teeth"),
+        by_number(BEARINGS, "length", sought_in="bore"),
         between(),
         between(of="twice", key="teeth"),
         pick(RODS),
@@ -220,5 +259,8 @@ def test_a_file_beside_a_plugin_is_judged_again_when_it_changes(
     with pytest.raises(PluginError, match="the column Y of the table is in mm, the step in 1"):
         _read_anew(tmp_path)
     (tmp_path / "factors.yaml").write_text(TABLE.replace("15", "11"), "utf-8")
-    with pytest.raises(PluginError, match=r"must ascend in teeth without repetition, but 11 follows 12. \(own.py:9\)"):
+    with pytest.raises(
+        PluginError,
+        match=r"factors\.yaml:4: The table “Factors” must ascend in teeth without repetition, but 11 follows 12\.$",
+    ):
         _read_anew(tmp_path)

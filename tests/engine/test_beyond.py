@@ -9,9 +9,11 @@ import numpy as np
 import pytest
 
 from diecut_report.api import POINTS, Annotated, Block, Chapter, Drawing, Inputs, Mechanism, Quantity, Text
+from diecut_report.declaration import faults
 from diecut_report.engine import calculate
 from diecut_report.engine.calculation import Impossible, Unproven
 from diecut_report.engine.figure_views import figures
+from diecut_report.engine.printing.items import section_items
 
 SERIES = (100.0, 160.0, 200.0)
 
@@ -22,6 +24,7 @@ class Drum(Block):
 
 class Lift(Inputs):
     power: Annotated[float, Quantity("P", "kW", "Power")] = 544
+    rating: Annotated[float | None, Quantity("P_g", "kW", "Rating")] = None
     drums: Annotated[list[Drum], Text("Drums")] = []  # noqa: RUF012
     n_points: Annotated[int, POINTS] = 36
 
@@ -55,6 +58,26 @@ def test_the_last_value_is_taken_where_the_step_says_so_and_where_the_rule_has_i
     assert run(lift("above"), 50e3)["motor"][0, 0] == 100e3
     assert run(lift("below"), 544e3)["motor"][0, 0] == 200e3
     assert run(lift("above"), 200e3)["motor"][0, 0] == 200e3
+
+
+def test_what_is_beyond_the_series_is_told_at_the_key_that_the_step_names() -> None:
+    with pytest.raises(Impossible) as caught:
+        run(lift(key="power"), 544e3)
+    assert caught.value.key == "power" and caught.value.message.startswith("Motor (motor): Needed power")
+    calc = calculate(lift(key="power"), {"power": np.array([50e3, 544e3]), "n_points": 36}, 2)
+    assert calc.flaws[1][0] == "power"
+
+
+def test_what_is_given_is_taken_in_place_of_a_value_of_the_series() -> None:
+    mechanism = lift(given="rating", key="power")
+    assert faults(mechanism) == []
+    assert run(mechanism, 544e3, rating=555e3)["motor"][0, 0] == 555e3
+    assert run(mechanism, 150e3)["motor"][0, 0] == 160e3
+    calc = calculate(mechanism, {"power": np.array([50e3, 544e3]), "rating": np.array([1e3, 2e3]), "n_points": 36}, 2)
+    assert calc["motor"][:, 0].tolist() == [1e3, 2e3] and calc.flaws == {}
+    items = [item for section in section_items(run(mechanism, 544e3, rating=555e3)) for item in section["items"]]
+    motor = next(item for item in items if item["id"] == "motor")
+    assert (motor["by"], motor["key"], motor["result"]["text"]) == ("Rating", "as given", "555")
 
 
 def test_a_variant_beyond_the_series_is_marked_alone() -> None:

@@ -11,7 +11,10 @@ from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.kit.checking import meant
+from diecut_report.kit.missing_words import write_missing
 from diecut_report.kit.scaffold import contents
+from diecut_report.languages.catalogues import catalogue
+from diecut_report.languages.po_files import read
 from diecut_report.testing import ContractTest, check_contract
 from diecut_report.testing.tried_rules import TITLES, TriedRule
 from tests.configs import BROKEN, SMALL, saved
@@ -62,7 +65,7 @@ def test_a_sound_plugin_holds_all_rules_and_is_shown(
 
 
 MISTAKES = {
-    "dimensions": (("wire**4 / (8", "wire**3 / (8"), ("toggle.py:58: spring_rate: ", "gives Pa, declared is N/m")),
+    "dimensions": (("wire**4 / (8", "wire**3 / (8"), ("toggle.py:59: spring_rate: ", "gives Pa, declared is N/m")),
     "inputs": (
         ("    # A limit", '    spare: Annotated[float, Quantity("z", "mm", "Spare")] = 1\n    # A limit'),
         ("toggle.py:", "input spare: nothing takes it"),
@@ -92,6 +95,69 @@ def test_a_machine_that_is_another_one_among_others_is_told(tmp_path: Path) -> N
     assert "odd: is " in tried.faults[0] and " among others, " in tried.faults[0]
 
 
+PICKED = (  # a size of a series by the travel, and what is wrong among others as soon as they have another size
+    'springs.total("rate"',
+    'springs.pick("wire_size", "d_n", "mm", "Size", "above", of="travel", series=(8, 12.5, 20, 40))\n'
+    'springs.computed("odd", "o", "mm", "Odd", odd, ("wire_size",), "in words")\nsprings.total("rate"',
+)
+
+
+def test_machines_are_tried_together_where_they_take_other_values_of_a_series(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, PICKED, odd("return wire_size * (1 + wire_size.std())")[1], PICKED_NAMES), "alone")
+    assert tried.status == "fail" and "1 of 1 picks change" in tried.told
+    assert any("odd: is " in fault and " among others, " in fault for fault in tried.faults)
+
+
+PICKED_NAMES = ("def odd(travel)", "def odd(wire_size)")
+
+
+def test_warnings_of_numpy_are_not_told(tmp_path: Path) -> None:
+    """Here a warning is an error, so that the rule would break."""
+    test = contract(tmp_path, *odd("return travel + 0 * (np.nanmax(np.full(2, np.nan)) > 0)"))
+    assert [found(test, rule).status for rule in ("example", "alone")] == ["pass", "pass"]
+
+
+def test_each_list_is_tried_as_an_empty_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tried = list[str]()
+    monkeypatch.setattr("diecut_report.testing.contract.EXTREMES", 2)
+    monkeypatch.setattr("diecut_report.testing.contract.fault_of", lambda text, *_: tried.append(text))
+    found(contract(tmp_path), "hostile")
+    assert [json.loads(text)["mechanisms"]["toggle"]["springs"] for text in tried].count([]) == 1 and len(tried) == 3
+
+
+def test_a_text_that_a_lambda_makes_is_one_of_the_plugin(tmp_path: Path) -> None:
+    words = 'springs.words("more", lambda rate: Phrase("make it {rate}", rate=rate), takes=("rate",))\n'
+    home = contract(
+        tmp_path, ("strength = Chapter", f"{words}strength = Chapter"), ("    Mechanism,\n", "    Mechanism,\n    Phrase,\n"),
+        ('consequence="', 'consequence="{more}; '), ("yields; a thinner wire", "yields")
+    )  # fmt: skip
+    assert any("“make it {rate}” (toggle.py) is not translated" in fault for fault in found(home, "languages").faults)
+
+
+def test_the_texts_that_a_catalogue_lacks_are_written_into_it(tmp_path: Path, capfd: Capture) -> None:
+    change = ('title="Springs of an ejector"', 'title="Springs that eject"')
+    home = toggle(tmp_path, change)
+    file, page = home / "plugins" / "toggle.uk.po", ("-o", str(tmp_path / "page.html"))
+    before = file.read_text("utf-8")
+    assert main(["check-plugin", str(home), "--write-po", *page]) == 0
+    told = capfd.readouterr()
+    assert f"written: {file}: 1 text to be translated" in told.err
+    assert file.read_text("utf-8") == f'{before.rstrip()}\n\n#. mechanism\nmsgid "Springs that eject"\nmsgstr ""\n\n'
+    known = Discovery([home / "plugins"])
+    test, origin = ContractTest(known.mechanism("toggle"), known), known.origins["toggle"][0]
+    assert write_missing(test, origin) == {}  # what waits already is not written twice
+    file.unlink()
+    catalogue.cache_clear()
+    assert list(write_missing(test, origin)) == [file]
+    assert 'msgid "Diameter of the wire"\nmsgstr ""' in file.read_text("utf-8")
+    assert all(not message.string for message in read(file, "uk") if message.id)
+
+
+def test_catalogues_of_the_program_are_not_written(capfd: Capture) -> None:
+    assert main(["check-plugin", "parallel_key", "--write-po"]) == 2
+    assert "parallel_key comes with the program" in capfd.readouterr().err
+
+
 def test_a_plugin_that_cannot_take_arrays_is_noted(tmp_path: Path) -> None:
     test = contract(tmp_path, *odd("return travel.item() * 1e5"))
     assert found(test, "alone").status == "note" and found(test, "speed").status == "pass"
@@ -103,8 +169,8 @@ def test_a_plugin_that_breaks_for_an_extreme_value_is_told(tmp_path: Path) -> No
     tried = found(contract(tmp_path, *odd("return {True: travel}[bool((travel < 1.0).all())] * 1e5")), "hostile")
     assert tried.status == "fail"
     assert (
-        "toggle.py:41: travel: with 100000: the plugin breaks: " in tried.faults[0]
-        and "KeyError: False (toggle.py:53)" in tried.faults[0]
+        "toggle.py:42: travel: with 100000: the plugin breaks: " in tried.faults[0]
+        and "KeyError: False (toggle.py:54)" in tried.faults[0]
     )
 
 
@@ -120,7 +186,7 @@ def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pyt
     assert (
         tried.status == "broke"
         and "it did not come back within 0.2 s" in tried.faults[0]
-        and "toggle.py:53" in tried.faults[0]
+        and "toggle.py:54" in tried.faults[0]
     )
 
 
@@ -133,7 +199,7 @@ def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
 def test_authors_may_assert_the_contract(tmp_path: Path) -> None:
     keys = {"springs": [{"wire": "3 mm", "coil": "24 mm", "turns": 8}], "travel": "10 mm"}
     mechanism = contract(tmp_path, ("wire**4 / (8", "wire**3 / (8")).mechanism
-    with pytest.raises(AssertionError, match=r"Dimensions of formulas: toggle.py:58: spring_rate: "):
+    with pytest.raises(AssertionError, match=r"Dimensions of formulas: toggle.py:59: spring_rate: "):
         check_contract(mechanism, keys)
 
 
@@ -165,7 +231,7 @@ def test_a_broken_rule_ends_with_1_and_without_a_machine_the_rest_is_not_tried(t
     (home / "examples" / "toggle.yaml").unlink()
     assert main(["check-plugin", str(home)]) == 1
     out = capfd.readouterr().out
-    assert "  fails  Dimensions of formulas\n      toggle.py:58: spring_rate: " in out
+    assert "  fails  Dimensions of formulas\n      toggle.py:59: spring_rate: " in out
     assert (
         "note  Example machine\n      there is no machine of this kind to try the rest on; give a configuration" in out
     )

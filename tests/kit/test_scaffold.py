@@ -16,9 +16,11 @@ import pyarrow.parquet as pq
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.kit.scaffold import contents
+from diecut_report.config.discovery import Discovery
+from diecut_report.kit.scaffold import LIKE, contents
 from diecut_report.languages.catalogues import file_beside
 from diecut_report.languages.po_files import read
+from diecut_report.testing import ContractTest
 
 Capture = pytest.CaptureFixture[str]
 FOLDER = {
@@ -36,6 +38,11 @@ def made(folder: Path, *options: str) -> Path:
     return folder / "toggle"
 
 
+def like_of(options: tuple[str, ...]) -> str:
+    """What a new mechanism with these options is made like."""
+    return options[1] if "--like" in options else LIKE[0]
+
+
 def run_tests(file: Path) -> int:
     """Run the test functions of a file; how many there are."""
     found: dict[str, Callable[[], None]] = {n: f for n, f in runpy.run_path(str(file)).items() if n.startswith("test_")}
@@ -44,8 +51,20 @@ def run_tests(file: Path) -> int:
     return len(found)
 
 
+MOTION, SELECTION = ("--like", "motion"), ("--like", "selection")
+
+
 @pytest.mark.wheel
-@pytest.mark.parametrize(("options", "files"), [((), FOLDER), (("--package",), PACKAGE)])
+@pytest.mark.parametrize(
+    ("options", "files"),
+    [
+        ((), FOLDER),
+        (("--package",), PACKAGE),
+        (MOTION, FOLDER),
+        (SELECTION, FOLDER | {"plugins/toggle_sizes.csv"}),
+        ((*SELECTION, "--package"), PACKAGE | {"src/diecut_toggle/sizes.csv"}),
+    ],
+)
 def test_all_files_are_written_and_told(
     tmp_path: Path, capfd: Capture, options: tuple[str, ...], files: set[str]
 ) -> None:
@@ -53,7 +72,10 @@ def test_all_files_are_written_and_told(
     assert main(["new-plugin", "toggle", *options, "-o", str(home)]) == 0
     assert {str(path.relative_to(home)) for path in home.rglob("*") if path.is_file()} == files
     told = capfd.readouterr().err.splitlines()
-    assert told[:-1] == [f"written: {home / place}" for place in contents("toggle", as_package=bool(options))]
+    assert told[:-1] == [
+        f"written: {home / place}"
+        for place in contents("toggle", as_package="--package" in options, like=like_of(options))
+    ]
     assert told[-1] == f"next: read {home / 'README.md'}"
     assert not any("@" in path.read_text("utf-8") for path in home.rglob("*") if path.is_file())
 
@@ -90,14 +112,55 @@ def test_a_package_runs_from_its_sources(tmp_path: Path, capfd: Capture, monkeyp
     assert f"toggle 0.1: Springs of an ejector\n    from {home / 'src' / 'diecut_toggle'}" in capfd.readouterr().out
 
 
-def test_all_its_texts_are_translated() -> None:
-    written = contents("toggle", as_package=False)
+@pytest.mark.usefixtures("without_summary")
+@pytest.mark.parametrize(
+    ("options", "tests", "variants"), [pytest.param(MOTION, 5, 39, marks=pytest.mark.nightly), (SELECTION, 4, 39)]
+)
+def test_each_other_beginning_runs_as_it_is(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...], tests: int, variants: int
+) -> None:
+    monkeypatch.setattr("diecut_report.testing.contract.EXTREMES", 6)  # all of them are tried at night
+    home = made(tmp_path, *options)
+    plugins, config = ("--plugins", str(home / "plugins")), str(home / "examples" / "toggle.yaml")
+    assert run_tests(home / "tests" / "test_toggle.py") == tests
+    assert main(["calc", config, *plugins, "-o", str(home / "toggle.json"), "--strict"]) == 0
+    study = str(home / "examples" / "toggle_study.yaml")
+    assert main(["batch", study, *plugins, "-o", str(home / "study"), "--quiet"]) == 1  # some fail
+    rows: list[dict[str, Any]] = pq.read_table(home / "study" / "variants").to_pylist()
+    assert len(rows) == variants and {row["status"] for row in rows} == {"pass", "fail"}
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("options", [MOTION, SELECTION])
+def test_each_other_beginning_holds_with_all_extremes(tmp_path: Path, options: tuple[str, ...]) -> None:
+    assert run_tests(made(tmp_path, *options) / "tests" / "test_toggle.py") > 3
+
+
+@pytest.mark.parametrize("like", LIKE)
+def test_a_configuration_begins_with_its_example_and_calculates(tmp_path: Path, capfd: Capture, like: str) -> None:
+    home = made(tmp_path, "--like", like)
+    config = str(tmp_path / "press.yaml")
+    assert main(["new", "toggle", "--plugins", str(home / "plugins"), "-o", config]) == 0
+    assert main(["calc", config, "--plugins", str(home / "plugins"), "-o", str(tmp_path / "press.json")]) == 0
+    assert "guess" not in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("like", LIKE)
+def test_no_text_of_it_waits_for_its_words(tmp_path: Path, like: str) -> None:
+    known = Discovery([made(tmp_path, "--like", like) / "plugins"])
+    assert list(ContractTest(known.mechanism("toggle"), known).untranslated("uk")) == []
+
+
+@pytest.mark.parametrize("like", LIKE)
+def test_all_its_texts_are_translated(like: str) -> None:
+    written = contents("toggle", as_package=False, like=like)
     assert written["plugins/toggle.uk.po"].count('msgstr "') == written["plugins/toggle.uk.po"].count('msgid "')
     assert 'msgstr ""\n\n' not in written["plugins/toggle.uk.po"]
 
 
-def test_its_catalogue_is_that_of_its_language(tmp_path: Path) -> None:
-    home = made(tmp_path)
+@pytest.mark.parametrize("like", LIKE)
+def test_its_catalogue_is_that_of_its_language(tmp_path: Path, like: str) -> None:
+    home = made(tmp_path, "--like", like)
     found = read(file_beside(home / "plugins" / "toggle.py", "uk"), "uk")
     assert all(message.string for message in found if message.id)
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.quantities.display import FAMILIES, easy_unit
-from diecut_report.quantities.formatting import listed_text, shortest, shown, si, with_unit
+from diecut_report.quantities.formatting import listed_text, place_shown, shortest, shown, si, with_unit
 from diecut_report.quantities.units import parse_quantity, unit
 
 
@@ -41,10 +41,20 @@ def printed(quantity: str, declared: str) -> str:
         ("3.596e-16", "1", "3.596e-16 1"),  # a residual is not zero
         ("3596 1/h", "1/h", "3596 1/h"),
         ("5e-324", "1", "4.941e-324 1"),
+        ("0.000198 m/s", "m/s", "0.198 mm/s"),
+        ("0.0275 m/s", "m/s", "27.5 mm/s"),
     ],
 )
 def test_digits_and_unit_say_what_is_meant(quantity: str, declared: str, text: str) -> None:
     assert printed(quantity, declared) == text
+
+
+@pytest.mark.parametrize(
+    ("degrees", "text"),
+    [(38.84648, "38.85"), (356.8784, "356.88"), (0.123456, "0.123"), (180.0, "180")],
+)
+def test_a_place_has_no_more_digits_than_mean_something(degrees: float, text: str) -> None:
+    assert place_shown(math.radians(degrees), "deg") == {"text": text, "unit": "deg"}
 
 
 @given(st.sampled_from([(each, family) for family in FAMILIES for each in family]), st.floats(1e-5, 1e7))
@@ -91,5 +101,7 @@ def test_revolutions_a_minute_are_printed_as_the_standard_writes_them() -> None:
         ("1.2345678", "1", "1.23457"),  # of a pure number nobody knows the step
     ],
 )
-def test_numbers_of_a_column_stop_at_the_step_that_can_be_made_or_measured(quantity: str, display: str, text: str) -> None:
+def test_numbers_of_a_column_stop_at_the_step_that_can_be_made_or_measured(
+    quantity: str, display: str, text: str
+) -> None:
     assert listed_text(si(float(quantity.split()[0]), display), display) == text

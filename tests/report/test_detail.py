@@ -86,6 +86,11 @@ def test_every_output_is_in_the_text(pages: dict[str, str], plain: Data, detail:
             assert row["description"] in words, name
 
 
+@pytest.mark.parametrize("detail", ["standard", "full"])
+def test_a_value_of_a_series_says_why_it_was_taken(pages: dict[str, str], detail: str) -> None:
+    assert "the next standard value at or above 0.93 kW; neighbours not taken" in _shown(_words(pages[detail]))
+
+
 def test_standard_has_each_check_of_a_chapter_once_and_full_has_all(pages: dict[str, str], plain: Data) -> None:
     title = plain["mechanisms"]["cylinder"]["checks"][0]["title"]
     of_a = {detail: page[page.index('id="m-A"') : page.index('id="m-B"')] for detail, page in pages.items()}

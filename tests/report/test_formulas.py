@@ -236,6 +236,17 @@ def test_wide_product_is_broken_before_a_dot() -> None:
     assert r"&\quad {} \cdot " in equation.latex
 
 
+def test_a_number_does_not_stand_alone_before_a_wide_factor() -> None:
+    equations, _ = _equations()
+    wide: Tree = ["sym", "η_first"]
+    for index in range(9):
+        wide = ["+", wide, ["sym", f"η_part{index}"]]
+    tree = ["*", TWO, ["call", "sin", wide]]
+    equation = equations.of(_item(equation=None, substituted=tree))
+    assert equation is not None
+    assert [row.strip() for row in equation.latex.split(r"\\")[0].split("&=")][-1] != "2"
+
+
 def test_found_value_shows_its_relation() -> None:
     item = _item(type="found", equation=None, relation=["cmp", "==", ["*", TWO, ["sym", "c"]], A])
     equation = _equations()[0].of(item)
@@ -251,6 +262,14 @@ def test_reductions(operation: str, text: str) -> None:
     equation = _equations()[0].of(_item(type="reduction", operation=operation, of="V"))
     assert equation is not None
     assert equation.text == text
+
+
+def test_an_integral_tells_over_what_it_is_taken() -> None:
+    over = {"symbol": "φ", "text": "360", "unit": "deg"}
+    equation = _equations()[0].of(_item(type="reduction", operation="integral", of="V", over=over))
+    assert equation is not None
+    assert equation.text == "c = ∫ V dφ from 0 to 360° = 5 mm"
+    assert equation.latex.startswith(r"c = \int_{0}^{360°} V\,\mathrm{d}φ = ")
 
 
 def test_condition_is_shown_in_symbols_and_with_numbers() -> None:

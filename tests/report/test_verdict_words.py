@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from diecut_report.report.advice import followed_line
-from diecut_report.report.assumed import AssumedGroup
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import sentence
 
@@ -18,11 +17,3 @@ def test_advice_has_the_numbers_of_the_language() -> None:
     results = {"summary": {"advice": {"changes": changes, "failing": [], "error": None}}}
     (line,) = followed_line(results, Catalogue("uk"))
     assert "cylinder.radius 105,2 mm, clutch.single_position true" in line
-
-
-def test_assumed_values_stand_by_the_check_that_they_move_those_first_that_move_one() -> None:
-    values = [("a", "1 mm", ""), ("b", "2 mm", "shaft.slope"), ("c", "3 mm", ""), ("d", "4 mm", "shaft.slope")]
-    assert AssumedGroup("shaft", values).runs == [
-        ("shaft.slope", [("b", "2 mm"), ("d", "4 mm")]),
-        ("", [("a", "1 mm"), ("c", "3 mm")]),
-    ]

@@ -129,11 +129,10 @@ def test_a_value_sized_to_its_limit_does_not_govern_unless_it_fails() -> None:
     assert governing({"bar": failing}) == {"mechanism": "bar", "check": "sized"}
 
 
-def test_a_value_that_is_its_limit_does_not_govern() -> None:
-    """As a length that was taken over from what it is held against."""
+def test_what_stands_exactly_at_a_given_limit_was_not_sized_by_the_program_and_governs() -> None:
     results = mechanism_results(calculated(check("doubled", 16.0, id="same"), check("doubled", 160.0, id="far")), {})
-    assert results["checks"][0]["sized_to_limit"] is True
-    assert governing({"bar": results}) == {"mechanism": "bar", "check": "far"}
+    assert results["checks"][0]["utilisation"] == 1 and "sized_to_limit" not in results["checks"][0]
+    assert governing({"bar": results}) == {"mechanism": "bar", "check": "same"}
 
 
 def test_what_the_calculation_presumes_governs_only_where_it_does_not_hold() -> None:

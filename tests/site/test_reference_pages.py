@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import itertools
 import re
 import sys
@@ -13,11 +14,13 @@ import pytest
 
 from diecut_report import api
 from diecut_report.config.discovery import Discovery, UnknownKind
+from diecut_report.contract.options import Options
 from diecut_report.errors import PluginError, UserError
 from diecut_report.expressions.functions import FUNCTIONS, OF_TWO, SAID
 from diecut_report.quantities.units import UnitError, parse_quantity
 from diecut_report.report.figures.drawing import ROLES
 from diecut_report.testing import check_mechanism
+from tools import make_form_page
 from tools.site import drawing_page, functions_page
 from tools.site.api_groups import GROUPS, TOLD
 
@@ -128,8 +131,17 @@ def test_names_that_begin_with_an_underscore_are_passed_over_and_not_run(folder:
 def test_a_plugin_of_one_file_cannot_import_a_file_beside_it(tmp_path: Path, line: str) -> None:
     (tmp_path / "_helpers.py").write_text("", encoding="utf-8")
     (tmp_path / "hook.py").write_text(f"{line}\n", encoding="utf-8")
-    with pytest.raises(PluginError, match=r"ImportError|ModuleNotFoundError"):
+    with pytest.raises(
+        PluginError, match=r"(?:ImportError|ModuleNotFoundError).*; a plugin of one file .* make a folder hook/ of it"
+    ):
         Discovery([tmp_path]).mechanism("hook")
+
+
+def test_a_library_that_is_missing_is_told_alone(tmp_path: Path) -> None:
+    (tmp_path / "hook.py").write_text("import no_such_library\n", encoding="utf-8")
+    with pytest.raises(PluginError) as found:
+        Discovery([tmp_path]).mechanism("hook")
+    assert "no_such_library" in found.value.message and "one file" not in found.value.message
 
 
 def test_with_a_list_only_what_it_names_is_a_kind(folder: Path) -> None:
@@ -188,6 +200,14 @@ def test_a_function_takes_and_gives_what_the_page_says(tmp_path: Path, name: str
 def test_each_function_and_each_role_has_a_meaning() -> None:
     assert functions_page.MEANINGS.keys() == set(FUNCTIONS.values()) and functions_page.SAYING.keys() == SAID.keys()
     assert drawing_page.MEANINGS.keys() == ROLES.keys()
+
+
+def test_the_page_of_the_authors_form_is_made_of_what_there_is() -> None:
+    for file, text in make_form_page.pages().items():
+        assert file.read_text(encoding="utf-8") == text, "run: python -m tools.make_form_page"
+        told = set(re.findall(r"^### `(?:chapter\.)?(\w+)`", text, re.MULTILINE))
+        called = {name for name in dir(api.Steps) if inspect.isfunction(getattr(api.Steps, name)) and name[0] != "_"}
+        assert called <= told and make_form_page.MEANINGS.keys() == Options.__annotations__.keys()
 
 
 def test_each_name_stands_on_one_page_of_the_reference() -> None:

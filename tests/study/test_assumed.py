@@ -48,7 +48,11 @@ def test_those_that_move_a_governing_check_come_first(out: Path) -> None:
 def test_page_1_tells_how_many_they_are_and_which_move_a_check(out: Path) -> None:
     page = (out / "press.html").read_text("utf-8")
     line = page[page.index("Rests on 5 assumed values, those first that move a governing check") :][:400]
-    assert '<span class="key">mechanisms.a.allowable_moment</span> (moves a.moment)' in line and "and 2 more." in line
+    paths = ", ".join(
+        f'<span class="key">{path}</span>'
+        for path in ("mechanisms.a.allowable_moment", "press.sheet.width", "mechanisms.a.force")
+    )
+    assert f"{paths} (each moves “Moment”) and 2 more." in line
 
 
 def test_the_input_table_shows_expression_basis_and_note(out: Path) -> None:

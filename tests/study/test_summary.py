@@ -25,7 +25,7 @@ from diecut_report.study.summary.pages import page
 from diecut_report.study.summary.point_charts import near
 from diecut_report.study.summary.quantity_names import WORST, display, utilised
 from tests.hostile.bounded import PEAK
-from tests.study.stored_study import BORE, LAW, SPEED, STUDY, made, many, ten, written
+from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, calculated, made, many, ten, written
 
 GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form
 
@@ -91,9 +91,10 @@ def test_ranges_and_histograms_are_those_of_the_rows(large: Path) -> None:
     assert histogram.counts.sum(axis=0).tolist() == np.histogram(power, histogram.edges)[0].tolist()
     failing = [row["drive.power_peak"] for row in rows if row["status"] == "fail"]
     assert histogram.counts[STATUSES.index("fail")].tolist() == np.histogram(failing, histogram.edges)[0].tolist()
-    checks = [(row["drive.checks.play.utilisation"], row["cylinder.checks.wall.utilisation"]) for row in rows]
-    worst = max(max(pair) for pair in checks if None not in pair)  # a wall without a utilisation fails
-    assert spread[WORST.name].values[-1] == worst
+    governed = [row[f"{row['governing']}.utilisation"] for row in rows if row["governing"]]
+    assert spread[WORST.name].values[-1] == max(
+        each for each in governed if each is not None
+    )  # a wall without one fails
 
 
 def test_reasons_that_differ_in_numbers_alone_are_counted_together(
@@ -164,6 +165,21 @@ def test_what_governs_those_that_pass_and_the_most_margin_are_those_of_the_rows(
         f"variant {good[int(np.argmin(worst))]['variant']}: utilisation {utilised(min(worst))} at most"
         in dict(large_summary.facts)["Most margin"]
     )
+
+
+def test_the_utilisation_beside_a_name_is_that_of_the_check_itself(tmp_path: Path) -> None:
+    """A check at its limit that does not govern, as of what the program sized, lends its utilisation to no other."""
+    values = calculated(np.array([3.0, 3.5]), np.array([0.05, 0.06]), ["harmonic"] * 2)
+    values |= {
+        "cylinder.checks.wall.utilisation": np.ones(2),
+        "cylinder.checks.wall.status": np.array(["pass"] * 2, object),
+    }
+    found = summary_of(written(tmp_path / "out", (*INPUTS, *RESULTS), values, varied=[SPEED, BORE]))
+    used = values["drive.checks.play.utilisation"]
+    assert [(row.check, row.least, row.greatest) for row in found.governing] == [
+        ("drive.checks.play", pytest.approx(used.min()), pytest.approx(used.max()))
+    ]
+    assert f"utilisation {used.min():.4f}"[:14] in dict(found.facts)["Most margin"]
 
 
 def test_variants_with_the_same_margin_are_counted(tmp_path: Path) -> None:
@@ -519,6 +535,9 @@ def test_titles_are_unlike_each_other() -> None:
     gear = [ResultColumn(f"mechanisms.train.gears.{i}.teeth", description="Teeth of the gear") for i in range(2)]
     force = [ResultColumn(f"{name}.force", description=f"Force ({end})") for name, end in (("a", "up"), ("b", "up"))]
     both = [ResultColumn(f"a.force_{end}", description=f"Force ({end})") for end in ("mean", "peak")]
+    assert list(titles(gear[:1]).values()) == [
+        "Teeth of the gear: no. 1 of gears (train)"
+    ]  # one alone that is varied, too
     found = titles([*gear, *force, *both, ResultColumn("status", description="Status")])
     assert list(found.values()) == [
         "Teeth of the gear: no. 1 of gears (train)", "Teeth of the gear: no. 2 of gears (train)",
@@ -576,6 +595,16 @@ def test_few_variants_have_a_summary_too(tmp_path: Path, count: int) -> None:
     folder = many(tmp_path / "out", count, seed=3)
     summarise(folder)
     assert (folder / "summary.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_what_passes_is_told_to_pass_what_is_made_where_checks_are_not(tmp_path: Path) -> None:
+    values = calculated(np.array([3.0, 3.5]), np.array([0.05, 0.06]), ["harmonic"] * 2)
+    values["cylinder.checks.wall.utilisation"] = np.full(2, np.nan)
+    values["cylinder.checks.wall.status"] = np.array(["not_checked"] * 2, object)
+    found = summary_of(written(tmp_path / "out", (*INPUTS, *RESULTS), values, varied=[SPEED, BORE]))
+    text = re.sub(r"<[^>]+>", "", page(found))
+    assert found.status == "incomplete" and "2 of 2 variants pass all checks that are made." in text
+    assert "1 check is not made, in all variants or in some, as a limit or another key is not given." in text
 
 
 def test_a_study_of_errors_alone_has_a_summary(tmp_path: Path) -> None:

@@ -7,10 +7,10 @@ from typing import Annotated
 import numpy as np
 import pytest
 
-from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity
+from diecut_report.api import POINTS, Chapter, Check, Inputs, Mechanism, Quantity
 from diecut_report.contract.checks import CheckClass
 from diecut_report.engine import calculate
-from diecut_report.testing.many_machines import unlike_verdicts
+from diecut_report.testing.many_machines import unlike_curves, unlike_verdicts
 
 
 class Rounded(Inputs):
@@ -44,3 +44,25 @@ def test_a_self_test_compares_rounding_which_is_not_the_same_twice(
     check_class: CheckClass, each: float, found: list[str]
 ) -> None:
     assert differences(check_class, each) == found
+
+
+class Turned(Inputs):
+    """A length on a turn."""
+
+    length: Annotated[float, Quantity("l", "mm", "Length", gt=0)] = 10
+    n_points: Annotated[int, POINTS] = 36
+
+
+@pytest.mark.parametrize(("size", "found"), [(1e-15, []), (1e-6, ["apart"])])
+def test_a_curve_that_is_rounding_beside_its_quantities_may_be_another_one(size: float, found: list[str]) -> None:
+    """As the difference of a formula and its derivative; the one here grows with the number of machines."""
+    chapter = Chapter("A turn")
+    chapter.abscissa("turn", "φ", "deg", "Turn", 2 * np.pi)
+    chapter.computed(
+        "offset", "o", "mm", "Offset", lambda length: np.full(length.shape, size * len(length)), ("length",), "made up"
+    )
+    chapter.value("apart", "Δ", "mm", "Difference", lambda turn, offset: offset * np.cos(turn))
+    turned = Mechanism(kind="turned", version="1", title="", summary="", inputs=Turned, chapters=(chapter,))
+    many = calculate(turned, {"length": np.array([0.01, 0.02, 0.03]), "n_points": 36}, 3)
+    alone = calculate(turned, {"length": 0.01, "n_points": 36})
+    assert [name for name, _ in unlike_curves(many, alone, 0)] == found

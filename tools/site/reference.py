@@ -64,7 +64,7 @@ def _place(name: str) -> Iterator[str]:
 
 
 def _told(name: str, thing: Any) -> Iterator[str]:
-    declared = _declared_by(name)
+    declared = declared_by(name)
     if declared:
         yield from called(f"chapter.{declared.__name__}", declared)
         yield from described(declared)
@@ -75,8 +75,8 @@ def _told(name: str, thing: Any) -> Iterator[str]:
         yield from _methods(name, thing)
 
 
-def _declared_by(name: str) -> Any:
-    """The call of a chapter that declares a step of this name."""
+def declared_by(name: str) -> Any:
+    """Return the call of a chapter that declares a step of this name; None where there is none."""
     method = "".join(f"_{letter.lower()}" if letter.isupper() else letter for letter in name).lstrip("_")
     found = getattr(api.Steps, method, None)
     return found if inspect.isclass(getattr(api, name)) and inspect.isfunction(found) else None
@@ -84,13 +84,13 @@ def _declared_by(name: str) -> Any:
 
 def _methods(name: str, thing: type) -> Iterator[str]:
     """What a class offers, a line for each: of chapters by the names of the steps alone."""
-    rows = [(code(_short(method, each)), plain(next(paragraphs(each)))) for method, each in methods(thing).items()]
+    rows = [(code(short(method, each)), plain(next(paragraphs(each)))) for method, each in methods(thing).items()]
     if rows and name != "Steps":
         yield from table(("it offers", "which does"), rows, "offers")
 
 
-def _short(name: str, each: Any) -> str:
-    """A call with the names of what it takes, or a property."""
+def short(name: str, each: Any) -> str:
+    """Return a call with the names of what it takes, or a property."""
     if isinstance(each, property):
         return name
     taken = [
@@ -125,15 +125,15 @@ def _figures(example: ApiExample) -> Iterator[str]:
 def _testing() -> Iterator[str]:
     yield from ("# Testing a plugin", "")
     yield from ("`diecut_report.testing` has what a plugin's own tests need.", "")
-    offered = {name: each for name, each in vars(testing).items() if _is_own(name, each)}
+    offered = {name: each for name, each in vars(testing).items() if is_own(name, each)}
     for name, each in offered.items():
         yield from (f"## {code(name)}", "")
         yield from (*called(name, each), *described(each))
     yield from fenced("python", TESTED)
 
 
-def _is_own(name: str, each: Any) -> bool:
-    """Whether it is meant for authors: named in ``__all__`` where there is one, else told of in the package's own words."""
+def is_own(name: str, each: Any) -> bool:
+    """Return whether it is meant for authors: named in ``__all__`` where there is one, else told of in the package's own words."""
     named = getattr(testing, "__all__", None)
     return name in named if named is not None else callable(each) and f"{name}(" in (testing.__doc__ or "")
 

@@ -1,4 +1,4 @@
-"""Least values and roots in many brackets at once, by few evaluations (Brent; Chandrupatla)."""
+"""Least values in many brackets at once, by few evaluations (Brent)."""
 
 from __future__ import annotations
 
@@ -116,37 +116,3 @@ def _taken(state: Array, u: Array, fu: Array, step: Array, earlier: Array) -> Ar
         np.where(better | second, fw, np.where(third, fu, fv)),
         step, earlier, least,
     ])  # fmt: skip
-
-
-def root(function: Function, low: Array, high: Array, heights: Array) -> tuple[Array, Array]:
-    """Return the root and what is left there in brackets with a change of sign; ``heights`` (2, brackets) are the values at their ends."""
-    best, value = np.full_like(low, np.nan), np.full_like(low, np.nan)
-    row = np.arange(len(low))
-    state = np.stack([high, low, low, heights[1], heights[0], heights[0], np.full_like(low, 0.5)])
-    for _ in range(MOST):
-        a, b, _, fa, fb, _, share = state
-        place = a + share * (b - a)
-        found = function(place, row)
-        kept = np.sign(found) == np.sign(fa)
-        state = np.stack([place, np.where(kept, b, a), np.where(kept, a, b), found, np.where(kept, fb, fa),
-                          np.where(kept, fa, fb), share])  # fmt: skip
-        a, b, _, fa, fb, *_ = state
-        least = (2 * np.spacing(np.maximum(np.abs(a), np.abs(b)))) / np.where(b == a, 1, np.abs(b - a))
-        top = np.where(np.abs(fa) < np.abs(fb), a, b), np.where(np.abs(fa) < np.abs(fb), fa, fb)
-        going = (least <= 0.5) & (top[1] != 0)
-        best[row[~going]], value[row[~going]] = top[0][~going], top[1][~going]
-        state, row = state[:, going], row[going]
-        if not len(row):
-            break
-        state[6] = _between(state, least[going])
-    return best, value
-
-
-def _between(state: Array, least: Array) -> Array:
-    """The share of the bracket for the next place: by inverse quadratic interpolation where it may be trusted, else half."""
-    a, b, c, fa, fb, fc, _ = state
-    xi, phi = (a - b) / (c - b), (fa - fb) / (fc - fb)
-    trusted = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
-    share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
-    found: Array = np.clip(np.where(trusted, share, 0.5), least, 1 - least)
-    return found

@@ -12,7 +12,7 @@ from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.numerics.bracketing import Function, smooth_minimum
 from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
 from diecut_report.engine.numerics.domain import SMALLEST
-from diecut_report.engine.numerics.polynomial_peaks import Spots, around, vertices
+from diecut_report.engine.numerics.polynomial_peaks import ALIKE, Spots, around, vertices
 from diecut_report.engine.numerics.sample_cache import CachedPieces
 from diecut_report.expressions import Array
 
@@ -231,6 +231,7 @@ def _searched(depth_of: Function, seen: Candidates, rising: Array) -> Candidates
         Candidates(*(column[rising] for column in seen)), lambda x, row: depth_of(x, rising[row])
     )
     is_inner = (depths[1] <= depths[0]) & (depths[1] <= depths[2]) & (low < centre) & (centre < high)
+    is_inner &= ~_stands(seen, rising, depths[1])
     low, centre, high, depths = (part[..., is_inner] for part in (low, centre, high, depths))
     inner = rising[is_inner]
     if not len(inner):
@@ -241,6 +242,14 @@ def _searched(depth_of: Function, seen: Candidates, rising: Array) -> Candidates
     place[inner] = np.where(better, found, place[inner])
     height[inner] = np.where(better, -depth, height[inner])
     return seen._replace(place=place, height=height)
+
+
+def _stands(seen: Candidates, rising: Array, depths: Array) -> Array:
+    """Which candidates are ends of pieces that nothing near them rises above but by rounding: what begins at rest rises from there."""
+    place, heights = seen.place[rising], seen.around[rising]
+    is_end = (place == seen.left[rising]) | (place == seen.right[rising])
+    found: Array = is_end & (-depths <= seen.height[rising] + ALIKE * np.abs(heights).max(axis=1))
+    return found
 
 
 def _brackets(seen: Candidates, depth_of: Function) -> tuple[Array, Array, Array, Array]:

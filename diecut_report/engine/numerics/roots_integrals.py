@@ -13,6 +13,7 @@ from diecut_report.engine.numerics import bracketing
 from diecut_report.engine.numerics.chebyshev import PieceSeries
 from diecut_report.engine.numerics.domain import SMALLEST, grid_weights, nodes_of
 from diecut_report.expressions import Array
+from diecut_report.mechanics import bracketed_roots
 from diecut_report.quantities.units import unit
 
 ORDERS = (24, 48, 96, 192, 384)  # of the Gauss–Legendre rules that follow where the search grid's rule is not proved
@@ -31,19 +32,13 @@ def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
 
     def residual(x: Array, rows: Array) -> Array:
         known = (
-            x if n == step.unknown else calc[n][rows.astype(int), 0] if isinstance(n, str) else n
-            for n in equation.names.values()
+            x if n == step.unknown else calc[n][rows, 0] if isinstance(n, str) else n for n in equation.names.values()
         )
         result: Array = equation.formula(*known)
         return result
 
-    rows = np.arange(calc.count, dtype=float)
-    from scipy.optimize import elementwise  # slow to import, and not needed where nothing is sought
-
-    found = elementwise.find_root(
-        residual, (calc.apply(step.low)[:, 0], calc.apply(step.high)[:, 0]), args=(rows,), tolerances={"xrtol": 4e-16}
-    )
-    calc.values[step.id] = np.where(found.success, found.x, np.nan)[:, None]
+    low, high = (calc.apply(end)[:, 0] for end in (step.low, step.high))
+    calc.values[step.id] = bracketed_roots.root(residual, low, high)[:, None]
     left, right = calc.apply(step.left), calc.apply(step.right)
     return calc.values[step.id], np.abs(left - right) / np.maximum(np.abs(left), np.abs(right))
 
@@ -136,7 +131,7 @@ def _roots(calc: Calculation, curve: str, k: Array) -> tuple[Array, Array]:
     piece, k = np.divmod(k, heights.shape[1])
     ends = np.stack([k, k + 1])
     low, high = pieces.point(piece, ends)
-    return bracketing.root(_height_in(calc, curve, piece), low, high, heights[piece, ends])
+    return bracketed_roots.narrowed(_height_in(calc, curve, piece), low, high, heights[piece, ends])
 
 
 def _height_in(calc: Calculation, curve: str, piece: Array) -> bracketing.Function:
@@ -207,7 +202,7 @@ def _series(calc: Calculation, curve: str) -> tuple[Array, Array]:
     """
     wide = calc.domains[calc.axis[curve]].widths > 0
     values = np.where(wide[:, :, None], calc.on_search_grid(curve), 0)
-    from scipy.fft import dct  # slow to import, as above
+    from scipy.fft import dct  # slow to import, and not needed where nothing is integrated
 
     series = np.moveaxis(dct(values[:, :, ::-1], type=1, axis=2), 2, 0) / (values.shape[2] - 1)
     series[[0, -1]] /= 2

@@ -18,7 +18,9 @@ def definitions(tree: Node) -> list[dict[str, Any]]:
     found: dict[str, Formula] = {}
     for formula in _called(tree):
         found.setdefault(formula.printed_as, formula)
-    defined = [_pair(*(transform(side, _in_letters) for side in (_head(formula), formula.tree))) for formula in found.values()]
+    defined = [
+        _pair(*(transform(side, _in_letters) for side in (_head(formula), formula.tree))) for formula in found.values()
+    ]
     constants = {symbol: value for formula in found.values() for symbol, value in _own(formula).items()}
     values = [
         _pair(Node("sym", (symbol,)), Node("qty", (shortest(value, ALL_DIGITS), value.unit)))

@@ -131,6 +131,8 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     axis = calc.axis.get(step.id)
     if step.id in calc.values and calc.values[step.id].dtype == bool:
         return [_yes_or_no(calc, step, part)]
+    if isinstance(step, Interpolated) and axis is None and (row := tables.exact_row(calc, step)) is not None:
+        return [_head(step) | row | {"result": step_shown(calc, step, value_at(calc, step.id, None))}]
     elsewhere = is_elsewhere(calc, step, axis)
     item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis, elsewhere)
     if axis in calc.domains:
@@ -249,6 +251,9 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
     item = _head(step) | _reduced(calc, step, step.of) | {"operation": step.operation}
     item["method"] = METHODS["mean" if integrated else "max"]
     item["residual"] = {"text": number_text(calc.proof[step.id], 2), "unit": "1"}
+    if step.operation == "integral":
+        axis = calc.axis[step.of]
+        item["over"] = place_of(calc, axis, float(calc.domains[axis].period_of(None)[0, 0]))
     place = place_name(step.id)
     if place in calc.values:
         item["at"] = place_of(calc, calc.axis[step.of], float(calc[place][0, 0]))

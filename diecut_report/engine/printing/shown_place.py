@@ -15,7 +15,8 @@ from diecut_report.engine.printing.substitution import Elsewhere
 from diecut_report.engine.shown_units import declared_unit
 from diecut_report.expressions import Array, Node
 from diecut_report.languages.phrases import Phrase
-from diecut_report.quantities.formatting import shown, with_unit
+from diecut_report.quantities.formatting import place_shown as as_place
+from diecut_report.quantities.formatting import with_unit
 
 Item = dict[str, Any]
 FIRST = np.zeros(1, dtype=int)  # the variant that is printed
@@ -127,7 +128,7 @@ def place_shown(calc: Calculation, axis: str, elsewhere: bool) -> Item:
 
 def place_of(calc: Calculation, axis: str, place: float) -> Item:
     step = calc.steps[axis]
-    return {"symbol": step.symbol} | shown(place, declared_unit(calc, axis, step.unit), 6)
+    return {"symbol": step.symbol} | as_place(place, declared_unit(calc, axis, step.unit))
 
 
 def case_taken(calc: Calculation, step: Choice, axis: str | None, *, flag: bool) -> int:

@@ -158,6 +158,8 @@ class Substitution:
             return tree
         whole = bounded(self._at(MOST_DIGITS), self._printed_value)
         is_rounding = abs(target) * 10.0**-asked <= whole.error < math.inf  # no number of digits shows it
+        if not is_rounding and is_nothing(target, display) and is_nothing(again, display):
+            return tree  # 0 is printed, and 0 is what the printed numbers give
         for digits in () if is_rounding else range(DIGITS, MOST_DIGITS + 1):
             if digits > DIGITS:
                 tree = self._at(digits)

@@ -7,14 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.part_steps import Lookup, Part, Pick, Total
+from diecut_report.contract.part_steps import Interpolated, Lookup, Part, Pick, Total
 from diecut_report.contract.steps import Crossings, Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
-from diecut_report.engine.steps.part_rows import given_of, series_of
+from diecut_report.engine.steps.lookups import SAME, given_of
+from diecut_report.engine.steps.part_rows import series_of
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import DIGITS, given_shown, shown, with_unit
+from diecut_report.quantities.formatting import DIGITS, given_shown, place_shown, shown, with_unit
 from diecut_report.standards import StandardSeries, StandardTable, sources_told
 
 Item = dict[str, Any]
@@ -82,6 +83,8 @@ def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
     match step:
         case Lookup():
             return _lookup(calc, step) | {"result": result}
+        case Pick() if given_of(calc, step) is not None:
+            return _as_given(calc, step) | {"result": result}
         case Pick():
             values = _pick(calc, step)
         case Total(operation=operation, among=among):
@@ -93,7 +96,9 @@ def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
 
 
 def looked_up(calc: Calculation, step: Lookup) -> Item:
-    """Return a row taken from a table, beside the texts by which it was taken."""
+    """Return a row taken from a table, beside the texts or numbers by which it was taken."""
+    if step.is_by_number:
+        return table(calc, step, [step.by, step.id])
     found = table(calc, step, [step.id])
     found["columns"].insert(1, {"title": calc.meta[step.by].description, "symbol": "", "unit": "1"})
     for line, text in zip(found["rows"], _texts(calc, step), strict=True):
@@ -114,14 +119,36 @@ def _texts(calc: Calculation, step: Lookup) -> Sequence[str]:
 
 def _lookup(calc: Calculation, step: Lookup) -> Item:
     if given_of(calc, step) is not None:
-        declared = calc.meta[step.given.removeprefix("inputs.")]
-        return {"type": "lookup", "by": declared.description, "key": AS_GIVEN, "table": ""}
+        return _as_given(calc, step)
+    by = calc.step_or_input(step.by)
     return {
         "type": "lookup",
-        "by": calc.meta[step.by].description,
-        "key": calc.inputs[step.by],
+        "by": by.description,
+        "key": f"{by.symbol} = {printed(calc, step.by)}" if step.is_by_number else calc.inputs[step.by],
         "table": step.table.title if isinstance(step.table, StandardTable) else "",
         **({"column": step.column} if step.column else {}),
+        **_tables(step.table),
+    }
+
+
+def _as_given(calc: Calculation, step: Lookup | Pick) -> Item:
+    declared = calc.meta[step.given.removeprefix("inputs.")]
+    return {"type": "lookup", "by": declared.description, "key": AS_GIVEN, "table": ""}
+
+
+def exact_row(calc: Calculation, step: Interpolated) -> Item | None:
+    """Return what is printed of a number between the rows of a table that is one of these rows; None where it lies between two."""
+    value, (_, taken) = float(calc[step.of][0, 0]), step.between.columns
+    if not (np.abs(step.between.x - value) <= SAME * abs(value)).any():
+        return None
+    by = calc.step_or_input(step.of)
+    key = f"{by.symbol} = {printed(calc, step.of)}"
+    return {
+        "type": "lookup",
+        "by": by.description,
+        "key": key,
+        "table": step.table.title,
+        "column": taken.name,
         **_tables(step.table),
     }
 
@@ -158,7 +185,7 @@ def crossings(calc: Calculation, step: Crossings) -> Item:
     if not places:
         return head | {"type": "note", "text": Phrase("{title}: there is none.", title=phrase(step.description))}
     display = unit_for(calc, step.id, step.unit, places)
-    lines = [[str(i), shown(x, display, step.digits)["text"]] for i, x in enumerate(places, 1)]
+    lines = [[str(i), place_shown(x, display)["text"]] for i, x in enumerate(places, 1)]
     columns = [
         {"title": "No.", "symbol": "", "unit": "1"},
         _column(step, display),

@@ -1,4 +1,4 @@
-"""Steps over repeated parts (rows), and numbers from standard series and tables, for all variants."""
+"""Steps over repeated parts (rows), and numbers from standard series, for all variants."""
 
 from __future__ import annotations
 
@@ -7,9 +7,11 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Running, Total
+from diecut_report.contract.part_steps import Neighbour, Part, Pick, Running, Total
 from diecut_report.engine.calculation import Calculation, Impossible
+from diecut_report.engine.steps.lookups import given_of
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
 from diecut_report.standards import StandardSeries
@@ -42,33 +44,20 @@ def part(calc: Calculation, step: Part) -> None:
     """Take the value of one part; a machine whose list is shorter is impossible."""
     count = calc[step.of].shape[1]
     if not -count <= step.index < count:
-        which = f"part {step.index + 1}" if step.index >= 0 else f"part {-step.index} from the last"
-        words = f"has {count} {'entry' if count == 1 else 'entries'}, but {step.description} ({step.id}) takes {which}; add what is missing"
+        which = (
+            Phrase("part {number}", number=step.index + 1)
+            if step.index >= 0
+            else Phrase("part {number} from the last", number=-step.index)
+        )
+        words = Phrase(
+            "has {count}, but {description} ({id}) takes {which}; add what is missing",
+            count=Counted(count, "{n} entry", "{n} entries"),
+            description=step.description,
+            id=step.id,
+            which=which,
+        )
         raise Impossible([(calc.axis[step.of], words)])
     calc.values[step.id] = calc[step.of][:, [step.index]]
-
-
-def lookup(calc: Calculation, step: Lookup) -> None:
-    """Take a number from a table by a text, a row where there is a text for each part; or as it is given."""
-    given = given_of(calc, step)
-    if isinstance(given, np.ndarray):
-        calc.values[step.id] = given
-        return
-    numbers, display = step.rows()
-    text = calc.inputs[step.by]
-    found = [
-        np.nan if key is None else numbers[key] * unit(display).factor
-        for key in (text if isinstance(text, tuple) else (text,))
-    ]
-    calc.values[step.id] = np.tile(np.asarray(found, dtype=float), (calc.count, 1))
-    for part, value in enumerate(given or ()):
-        if value is not None:
-            calc.values[step.id][:, part] = value
-
-
-def given_of(calc: Calculation, step: Lookup) -> Any:
-    """Return what is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
-    return calc.inputs.get(step.given.removeprefix("inputs.")) if step.given else None
 
 
 def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, StandardSeries | None]:
@@ -81,6 +70,10 @@ def series_of(calc: Calculation, step: Pick) -> tuple[tuple[float, ...], str, St
 
 def pick(calc: Calculation, step: Pick) -> None:
     """Take the standard value; beyond the ends of the series its last one, or no machine."""
+    given = given_of(calc, step)
+    if given is not None:
+        calc.values[step.id] = given
+        return
     values, display, _ = series_of(calc, step)
     series: Array = np.asarray(values) * unit(display).factor
     sought = calc[step.of]
@@ -100,16 +93,23 @@ def _within(calc: Calculation, step: Pick, sought: Array, series: Array) -> None
     for variant in np.flatnonzero((over | under).any(axis=1)):
         part = int(np.argmax(over[variant] | under[variant]))
         end = (
-            f"the greatest value is {told(series[-1], step.unit)}"
+            Phrase("the greatest value is {value}", value=told(series[-1], step.unit))
             if over[variant, part]
-            else f"the least value is {told(series[0], step.unit)}"
+            else Phrase("the least value is {value}", value=told(series[0], step.unit))
         )
-        title = getattr(series_of(calc, step)[2], "title", "the series")
-        words = f"{step.description} ({step.id}): {_sought(calc, step, float(sought[variant, part]))} is beyond {title}, of which {end}"
-        key = step.of.removeprefix("inputs.")
+        title = getattr(series_of(calc, step)[2], "title", phrase("the series"))
+        words = Phrase(
+            "{description} ({id}): {sought} is beyond {title}, of which {end}",
+            description=step.description,
+            id=step.id,
+            sought=_sought(calc, step, float(sought[variant, part])),
+            title=title,
+            end=end,
+        )
+        key = step.key or step.of.removeprefix("inputs.")
         if calc.count == 1:
-            raise Impossible([(key if key in calc.inputs else "", words)])
-        calc.flaws.setdefault(int(variant), (step.id, words))
+            raise Impossible([(key if step.key or key in calc.inputs else "", words)])
+        calc.flaws.setdefault(int(variant), (step.key or step.id, words))
 
 
 def _sought(calc: Calculation, step: Pick, value: float) -> str:

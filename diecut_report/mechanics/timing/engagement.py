@@ -12,6 +12,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.expressions import Array, formula
+from diecut_report.mechanics.bracketed_roots import root
 from diecut_report.mechanics.timing.piece_rows import NODES, WEIGHTS, vertices
 
 TURN = 2 * np.pi
@@ -21,7 +22,7 @@ STARTS = 40  # engagement angles that are tried over a turn
 ZOOMS = 3  # times that the worst of them is looked at closer
 ACROSS = np.linspace(-1, 1, 9)  # places of a closer look
 PIECES = 3  # of a slip, in which its time is integrated
-CLOSE: Any = {"xatol": 1e-14, "xrtol": 4e-16, "fatol": 0.0, "frtol": 0.0}
+CLOSE = 1e-14  # rad to which the end of a slip is known
 _SHARES = ((np.arange(PIECES)[:, None] + (NODES + 1) / 2) / PIECES).ravel()
 _PARTS = np.tile(WEIGHTS / 2 / PIECES, PIECES)
 
@@ -119,15 +120,13 @@ def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch
     machine = np.repeat(np.arange(len(starts)), starts.shape[1])
     begins = (starts % TURN).ravel()
 
-    def missing(driven: Array, row: Array, start: Array) -> Array:
-        row = row.astype(int)
-        felt = inertia((start + driven)[:, None], row)[:, 0]
+    def missing(driven: Array, slip: Array) -> Array:
+        row = machine[slip]
+        felt = inertia((begins[slip] + driven)[:, None], row)[:, 0]
         return np.asarray(clutch.net[row] * driven - felt * clutch.speed[row] ** 2 / 2)
 
-    from scipy.optimize import elementwise  # slow to import, and asked for by presses alone
-
-    found = elementwise.find_root(missing, (low.ravel(), high.ravel()), args=(machine, begins), tolerances=CLOSE)
-    ended = np.where(np.isfinite(found.x), found.x, high.ravel()).reshape(starts.shape)
+    found = root(missing, low.ravel(), high.ravel(), CLOSE)
+    ended = np.where(np.isfinite(found), found, high.ravel()).reshape(starts.shape)
     return np.where(clutch.net[:, None] > 0, ended, np.nan)
 
 

@@ -117,8 +117,8 @@ class OfficeMath(Printer):
         match tree:
             case ["derivative", curve, by]:
                 return self.fraction(Piece(run("d") + self(curve), PRODUCT), Piece(run("d") + self(by), PRODUCT))
-            case ["accumulated", curve, end]:
-                return Piece(_nary("∫", f"{self(curve)}{NARROW}{run('d')}{self(end)}", run("0"), self(end)), SUM)
+            case ["integral", curve, by, end]:
+                return Piece(_nary("∫", f"{self(curve)}{NARROW}{run('d')}{self(by)}", run("0"), self(end)), SUM)
             case ["nary", sign, of]:
                 return Piece(_nary(sign, self(of)), SUM)
             case ["place", word, symbol, value]:

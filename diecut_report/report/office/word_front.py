@@ -147,10 +147,7 @@ def _assumed(body: WordBody, document: ReportDocument) -> None:
         body.subheading(words["assumed_values"])
         rows = []
         for group in document.assumed_groups:
-            told = [
-                f"{name} {value}" + (f" ({words.say('moves', check=moves)})" if moves else "")
-                for name, value, moves in group.values
-            ]
+            told = [f"{name} {value}" + (f" ({moves})" if moves else "") for name, value, moves in group.values]
             rows.append([key(group.name), run(" · ".join(told))])
         body.table([TableColumn("", 1), TableColumn("", 4)], rows, headed=False)
     elif line and document.detail != BRIEF:

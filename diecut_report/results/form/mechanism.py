@@ -155,9 +155,7 @@ class CheckKeys(SidesKeys):
     source: str = always("Where the check comes from.")
     message: str = always("What was found, and what to do.")
     missing: list[str] = sometimes("The keys without which it is not made.")
-    sized_to_limit: bool = sometimes(
-        "true: the program sized it to its limit, or it is at its limit, so that it shows no reserve."
-    )
+    sized_to_limit: bool = sometimes("true: the program sized it to its limit, so that it shows no reserve.")
     presumed: bool = sometimes("true: it judges what the calculation presumes.")
     at: PlaceKeys = sometimes("Of a curve where it governs.")
     part: int = sometimes("Of repeated parts the one that governs, counted from 1.")

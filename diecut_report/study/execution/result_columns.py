@@ -25,7 +25,7 @@ from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.errors import PluginError
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import AT_LIMIT, checks_of, is_sized, judged
+from diecut_report.results.checks import checks_of, is_sized, judged
 from diecut_report.results.unchecked import is_of_machine, missing
 from diecut_report.study.execution.press_batch import of_plugin
 from diecut_report.study.storage.description import Kind, ResultColumn
@@ -235,13 +235,11 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
 def governing(found: Verdicts) -> Array:
     """Return for each variant the check that governs: fail before warn before pass, then the greatest utilisation; None without checks.
 
-    What was sized to its limit, or is at it, or what the calculation presumes, does not govern where it holds.
+    What the program sized to its limit, and what the calculation presumes, does not govern where it holds.
     """
     if not found.names:
         return np.full(found.codes.shape[1], None, dtype=object)
-    with np.errstate(invalid="ignore"):
-        shows_none = found.sized[:, None] | (np.abs(found.ratios - 1) <= AT_LIMIT)
-    codes = np.where(shows_none & (found.codes == PASS), 0, found.codes)
+    codes = np.where(found.sized[:, None] & (found.codes == PASS), 0, found.codes)
     unknown = np.where(codes == PASS, -np.inf, np.inf)
     ratios = np.where(np.isnan(found.ratios), unknown, found.ratios)
     worst = codes.max(axis=0)

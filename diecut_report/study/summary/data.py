@@ -98,16 +98,14 @@ class SampledVariants:
 
 
 def prepare(stored: Stored) -> None:
-    """Name ``w``: the variants with their greatest utilisation of all checks, none where a check fails without one.
+    """Name ``w``: the variants with the utilisation of the check that governs each, none where that has none.
 
     And with the number of checks that fail.
     """
-    pairs = [(value.sql, status.sql) for value, status in stored.checks.values()]
-    lost = " OR ".join(f"({status} = 'fail' AND {value} IS NULL)" for value, status in pairs)
-    worst = (
-        f"CASE WHEN {lost} THEN NULL ELSE greatest({', '.join(value for value, _ in pairs)}) END" if pairs else "NULL"
-    )
-    failing = " + ".join(f"CASE WHEN {status} = 'fail' THEN 1 ELSE 0 END" for _, status in pairs) or "0"
+    own = " ".join(f"WHEN {text(check)} THEN {value.sql}" for check, (value, _) in stored.checks.items())
+    worst = f"CASE governing {own} END" if own else "NULL"
+    lost = (f"CASE WHEN {status.sql} = 'fail' THEN 1 ELSE 0 END" for _, status in stored.checks.values())
+    failing = " + ".join(lost) or "0"
     stored.connection.execute(
         f"CREATE VIEW w AS SELECT *, CAST({worst} AS DOUBLE) AS {WORST.sql}, {failing} AS {FAILING} FROM v"
     )

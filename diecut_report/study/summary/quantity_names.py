@@ -20,7 +20,7 @@ from diecut_report.study.analysis.titles import UTILISATION
 
 DIGITS = 4
 WORST = StoredColumn(
-    "greatest utilisation", "float", title=phrase("Greatest utilisation of all checks (where each has one)")
+    "greatest utilisation", "float", title=phrase("Utilisation of the check that governs (where it has one)")
 )
 WORDS = {"pass": phrase("pass"), "warn": phrase("warning"), "fail": phrase("fail"), "error": phrase("error")}
 

@@ -92,7 +92,7 @@ ONE, TWO = ["num", "1"], ["num", "2"]
         (["apply", "k_t", A], "k_t(a)"),
         (["neg", A], "−a"),
         (["derivative", A, B], "(da)/(db)"),
-        (["accumulated", A, B], "∫[0,b](a*db)"),
+        (["integral", A, B, B], "∫[0,b](a*db)"),
         (["nary", "∑", A], "∑[,](a)"),
         (["qty", "12500", "N*mm"], "12\u202f500 N·mm"),
         (["qty", "-1.2e-05", "m**2"], "−1.2*×*10^−5 m²"),

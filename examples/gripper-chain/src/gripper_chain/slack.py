@@ -88,7 +88,6 @@ slack.root(
     left=lambda slack_length: slack_length,
     right=length_by_sag,
     source="statics",
-    digits=6,
 )
 slack.value("sag", "f", "mm", "Sag of the slack strand", catenary_sag, source="statics")
 slack.value(

@@ -1,0 +1,80 @@
+"""What moves in a drawing, as the results hold it: each shape once, with its numbers at each place."""
+
+from __future__ import annotations
+
+from math import pi
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.api import circle, label, point, polyline, rigid
+from diecut_report.engine.drawable import Undrawable
+from diecut_report.engine.figure_views import MachineView
+from diecut_report.engine.moving_shapes import frame_places, laid_out, moving_shapes
+from diecut_report.engine.numerics.domain import Domain
+from tests.machines import drive
+
+SPOKE = [polyline([(0.0, 0.0), (1.0, 0.0)], "body")]
+TURNED = (0.0, pi / 2, pi, -pi / 2)
+
+
+def test_what_stands_still_is_kept_as_it_is_and_what_moves_once_with_its_numbers() -> None:
+    pins = [(1.0, 0.0), (0.0, 1.0)]
+    ring, link, pin = moving_shapes(
+        "T", [[circle((0.0, 0.0), 2.0), polyline([(0.0, 0.0), at], "link"), point(at, "joint")] for at in pins]
+    )
+    assert ring == circle((0.0, 0.0), 2.0)
+    assert link["moves"] == [[0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]] and "points" not in link
+    assert pin["moves"] == [[1.0, 0.0], [0.0, 1.0]]
+
+
+def test_the_angle_of_what_is_rigid_goes_on_where_it_would_begin_anew() -> None:
+    (wheel,) = moving_shapes("T", [[rigid(SPOKE, (3.0, 0.0), angle)] for angle in TURNED])
+    assert wheel["shapes"] == SPOKE
+    assert np.allclose(wheel["moves"], [[3.0, 0.0, angle] for angle in (0.0, pi / 2, pi, 3 * pi / 2)])
+
+
+def test_what_is_rigid_lies_turned_and_then_shifted_in_a_still_drawing() -> None:
+    own = [*SPOKE, circle((1.0, 0.0), 0.1, "mark"), point((0.0, 1.0), "joint", "A")]
+    spoke, eye, joint = laid_out([rigid(own, (3.0, 1.0), pi / 2)])
+    assert np.allclose(spoke["points"], [[3.0, 1.0], [3.0, 2.0]]) and not spoke["closed"]
+    assert np.allclose(eye["center"], [3.0, 2.0]) and eye["radius"] == 0.1
+    assert np.allclose(joint["at"], [2.0, 1.0]) and joint["label"] == "A"
+
+
+@pytest.mark.parametrize("frames", [
+    [SPOKE, [*SPOKE, *SPOKE]], [SPOKE, [polyline([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)], "body")]], [SPOKE, [circle((0.0, 0.0), 1.0, "body")]],
+    [[rigid(SPOKE)], [rigid([circle((0.0, 0.0), 1.0)])]], [[label((0.0, 0.0), "A")]], [[rigid([label((0.0, 0.0), "A")])]],
+])  # fmt: skip
+def test_what_changes_but_for_its_place_is_refused_in_words(frames: list[list[dict[str, Any]]]) -> None:
+    with pytest.raises(Undrawable, match="must be the same polyline, circle, point, rigid at each place"):
+        moving_shapes("T", frames)
+
+
+def test_no_text_is_part_of_what_is_rigid() -> None:
+    with pytest.raises(Undrawable, match="'label' cannot be part of what is rigid"):
+        laid_out([rigid([label((0.0, 0.0), "A")])])
+
+
+def test_both_sides_of_a_jump_are_shown() -> None:
+    domain = Domain(np.array([[2 * pi]]), np.zeros((1, 1)))
+    domain.cut(np.array([[1.0]]))
+    places = frame_places(domain)
+    assert 1.0 in places and any(0 < 1.0 - place < 1e-8 for place in places)
+    assert places[0] == 0.0 and places[-1] == 2 * pi and list(places) == sorted(places)
+
+
+def test_curves_are_taken_at_all_places_at_once_and_what_is_made_once_is_kept() -> None:
+    calc, places, made = drive(), (0.0, 1.0, 2.0), []
+    view, alone = MachineView(calc, places), MachineView(calc)
+    assert [view.at("displacement", place) for place in places] == pytest.approx(
+        [alone.at("displacement", place) for place in places]
+    )
+    assert len(view._heights["displacement"]) == 3 and view.at("displacement", 0.5) == alone.at("displacement", 0.5)
+
+    def outline(own: MachineView) -> object:
+        made.append(own)
+        return object()
+
+    assert view.once(outline) is view.once(outline) and made == [view]

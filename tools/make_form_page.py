@@ -1,0 +1,149 @@
+"""Makes docs/reference/api.md, all names of ``diecut_report.api`` in one page: ``python -m tools.make_form_page``.
+
+The site has the same in pages, with the examples in full; this one is to be read in the repository.
+"""
+
+from __future__ import annotations
+
+import inspect
+from collections.abc import Iterator
+from pathlib import Path
+from typing import Any
+
+from diecut_report import api, testing
+from diecut_report.contract.options import Options, StepCondition
+from tools.site.api_examples import FOLDER, example_of
+from tools.site.api_groups import GROUPS, TOLD
+from tools.site.markup import code, plain, table
+from tools.site.reference import declared_by, is_own, short
+from tools.site.signatures import methods, paragraphs, signature
+
+PAGE = Path(__file__).parents[1] / "docs" / "reference" / "api.md"
+LISTED = ("Chapter", "Steps")
+INTRODUCTION = """\
+# The author's form: all calls and their options
+
+Made from signatures and docstrings by `python -m tools.make_form_page`. All names are those of `diecut_report.api`. Each has an example, a
+whole plugin that the tests run, in [examples](examples/).
+
+**Units**: what is declared (defaults, bounds, rows of tables, series) stands in the display unit that is written beside it. What a formula or plain
+code gets is SI. A `StandardTable` holds its numbers in *its own* units, as typed: `TABLE.series("bore").values` are millimetres where the column is
+`bore [mm]`; `si(25, "mm")` gives 0.025.
+"""
+STEPS = """\
+## The calls of a chapter
+
+`chapter = Chapter("Title")`, then one call for each quantity. All that give a quantity begin with `id, symbol, unit, description`. A formula
+(`Written`) is a lambda, a `@formula`, `bind(…)` or `ByText`.
+"""
+OPTIONS = """\
+### Options of every step
+
+Steps that give no quantity (`require`, `breakpoints`, `clash`, `words`, `phase`, `prepared`) take `needs` and `lacks` alone.
+"""
+STEPLESS = {"phase": "Phase", "listing": "ListedColumn", "add": "Steps"}  # calls whose example is that of another name
+MEANINGS = {
+    "source": 'where the formula comes from, as it is printed beside it: `"ISO 281, 5.2"`, or the id of a `Source`',
+    "source_symbol": "the letter that the source uses, where it is another one",
+    "digits": "significant digits that are printed, at least",
+    "output": "among the `outputs` of the results file, which a study has columns of; else among its `values`",
+    "needs": 'optional inputs with which the step takes part; `"medium=oil"` is a text input with that value',
+    "lacks": "optional inputs without which it does; both together make alternatives of one id",
+    "exists": "a condition on numbers: where it does not hold the quantity is absent",
+    "numbered": 'how the parts of a row are called in the results: `"shaft_{}_speed"`',
+    "first": "the number of the first part of those",
+    "named_by": 'the text input with the parts\' names: `"bearings.name"`',
+    "whole": "a count, an integer in the results",
+    "units": 'other units, each with the input beside which it holds: `(("mass", "N"),)`',
+}
+
+
+def pages() -> dict[Path, str]:
+    """The text of the page by its file."""
+    lines = [INTRODUCTION, STEPS, OPTIONS, *_options(), *_calls()]
+    for group in GROUPS:
+        lines += [f"## {group.title}", "", _words(group.words), ""]
+        lines += [line for name in group.names if not _is_step(name) for line in _name(name)]
+    lines += ["## Tests", "", "Of `diecut_report.testing`.", ""]
+    lines += [line for name, each in vars(testing).items() if is_own(name, each) for line in _told(name, each)]
+    text = "\n".join(lines)
+    while "\n\n\n" in text:
+        text = text.replace("\n\n\n", "\n\n")
+    return {PAGE: text.rstrip("\n") + "\n"}
+
+
+def _words(text: str) -> str:
+    """The words of a group; its pages of the site are not files of the repository."""
+    return text.replace("[shapes and roles](drawings.md)", "the site's page of drawings")
+
+
+def _options() -> Iterator[str]:
+    rows = []
+    for name, kind in Options.__annotations__.items():
+        default = inspect.signature(api.Step).parameters[name].default
+        only = "all" if name in StepCondition.__annotations__ else "those with a quantity"
+        rows.append(
+            (code(name), code(kind.__forward_arg__), code(repr(default)), only, MEANINGS[name].replace("|", "\\|"))
+        )
+    yield from table(("option", "type", "default", "steps", "means"), rows)
+
+
+def _calls() -> Iterator[str]:
+    """All calls in the order of the form."""
+    offered = methods(api.Steps)
+    for name in dict.fromkeys([*(name for name in vars(api.Steps) if name in offered), *offered]):
+        if inspect.isfunction(offered[name]):
+            step = "".join(part.capitalize() for part in name.split("_"))
+            yield from _call(name, offered[name], step if step in api.__all__ else "")
+
+
+def _call(name: str, method: Any, step: str) -> Iterator[str]:
+    """A call with the words of the step that it declares, where there is one."""
+    yield from (f"### `chapter.{name}`", "", *_signature(f"chapter.{name}", method))
+    own = list(paragraphs(method))
+    if step:  # whose words are the longer ones; of the call's those that name nothing else anew
+        own = [each for each in own[1:] if not each.startswith("``")]
+    yield from (_text(each) for each in ((*paragraphs(getattr(api, step)), *own) if step else own))
+    yield from _example(step or STEPLESS.get(name, ""))
+
+
+def _is_step(name: str) -> bool:
+    return declared_by(name) is not None
+
+
+def _name(name: str) -> Iterator[str]:
+    thing = getattr(api, name)
+    if name in TOLD:
+        yield from (f"### `{name}`", "", TOLD[name], "")
+    else:
+        yield from _told(name, thing)
+    yield from _example(name)
+
+
+def _told(name: str, thing: Any) -> Iterator[str]:
+    yield from (f"### `{name}`", "", *_signature(name, thing))
+    yield from (_text(each) for each in paragraphs(thing))
+    if inspect.isclass(thing) and name not in LISTED:
+        rows = [(code(short(own, each)), plain(next(paragraphs(each)))) for own, each in methods(thing).items()]
+        yield from table(("it offers", "which does"), rows)
+
+
+def _signature(name: str, thing: Any) -> Iterator[str]:
+    found = signature(name, thing)
+    if found:
+        yield from ("```python", found, "```", "")
+
+
+def _text(words: str) -> str:
+    return words.replace("``", "`")
+
+
+def _example(name: str) -> Iterator[str]:
+    example = example_of(name) if name else None
+    if example:
+        yield from (f"Example: [{example.name}.py]({FOLDER.name}/{example.name}.py). {example.words}", "")
+
+
+if __name__ == "__main__":
+    for file, text in pages().items():
+        file.write_text(text, encoding="utf-8")
