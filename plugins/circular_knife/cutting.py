@@ -95,7 +95,7 @@ guillotine = Chapter("Compared with a guillotine",
 guillotine.value("guillotine_force", "F_g", "N", "Force of a guillotine for the same length", f.guillotine_force, source=OWN)
 guillotine.value("guillotine_work", "W_g", "J", "Its work, without friction", lambda guillotine_force, thickness: guillotine_force * thickness / 2,
                  source="energy")
-guillotine.value("guillotine_force_ratio", "q_F", "1", "Greatest force to the guillotine's",
+guillotine.value("guillotine_force_ratio", "q_F", "1", "Greatest force as a share of the guillotine's",
                  lambda force_max, guillotine_force: force_max / guillotine_force, source=OWN)
 guillotine.value("guillotine_line_force", "q_σ", "N/mm", "Force of a straight cut per length, by the shear resistance",
                  lambda shear_resistance, thickness: shear_resistance * thickness, source=OWN)

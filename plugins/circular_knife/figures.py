@@ -83,8 +83,8 @@ def placement(view: View) -> list[Shape]:
     ]
     return [
         chart_panel("Shear angle", "deg", *across, lines=slopes, levels=usual(view), verticals=here),
-        chart_panel("Greatest force to a guillotine's", "1", *across, lines=[line(distances, found["guillotine_force_ratio"], "F_max/F_g")],
-                    verticals=here),
+        chart_panel("Greatest force as a share of a guillotine's", "1", *across,
+                    lines=[line(distances, found["guillotine_force_ratio"], "F_max/F_g")], verticals=here),
         chart_panel("Greatest torque", "N*m", *across, lines=[line(distances, found["torque_max"], "M_max")], verticals=here),
     ]  # fmt: skip
 

@@ -106,7 +106,7 @@ return_chapter = Chapter("Relaxing rods",
                          text="The stretched rods help the crank over an arm that grows until they have relaxed; friction resists over X.")
 return_chapter.value("elastic_arm", "a_d", "mm", "Greatest arm over which the relaxing rods help the crank", formulas.elastic_arm,
                      source="001 eq. 16, exact")
-return_chapter.value("return_arm_min", "X_min", "mm", "Least of what friction's arm has over theirs",
+return_chapter.value("return_arm_min", "X_min", "mm", "Least excess of the arm of friction over that of the rods",
                      lambda friction_arm, elastic_arm: friction_arm - elastic_arm, source="001 eq. 17")
 return_chapter.value("friction_limit", "f_rev", "1", "Coefficient of friction below which the rods would drive the crank",
                      lambda friction, elastic_arm, friction_arm: friction * elastic_arm / friction_arm, source="statics", needs=("friction",),

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import io
 import json
+import math
 from pathlib import Path
 from typing import Any
 from zipfile import ZipFile
@@ -92,18 +93,22 @@ def test_a_check_has_one_unit_for_both_sides(plain: Data) -> None:
     assert row[5:11] == [500, "<=", 2000, "µm", pytest.approx(0.228), 1500]
 
 
-def test_phases_have_a_line_for_each_interval(plain: Data) -> None:
+def test_phases_have_a_line_for_each_interval_with_its_numbers_in_full(plain: Data) -> None:
     interval = {"from": "38.85", "to": "55.70", "length": "16.85", "time": "46.80"}
+    held = [[math.radians(start), math.radians(start + 16.84851)] for start in (38.84648, 90.25)]
     plain["mechanisms"]["cylinder"]["phases"] = {
         "cutting": {
-            "role": "working", "description": "The knife cuts", "abscissa": "angle", "intervals": [[0.678, 0.972]],
-            "display": {"unit": "deg", "intervals": [interval, interval | {"from": "90"}]},
+            "role": "working", "description": "The knife cuts", "abscissa": "angle", "intervals": held,
+            "display": {"unit": "deg", "intervals": [interval, interval]},
         }
     }  # fmt: skip
-    rows = [[cell.value for cell in row] for row in opened(plain)["Phases"].iter_rows(min_row=2)]
-    assert rows == [
-        ["cylinder", "cutting", "The knife cuts", "working", start, 55.7, 16.85, "°", 46.8] for start in (38.85, 90)
+    sheet = opened(plain)["Phases"]
+    rows = [[cell.value for cell in row] for row in sheet.iter_rows(min_row=2)]
+    assert [row[:4] + row[7:] for row in rows] == [["cylinder", "cutting", "The knife cuts", "working", "°", 46.8]] * 2
+    assert [row[4:7] for row in rows] == [
+        pytest.approx([start, start + 16.84851, 16.84851], rel=1e-12) for start in (38.84648, 90.25)
     ]
+    assert sheet["E2"].number_format == "0.00"
 
 
 def test_the_curves_stand_beside_their_abscissa_with_a_bounded_number_of_rows(plain: Data) -> None:

@@ -23,7 +23,7 @@ for id, symbol, unit, name in (
     ("mass_per_length", "q", "kg/m", "Mass per length of a chain"),
 ):
     chain.lookup(
-        id, symbol, unit, name, CHAINS, by="chain", column=id, source="catalogues", output=id != "plate_thickness"
+        id, symbol, unit, name, CHAINS, by="chain", column=id, source="catalogue", output=id != "plate_thickness"
     )
 chain.value(
     "joint_area",
@@ -110,7 +110,7 @@ polygon.value(
     lambda pitch_radius, sprocket_speed, sprocket_angle, half_tooth: (
         -pitch_radius * as_number(sprocket_speed) ** 2 * np.sin(sprocket_angle - half_tooth)
     ),
-    source="derivative of v_θ",
+    source="kinematics",
 )
 polygon.value(
     "advance",
@@ -120,7 +120,7 @@ polygon.value(
     lambda pitch_radius, half_tooth, sprocket_angle: (
         pitch_radius * (np.sin(half_tooth) + np.sin(sprocket_angle - half_tooth))
     ),
-    source="integral of v_θ",
+    source="kinematics",
 )
 polygon.value(
     "ripple",

@@ -161,7 +161,7 @@ cycle.value(
         ),
         opening="cam.opening",
     ),
-    source="chosen here",
+    source="this method",
 )
 cycle.value(
     "opening_time",
