@@ -35,9 +35,10 @@ Judge = Callable[[Config], list[Problem]]
 Matter = Callable[[Config], Data | None]  # what a chapter on the influence of inputs tells, where one is asked for
 Source = Path | Tree  # a configuration: its file, or what was read and changed
 
-NO_PANGO = (
-    "The PDF cannot be made, because a library of the system is missing: {}. Install it (Debian, Ubuntu: "
-    "apt-get install libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0), or leave the PDF out with --format html,json."
+NO_PANGO = phrase(
+    "The PDF cannot be made, because a library of the system is missing: {library}. Install it (Debian, "
+    "Ubuntu: apt-get install libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0), or leave the "
+    "PDF out with --format html,json."
 )
 
 
@@ -286,9 +287,8 @@ def _pdf(rendering: Any) -> bytes:
     except OSError as error:
         if "cannot load library" not in str(error):
             raise
-        raise UserError(
-            Problem(NO_PANGO.format(str(error).split(":")[0].removeprefix("cannot load library ")))
-        ) from error
+        library = str(error).split(":")[0].removeprefix("cannot load library ")
+        raise UserError(Problem(Phrase(NO_PANGO, library=library))) from error
     return content
 
 

@@ -133,6 +133,8 @@ def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     dropped = Phrase(more, n=counts["dropped"], why=why_dropped(counts)) if counts.get("dropped") else ""
     count = counts.get("variants", 0)
     yield (Counted(count, "{n} variant: ", "{n} variants: "), *(named[1:] or [phrase("none")]), dropped, ".")
+    if outcome.has_none:
+        yield phrase("No variant can exist; the summary tells why. Vary other inputs, or within other limits.")
     slow = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
     yield from (
         Phrase(slow, kind=kind, why=phrase(why))

@@ -180,7 +180,9 @@ def within_tolerances(
         given[design.asked] = design.today + off
     made = varied(config, given, count)
     chances = [_chance(name, made.check(name) == "pass", _judged(made, name)) for name in made.checks]
-    whole = _chance("all checks", np.isin(made.status.astype(str), ["pass", "warn"]), np.ones(count, dtype=bool))
+    whole = _chance(
+        phrase("all checks"), np.isin(made.status.astype(str), ["pass", "warn"]), np.ones(count, dtype=bool)
+    )
     found = sorted((each for each in chances if each.count), key=lambda each: (each.probability, each.check))
     return Tolerances(tolerances, distribution, seed, count, whole, tuple(found))
 

@@ -8,6 +8,7 @@ from typing import Any
 from diecut_report.contract.listings import Cell, Listing
 from diecut_report.contract.place import Misdeclared
 from diecut_report.engine.calculation import Calculation
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import unit
 
@@ -21,7 +22,12 @@ def rows(calc: Calculation, step: Listing) -> list[list[Cell]]:
     found = [[_plain(cell) for cell in row] for row in step.function(known)]
     for row in found:
         if len(row) != len(step.heads) or any(isinstance(cell, float) and not math.isfinite(cell) for cell in row):
-            words = f"step {step.id}: its function gives the row {row}; {len(step.heads)} texts and finite numbers are wanted"
+            words = Phrase(
+                "step {id}: its function gives the row {row}; {count} texts and finite numbers are wanted",
+                id=step.id,
+                row=row,
+                count=len(step.heads),
+            )
             raise Misdeclared(words, step.at)
     return found
 

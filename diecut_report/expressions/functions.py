@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.expressions.tree import Node
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit as known
 
 ROUNDING = 1e-9  # of a factor of 1; how far beyond ±1 rounding may carry the cosine of an angle that exists
@@ -25,7 +26,14 @@ class Constant(float):
         given = known(unit)
         if abs(given.factor - 1) > ROUNDING:
             raise TypeError(
-                f"{symbol} is in {unit}, which is {given.factor:g} {given.si}; give it in SI, {value * given.factor:g} {given.si}"
+                Phrase(
+                    "{symbol} is in {unit}, which is {factor} {si}; give it in SI, {value} {si}",
+                    symbol=symbol,
+                    unit=unit,
+                    factor=format(given.factor, "g"),
+                    si=given.si,
+                    value=format(value * given.factor, "g"),
+                )
             )
         self = super().__new__(cls, value)
         self.symbol, self.unit = symbol, unit
@@ -37,7 +45,10 @@ GRAVITY = Constant(9.80665, "g", "m/s**2")
 
 def arccos(cosine: Any) -> Any:
     """Return the angle of a cosine, in [0, π] rad; a cosine beyond ±1 by rounding alone counts as ±1, beyond that is NaN."""
-    beyond = (abs(cosine) > 1) & (abs(cosine) < 1 + ROUNDING)
+    size = abs(cosine)
+    if not np.any(size > 1):  # as nearly always
+        return np.arccos(cosine)
+    beyond = (size > 1) & (size < 1 + ROUNDING)
     return np.arccos(np.where(beyond, np.sign(cosine), cosine))
 
 

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.definition.optimise import Optimise
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.definition.wanted_results import Objective
@@ -37,7 +38,7 @@ class GenerationPiece:
     values: Mapping[str, Values]
 
     def __str__(self) -> str:
-        return f"machines from {self.start} on"
+        return Phrase("machines from {start} on", start=self.start)
 
 
 @dataclass

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 import re
+from collections.abc import Sequence
 from decimal import Decimal
 
 from diecut_report.quantities.display import is_nothing, meant_digits
@@ -100,9 +101,19 @@ def rounded(value: float, unit_text: str, digits: int = DIGITS) -> str:
     return f"{value / unit(unit_text).factor:.{digits - 1}e}"
 
 
-def told(value: float, unit_text: str, digits: int = DIGITS, *, up: bool | None = None) -> str:
-    """Return an SI value as one would say it, ``40 mm``; rounded up or down where ``up`` says so."""
+def told(
+    value: float, unit_text: str, digits: int = DIGITS, *, up: bool | None = None, listed: Sequence[float] = ()
+) -> str:
+    """Return an SI value as one would say it, ``40 mm``; rounded up or down where ``up`` says so.
+
+    ``listed`` are the only numbers that there are, in this unit: the next of them above or below, or the nearest; beyond them the number itself.
+    """
     number = value / unit(unit_text).factor
+    allowed = [
+        each for each in listed if up is None or math.isclose(each, number, rel_tol=1e-9) or bool(each > number) is up
+    ]
+    if allowed:
+        return with_unit(number_text(min(allowed, key=lambda each: abs(each - number)), digits), unit_text)
     return with_unit(number_text(number if up is None else outward(number, up, digits), digits), unit_text)
 
 

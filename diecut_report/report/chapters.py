@@ -28,6 +28,7 @@ from diecut_report.report.symbol_list import SymbolRow, symbol_rows
 from diecut_report.report.symbol_list import placed as symbols_at
 from diecut_report.report.tables import Tables
 from diecut_report.report.told_before import ToldBefore
+from diecut_report.results.plugin_checks import found_check, is_doubtful
 
 Data = Mapping[str, Any]
 
@@ -49,7 +50,8 @@ def chapter(
         version=mechanism.get("plugin_version", ""),
         source_sha256=mechanism.get("plugin_sha256", ""),
         source_file=mechanism.get("plugin_file", ""),
-        source_check=found if (found := mechanism.get("plugin_check", "")) in ("passed", "failed") else "",
+        source_check=found_check(mechanism),
+        is_doubtful=is_doubtful(mechanism),
         status=mechanism["status"],
         error=mechanism.get("error", ""),
     )

@@ -9,7 +9,8 @@ from typing import Any, TypeVar
 from markupsafe import Markup
 
 from diecut_report.languages.tokens import worded
-from diecut_report.quantities.units import pretty, to_display
+from diecut_report.quantities.formatting import place_shown
+from diecut_report.quantities.units import pretty
 from diecut_report.report.curves import CurvePlace, table_places
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import rests, utilisation
@@ -79,7 +80,7 @@ class Tables:
         return PrintedTable(self.words["phases"], columns, rows, self._number())
 
     def _abscissa(self, axis: Data, x: float) -> str:
-        return number(f"{to_display(x, axis['display_unit']):.6g}", self.decimal)
+        return number(place_shown(x, axis["display_unit"])["text"], self.decimal)
 
     def _sample(self, curve: Data, place: CurvePlace) -> str:
         value = curve[place.values][place.number]

@@ -14,7 +14,7 @@ from diecut_report.report.i18n import Catalogue
 Data = Mapping[str, Any]
 Say = Callable[[str], str]
 SAID = frozenset({"title", "summary", "assumptions", "error", "warnings", "description", "message", "demand_label", "limit_label", "method",
-                  "words", "caption", "label", "touches", "lines", "by", "table", "series"})  # fmt: skip
+                  "words", "caption", "governing_title", "label", "touches", "lines", "by", "table", "series"})  # fmt: skip
 """Keys of results whose texts the report prints."""
 NUMBERS = frozenset({"values", "left", "right", "breakpoints", "points", "outer", "holes", "intervals"})
 DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d)")
@@ -34,6 +34,11 @@ def translated(results: Data, catalogues: Catalogues) -> Data:
     rest = _Mechanism(words, "")
     found["press"] = rest.of_press(results["press"])
     found |= {key: rest.walk(results[key]) for key in ("comparisons_left_out", "changes") if key in results}
+    if "changes" in found:
+        sides = {
+            side: {**found["changes"][side], "date": _date(found["changes"][side]["date"])} for side in ("old", "new")
+        }
+        found["changes"] = {**found["changes"], **sides}
     return found
 
 

@@ -38,7 +38,9 @@ class SelfTestFailed(Exception):
 
     def __init__(self, checks: list[Data]) -> None:
         told = " ".join(f"{check['title']}: {check['message']}" for check in checks)
-        super().__init__(f"The calculation contradicts itself, and its numbers must not be used. {told}")
+        super().__init__(
+            Phrase("The calculation contradicts itself, and its numbers must not be used. {told}", told=told)
+        )
         self.checks = checks
 
 
@@ -242,8 +244,9 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     place = place_name(step.id)
     if place in calc.values:
         axis = calc.steps[calc.axis[step.of]]  # type: ignore[attr-defined]
-        at = place_shown(float(calc[place][0, 0]), declared_unit(calc, axis.id, axis.unit))
-        found["at"] = {"symbol": axis.symbol} | at
+        value = float(calc[place][0, 0])
+        found["at"] = {"symbol": axis.symbol, "value": value}
+        found["at"] |= place_shown(value, declared_unit(calc, axis.id, axis.unit))
     return {step.id: found}
 
 

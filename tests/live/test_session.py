@@ -8,8 +8,10 @@ from typing import Any
 
 import pytest
 
+from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import UserError
 from diecut_report.languages.speech import speaking
 from diecut_report.live.effects import effect
@@ -226,6 +228,25 @@ def test_figures_are_curves_or_drawings_and_drawn_once_for_a_machine(session: Li
     assert pictures.figure(machine, "knife", 0) is drawing
     with pytest.raises(UserError, match="no figure 99"):
         pictures.figure(machine, "knife", 99)
+
+
+def test_a_change_reads_its_text_once_and_makes_nothing_that_is_not_shown_at_once(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    read: list[str] = []
+    parse = yaml_tree._parse
+
+    def counted(text: str, *given: str) -> Tree:
+        read.append(text)
+        return parse(text, *given)
+
+    monkeypatch.setattr(yaml_tree, "_parse", counted)
+    for what in ("outputs", "curves", "figures", "sections", "document"):
+        monkeypatch.setattr(WarmRun, what, lambda *_, what=what: pytest.fail(f"{what} are made that nobody looks at"))
+    for value in ("22 mm", "23 mm"):
+        session.change({"knife.eccentricity": value})
+        assert session.faults == [] and shown_of(session, "knife")["outputs"]
+    assert len([text for text in read if "mechanisms:" in text]) == 2
 
 
 def test_figures_are_in_the_language_that_is_spoken(session: LiveSession) -> None:

@@ -229,6 +229,17 @@ def test_wide_product_is_broken_before_a_dot() -> None:
     assert r"&\quad {} \cdot " in equation.latex
 
 
+def test_a_number_does_not_stand_alone_before_a_wide_factor() -> None:
+    equations, _ = _equations()
+    wide: Tree = ["sym", "η_first"]
+    for index in range(9):
+        wide = ["+", wide, ["sym", f"η_part{index}"]]
+    tree = ["*", TWO, ["call", "sin", wide]]
+    equation = equations.of(_item(equation=None, substituted=tree))
+    assert equation is not None
+    assert [row.strip() for row in equation.latex.split(r"\\")[0].split("&=")][-1] != "2"
+
+
 def test_found_value_shows_its_relation() -> None:
     item = _item(type="found", equation=None, relation=["cmp", "==", ["*", TWO, ["sym", "c"]], A])
     equation = _equations()[0].of(item)

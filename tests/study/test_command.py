@@ -78,6 +78,14 @@ def test_a_variant_that_fails_gives_1_and_one_in_error_does_not(tmp_path: Path) 
 
 
 @pytest.mark.usefixtures("without_summary")
+def test_a_study_of_which_no_variant_can_exist_gives_1_and_says_so(tmp_path: Path, capfd: Capture) -> None:
+    impossible = varied("[200, 210]", path="mechanisms.a.teeth")
+    assert run("batch", files(tmp_path, impossible), "-o", tmp_path / "out") == 1
+    assert [row["status"] for row in rows(tmp_path / "out")] == ["error", "error"]
+    assert "No variant can exist; the summary tells why." in capfd.readouterr().err
+
+
+@pytest.mark.usefixtures("without_summary")
 def test_outputs_and_curves_are_those_that_were_asked_for(tmp_path: Path) -> None:
     text = varied("[1 kN, 2 kN]", rest="outputs: [a.moment]\ncurves: [a.angle]\n")
     run("batch", files(tmp_path, text), "-o", tmp_path / "out", "--quiet")

@@ -131,6 +131,8 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     axis = calc.axis.get(step.id)
     if step.id in calc.values and calc.values[step.id].dtype == bool:
         return [_yes_or_no(calc, step, part)]
+    if isinstance(step, Interpolated) and axis is None and (row := tables.exact_row(calc, step)) is not None:
+        return [_head(step) | row | {"result": step_shown(calc, step, value_at(calc, step.id, None))}]
     elsewhere = is_elsewhere(calc, step, axis)
     item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis, elsewhere)
     if axis in calc.domains:

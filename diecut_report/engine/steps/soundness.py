@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from pathlib import Path
 
 import numpy as np
@@ -9,6 +10,7 @@ import numpy as np
 from diecut_report.contract.steps import Crossings, Step
 from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit
 
 WHOLE = 1e-9  # by which a count may be off a whole number, for rounding
@@ -23,6 +25,9 @@ def possible(calc: Calculation) -> Array:
 
 def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> None:
     """Refuse a result that is not proved for a single machine; mark the variant among several."""
+    if calc.count == 1 and residual[0, 0] <= tolerance:
+        calc.proof[step.id] = max(float(residual[0, 0]), 0.0)
+        return
     unproved = ~(residual[:, 0] <= tolerance) & possible(calc)
     calc.proof[step.id] = float(np.max(residual[possible(calc) & ~unproved], initial=0.0))
     if unproved.any():
@@ -30,7 +35,12 @@ def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> N
             calc,
             step,
             unproved,
-            f"{step.description}: the proof leaves {np.max(residual[unproved]):.1e}, not {tolerance:.0e}",
+            Phrase(
+                "{description}: the proof leaves {residual}, not {tolerance}",
+                description=step.description,
+                residual=format(np.max(residual[unproved]), ".1e"),
+                tolerance=format(tolerance, ".0e"),
+            ),
         )
 
 
@@ -46,12 +56,19 @@ def finite(calc: Calculation, step: Step) -> None:
     values = calc.values.get(step.id)
     if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
         return
+    if values.size == 1 and isfinite(values.item()):
+        return
     is_finite = np.isfinite(values)
     if is_finite.all():
         return
     bad = ~is_finite.all(axis=1) & possible(calc)
     if bad.any():
-        mark(calc, step, bad, f"{step.description} ({step.id}) has no value with these inputs")
+        mark(
+            calc,
+            step,
+            bad,
+            Phrase("{description} ({id}) has no value with these inputs", description=step.description, id=step.id),
+        )
 
 
 def whole(calc: Calculation, step: Step) -> None:
@@ -63,7 +80,11 @@ def whole(calc: Calculation, step: Step) -> None:
     bad = (np.abs(numbers - np.round(numbers)) > WHOLE * np.maximum(np.abs(numbers), 1)).any(axis=1) & possible(calc)
     if bad.any():
         given = f"{numbers[np.flatnonzero(bad)[0]].ravel()[0]:.6g}"
-        words = (
-            f"{step.description} ({step.id}, {Path(step.at).name}) is {given}, but is marked as a count (whole=True)"
+        words = Phrase(
+            "{description} ({id}, {name}) is {given}, but is marked as a count (whole=True)",
+            description=step.description,
+            id=step.id,
+            name=Path(step.at).name,
+            given=given,
         )
-        mark(calc, step, bad, f"{words}; round it in its formula, or take whole=True away")
+        mark(calc, step, bad, Phrase("{words}; round it in its formula, or take whole=True away", words=words))

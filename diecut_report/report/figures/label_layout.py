@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.report.figures.label_places import around, beside_level, beside_vertical, within
+from diecut_report.report.figures.label_places import anywhere, around, beside_level, beside_vertical, within
 from diecut_report.report.figures.panel_data import Frame, Line, PanelData, pieces
 from diecut_report.report.figures.style import Box, Labels, marked, overlap, plain, sampled, text_size
 
@@ -16,6 +17,10 @@ Array = NDArray[Any]
 SIZE = 8.0
 AWAY = 14.0  # from a mark to its name, for which a thin line leads there, points
 DASHES_DIFFER = 4  # so many lines are told apart by their dashes alone; more are named at the lines
+OVER_CURVE, OVER_NOTE = (
+    8.0,
+    3.0,
+)  # how much each point counts that a text covers: of a curve, of what is noted beside it
 AIR = 1.0
 WIDE_ENOUGH = 4.0  # between a line's name and the other lines, points
 MARGIN = 8.0  # between a line's name and the frame
@@ -41,11 +46,17 @@ class LabelLayout:
         self.texts: list[LabelText] = []
         self.lines = [sampled(frame.points(line.x, line.y)) for line in panel.lines]
         self.notes = self._noted()
-        self.labels = Labels(np.concatenate([*self.lines, self.notes]), (2, 2, frame.width - 2, frame.height - 2))
+        curves = np.concatenate([np.empty((0, 2)), *self.lines])
+        weights = np.repeat([OVER_CURVE, OVER_NOTE], [len(curves), len(self.notes)])
+        self.labels = Labels(np.concatenate([curves, self.notes]), (2, 2, frame.width - 2, frame.height - 2), weights)
         self._spans()
         self.tags = self._tags()
         self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
         self._notes()
+
+    def is_clear(self, text: str) -> bool:
+        """Return whether a text covers nothing."""
+        return not any(each.solid for each in self.texts if each.text == text)
 
     def _noted(self) -> Array:
         """Points of levels, vertical lines, marks and edges of areas."""
@@ -81,7 +92,8 @@ class LabelLayout:
         for note in panel.marks:
             if note.text:
                 x, y = map(float, frame.points(note.x, note.y))
-                self._write(note.text, around(x, y), (x, y))
+                size, room = text_size(note.text, SIZE), (frame.width, frame.height)
+                self._write(note.text, chain(around(x, y), anywhere(x, y, room, size)), (x, y))
         for note in panel.levels:
             if note.text:
                 height = float(frame.points(0, note.y)[1])

@@ -14,6 +14,7 @@ from dataclasses import dataclass
 import numpy as np
 
 from diecut_report.contract.inputs import Quantity
+from diecut_report.languages.phrases import phrase
 from diecut_report.quantities.units import to_display
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.optimise import Free
@@ -153,7 +154,7 @@ def _first(study: Study) -> int:
         if found.holds.any():
             return start + int(np.argmax(found.holds))
         start += len(found.holds)
-    raise ValueError("the constraints leave no variant")
+    raise ValueError(phrase("the constraints leave no variant"))
 
 
 class _Extent:

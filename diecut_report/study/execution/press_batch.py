@@ -22,6 +22,7 @@ from diecut_report.engine import Calculation, Impossible, ImpossibleTogether, Un
 from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.results.press_run import Run, Tell
 from diecut_report.results.taken_over import Absent, number, output, require_facts
@@ -124,18 +125,18 @@ class _Rows(Run):
             return self._phase(calculation, name, target)
         column = number(calculation, name)
         if column is None:
-            raise Absent("does not exist for these variants.")
+            raise Absent(phrase("does not exist for these variants."))
         if column.dtype == object:
             if self.variants.count == 1:
                 return column[0]
-            raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
+            raise NotOnArrays(calculation.mechanism.kind, Phrase("its text {name} is referred to", name=name))
         return SI(without_rounding(column.astype(float), str(target.unit)), str(target.unit), target.path)
 
     def _phase(self, calculation: Calculation, name: str, target: Target) -> PhaseHandle:
         """A phase of all variants; where it is absent that is the variant's reason."""
         handle = PhaseHandle(calculation, name.removeprefix(PREFIX), f"${{{target.path}}}")
         without = [row for row in range(self.variants.count) if not handle.intervals(row)]
-        self._reason(without, f"${{{target.path}}} does not apply to this machine.")
+        self._reason(without, Phrase("${{path}} does not apply to this machine.", path=target.path))
         return handle
 
     def _with_values(self, instance: Instance, own: dict[Node, Target]) -> dict[str, Any]:
@@ -177,7 +178,7 @@ class _Rows(Run):
             return value if not isinstance(value.value, np.ndarray) else SI(value.value[()], value.unit, value.told)
         if not isinstance(meta, Quantity):  # one value of a curve given as a list
             if value.value.size > 1:
-                words = f"a curve given as a list refers to {value.told}, which varies"
+                words = Phrase("a curve given as a list refers to {told}, which varies", told=value.told)
                 raise NotOnArrays(self.config.kinds[instance.name], words)
             return SI(value.value.item(), value.unit, value.told)
         column = np.broadcast_to(value.value, (self.variants.count,)).astype(float)
@@ -208,7 +209,9 @@ class _Rows(Run):
             with of_plugin(instance.mechanism.kind):
                 found = calculate(instance.mechanism, flatten(block), self.variants.count)
         except ImpossibleTogether as fault:
-            raise NotOnArrays(instance.mechanism.kind, f"it refuses some of many: {fault.reasons[0][1]}") from fault
+            raise NotOnArrays(
+                instance.mechanism.kind, Phrase("it refuses some of many: {reasons}", reasons=fault.reasons[0][1])
+            ) from fault
         except (Impossible, Unproven) as fault:
             self._alone(name, instance, fault)
             return
@@ -231,7 +234,11 @@ def _told(instance: Instance, path: str, message: str) -> str:
 
 def _valueless(value: SI) -> str:
     """What is told of a number that is missing: of what an expression gives, why."""
-    return f"“{value.told}” has no value: {WITHOUT_VALUE}" if "${" in value.told else "has no value"
+    return (
+        Phrase("“{told}” has no value: {without_value}", told=value.told, without_value=WITHOUT_VALUE)
+        if "${" in value.told
+        else "has no value"
+    )
 
 
 def _words(problem: Problem) -> str:

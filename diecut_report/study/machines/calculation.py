@@ -67,11 +67,17 @@ def configurations(given: Sequence[Path]) -> FoundFiles:
             made.files.append(path)
     found = made.files = list(dict.fromkeys(made.files))
     if not found:
-        words = f"There is no configuration in {', '.join(map(str, given))}. Name files, or folders with .yaml files."
+        words = Phrase(
+            "There is no configuration in {given}. Name files, or folders with .yaml files.",
+            given=", ".join(map(str, given)),
+        )
         others = [Problem(Phrase("passed over: {why}", why=why), str(path)) for path, why in made.passed_over.items()]
         raise UserError([Problem(words), *others])
     if len(found) > MOST:
-        raise UserError(Problem(f"These are {len(found)} configurations; at most {MOST} are checked at once."))
+        words = Phrase(
+            "These are {count} configurations; at most {most} are checked at once.", count=len(found), most=MOST
+        )
+        raise UserError(Problem(words))
     return made
 
 
