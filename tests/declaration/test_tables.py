@@ -259,5 +259,8 @@ def test_a_file_beside_a_plugin_is_judged_again_when_it_changes(
     with pytest.raises(PluginError, match="the column Y of the table is in mm, the step in 1"):
         _read_anew(tmp_path)
     (tmp_path / "factors.yaml").write_text(TABLE.replace("15", "11"), "utf-8")
-    with pytest.raises(PluginError, match=r"factors\.yaml:4: The table “Factors” must ascend in teeth without repetition, but 11 follows 12\.$"):
+    with pytest.raises(
+        PluginError,
+        match=r"factors\.yaml:4: The table “Factors” must ascend in teeth without repetition, but 11 follows 12\.$",
+    ):
         _read_anew(tmp_path)
