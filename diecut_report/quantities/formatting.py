@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 from decimal import Decimal
 
-from diecut_report.quantities.display import is_nothing, meant_digits
+from diecut_report.quantities.display import finest_step, is_nothing, meant_digits
 from diecut_report.quantities.units import pretty, unit
 
 DIGITS = 4
@@ -76,6 +76,16 @@ def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
 def place_shown(value: float, unit_text: str, more: int = 0) -> dict[str, str]:
     """Return a place on an abscissa as text: with up to six digits, of which those stand that mean something, and so many more."""
     return shown(value, unit_text, min(meant_digits(value, unit_text, PLACE_DIGITS) + more, PLACE_DIGITS))
+
+
+def listed_text(value: float, unit_text: str, digits: int = 6) -> str:
+    """Return an SI value among others of a column: to the step that can be made or measured, so that all have as many decimals."""
+    number, step = value / unit(unit_text).factor, finest_step(unit_text)
+    if step is None:
+        return number_text(number, digits)
+    text = f"{number:.{max(-math.floor(math.log10(step) + EXACT), 0)}f}"
+    short = text.rstrip("0").rstrip(".") if "." in text else text
+    return "0" if short == "-0" else short
 
 
 def given_shown(value: float, unit_text: str) -> dict[str, str]:

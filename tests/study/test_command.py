@@ -38,6 +38,14 @@ def rows(folder: Path) -> list[dict[str, object]]:
     return found
 
 
+def test_strict_fails_where_a_variant_warns_or_a_check_is_not_made(tmp_path: Path, without_summary: None) -> None:
+    without_limit = files(tmp_path)
+    assert run("batch", without_limit, "-o", tmp_path / "one") == 0
+    assert run("batch", "--resume", tmp_path / "one", "--strict") == 1
+    limited = files(tmp_path, base=BASE.replace("force:", "allowable_moment: 1000 N*m, force:"))
+    assert run("batch", limited, "-o", tmp_path / "two", "--strict") == 0
+
+
 @pytest.mark.wheel
 def test_a_study_becomes_a_folder_named_as_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture) -> None:
     files(tmp_path)

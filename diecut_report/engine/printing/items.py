@@ -138,7 +138,7 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
     elif axis is not None:
-        item["note"] = joined(filter(None, (item.get("note"), named_parts.told(calc, step, axis))), " ")
+        item["note"] = joined(filter(None, (item.get("note"), named_parts.told(calc, step, axis))), ". ")
         if not named_parts.has_tables(calc, axis):
             taken = [name for name in part.names.values() if isinstance(name, str)]
             return [item, tables.table(calc, step, [*taken, step.id])]

@@ -195,7 +195,9 @@ class DrawingKeys(ShowingKeys):
     unit: str = always("The unit of its dimensions; `1` where it is not to scale.")
     shapes: list[dict[str, Any]] = always("What is drawn, back to front: shape, role, places (SI).")
     schematic: bool = sometimes("true: it is not drawn to scale.")
-    moving: dict[str, Any] = sometimes("What moves in it: over which abscissa, at which places, the shapes at each.")
+    moving: dict[str, Any] = sometimes(
+        "What moves in it: over which abscissa, at which places, the shapes; those that move with their numbers at each (`moves`)."
+    )
 
 
 class FailedFigureKeys(FigureKeys):
