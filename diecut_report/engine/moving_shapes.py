@@ -96,5 +96,6 @@ def _placed(rigid: Shape) -> list[Shape]:
             case "point":
                 placed.append(point(of(shape["at"]), shape["role"], shape.get("label", "")))
             case kind:
-                raise Undrawable(f"{kind!r} cannot be part of what is rigid; it takes {', '.join(MOVABLE)}")
+                words = "{kind} cannot be part of what is rigid; it takes {movable}"
+                raise Undrawable(Phrase(words, kind=repr(kind), movable=", ".join(MOVABLE)))
     return placed

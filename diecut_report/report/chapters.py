@@ -24,8 +24,7 @@ from diecut_report.report.number_format import quantity
 from diecut_report.report.repeated_parts import counted, gathered
 from diecut_report.report.scope import BRIEF, FULL
 from diecut_report.report.steps import PrintedSteps
-from diecut_report.report.symbol_list import SymbolRow, symbol_rows
-from diecut_report.report.symbol_list import placed as symbols_at
+from diecut_report.report.symbol_list import SymbolRow, symbol_rows, symbols_at
 from diecut_report.report.tables import Tables
 from diecut_report.report.told_before import ToldBefore
 from diecut_report.results.plugin_checks import found_check, is_doubtful

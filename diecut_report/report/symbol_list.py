@@ -59,7 +59,7 @@ def in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
     return columns
 
 
-def placed(rows: list[SymbolRow], steps: Mapping[str, str], inputs: Mapping[str, str]) -> list[SymbolRow]:
+def symbols_at(rows: list[SymbolRow], steps: Mapping[str, str], inputs: Mapping[str, str]) -> list[SymbolRow]:
     """The rows with the place of each symbol: the step that gives it, else the inputs; by their names."""
     return [
         row._replace(stands=steps.get(row.name) or inputs.get(row.name, ""), is_step=row.name in steps) for row in rows

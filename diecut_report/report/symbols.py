@@ -31,9 +31,9 @@ def symbol(name: str) -> Markup:
 def pieces(typed: str) -> Markup:
     """What was typed, with the places where a line may break: between its words, and behind the dots of a path."""
     words = [re.split(r"(?<=\.)(?=[^\W\d])", word) for word in typed.split(" ")]
-    joint = Markup("<wbr>")
+    joint = Markup("<wbr/>")
     return Markup(" ").join(
-        joint.join(Markup("<span class=whole>{}</span>").format(part) for part in word) for word in words
+        joint.join(Markup('<span class="whole">{}</span>').format(part) for part in word) for word in words
     )
 
 

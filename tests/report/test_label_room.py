@@ -23,7 +23,7 @@ from diecut_report.report.figures.by_type import build
 from diecut_report.report.figures.label_layout import AWAY, LabelLayout
 from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, framed
 from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import load_fonts, text_size
+from diecut_report.report.figures.style import load_fonts
 from diecut_report.report.figures.style import style as style_of
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.translated import translated
@@ -159,25 +159,6 @@ def test_a_name_that_stands_away_from_its_mark_has_a_line_to_it() -> None:
         else:
             assert name.leader[:2] == pytest.approx((x, y))
     assert any(name.leader for name in names)
-
-
-@pytest.mark.usefixtures("style")
-def test_lines_do_not_run_through_a_name_that_has_no_room_beside_them() -> None:
-    assert next(text for text in _crowded().texts if text.text == "allowed").solid
-
-
-@pytest.mark.usefixtures("style")
-def test_a_name_rather_covers_a_vertical_line_than_a_curve() -> None:
-    """A falling curve, above it the names of two verticals: a mark's name has room below it alone, across both of them."""
-    x = np.linspace(0.02, 0.9, 200)
-    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.02, 0.9), lines=[Line(x, 0.4 / (x + 0.4), "")],
-                      marks=[Note(0.4444, 0.4 / 0.8444, "this machine 0.2727 (0.4444)")],
-                      verticals=[Note(0.54, 0.0, "return too short"), Note(0.6, 0.0, "no return")])  # fmt: skip
-    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
-    name = next(text for text in layout.texts if text.text.startswith("this machine"))
-    wide, high = text_size(name.text, name.size)
-    curve = np.concatenate(layout.lines)
-    assert not ((np.abs(curve[:, 0] - name.x) < wide / 2) & (np.abs(curve[:, 1] - name.y) < high / 2)).any()
 
 
 @pytest.mark.usefixtures("style")

@@ -53,7 +53,9 @@ class LabelLayout:
         self._spans()
         self.tags = self._tags()
         self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
-        self.told_marks: list[int] = []  # marks, levels and vertical lines whose names have no room, and stand in the legend
+        self.told_marks: list[
+            int
+        ] = []  # marks, levels and vertical lines whose names have no room, and stand in the legend
         self.told_levels: list[int] = []
         self.told_uprights: list[int] = []
         self._notes()
@@ -104,8 +106,8 @@ class LabelLayout:
         for index, note in enumerate(panel.marks):
             x, y = map(float, frame.points(note.x, note.y))
             size, room = text_size(note.text, SIZE), (frame.width, frame.height)
-            places = chain(around(x, y), anywhere(x, y, room, size))
-            if note.text and not self._write(note.text, places, (x, y), IN_THE_WAY):
+            around_it = chain(around(x, y), anywhere(x, y, room, size))
+            if note.text and not self._write(note.text, around_it, (x, y), IN_THE_WAY):
                 self.told_marks.append(index)
         for index, note in enumerate(panel.levels):
             height = float(frame.points(0, note.y)[1])
