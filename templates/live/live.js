@@ -73,14 +73,15 @@
     var changes = flying = waiting;
     sending = true;
     waiting = {};
-    post("change", { changes: changes }).then(function () { wrong(changes, ""); }, function (fault) {
+    var answered = 0;
+    post("change", { changes: changes }).then(function (told) { answered = told.serial; wrong(changes, ""); }, function (fault) {
       failed(fault);
       wrong(changes, fault.refused || "");
     }).then(function () {
       sending = false;
       flying = {};
       ready();
-      if (state.machine) { inputs(); }  /* the state may have come before the answer */
+      if (state.machine && state.serial >= answered) { inputs(); }  /* the state has come before the answer */
       send();
     });
   }
@@ -253,7 +254,7 @@
       slider.value = each.value;
     }
     var isHeld = document.activeElement === typed && typed.value !== row.sent, isOnItsWay = each.name in waiting || each.name in flying;
-    if (!isHeld && !isOnItsWay && typed.getAttribute("aria-invalid") !== "true") { typed.value = each.typed; }
+    if (!isHeld && !isOnItsWay && typed.getAttribute("aria-invalid") !== "true") { typed.value = row.sent = each.typed; }
     row.querySelector(".fault").textContent = state.faults.filter(function (fault) { return isEdited && (fault.path === each.path || fault.path === each.path + ".value"); }).map(function (fault) { return fault.text; }).join(" ");
     row.classList.toggle("edited", isEdited);
     row.classList.toggle("chosen", each.name === chosen);
