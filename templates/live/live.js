@@ -99,7 +99,7 @@
   /* What is taken back can be put back again, until something else is said. */
   function takeBack(names) {
     var former = {};
-    names.forEach(function (name) { if (name in state.edits) { former[name] = state.edits[name]; } });
+    names.forEach(function (name) { if (name in state.edits) { former[name] = flying[name] || state.edits[name]; } });
     act("back", { names: names }).then(function (isDone) {
       if (!isDone || !Object.keys(former).length) { return; }
       var again = make("button", { type: "button" }, t("put_back"));
