@@ -73,14 +73,15 @@
     var changes = flying = waiting;
     sending = true;
     waiting = {};
-    post("change", { changes: changes }).then(function () { wrong(changes, ""); }, function (fault) {
+    var answered = 0;
+    post("change", { changes: changes }).then(function (told) { answered = told.serial; wrong(changes, ""); }, function (fault) {
       failed(fault);
       wrong(changes, fault.refused || "");
     }).then(function () {
       sending = false;
       flying = {};
       ready();
-      if (state.machine) { inputs(); }  /* the state may have come before the answer */
+      if (state.machine && state.serial >= answered) { inputs(); }  /* the state has come before the answer */
       send();
     });
   }
@@ -98,7 +99,7 @@
   /* What is taken back can be put back again, until something else is said. */
   function takeBack(names) {
     var former = {};
-    names.forEach(function (name) { if (name in state.edits) { former[name] = state.edits[name]; } });
+    names.forEach(function (name) { if (name in state.edits) { former[name] = flying[name] || state.edits[name]; } });
     act("back", { names: names }).then(function (isDone) {
       if (!isDone || !Object.keys(former).length) { return; }
       var again = make("button", { type: "button" }, t("put_back"));
@@ -253,7 +254,7 @@
       slider.value = each.value;
     }
     var isHeld = document.activeElement === typed && typed.value !== row.sent, isOnItsWay = each.name in waiting || each.name in flying;
-    if (!isHeld && !isOnItsWay && typed.getAttribute("aria-invalid") !== "true") { typed.value = each.typed; }
+    if (!isHeld && !isOnItsWay && typed.getAttribute("aria-invalid") !== "true") { typed.value = row.sent = each.typed; }
     row.querySelector(".fault").textContent = state.faults.filter(function (fault) { return isEdited && (fault.path === each.path || fault.path === each.path + ".value"); }).map(function (fault) { return fault.text; }).join(" ");
     row.classList.toggle("edited", isEdited);
     row.classList.toggle("chosen", each.name === chosen);

@@ -149,6 +149,7 @@ def test_an_input_is_found_by_a_search_and_a_fault_stands_beside_what_gave_it(br
     other = Tab(browser, live.address)  # opened while there is a fault: the last machine is drawn
     expect(other.page.locator("#figures svg").first).to_be_visible(timeout=SECONDS)
     tab.type("knife.eccentricity", "2.1 cm")
+    expect(tab.page.locator("#faults")).to_be_hidden(timeout=SECONDS)
     tab.page.get_by_role("button", name="Take all back").click()
     expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("20 mm", timeout=SECONDS)
     tab.page.get_by_role("button", name="Put back again").click()
