@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable
+from collections.abc import Collection
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -14,7 +14,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 
 from diecut_report.quantities.units import pretty
 from diecut_report.report.figures.label_layout import SIZE, LabelLayout
-from diecut_report.report.figures.panel_data import Across, Frame, Note, PanelData, framed, pieces
+from diecut_report.report.figures.panel_data import Across, Frame, PanelData, framed, pieces
 from diecut_report.report.figures.shapes import hatching
 from diecut_report.report.figures.sizes import WIDTHS, Size
 from diecut_report.report.figures.style import (
@@ -85,9 +85,9 @@ class Diagram:
             HEAD + further(self.title) + (0.0 if self.legend is None or self.legend.beside else self.legend.rows * ROW)
         )
 
-    def naming(self, is_named: Callable[[Note], bool]) -> Diagram:
-        """Return the diagram with names of those vertical lines alone."""
-        kept = [note if is_named(note) else note._replace(text="") for note in self.panel.verticals]
+    def naming(self, named: Collection[tuple[float, str]]) -> Diagram:
+        """Return the diagram with the names of those vertical lines alone, told by their places and texts."""
+        kept = [note if (note.x, note.text) in named else note._replace(text="") for note in self.panel.verticals]
         if kept == self.panel.verticals:
             return self
         return Diagram(replace(self.panel, verticals=kept), self.frame.width, self.frame.height)
