@@ -31,6 +31,7 @@ Data = dict[str, Any]
 Tell = Callable[[str], None]
 Weigh = Callable[[Config, Data], list[Data]]  # which assumed values move a governing check
 Follow = Callable[[Config, Data], Data | None]  # what comes of the advice of all failing checks together
+Judge = Callable[[Config], list[Problem]]
 Matter = Callable[[Config], Data | None]  # what a chapter on the influence of inputs tells, where one is asked for
 Source = Path | Tree  # a configuration: its file, or what was read and changed
 
@@ -83,12 +84,10 @@ class ReportOutcome:
     warnings: tuple[str, ...] = ()
 
 
-def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
-    """Load, validate and resolve, and see whether the machines can exist; UserError with all problems at once.
-
-    Gives the plugins that are broken.
-    """
+def validate(config: Source, discovery: Discovery, judge: Judge | None = None) -> tuple[PluginError, ...]:
+    """Return the plugins that are broken; UserError with all that is wrong, also with machines that cannot exist, or that ``judge`` tells."""
     made, problems = examined(config, discovery)
+    problems += judge(made) if judge and not problems and not made.broken else []
     from diecut_report.results.feasible import impossible  # with the engine
 
     more, broken = impossible(made, problems)

@@ -28,6 +28,7 @@ from typing import Any
 from diecut_report.config import yaml_tree
 from diecut_report.config.announced_kinds import announced
 from diecut_report.config.contract_version import other_program, refuse_other_contract
+from diecut_report.config.imports_beside import beside
 from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.place import Misdeclared
@@ -126,7 +127,9 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
         digest = module_hash(origin.file())
     except (Exception, SystemExit) as cause:
         words = "it cannot be loaded from {told}: {said}"
-        error = PluginError(Phrase(words, told=origin.told, said=said(cause)), origin.kind)
+        error = PluginError(
+            Phrase(words, told=origin.told, said=said(cause)) + beside(origin.file(), cause), origin.kind
+        )
         error.__cause__ = cause
         return error
     if not isinstance(found, Mechanism):
@@ -169,7 +172,7 @@ def said(cause: BaseException) -> str:
         return str(cause)
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
     own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
-    tells_place = isinstance(cause, SyntaxError | FormulaError)
+    tells_place = isinstance(cause, SyntaxError | FormulaError) or getattr(cause, "tells_place", False)
     declared = Path(getattr(cause, "at", "")).name  # of what is not proved, which the engine tells
     place = f" ({declared or f'{Path(own[-1].filename).name}:{own[-1].lineno}'})" if own and not tells_place else ""
     return f"{type(cause).__name__}: {other_program(cause) or ' '.join(str(cause).split())}{place}"

@@ -164,10 +164,10 @@ def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: Machine
             drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": laid_out(_listed(build, view))}
             return head | drawn | ({"schematic": True} if schematic else {}) | _moving(calc, figure)
         case Chart(build=build):
-            panels = [axis_range.of_lines(panel) for panel in _listed(build, view)]
-            for over in {panel["over"] for panel in panels if "over" in panel}:
+            own = [axis_range.of_lines(panel) for panel in _listed(build, view)]
+            for over in (panel["over"] for panel in own if "over" in panel):
                 curve_named(calc, over, over)
-            return head | {"type": "chart", "panels": panels}
+            return head | {"type": "chart", "panels": own}
     raise TypeError(Phrase("{id} is not a known figure", id=figure.id))
 
 

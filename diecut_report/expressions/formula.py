@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import math
 from collections.abc import Callable
+from decimal import Decimal
 from functools import cached_property
 from typing import Any, NamedTuple, overload
 
@@ -15,6 +16,11 @@ from diecut_report.expressions.hints import instead
 from diecut_report.expressions.source import FormulaError, Unreadable, body, given_to, perhaps_named, place
 from diecut_report.expressions.tree import Node, substitute
 from diecut_report.languages.phrases import Phrase, joined
+
+GREAT, SHORT = (
+    1e5,
+    4,
+)  # a number from which zeros are not counted, and letters of what then stands before the power of ten
 
 
 class Formula:
@@ -152,7 +158,7 @@ class _BodyReader:
     def _node(self, expression: ast.expr) -> Node:
         match expression:
             case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
-                return Node("num", (repr(value),))
+                return Node("num", (_literal(value),))
             case ast.Name(id=name) if name in self.locals:
                 return self.locals[name]
             case ast.Name() | ast.Attribute():
@@ -255,3 +261,12 @@ class _BodyReader:
 
     def _place(self, node: ast.AST) -> str:
         return f"{self.function.__code__.co_filename}:{getattr(node, 'lineno', '?')}"
+
+
+def _literal(value: float) -> str:
+    """A number of a formula's body as it is printed: a great power of ten as such, not with its zeros and a decimal."""
+    text = repr(value)
+    if not text.endswith(".0") or abs(value) < GREAT:
+        return text
+    mantissa, power = f"{Decimal(value).normalize():e}".split("e")
+    return f"{mantissa}e{int(power)}" if len(mantissa) < SHORT else f"{value:.0f}"

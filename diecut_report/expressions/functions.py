@@ -45,7 +45,10 @@ GRAVITY = Constant(9.80665, "g", "m/s**2")
 
 def arccos(cosine: Any) -> Any:
     """Return the angle of a cosine, in [0, π] rad; a cosine beyond ±1 by rounding alone counts as ±1, beyond that is NaN."""
-    beyond = (abs(cosine) > 1) & (abs(cosine) < 1 + ROUNDING)
+    size = abs(cosine)
+    if not np.any(size > 1):  # as nearly always
+        return np.arccos(cosine)
+    beyond = (size > 1) & (size < 1 + ROUNDING)
     return np.arccos(np.where(beyond, np.sign(cosine), cosine))
 
 

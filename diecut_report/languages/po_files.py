@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from io import BytesIO
 from pathlib import Path
@@ -58,3 +58,20 @@ def written(catalogue: Catalog) -> bytes:
     write_po(stream, catalogue, width=WIDTH, ignore_obsolete=True)
     lines = stream.getvalue().splitlines(keepends=True)
     return b"".join(line for line in lines if not line.startswith(UNSAID))
+
+
+def added(there: bytes | None, language: str, project: str, texts: Iterable[tuple[str, str]]) -> tuple[bytes, int]:
+    """Return a catalogue's file with untranslated messages of these texts, each with what it is of, and how many there are.
+
+    What it has already is left out and stays as it is; where it is not there yet (None) it begins with its head.
+    """
+    found = empty(language, project, holder=f"the authors of {project}")
+    known = () if there is None else read_po(BytesIO(there), locale=language, charset="utf-8", abort_invalid=True)
+    for text, of in texts:
+        if text not in known:
+            found.add(text, auto_comments=[of])
+    if there is None:
+        return written(found), len(found)
+    stream = BytesIO()
+    write_po(stream, found, width=WIDTH, omit_header=True)
+    return there.rstrip(b"\n") + b"\n\n" + stream.getvalue(), len(found)

@@ -25,14 +25,15 @@ def at_places(terms: Array, piece: Array, x: Array) -> Array:
 def _summed(terms: Array, piece: Array, x: Array) -> Array:
     twice, product = 2 * x, np.empty(x.shape)
     after, here = np.zeros((2, *x.shape))
-    for coefficients in terms[:0:-1]:
+    own = terms.take(piece, axis=1)
+    for coefficients in own[:0:-1]:
         np.multiply(twice, here, out=product)
         np.subtract(product, after, out=after)
-        after += coefficients.take(piece)
+        after += coefficients
         after, here = here, after
     np.multiply(x, here, out=product)
     product -= after
-    product += terms[0].take(piece)
+    product += own[0]
     return product
 
 

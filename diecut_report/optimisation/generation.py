@@ -15,9 +15,10 @@ from diecut_report.study.definition.wanted_results import Objective
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
 from diecut_report.study.sampling.variables import Values
 from diecut_report.study.storage.description import ResultColumn
+from diecut_report.study.storage.state_form import SEARCHED
 
 VIOLATION = ResultColumn(
-    "violation", "float", description="By how much limits and constraints are broken in sum; 0 where none is"
+    SEARCHED, "float", description="By how much limits and constraints are broken in sum; 0 where none is"
 )
 STATUS, UTILISATION = ".status", ".utilisation"
 TOGETHER = 256  # machines of a piece, whatever number of processes there is: equal pieces give equal bytes

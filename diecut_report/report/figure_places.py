@@ -12,7 +12,8 @@ Data = Mapping[str, Any]
 BEFORE = -1  # the first step of a section
 NEAR = 2  # sections later a figure may stand, beside another one
 MOST_NOTES = 3  # within a diagram that has room for them over half the width
-LONGEST_LEGEND = 110  # letters in the names of a diagram's lines that have room over half the width
+LONGEST_LEGEND = 110  # letters in the names of a diagram's lines, or of its marks, that have room over half the width
+VALUE = 16  # letters of the numbers behind the name of a mark
 
 
 class Place(NamedTuple):
@@ -85,11 +86,14 @@ def _is_narrow(figure: Data) -> bool:
         sum(len(line.get("label", "")) for key in ("lines", "fills", "series") for line in panel.get(key, ()))
         for panel in figure.get("panels", ())
     ]
+    marked = [
+        sum(len(mark["label"]) + VALUE for mark in panel.get("marks", ()) if mark.get("label"))
+        for panel in figure.get("panels", ())
+    ]
     if figure["type"] == "bars" or figure.get("schematic"):
         return False
-    return (
-        max(names, default=0) <= LONGEST_LEGEND and max(map(_notes, figure.get("panels", ())), default=0) <= MOST_NOTES
-    )
+    longest, most = max([*names, *marked], default=0), max(map(_notes, figure.get("panels", ())), default=0)
+    return longest <= LONGEST_LEGEND and most <= MOST_NOTES
 
 
 def _notes(panel: Data) -> int:

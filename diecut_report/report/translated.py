@@ -42,6 +42,14 @@ def translated(results: Data, catalogues: Catalogues) -> Data:
     return found
 
 
+def figure_translated(
+    figure: Data, curves: Data, kind: str, catalogues: Catalogues
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return a figure of a mechanism of this kind with the curves that it shows, in the language of the catalogues."""
+    words = _Mechanism(Translator(catalogues, {}, Catalogue(catalogues.language)["decimal"]), kind)
+    return words.drawn(figure), words.walk(curves)
+
+
 def _dated(project: Data) -> Data:
     """The project with its dates as they are written in documents: 22.11.2026."""
     lines = [{**line, "date": _date(line.get("date"))} for line in project.get("revisions") or ()]
@@ -64,7 +72,7 @@ class _Mechanism:
         own = {
             "inputs": {key: self._row(row) for key, row in data["inputs"].items()},
             "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
-            "figures": [self._drawn(figure) for figure in data.get("figures", ())],
+            "figures": [self.drawn(figure) for figure in data.get("figures", ())],
         }
         return {**self.walk({key: part for key, part in data.items() if key not in own}), **own}
 
@@ -111,21 +119,19 @@ class _Mechanism:
             return self._shown(text)
         return text
 
-    def _drawn(self, data: Any) -> Any:
+    def drawn(self, data: Any) -> Any:
         """A figure, or a part of it: whatever text is not translated has at least its numbers in the language's form."""
         if isinstance(data, Mapping):
             return {key: self._drawn_part(key, part) for key, part in data.items()}
-        return [self._drawn(part) for part in data] if isinstance(data, list) else data
+        return [self.drawn(part) for part in data] if isinstance(data, list) else data
 
     def _drawn_part(self, key: str, part: Any) -> Any:
         if key in NUMBERS:
             return part
         if key not in SAID and key != "text":
-            return self._drawn(part)
+            return self.drawn(part)
         if isinstance(part, str):
             return self.words.numbers(self.text(part))
         if isinstance(part, list):
-            return [
-                self.words.numbers(self.text(each)) if isinstance(each, str) else self._drawn(each) for each in part
-            ]
-        return self._drawn(part)
+            return [self.words.numbers(self.text(each)) if isinstance(each, str) else self.drawn(each) for each in part]
+        return self.drawn(part)

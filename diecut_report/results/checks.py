@@ -101,6 +101,8 @@ def verdict(check: Check, demand: Any, limit: Any) -> tuple[Any, Any]:
 
 def worst(demand: Array, limit: Array, held: Array, ratio: Array, there: Array) -> Array:
     """Return along the last axis which one governs: one that fails, then the greatest utilisation, then what is furthest beyond."""
+    if held.shape[-1] == 1:
+        return np.zeros(held.shape[:-1], dtype=int)
     with np.errstate(all="ignore"):
         beyond = np.where(there, demand - limit, -np.inf)
     unknown = np.where(held, -np.inf, np.inf)
@@ -116,8 +118,10 @@ def _compared(calc: Calculation, check: Check) -> Array:
         calc.judged[check.id, number][:2] if (check.id, number) in calc.judged else _sides(calc, check, pair)
         for number, pair in enumerate(check.pairs)
     ]
-    alike = np.broadcast_arrays(*(side for pair in pairs for side in pair), np.empty((calc.count, 1)))[:-1]
-    found = np.stack([np.stack(alike[::2], axis=1), np.stack(alike[1::2], axis=1)])
+    sides = [side for pair in pairs for side in pair]
+    if any(side.shape != (calc.count, 1) for side in sides):
+        sides = list(np.broadcast_arrays(*sides, np.empty((calc.count, 1)))[:-1])
+    found = np.moveaxis(np.array(sides).reshape(len(pairs), 2, calc.count, -1), 0, 2)
     return found if check.index is None else found[..., [check.index]]
 
 

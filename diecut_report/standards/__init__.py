@@ -32,7 +32,8 @@ from diecut_report.standards.file_forms import (
     form_of,
     in_range,
 )
-from diecut_report.standards.own_tables import own_series, own_table, table_beside
+from diecut_report.standards.own_tables import own_series, own_table
+from diecut_report.standards.table_files import table_beside
 from diecut_report.standards.tables import Column, StandardFault, StandardSeries, StandardTable, sources_told
 
 __all__ = ["Column", "StandardFault", "StandardSeries", "StandardTable", "own_series", "own_table", "sources_told", "standard_ids",

@@ -10,7 +10,13 @@ from diecut_report.languages.phrases import Phrase, phrase
 
 
 class StandardFault(ValueError):
-    """Report a series or table that cannot be trusted, or an id that no file has; the text says which and what to fix."""
+    """Report a series or table that cannot be trusted, or an id that no file has; the text says which and what to fix.
+
+    ``row`` is the number of the row at fault, from 0; of a file beside a plugin the text ``tells_place``, with the line.
+    """
+
+    row: int | None = None
+    tells_place: bool = False
 
 
 @dataclass(frozen=True)

@@ -37,6 +37,27 @@ def test_the_angle_at_the_end_of_the_cycle_is_that_of_its_last_piece() -> None:
     assert found == pytest.approx([0.0, 0.5], abs=1e-12)  # by the first piece's line the end would be 2
 
 
+def test_all_peaks_of_a_curve_are_looked_at_together() -> None:
+    """Each look at a curve costs about the same, be it at one place or at many."""
+    looks: list[tuple[int, ...]] = []
+
+    class Waves:
+        breakpoints = joints = np.empty((1, 0))
+
+        def values(self, share: Any, middle: Any, rows: Any) -> Any:
+            looks.append(share.shape)
+            return 2 + np.sin(10 * np.pi * share) + 0.1 * np.sin(2 * np.pi * share - 0.2)
+
+    of_waves = duty(radial=Waves(), speed=np.ones((1, 1)), angle=None)
+    first = of_waves.first
+    looks.clear()
+    radial, _ = of_waves.greatest(lambda radial, _: radial, first)
+    assert len(looks) <= 5
+    fine = np.linspace(0, 1, 200_001)
+    expected = np.max(2 + np.sin(10 * np.pi * fine) + 0.1 * np.sin(2 * np.pi * fine - 0.2))
+    assert radial[0, 0] == pytest.approx(expected, rel=1e-9)
+
+
 def test_the_neighbours_of_a_place_lie_in_its_own_piece() -> None:
     share = np.array([[[0.0, 0.1, 0.2], [0.2, 0.6, 1.0]]])
     for index, expected in (

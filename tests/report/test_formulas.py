@@ -25,6 +25,13 @@ MM = ["qty", "40", "mm"]
 
 CASES: list[tuple[Tree, str, str]] = [
     (["-", A, ["-", B, C]], r"a - (b - c)", "a − (b − c)"),
+    (["+", A, ["*", ["neg", ["num", "0.13"]], B]], r"a - 0.13\,b", "a − 0.13·b"),
+    (["+", A, ["*", ["num", "-0.5"], B]], r"a - 0.5\,b", "a − 0.5·b"),
+    (["-", A, ["*", ["*", ["neg", TWO], B], C]], r"a + 2\,b\,c", "a + 2·b·c"),
+    (["call", "minimum", ["call", "minimum", A, B], C], r"\min(a,\, b,\, c)", "min(a, b, c)"),
+    (["call", "maximum", ["call", "minimum", A, B], C], r"\max(\min(a,\, b),\, c)", "max(min(a, b), c)"),
+    (["apply", "inv", A], r"\operatorname{inv}(a)", "inv(a)"),
+    (["*", A, ["qty", "1", "in"]], r"a \cdot 1\,\mathrm{in}", "a · 1 in"),
     (["-", ["-", A, B], C], r"a - b - c", "a − b − c"),
     (["-", A, ["+", B, C]], r"a - (b + c)", "a − (b + c)"),
     (["+", A, ["-", B, C]], r"a + b - c", "a + b − c"),

@@ -13,7 +13,7 @@ from diecut_report.languages.catalogues import UnknownLanguage
 from diecut_report.report import Rendering, html, render_html
 
 BAD = "<script>alert(1)</script>"
-VOID = {"meta", "img", "br", "col", "path", "use", "rect", "link", "mspace", "circle", "line", "input"}
+VOID = {"wbr", "meta", "img", "br", "col", "path", "use", "rect", "link", "mspace", "circle", "line", "input"}
 
 
 class Balance(HTMLParser):
@@ -81,7 +81,7 @@ def test_a_press_with_nothing_but_a_name_has_no_empty_table(plain: dict[str, Any
 
 
 def test_inputs_show_where_they_come_from(html: str) -> None:
-    assert "${press.sheet.length}" in html
+    assert "${press.sheet.length}" in re.sub(r"</?(?:wbr|span)[^>]*>", "", html)  # a line may break behind its dots
     assert "default, from press.productivity" in html
 
 

@@ -66,6 +66,10 @@ def assert_parts(run: Any, wanted: dict[str, Any]) -> None:
     for name in run.calculations:
         data = mechanisms[name]
         shown = run.outputs(name), run.curves(name), run.figures(name), run.sections(name)
+        keys = {each: output for each, output in data["outputs"].items() if "key" in output}
+        assert results_text({"": run.key_outputs(name)}) == results_text({"": keys}) and [*run.key_outputs(name)] == [
+            *keys
+        ]
         assert results_text({"": shown}) == results_text(
             {"": [data[key] for key in ("outputs", "curves", "figures", "sections")]}
         )
@@ -168,6 +172,53 @@ def test_an_example_and_edits_of_it_give_what_the_ordinary_way_gives(path: Path)
     for edited in edits(config, few_edits, seed=len(path.stem)):
         assert_same(press, edited)
     assert_same(press, config)
+
+
+GEARS = (
+    "  a: {kind: gear_pair, module: 4 mm, teeth_1: 35, teeth_2: 212, face_width: 40 mm, torque: 12 N*m, shift_1: 0.1,\n"
+    "      sigma_h_lim_1: 767 MPa, sigma_h_lim_2: 767 MPa, sigma_f_lim_1: 314 MPa, sigma_f_lim_2: 314 MPa}\n"
+)
+PRESS = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press")
+TO_AND_FRO = [
+    (
+        HEAD + GEARS,
+        [
+            ("12 N*m", "[1, 2, 3, -4]"),
+            (" shift_1: 0.1,", ""),
+            ("[1, 2, 3, -4]", "11 N*m"),
+        ],
+    ),
+    *few(
+        [
+            (
+                PRESS.read_text("utf-8"),
+                [
+                    ("6000 1/h", "5900 1/h"),
+                    ("cycloidal #", "modified_sine #"),
+                    ("5900 1/h", "5950 1/h"),
+                    ("    radius: 105 mm #", "    #"),
+                    ("driver_teeth: {value: 20", "driver_teeth: {value: 21"),
+                    ("shoe_friction: 0.35", "shoe_friction: 0.34"),
+                    ("flywheel_material: cast_iron", "flywheel_material: steel"),
+                    ("modified_sine #", "cycloidal #"),
+                    ("5950 1/h", "6000 1/h"),
+                ],
+            )
+        ],
+        lambda _: False,
+    ),
+]
+
+
+@pytest.mark.parametrize(("text", "changes"), TO_AND_FRO, ids=["gears", "press"])
+def test_changes_one_after_the_other_give_what_the_ordinary_way_gives(
+    text: str, changes: list[tuple[str, str]], tmp_path: Path
+) -> None:
+    """Also such as alter what is calculated: a number becomes a list, a list grows, a key is left out, another text is chosen."""
+    press = WarmPress()
+    for old, new in [("", ""), *changes]:
+        text = text.replace(old, new, 1) if old else text
+        assert_same(press, loaded(tmp_path, text, Discovery([])))
 
 
 BREAKS = TWO + (

@@ -94,6 +94,7 @@ class Domain:
     intervals: int = INTERVALS
     edges: Array = field(init=False)
     joints: Array = field(init=False)
+    _made: tuple[Array, Array, Array] | None = field(init=False, default=None, repr=False, compare=False)
 
     def __post_init__(self) -> None:
         self.edges = self.joints = np.concatenate([np.zeros_like(self.period), self.period], axis=1)
@@ -125,7 +126,9 @@ class Domain:
         if not places.shape[1] or (is_place.any() and _all_near(known, inside, SAME * self.period)):
             return known
         edges = np.sort(np.concatenate([known, inside], axis=1), axis=1)
-        for i in range(1, edges.shape[1] - 1):  # one place that came twice, with other rounding, stays one
+        steps = np.diff(edges[:, :-1], axis=1)
+        is_twice = ((steps > 0) & (steps < SAME * self.period)).any()
+        for i in range(1, edges.shape[1] - 1 if is_twice else 1):  # one place that came with other rounding stays one
             close = edges[:, i] - edges[:, i - 1] < SAME * self.period[:, 0]
             edges[:, i] = np.where(close, edges[:, i - 1], edges[:, i])
         return _without_doubles(edges)
@@ -157,9 +160,7 @@ class Domain:
 
     def middle_piece_of(self, x: Array, rows: Array | None = None) -> Array:
         """Return which piece that is, (rows, points)."""
-        edges = _of(self.edges, rows)
-        last = np.sum(edges < edges[:, -1:], axis=1, keepdims=True) - 1
-        found: Array = np.minimum(piece_of(edges, x), last)
+        found: Array = np.minimum(piece_of(_of(self.edges, rows), x), _of(self._pieces[2], rows))
         return found
 
     def placed(self, share: Array, middle: Array, rows: Array | None) -> tuple[Array, Array, Inside | None]:
@@ -179,7 +180,16 @@ class Domain:
     @property
     def middles(self) -> Array:
         """Return the middle of each piece, shape (variants, pieces)."""
-        return (self.edges[:, 1:] + self.edges[:, :-1]) / 2
+        return self._pieces[1]
+
+    @property
+    def _pieces(self) -> tuple[Array, Array, Array]:
+        """The edges with the middles of the pieces between them, and the number of the last piece that has a width: made once for edges."""
+        if self._made is None or self._made[0] is not self.edges:
+            edges = self.edges
+            last = np.sum(edges < edges[:, -1:], axis=1, keepdims=True) - 1
+            self._made = edges, (edges[:, 1:] + edges[:, :-1]) / 2, last
+        return self._made
 
     @property
     def widths(self) -> Array:

@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from functools import lru_cache
+
 import numpy as np
 
 from diecut_report.expressions import Array
@@ -31,12 +33,19 @@ def rises(gap: Array, places: Array) -> Array:
 
     The points without the end must tell the gap there: no bend hides between the end and the next point.
     """
-    inner = _weights(places[1:], places[:1])
+    inner, beside = _weights_beside_end(tuple(places.tolist()))
     tells = np.abs(gap[:, 1:] @ inner - gap[:, :1]) <= ALIKE * np.abs(gap[:, 1:2])
-    between = gap @ _weights(places, places[1] * BETWEEN)
+    between = gap @ beside
     rising = (np.abs(between) >= np.abs(gap[:, :1])) & ((between > 0) == (gap[:, 1:2] > 0))
     found: Array = (tells & rising).all(axis=1)
     return found
+
+
+@lru_cache(maxsize=16)
+def _weights_beside_end(places: tuple[float, ...]) -> tuple[Array, Array]:
+    """What the places of a grid count at its end, without that, and between the end and the next place."""
+    points = np.array(places)
+    return _weights(points[1:], points[:1]), _weights(points, points[1] * BETWEEN)
 
 
 def _weights(points: Array, places: Array) -> Array:

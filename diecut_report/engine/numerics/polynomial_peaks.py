@@ -5,7 +5,6 @@ from __future__ import annotations
 from typing import NamedTuple
 
 import numpy as np
-from numpy.polynomial.polynomial import polyder, polyval
 
 from diecut_report.engine.numerics.bracketing import Function
 from diecut_report.expressions import Array
@@ -63,7 +62,7 @@ def vertices(height_of: Function, spots: Spots) -> tuple[Array, Array, Array]:
     apart = np.where(at_end, BESIDE_APART, APART)
     shares = near + apart * np.array([[-1.0], [0.0], [1.0]])
     found = height_of(spots.place(shares).ravel(), np.tile(np.arange(len(near)), 3)).reshape(3, -1)
-    bend, third = (polyval(near, polyder(powers, order), tensor=False) for order in (2, 3))
+    bend, third = (_value(_derived(powers, order), near) for order in (2, 3))
     slope = (found[2] - found[0]) / (2 * apart) - apart**2 / 6 * third
     share = -slope / bend
     is_top = at_end | ((bend < 0) & (np.abs(share) < SHIFT) & (np.abs(near + share) <= 1))
@@ -86,7 +85,7 @@ def _follows(spots: Spots, powers: Array, shares: Array, found: Array) -> Array:
     """Whether the heights found are the polynomial's at all places of a spot."""
     centre = spots.around[:, REACH]
     allowed = FOLLOWS * np.abs(spots.around - centre[:, None]).max(axis=1) + ROUNDING * np.abs(centre)
-    apart: Array = np.abs(found - polyval(shares, powers, tensor=False)) - allowed
+    apart: Array = np.abs(found - _value(powers, shares)) - allowed
     follows: Array = apart.max(axis=0) <= 0
     return follows
 
@@ -96,10 +95,25 @@ def _top(powers: Array, inward: Array) -> Array:
 
     At the end of a piece, where the polynomial is even, from that of the parabola over the square.
     """
-    slope, bend = polyder(powers), polyder(powers, 2)
+    slope, bend = _derived(powers, 1), _derived(powers, 2)
     start = np.where(inward == 0, -powers[1] / (2 * powers[2]), inward * np.sqrt(np.abs(powers[2] / (2 * powers[4]))))
     share: Array = np.clip(start, -1, 1)
     for _ in range(3):
-        step = polyval(share, slope, tensor=False) / polyval(share, bend, tensor=False)
+        step = _value(slope, share) / _value(bend, share)
         share = np.clip(share - step, -1, 1)
     return share
+
+
+def _derived(powers: Array, order: int) -> Array:
+    """The coefficients of polynomials' derivatives; NumPy's own ways take several times as long for a few polynomials."""
+    for _ in range(order):
+        powers = powers[1:] * np.arange(1.0, len(powers))[:, None]
+    return powers
+
+
+def _value(powers: Array, x: Array) -> Array:
+    """The polynomials' values by Horner's rule."""
+    found: Array = powers[-1]
+    for coefficient in powers[-2::-1]:
+        found = coefficient + found * x
+    return found

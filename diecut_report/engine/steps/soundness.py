@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from math import isfinite
 from pathlib import Path
 
 import numpy as np
@@ -24,6 +25,9 @@ def possible(calc: Calculation) -> Array:
 
 def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> None:
     """Refuse a result that is not proved for a single machine; mark the variant among several."""
+    if calc.count == 1 and residual[0, 0] <= tolerance:
+        calc.proof[step.id] = max(float(residual[0, 0]), 0.0)
+        return
     unproved = ~(residual[:, 0] <= tolerance) & possible(calc)
     calc.proof[step.id] = float(np.max(residual[possible(calc) & ~unproved], initial=0.0))
     if unproved.any():
@@ -51,6 +55,8 @@ def finite(calc: Calculation, step: Step) -> None:
     """Require that no number of a possible machine is NaN or infinite, but for an absent output and the padding of crossings."""
     values = calc.values.get(step.id)
     if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
+        return
+    if values.size == 1 and isfinite(values.item()):
         return
     is_finite = np.isfinite(values)
     if is_finite.all():

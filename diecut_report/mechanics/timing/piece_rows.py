@@ -75,7 +75,7 @@ class PieceRows:
         found = np.empty(places.shape)
         ends = self._piece_of(np.stack([inside.min(axis=1), inside.max(axis=1)], axis=1), machine)
         alike = (ends[:, 0] == ends[:, 1]) & np.isfinite(inside).all(axis=1)
-        for rows in (np.flatnonzero(alike), np.flatnonzero(~alike)):
+        for rows in filter(len, (np.flatnonzero(alike), np.flatnonzero(~alike))):
             piece = ends[rows, :1] if alike[rows].all() else self._piece_of(inside[rows], machine[rows])
             found[rows] = self._in_pieces(piece, 2 * (places[rows] - self.low[piece]) / self.width[piece] - 1)
         return found

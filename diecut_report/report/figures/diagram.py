@@ -46,7 +46,7 @@ STROKES: tuple[tuple[str, Any, float], ...] = (  # more lines than there are her
 )
 LEVELS: tuple[Any, ...] = ((0, (8, 3)), (0, (2, 2)), (0, (8, 2, 1.5, 2)))
 UPRIGHT = (0, (4, 2.5))
-MARKS = "os^Dv"
+MARKS = "os^Dv<>pPX"
 HEAD, TITLE, ROW = 20.0, 17.0, 12.6  # points above a diagram: its head, in it the title, each row of a legend above it
 HANDLE, BESIDE, BETWEEN = (
     2.6,
@@ -73,7 +73,10 @@ class Diagram:
         self.names = LabelLayout(panel, self.frame)
         self.tags = self.names.tags if len(panel.lines) > 1 else []
         areas = [marked(panel.fills[index].label) for index in self.names.outside]
-        self.told = [tag for tag in self.tags if tag] + areas
+        notes = [panel.marks[index].text for index in self.names.told_marks]
+        notes += [panel.levels[index].text for index in self.names.told_levels]
+        notes += [panel.verticals[index].text for index in self.names.told_uprights]
+        self.told = [tag for tag in self.tags if tag] + areas + notes
         self.title = wrapped(self._title(), width)
         self.legend = legend(self.told, width, text_size(self.title)[0])
         self.across = wrapped(titled(*panel.across[:3]), width)
@@ -101,8 +104,7 @@ class Diagram:
         """Draw into axes; ``named`` puts numbers and a title below."""
         axes.set_xlim(self.frame.across)
         axes.set_ylim(self.frame.upwards)
-        handles = [*self._lines(axes), *self._areas(axes)]
-        self._notes(axes)
+        handles = [*self._lines(axes), *self._areas(axes), *self._notes(axes)]
         _ticks(axes, self.panel.across, self.frame, words)
         axes.tick_params(labelbottom=named)
         if named:
@@ -172,19 +174,27 @@ class Diagram:
                   label=marked(self.panel.fills[index].label)) for index in self.names.outside
         ]  # fmt: skip
 
-    def _notes(self, axes: Axes) -> None:
-        """The zero line, levels, vertical lines, marked points and ranges, without their texts."""
-        panel = self.panel
+    def _notes(self, axes: Axes) -> list[Line2D]:
+        """The zero line, levels, vertical lines, marked points and ranges, without their texts; those that the legend names."""
+        panel, marks, levels, uprights = self.panel, [], [], []
         axes.axhline(0, color=INK, linewidth=0.6, zorder=1)
         for index, level in enumerate(panel.levels):
-            axes.axhline(level.y, color=INK, linewidth=0.7, linestyle=LEVELS[index % len(LEVELS)], zorder=2)
+            levels.append(
+                axes.axhline(level.y, color=INK, linewidth=0.7, linestyle=LEVELS[index % len(LEVELS)], zorder=2)
+            )
         for upright in panel.verticals:
-            axes.axvline(upright.x, color=INK, linewidth=0.6, linestyle=UPRIGHT, zorder=2)
+            uprights.append(axes.axvline(upright.x, color=INK, linewidth=0.6, linestyle=UPRIGHT, zorder=2))
         for index, mark in enumerate(panel.marks):
-            axes.plot([mark.x], [mark.y], MARKS[index % len(MARKS)], markersize=4.5, markerfacecolor="white",
-                      markeredgecolor=INK, zorder=5, clip_on=False)  # fmt: skip
+            marks += axes.plot([mark.x], [mark.y], MARKS[index % len(MARKS)], markersize=4.5, markerfacecolor="white",
+                               markeredgecolor=INK, zorder=5, clip_on=False)  # fmt: skip
         for span in panel.spans:
             axes.axvspan(span.start, span.end, color=PALE, linewidth=0, zorder=0)
+        told = [(marks[index], panel.marks[index]) for index in self.names.told_marks]
+        told += [(levels[index], panel.levels[index]) for index in self.names.told_levels]
+        told += [(uprights[index], panel.verticals[index]) for index in self.names.told_uprights]
+        for handle, note in told:
+            handle.set_label(note.text)
+        return [handle for handle, _ in told]
 
 
 def legend(told: list[str], width: float, title: float) -> Legend | None:

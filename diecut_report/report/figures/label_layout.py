@@ -23,6 +23,7 @@ OVER_CURVE, OVER_NOTE = (
 )  # how much each point counts that a text covers: of a curve, of what is noted beside it
 AIR = 1.0
 WIDE_ENOUGH = 4.0  # between a line's name and the other lines, points
+IN_THE_WAY = 24.0  # what a text would cover: three points of a line; it stands in the legend then
 MARGIN = 8.0  # between a line's name and the frame
 
 
@@ -52,11 +53,16 @@ class LabelLayout:
         self._spans()
         self.tags = self._tags()
         self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
+        self.told_marks: list[
+            int
+        ] = []  # marks, levels and vertical lines whose names have no room, and stand in the legend
+        self.told_levels: list[int] = []
+        self.told_uprights: list[int] = []
         self._notes()
 
     def is_clear(self, text: str) -> bool:
-        """Return whether a text covers nothing."""
-        return not any(each.solid for each in self.texts if each.text == text)
+        """Return whether a text stands in the diagram and covers nothing."""
+        return any(each.text == text and not each.solid for each in self.texts)
 
     def _noted(self) -> Array:
         """Points of levels, vertical lines, marks and edges of areas."""
@@ -69,12 +75,20 @@ class LabelLayout:
         edges = [frame.points(area.x, area.y) for area in panel.fills]
         return np.concatenate([np.empty((0, 2)), *map(sampled, [*levels, *uprights, *marks, *edges])])
 
-    def _write(self, text: str, places: Iterator[tuple[float, float]], of: tuple[float, float] | None = None) -> None:
-        """Writes a text at the best of the places; over lines, where all are, so that they do not run through it."""
+    def _write(
+        self, text: str, places: Iterator[tuple[float, float]], of: tuple[float, float] | None = None, most: float = np.inf,
+    ) -> bool:  # fmt: skip
+        """Write a text at the best of the places; not where it would cover more than ``most``: whether it stands there.
+
+        Over lines, where all places are, nothing shows through it.
+        """
         size = text_size(text, SIZE)
         (x, y), cost = self.labels.best(size, places)
+        if cost > most:
+            return False
         self.labels.take((x, y), size)
         self.texts.append(LabelText(x, y, text, solid=cost > 0, leader=_leader((x, y), size, of) if of else None))
+        return True
 
     def _spans(self) -> None:
         """The names of ranges, at the edge and the place along it that is clear of the lines."""
@@ -89,19 +103,22 @@ class LabelLayout:
     def _notes(self) -> None:
         """Marks, levels and vertical lines."""
         frame, panel = self.frame, self.panel
-        for note in panel.marks:
-            if note.text:
-                x, y = map(float, frame.points(note.x, note.y))
-                size, room = text_size(note.text, SIZE), (frame.width, frame.height)
-                self._write(note.text, chain(around(x, y), anywhere(x, y, room, size)), (x, y))
-        for note in panel.levels:
-            if note.text:
-                height = float(frame.points(0, note.y)[1])
-                self._write(note.text, beside_level(height, frame.width, text_size(note.text, SIZE)))
-        for note in panel.verticals:
-            if note.text:
-                place = float(frame.points(note.x, 0)[0])
-                self._write(note.text, beside_vertical(place, frame.width, frame.height, text_size(note.text, SIZE)))
+        for index, note in enumerate(panel.marks):
+            x, y = map(float, frame.points(note.x, note.y))
+            size, room = text_size(note.text, SIZE), (frame.width, frame.height)
+            places = chain(around(x, y), anywhere(x, y, room, size))
+            if note.text and not self._write(note.text, places, (x, y), IN_THE_WAY):
+                self.told_marks.append(index)
+        for index, note in enumerate(panel.levels):
+            height = float(frame.points(0, note.y)[1])
+            places = beside_level(height, frame.width, text_size(note.text, SIZE))
+            if note.text and not self._write(note.text, places, most=IN_THE_WAY):
+                self.told_levels.append(index)
+        for index, note in enumerate(panel.verticals):
+            at = float(frame.points(note.x, 0)[0])
+            places = beside_vertical(at, frame.width, frame.height, text_size(note.text, SIZE))
+            if note.text and not self._write(note.text, places, most=IN_THE_WAY):
+                self.told_uprights.append(index)
 
     # areas
     def _inside(self, area: Line) -> bool:

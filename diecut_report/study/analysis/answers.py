@@ -13,6 +13,7 @@ from typing import Any
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import say
 from diecut_report.quantities.units import unit
 from diecut_report.study.analysis.question import Question, Row
 from diecut_report.study.analysis.stored_variants import FIXED, Stored, StoredColumn
@@ -137,7 +138,7 @@ def as_workbook(stored: Stored, question: Question, notation: Notation) -> bytes
             sheet_columns=SHEET_COLUMNS,
         )
         raise UserError(Problem(words))
-    return workbook({"variants": [[notation.head(column) for column in question.columns], *rows]})
+    return workbook({say("variants"): [[notation.head(column) for column in question.columns], *rows]})
 
 
 def side_by_side(stored: Stored, question: Question, notation: Notation) -> tuple[list[Any], list[list[Any]]]:

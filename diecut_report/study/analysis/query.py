@@ -16,6 +16,7 @@ from diecut_report.study.analysis.question import Question, Request, question
 from diecut_report.study.analysis.stored_variants import Stored, opened
 from diecut_report.study.storage.spreadsheets import workbook
 from diecut_report.study.storage.state import read_state
+from diecut_report.study.storage.state_form import continuing
 
 FORMATS = ("table", "csv", "json")
 
@@ -82,8 +83,8 @@ def answer_workbook(directory: Path, asked: Request, notation: Notation = SI, *,
         found = question(stored, asked, is_table=False)
         if not transposed:
             return as_workbook(stored, found, notation)
-        head, lines = side_by_side(stored, found, notation)
-        return workbook({"variants": [head, *lines]})
+        (_, _, *numbers), lines = side_by_side(stored, found, notation)
+        return workbook({say("variants"): [[say("quantity"), say("unit"), *numbers], *lines]})
 
 
 def unfinished(directory: Path) -> Iterator[str]:
@@ -93,11 +94,10 @@ def unfinished(directory: Path) -> Iterator[str]:
         parts, rows, chunk = len(list((directory / "variants").glob("part-*.parquet"))), state["rows"], state["chunk"]
         yield (
             Phrase(
-                "This study is not finished: {parts} of {all} parts are calculated. Go on with: diecut-report "
-                "batch --resume {directory}",
+                "This study is not finished: {parts} of {all} parts are calculated. Go on with: {continued}",
                 parts=parts,
                 all=-(-rows // chunk),
-                directory=directory,
+                continued=continuing(directory, state["columns"]),
             )
         )
 

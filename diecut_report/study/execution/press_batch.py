@@ -24,7 +24,7 @@ from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.plausible import without_rounding
-from diecut_report.results.press_run import Run
+from diecut_report.results.press_run import Run, Tell
 from diecut_report.results.taken_over import Absent, number, output, require_facts
 from diecut_report.study.definition.base_inputs import Input, with_values
 
@@ -77,8 +77,14 @@ class CalculatedVariants:
             calculation.release()
 
 
-def calculated(base: Config, values: Values, count: int) -> CalculatedVariants:
+def untold(_name: str) -> None:
+    """Tell nobody which mechanism comes next."""
+
+
+def calculated(base: Config, values: Values, count: int, tell: Tell = untold) -> CalculatedVariants:
     """Calculate all mechanisms of the base for so many variants: numbers as arrays of shape (count,), SI; texts the same for all.
+
+    ``tell`` is called with the name of each mechanism before it is calculated; what it raises ends the calculation.
 
     Raises ``NotOnArrays`` where a plugin cannot take arrays, ``Mixed`` where not all variants are calculated in the same way.
     """
@@ -88,7 +94,7 @@ def calculated(base: Config, values: Values, count: int) -> CalculatedVariants:
     if problems:
         variants.reasons = dict.fromkeys(range(count), _words(problems[0]))
         return variants
-    run = _Rows(config, variants)
+    run = _Rows(config, variants, tell)
     variants.calculations = run.calculations
     return variants
 
@@ -98,9 +104,9 @@ class _Rows(Run):
 
     _number = staticmethod(np.asarray)
 
-    def __init__(self, config: Config, variants: CalculatedVariants) -> None:
+    def __init__(self, config: Config, variants: CalculatedVariants, tell: Tell) -> None:
         self.variants = variants
-        super().__init__(config, lambda _: None)
+        super().__init__(config, tell)
         self._all_wrong(self.problems)
 
     def _comparisons(self) -> None:
@@ -123,7 +129,7 @@ class _Rows(Run):
         if column.dtype == object:
             if self.variants.count == 1:
                 return column[0]
-            raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
+            raise NotOnArrays(calculation.mechanism.kind, Phrase("its text {name} is referred to", name=name))
         return SI(without_rounding(column.astype(float), str(target.unit)), str(target.unit), target.path)
 
     def _phase(self, calculation: Calculation, name: str, target: Target) -> PhaseHandle:
@@ -198,6 +204,7 @@ class _Rows(Run):
         assert instance.mechanism is not None
         if len(self.variants.reasons) == self.variants.count:
             return
+        self.tell(name)
         try:
             with of_plugin(instance.mechanism.kind):
                 found = calculate(instance.mechanism, flatten(block), self.variants.count)

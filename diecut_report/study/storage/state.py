@@ -27,7 +27,7 @@ from diecut_report.study.storage.description import (
     from_data,
     libraries,
 )
-from diecut_report.study.storage.state_form import MEND, check_form
+from diecut_report.study.storage.state_form import MEND, check_form, continuing
 
 STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
 MAX_STATE = 100_000_000  # bytes of study.json; ten thousand columns take some two million
@@ -65,9 +65,8 @@ def read_state(folder: Path, *, sealed: bool = True) -> Data:
     if sealed and not is_sealed(found):
         words = Phrase(
             "This file has been changed since the program wrote it, so that what it says of the results may "
-            "be wrong. Put it back as it was, or let the program write it anew: diecut-report batch "
-            "--resume {folder}",
-            folder=folder,
+            "be wrong. Put it back as it was, or let the program write it anew: {continued}",
+            continued=continuing(folder, found["columns"]),
         )
         raise UserError(Problem(words, str(path)))
     return dict(found)
@@ -118,11 +117,11 @@ def kept(folder: Path) -> dict[str, Path]:
     found = copies(folder, description)
     for path, source in found.items():
         if source.content is None:
-            continued = Phrase("diecut-report batch STUDY --resume {folder}", folder=folder)
+            columns = dict.fromkeys(column.name for column in description.columns)
             words = Phrase(
                 "This copy of {file} is missing or has changed. Continue with the study itself: {continued}",
                 file=source.file,
-                continued=continued,
+                continued=continuing(folder, columns, "STUDY "),
             )
             raise UserError(Problem(words, str(path)))
     return {source.file: path for path, source in found.items() if source is not description.study}

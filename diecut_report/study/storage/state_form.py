@@ -95,6 +95,15 @@ class StateForm(_Form):
     counts: NotedCounts | None = None
 
 
+SEARCHED = "violation"  # the column that only the machines of a search have
+
+
+def continuing(folder: object, columns: object, study: str = "") -> str:
+    """Return the command that goes on with the run of a folder whose results have these columns by name, of a study or of a search."""
+    is_search = isinstance(columns, Mapping) and SEARCHED in columns
+    return f"diecut-report {'optimise' if is_search else 'batch'} {study}--resume {folder}"
+
+
 def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
     """Refuse what is no study.json: UserError with the file, the key, what was given and what is allowed.
 
@@ -114,7 +123,9 @@ def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
         raise _told(disagreeing, file)
     if is_final and found.state == "complete" and (faults := list(_incomplete(found))):
         raise _told(
-            faults, file, Phrase("Let the program mend it: diecut-report batch --resume {parent}", parent=file.parent)
+            faults,
+            file,
+            Phrase("Let the program mend it: {continued}", continued=continuing(file.parent, found.columns)),
         )
 
 
