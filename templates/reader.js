@@ -308,6 +308,7 @@
       });
       if (boxes.length) { wait(some); } else { root.dataset.reached = "all"; }
     }
+    delete root.dataset.reached;
     wait(some);
   }
 
@@ -629,4 +630,5 @@
   data.moving.forEach(movable);
   reach();
   window.addEventListener("resize", reach);
+  document.addEventListener("toggle", reach, true); // what is unfolded is measured then
 }());

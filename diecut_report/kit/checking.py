@@ -12,7 +12,7 @@ from diecut_report.config.discovery import Discovery, DuplicateKind, Origin, Unk
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.kit.example_machines import machine_beside, named_machine
-from diecut_report.kit.missing_words import write_missing
+from diecut_report.kit.missing_words import refuse_own, write_missing
 from diecut_report.languages.phrases import Phrase
 from diecut_report.languages.speech import said
 from diecut_report.testing.contract import ContractTest
@@ -118,6 +118,8 @@ def checked(
     """
     origin = known.origins[kind][0]
     found = CheckedPlugin(kind, origin.told)
+    if write_po:
+        refuse_own(origin)
     try:
         known.extend()
         found.mechanism = known.mechanism(kind)

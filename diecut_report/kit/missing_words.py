@@ -17,11 +17,15 @@ from diecut_report.testing.contract import ContractTest
 LARGEST = 10_000_000  # bytes of a catalogue
 
 
-def write_missing(test: ContractTest, origin: Origin) -> dict[Path, int]:
-    """Write the entries that a plugin's catalogues lack; how many, by the file. UserError where the plugin is the program's own."""
+def refuse_own(origin: Origin) -> None:
+    """Refuse to write into catalogues of the program itself: UserError says why."""
     if origin.is_own:
         words = "{kind} comes with the program, whose catalogues are made by its own tool."
-        raise UserError(Problem(Phrase(words, kind=test.mechanism.kind)))
+        raise UserError(Problem(Phrase(words, kind=origin.kind)))
+
+
+def write_missing(test: ContractTest, origin: Origin) -> dict[Path, int]:
+    """Write the entries that a plugin's catalogues lack; how many, by the file."""
     found = {file: (text, count) for file, text, count in _added(test, origin.file()) if count}
     write_all({file: text for file, (text, _) in found.items()}, keep=None)
     return {file: count for file, (_, count) in found.items()}

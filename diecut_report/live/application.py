@@ -47,6 +47,7 @@ class LiveApplication:
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="live")
         self._changed = asyncio.Condition()
         self._told = -1, b""
+        self._is_reading = False
         self._waiting = 0  # how much is to be done that a hand waits for
         self._is_ending = asyncio.Event()
         routes = [
@@ -105,7 +106,12 @@ class LiveApplication:
     async def _read_where_changed(self, before: dict[Path, object]) -> dict[Path, object]:
         now = await self._done(self._marks)
         if now != before:
-            await self._done(self.session.read)
+            self._is_reading = True
+            await self._tell()
+            try:
+                await self._done(self.session.read)
+            finally:
+                self._is_reading = False
             await self._tell()
         return await self._done(self._marks)
 
@@ -152,7 +158,7 @@ class LiveApplication:
                 if self.session.serial == serial:
                     with suppress(TimeoutError):
                         await asyncio.wait_for(self._changed.wait(), ALIVE)
-            yield b": still here\n\n"
+            yield b"event: busy\ndata: 1\n\n" if self._is_reading else b": still here\n\n"
 
     # --- what is asked -----------------------------------------------------------------------------------------------
 

@@ -6,7 +6,7 @@ Letters come as outlines. What a figure may hold beyond the elements below (a pa
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from functools import cache
 from importlib import import_module
 from math import cos, radians, sin
@@ -114,7 +114,7 @@ class _SvgOperators:
     def text(self, node: ElementTree.Element, style: Style) -> None:
         """Draw a line of text, or the letters of a formula, each at its place."""
         letters = list(_placed(node, style))
-        self.texts.append("".join(part.text or "" for part in ([node] if node.text else node)))
+        self.texts.append("".join(part.text or "" for part in _parts(node)))
         self._paint(_transform(node) + _fill(style) + " ".join(letters), style)
 
     def _paint(self, operators: str, style: Style) -> None:
@@ -210,9 +210,14 @@ def _turned(turn: float, x: float = 0.0, y: float = 0.0) -> str:
     return f"{c:.6g} {s:.6g} {-s:.6g} {c:.6g} {x - c * x + s * y:.6g} {y - s * x - c * y:.6g} cm "
 
 
+def _parts(node: ElementTree.Element) -> Iterable[ElementTree.Element]:
+    """What holds the letters of a text: itself, or elements within it."""
+    return [node] if node.text and node.text.strip() else node
+
+
 def _placed(node: ElementTree.Element, style: Style) -> Iterator[str]:
     """The letters of a text: in a line from its place, or those of its parts, each where it says."""
-    for part in [node] if node.text and node.text.strip() else node:
+    for part in _parts(node):
         look = _styled(part, style)
         size, letters = float(look["font-size"].removesuffix("px")), part.text or ""
         glyphs = [_glyph(letter, look["font-family"].strip("'\"")) for letter in letters]

@@ -76,7 +76,13 @@
     post("change", { changes: changes }).then(function () { wrong(changes, ""); }, function (fault) {
       failed(fault);
       wrong(changes, fault.refused || "");
-    }).then(function () { sending = false; flying = {}; ready(); send(); });
+    }).then(function () {
+      sending = false;
+      flying = {};
+      ready();
+      if (state.machine) { inputs(); }  /* the state may have come before the answer */
+      send();
+    });
   }
 
   /* What takes longer than a moment is said. */
@@ -471,11 +477,13 @@
   var source = new EventSource("events");
   source.onmessage = function (event) {
     state = JSON.parse(event.data);
+    if (!sending) { ready(); }
     if (isLost || (saidAt !== null && saidAt !== state.serial)) { isLost = false; say(""); }
     show();
     asks();
     document.body.dataset.serial = state.serial;
   };
+  source.addEventListener("busy", busy);
   source.onerror = function () { isLost = true; say(t("lost")); };
 
   byId("write").addEventListener("click", function () { act("write").then(function (isDone) { if (isDone) { say(t("written", { file: state.file }), true); } }); });

@@ -72,8 +72,13 @@ class Opened:
             for (const number of Object.keys(data.figures)) { const figure = document.getElementById("fig-" + number);
                 figure.scrollIntoView();
                 while (!figure.querySelector(".r-chart canvas")) { await new Promise(done => setTimeout(done, 20)); } }
-            while (!document.documentElement.dataset.reached) { await new Promise(done => setTimeout(done, 20)); }
             scrollTo(0, 0); }""")
+        self.settled()
+
+    def settled(self) -> None:
+        """Wait until the page has measured what scrolls."""
+        self.page.evaluate("""async () => { await new Promise(done => setTimeout(done, 100));
+            while (!document.documentElement.dataset.reached) { await new Promise(done => setTimeout(done, 20)); } }""")
 
 
 def _results(report: Path) -> dict[str, Any]:
@@ -89,6 +94,7 @@ def test_the_page_breaks_nothing_asks_for_nothing_and_axe_finds_nothing_serious(
     opened = Opened(browser, report, viewport=size, color_scheme=scheme)
     opened.scrolled()
     opened.page.locator("#all-checks > summary").click()
+    opened.settled()
     assert opened.said == []
     assert [url for url in opened.asked if not url.startswith(("data:", "file:"))] == []
     assert opened.page.evaluate("document.documentElement.scrollWidth") <= size["width"]

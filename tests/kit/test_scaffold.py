@@ -196,8 +196,9 @@ def test_what_is_there_is_not_written_over(tmp_path: Path, monkeypatch: pytest.M
 
 
 @pytest.mark.nightly
-def test_a_package_is_installed_checked_run_reported_and_batched(tmp_path: Path) -> None:
-    home, room = made(tmp_path, "--package"), tmp_path / "room"
+@pytest.mark.parametrize("like", LIKE)
+def test_a_package_is_installed_checked_run_reported_and_batched(tmp_path: Path, like: str) -> None:
+    home, room = made(tmp_path, "--package", "--like", like), tmp_path / "room"
     venv.create(room, with_pip=True)
     here = {key: value for key, value in os.environ.items() if key != "PYTHONPATH"}
 

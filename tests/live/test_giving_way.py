@@ -21,6 +21,26 @@ from tests.configs import EXAMPLES
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 
 
+def test_a_page_is_told_that_a_saved_file_is_being_calculated(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    session = LiveSession(file, Discovery([]))
+    made, read = LiveApplication(session, (), None), session.read
+    monkeypatch.setattr(session, "read", lambda: (time.sleep(0.2), read()))
+
+    async def told() -> list[bytes]:
+        stream = made._stream()
+        found = [await anext(stream)]
+        asking = asyncio.create_task(made._read_where_changed({}))
+        while not found[-1].startswith(b"data: ") or len(found) == 1:
+            found.append(await anext(stream))
+        await asking
+        return found
+
+    found = asyncio.run(asyncio.wait_for(told(), 60))
+    assert found[1] == b"event: busy\ndata: 1\n\n" and found[-1].startswith(b"data: ")
+
+
 def test_an_effect_gives_way_to_a_change_and_is_made_again_after_it(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:

@@ -59,7 +59,7 @@ def test_words_of_a_figure_are_told() -> None:
     parts = f'<tspan x="0 4" y="0" style="{style}">ab</tspan><tspan x="8" y="0" style="{style}">c</tspan>'
     picture = FigurePicture(
         _svg(
-            f'<text style="{style}" x="5" y="9" transform="rotate(-90 5 9)">crank pin</text><g><text>{parts}</text></g>'
+            f'<text style="{style}" x="5" y="9" transform="rotate(-90 5 9)">crank pin</text><g><text>\n{parts}</text></g>'
         ),
         100,
         50,

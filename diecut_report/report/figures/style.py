@@ -11,12 +11,11 @@ from typing import Any, NamedTuple
 
 import matplotlib as mpl
 import numpy as np
-from matplotlib.backends.backend_svg import FigureCanvasSVG
 from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties, fontManager
-from matplotlib.textpath import text_to_path
 from numpy.typing import NDArray
 
+from diecut_report.report.figures.text_writing import MEASURE, TextCanvas
 from diecut_report.report.number_format import tidy
 from diecut_report.report.symbols import SYMBOL
 
@@ -71,7 +70,7 @@ def load_fonts() -> None:
 def canvas(width: float, height: float) -> Figure:
     """An empty figure of a size in points."""
     figure = Figure(figsize=(width / 72, height / 72))
-    FigureCanvasSVG(figure)
+    TextCanvas(figure)
     return figure
 
 
@@ -157,7 +156,7 @@ def wrapped(text: str, width: float, size: float = FONT_SIZE) -> str:
 
 def _line_size(text: str, size: float) -> tuple[float, float]:
     math = text.count("$") - text.count(r"\$") >= 2
-    width, height, _ = text_to_path.get_text_width_height_descent(
+    width, height, _ = MEASURE.get_text_width_height_descent(
         text, FontProperties(family="Report Sans", size=size), ismath=math
     )
     return float(width), max(float(height), 1.08 * size)
