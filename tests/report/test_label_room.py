@@ -162,11 +162,6 @@ def test_a_name_that_stands_away_from_its_mark_has_a_line_to_it() -> None:
 
 
 @pytest.mark.usefixtures("style")
-def test_lines_do_not_run_through_a_name_that_has_no_room_beside_them() -> None:
-    assert next(text for text in _crowded().texts if text.text == "allowed").solid
-
-
-@pytest.mark.usefixtures("style")
 def test_a_name_does_not_cover_a_curve_however_narrow_the_diagram() -> None:
     """A falling curve, above it the names of two verticals: a mark's name has room across both of them, or in the legend."""
     x = np.linspace(0.02, 0.9, 200)
