@@ -162,6 +162,21 @@ def test_a_name_that_stands_away_from_its_mark_has_a_line_to_it() -> None:
 
 
 @pytest.mark.usefixtures("style")
+def test_a_name_does_not_cover_a_curve_however_narrow_the_diagram() -> None:
+    """A falling curve, above it the names of two verticals: a mark's name has room across both of them, or in the legend."""
+    x = np.linspace(0.02, 0.9, 200)
+    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.02, 0.9), lines=[Line(x, 0.4 / (x + 0.4), "")],
+                      marks=[Note(0.4444, 0.4 / 0.8444, "this machine 0.2727 (0.4444)")],
+                      verticals=[Note(0.54, 0.0, "return too short"), Note(0.6, 0.0, "no return")])  # fmt: skip
+    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
+    curve = np.concatenate(layout.lines)
+    for text in layout.texts:
+        wide, high = text_size(text.text, text.size)
+        assert not ((np.abs(curve[:, 0] - text.x) < wide / 2) & (np.abs(curve[:, 1] - text.y) < high / 2)).any()
+    assert len(layout.texts) + len(layout.told_marks) + len(layout.told_uprights) == 3
+
+
+@pytest.mark.usefixtures("style")
 def test_a_vertical_line_through_several_diagrams_is_named_once() -> None:
     each = panel(
         "y", "N", ("Angle", "φ", "deg"), lines=[line([0, 1], [0, 1])], verticals=[{"x": 0.5, "label": "contact"}]

@@ -79,7 +79,7 @@ def _named_once(drawn: list[Diagram]) -> list[Diagram]:
         for note in diagram.panel.verticals:
             places.setdefault((note.x, note.text), []).append(index)
     kept = {key: next((i for i in found if drawn[i].names.is_clear(key[1])), found[0]) for key, found in places.items()}
-    return [diagram.naming({key for key, at in kept.items() if at == i}) for i, diagram in enumerate(drawn)]
+    return [diagram.naming({key for key, i in kept.items() if i == index}) for index, diagram in enumerate(drawn)]
 
 
 def _of_curves(panel: Data, curves: Data, over: Data, words: Catalogue) -> PanelData:

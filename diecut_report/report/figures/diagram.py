@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Collection
 from dataclasses import replace
 from typing import Any, NamedTuple
 
@@ -87,8 +88,8 @@ class Diagram:
             HEAD + further(self.title) + (0.0 if self.legend is None or self.legend.beside else self.legend.rows * ROW)
         )
 
-    def naming(self, named: set[tuple[float, str]]) -> Diagram:
-        """Return the diagram with names of those vertical lines (place and name) alone."""
+    def naming(self, named: Collection[tuple[float, str]]) -> Diagram:
+        """Return the diagram with the names of those vertical lines alone, told by their places and texts."""
         kept = [note if (note.x, note.text) in named else note._replace(text="") for note in self.panel.verticals]
         if kept == self.panel.verticals:
             return self

@@ -53,16 +53,15 @@ class LabelLayout:
         self._spans()
         self.tags = self._tags()
         self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
-        self.told_marks: list[
-            int
-        ] = []  # marks, levels and vertical lines whose names have no room, and stand in the legend
+        # marks, levels and vertical lines whose names have no room, and stand in the legend
+        self.told_marks: list[int] = []
         self.told_levels: list[int] = []
         self.told_uprights: list[int] = []
         self._notes()
 
     def is_clear(self, text: str) -> bool:
-        """Return whether a text covers nothing."""
-        return not any(each.solid for each in self.texts if each.text == text)
+        """Return whether a text stands in the diagram and covers nothing."""
+        return any(each.text == text and not each.solid for each in self.texts)
 
     def _noted(self) -> Array:
         """Points of levels, vertical lines, marks and edges of areas."""
