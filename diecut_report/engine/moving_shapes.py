@@ -96,5 +96,11 @@ def _placed(rigid: Shape) -> list[Shape]:
             case "point":
                 placed.append(point(of(shape["at"]), shape["role"], shape.get("label", "")))
             case kind:
-                raise Undrawable(f"{kind!r} cannot be part of what is rigid; it takes {', '.join(MOVABLE)}")
+                raise Undrawable(
+                    Phrase(
+                        "{kind} cannot be part of what is rigid; it takes {movable}",
+                        kind=repr(kind),
+                        movable=", ".join(MOVABLE),
+                    )
+                )
     return placed

@@ -15,7 +15,7 @@ from diecut_report.files import write_all
 from diecut_report.given_files import content
 from diecut_report.languages import po_files
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, file_beside, languages
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.testing.contract import ContractTest
 
 LARGEST = 10_000_000  # bytes of a catalogue
@@ -50,4 +50,4 @@ def _with(file: Path, entries: Catalog) -> bytes:
         return po_files.written(entries)
     stream = BytesIO()
     write_po(stream, entries, width=po_files.WIDTH, omit_header=True)
-    return content(file, LARGEST, "a catalogue of texts").rstrip(b"\n") + b"\n\n" + stream.getvalue()
+    return content(file, LARGEST, phrase("a catalogue of texts")).rstrip(b"\n") + b"\n\n" + stream.getvalue()
