@@ -18,9 +18,9 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase, phrase
 
 KINDS = {
-    stat.S_IFREG: "a file",
-    stat.S_IFDIR: "a folder",
-    stat.S_IFLNK: "a link",
+    stat.S_IFREG: phrase("a file"),
+    stat.S_IFDIR: phrase("a folder"),
+    stat.S_IFLNK: phrase("a link"),
     stat.S_IFIFO: phrase("a pipe and no regular file"),
     stat.S_IFCHR: phrase("a device and no regular file"),
     stat.S_IFBLK: phrase("a device and no regular file"),

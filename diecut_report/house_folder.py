@@ -60,7 +60,7 @@ def _text(path: Path) -> str:
 
 
 def _picture(path: Path) -> str:
-    found = content(path, MOST, "a picture")
+    found = content(path, MOST, phrase("a picture"))
     try:
         media = media_type(found)
     except PictureFault as fault:

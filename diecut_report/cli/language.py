@@ -12,7 +12,7 @@ from diecut_report.cli import completion
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, languages
 from diecut_report.languages.phrases import Phrase
-from diecut_report.languages.speech import speak
+from diecut_report.languages.speech import say, speak
 
 VARIABLE = "DIECUT_REPORT_LANGUAGE"
 LOCALES = ("LC_ALL", "LC_MESSAGES", "LANG")  # as gettext has it: the first that is set
@@ -48,7 +48,7 @@ def _language(context: click.Context, _: click.Parameter, given: str | None) -> 
     try:
         context.meta[ASKED] = known(given)
     except UnknownLanguage as error:
-        raise click.BadParameter(f"{error}") from None
+        raise click.BadParameter(say("The language {error}.", error=error)) from None
     speak(given)
 
 

@@ -46,7 +46,6 @@ from diecut_report.cli.output import (
     tell,
     tell_problems,
     tell_written,
-    usage,
     without_output,
 )
 from diecut_report.cli.progress import Progress
@@ -54,6 +53,7 @@ from diecut_report.cli.report_options import detail_given, only_given, report_fo
 from diecut_report.cli.signing import sign
 from diecut_report.cli.study import batch, take, variants
 from diecut_report.cli.template import template_option
+from diecut_report.cli.usage import usage
 from diecut_report.cli.validating import validate
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError

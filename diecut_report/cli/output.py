@@ -79,17 +79,6 @@ def tell_problems(problems: Sequence[Problem]) -> None:
         )
 
 
-def usage(error: click.ClickException) -> list[str]:
-    """Return what click says of wrong usage; of its last part, which repeats what was given, no line stands for itself."""
-    said = io.StringIO()
-    error.show(said)
-    head, found, _ = f"\n{said.getvalue()}".partition("\nError: ")
-    return [
-        *head[1:].splitlines(),
-        *([f"Error: {error.format_message()}"] if found else []),
-    ]
-
-
 def _told(text: str) -> str:
     return text if isinstance(text, Coloured) else re.sub(r"\n(?! )", "\n    ", shown(cut(said(text))))
 

@@ -18,12 +18,12 @@ from diecut_report.conditions.words import ConditionError, calculation
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import Kind, unit
 
-WITHOUT_VALUE = "a division by zero, the root of a number below zero, or a number too large to calculate with"
+WITHOUT_VALUE = phrase("a division by zero, the root of a number below zero, or a number too large to calculate with")
 
 WORDS = (
     ("the condition ", "the expression "),
     ("Write several conditions.", "Write it in a simpler way."),
-    ("a name, a number or a quantity", "a reference, a number or a quantity"),
+    (phrase("a name, a number or a quantity"), phrase("a reference, a number or a quantity")),
 )
 
 

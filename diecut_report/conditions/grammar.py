@@ -29,7 +29,7 @@ from diecut_report.conditions.words import (
 )
 from diecut_report.languages.phrases import Phrase, phrase
 
-OPERAND = "a name, a number or a quantity"
+OPERAND = phrase("a name, a number or a quantity")
 _SIGNS = {"=": "==", "<>": "!=", "≠": "!=", "≤": "<=", "≥": ">=", "^": "**", "−": "-"}
 _JOINING = ("**", "<=", ">=", "==", "!=", "<", ">", "+", "-", "*", "/")
 _BEFORE_NOT = ("and", "or", "not", "(")

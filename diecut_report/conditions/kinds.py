@@ -24,4 +24,4 @@ def told_kind(kind: Kind, own: str = "") -> str:
     if kind == NUMBER:
         return phrase("a pure number")
     named = unit(own) if own else None
-    return kind_name(named if named and named.kind == kind else Unit("", 1.0, si_text(kind), kind))
+    return phrase(kind_name(named if named and named.kind == kind else Unit("", 1.0, si_text(kind), kind)))

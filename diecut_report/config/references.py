@@ -24,7 +24,7 @@ from diecut_report.contract.inputs import Block, CurveInput, FromPress, Mechanis
 from diecut_report.contract.result_names import count_name, has_own_names, named, names_ahead
 from diecut_report.contract.varying import Varying
 from diecut_report.errors import Problem, nearest
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import pretty, unit
 
 PHASES = "phases"
@@ -144,7 +144,7 @@ class Linker:
         assert isinstance(slot.meta, Quantity)
         field, key = default.path.removeprefix(f"{PRESS}."), slot.key[-1]
         message = (Phrase("{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}.", key=key,
-            field=field, text=pretty(slot.meta.unit) or 'a number', path=default.path))  # fmt: skip
+            field=field, text=pretty(slot.meta.unit) or phrase("a number"), path=default.path))  # fmt: skip
         return instance.place.absent(slot.key, message)
 
     # --- what a path stands for --------------------------------------------------------------------------------------

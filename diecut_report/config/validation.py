@@ -270,8 +270,9 @@ class _Fault:
         return Phrase("a text ({description})", description=phrase(meta.description))
 
     def _needed(self) -> str:
-        kinds = {"bool": phrase("true or false"), "int": phrase("a whole number"), "float": "a number", "string": "a text", "list": "a list",
-                 "dict": phrase("a block of keys"), "model": phrase("a block of keys")}  # fmt: skip
+        kinds = {"bool": phrase("true or false"), "int": phrase("a whole number"), "float": phrase("a number"),
+                 "string": phrase("a text"), "list": phrase("a list"), "dict": phrase("a block of keys"),
+                 "model": phrase("a block of keys")}  # fmt: skip
         known = kinds.get(self.type.split("_")[0])
         if known:
             return known
@@ -293,7 +294,7 @@ def told(given: Any) -> str:
         case str():
             return f"“{given}”" if len(given) <= SHOWN else f"“{given[: SHOWN - 1]}…”"
         case list():
-            return "a list"
+            return phrase("a list")
         case dict():
             return phrase("a block of keys")
     return f"{given}"

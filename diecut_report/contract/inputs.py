@@ -97,7 +97,7 @@ class Quantity:
                     pretty=pretty(self.unit), told=told))  # fmt: skip
             case bool() | list() | dict():
                 kind = (
-                    "a list"
+                    phrase("a list")
                     if isinstance(given, list)
                     else phrase("a block of keys")
                     if isinstance(given, dict)

@@ -45,4 +45,6 @@ def _refused(files: Mapping[Path, bytes], folder: Path) -> Iterator[Problem]:
 
 
 def _is_same(path: Path, wanted: bytes) -> bool:
-    return path.is_file() and path.stat().st_size == len(wanted) and content(path, len(wanted), "a file") == wanted
+    return (
+        path.is_file() and path.stat().st_size == len(wanted) and content(path, len(wanted), phrase("a file")) == wanted
+    )

@@ -10,7 +10,7 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.files import write_all
 from diecut_report.given_files import content
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, file_beside, languages
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.po_files import added
 from diecut_report.testing.contract import ContractTest
 
@@ -36,5 +36,5 @@ def _added(test: ContractTest, code: Path) -> Iterator[tuple[Path, bytes, int]]:
     for language in languages():
         if language != SOURCE_LANGUAGE:
             file = file_beside(code, language)
-            there = content(file, LARGEST, "a catalogue of texts") if file.is_file() else None
+            there = content(file, LARGEST, phrase("a catalogue of texts")) if file.is_file() else None
             yield file, *added(there, language, test.mechanism.kind, test.untranslated(language))

@@ -17,8 +17,8 @@ from diecut_report.quantities.units import UnitError, unit
 from diecut_report.standards.tables import StandardFault
 
 WRITTEN = {  # what pydantic finds amiss: how the key is written instead
-    "string_type": "a text",
-    "list_type": "a list",
+    "string_type": phrase("a text"),
+    "list_type": phrase("a list"),
     "dict_type": phrase("a table of names"),
     "float_type": "numbers",
     "int_type": phrase("whole numbers"),

@@ -49,7 +49,7 @@ def part_curves(calc: Calculation, step: PartCurves) -> None:
 
 def number(step: Computed, found: Any, count: int) -> Array:
     """Return what a function gives as an array of shape (variants, 1); Misdeclared where it is none."""
-    given = _numbers(step, step.function, found, "a number")
+    given = _numbers(step, step.function, found, phrase("a number"))
     if given.shape not in ((), (1,), (1, 1), (count, 1)):
         raise _told(
             step,

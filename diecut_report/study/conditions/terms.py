@@ -32,7 +32,7 @@ def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
     try:
         asked = find_input(base, path)
     except UnknownPath as fault:
-        raise ConditionError(f"“{path}”: {fault}") from None
+        raise ConditionError(Phrase("“{path}”: {fault}", path=path, fault=fault)) from None
     target = base.links.get((asked.instance, *asked.key))
     if target is None:
         return Term(asked.unit, Node("qty", (_fixed(base, asked),)), _display(asked))

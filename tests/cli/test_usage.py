@@ -1,0 +1,38 @@
+"""What click says of wrong usage is said in the language that is spoken."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.cli.usage import worded
+from diecut_report.languages.phrases import Phrase
+
+WRONG = {
+    ("calc",): "Помилка: Бракує аргументу `CONFIG`.",
+    ("solve", "x.yaml"): "Помилка: Бракує параметра `--vary`.",
+    ("calc", "x.yaml", "--colour"): "Помилка: Параметра `--colour` немає.",
+    ("foo",): "Помилка: Команди `foo` немає.",
+    ("calc", "x.yaml", "-o"): "Помилка: Параметр `-o` потребує значення.",
+    ("calc", "x.yaml", "y.yaml"): "Помилка: Зайві аргументи (y.yaml).",
+    ("variants", "x", "--format", "doc"): "Помилка: Хибне значення '--format': `doc` — не одне з: 'table', 'csv', 'json', 'xlsx'.",
+    ("variants", "x", "--top", "many"): "Помилка: Хибне значення '--top': `many` — не ціле число.",
+    ("variants", "x", "--top", "0"): "Помилка: Хибне значення '--top': 0 поза межами x>=1.",
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("given", WRONG)
+def test_wrong_usage_is_told_in_ukrainian(given: tuple[str, ...], capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["--language", "uk", *given]) == 2
+    said = capfd.readouterr().err.splitlines()
+    assert said[-1] == WRONG[given]
+    if len(said) > 1:
+        assert said[0].startswith("Виклик: diecut-report") and said[1].startswith("Довідка: `diecut-report")
+    assert not re.search(r"\b(Try|Error|Missing|Invalid|No such)\b", "\n".join(said))
+
+
+def test_another_sentence_of_click_stands_as_it_is() -> None:
+    assert worded("Something new of click.") == "Something new of click."
+    assert isinstance(worded("No such option '-x'."), Phrase)
