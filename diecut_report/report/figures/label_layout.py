@@ -53,7 +53,9 @@ class LabelLayout:
         self._spans()
         self.tags = self._tags()
         self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
-        self.told_marks: list[int] = []  # marks, levels and vertical lines whose names have no room, and stand in the legend
+        self.told_marks: list[
+            int
+        ] = []  # marks, levels and vertical lines whose names have no room, and stand in the legend
         self.told_levels: list[int] = []
         self.told_uprights: list[int] = []
         self._notes()
