@@ -20,8 +20,8 @@ from diecut_report.languages.phrases import Phrase, phrase
 
 _OPEN = re.compile(r"/proc/(self|thread-self|\d+)(/task/\d+)?/fd")
 TEMPORARY = ".*.part"  # what a killed run may leave behind
-NOTHING = "Nothing was written; make room and try again."
-KEPT = "What was finished is kept: make room, then continue with --resume."
+NOTHING = phrase("Nothing was written; make room and try again.")
+KEPT = phrase("What was finished is kept: make room, then continue with --resume.")
 
 
 MISNAMED = {

@@ -21,10 +21,10 @@ KINDS = {
     stat.S_IFREG: "a file",
     stat.S_IFDIR: "a folder",
     stat.S_IFLNK: "a link",
-    stat.S_IFIFO: "a pipe and no regular file",
-    stat.S_IFCHR: "a device and no regular file",
-    stat.S_IFBLK: "a device and no regular file",
-    stat.S_IFSOCK: "a socket and no regular file",
+    stat.S_IFIFO: phrase("a pipe and no regular file"),
+    stat.S_IFCHR: phrase("a device and no regular file"),
+    stat.S_IFBLK: phrase("a device and no regular file"),
+    stat.S_IFSOCK: phrase("a socket and no regular file"),
 }
 
 

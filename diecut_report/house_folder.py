@@ -8,6 +8,7 @@ from pathlib import Path
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.given_files import content
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.pictures import MOST, PictureFault, media_type
 from diecut_report.report.house_style import CSS, ENDING, HouseStyle, problems
 
@@ -18,12 +19,24 @@ PICTURES = (".png", ".svg")
 def house_style(folder: Path) -> HouseStyle:
     """Return what the folder holds; UserError where it is none, or where a file in it cannot be what it is for."""
     if not folder.is_dir():
-        raise UserError(Problem("This is not a folder. Give the folder of your templates.", str(folder)))
+        raise UserError(Problem(phrase("This is not a folder. Give the folder of your templates."), str(folder)))
     files = sorted(path for path in folder.iterdir() if not path.name.startswith("."))
     if len(files) > MOST_FILES:
-        raise UserError(Problem(f"The folder has {len(files)} files; at most {MOST_FILES} are allowed.", str(folder)))
+        raise UserError(
+            Problem(
+                Phrase(
+                    "The folder has {count} files; at most {most_files} are allowed.",
+                    count=len(files),
+                    most_files=MOST_FILES,
+                ),
+                str(folder),
+            )
+        )
     if outside := [path for path in files if not path.resolve().is_relative_to(folder.resolve())]:
-        words = "This is a link out of the folder: what lies elsewhere would go into the report. Put the file itself into the folder."
+        words = phrase(
+            "This is a link out of the folder: what lies elsewhere would go into the report. Put the file "
+            "itself into the folder."
+        )
         raise UserError([Problem(words, str(path)) for path in outside])
     templates = {path.name: _text(path) for path in files if path.name.endswith(ENDING)}
     css = "".join(_text(path) for path in files if path.name == CSS)
@@ -41,9 +54,9 @@ def _programs() -> Path:
 
 def _text(path: Path) -> str:
     try:
-        return content(path, MOST_TEXT, "a text file").decode("utf-8-sig")
+        return content(path, MOST_TEXT, phrase("a text file")).decode("utf-8-sig")
     except UnicodeDecodeError as error:
-        raise UserError(Problem("The file is not UTF-8. Save it in this encoding.", str(path))) from error
+        raise UserError(Problem(phrase("The file is not UTF-8. Save it in this encoding."), str(path))) from error
 
 
 def _picture(path: Path) -> str:
@@ -51,7 +64,7 @@ def _picture(path: Path) -> str:
     try:
         media = media_type(found)
     except PictureFault as fault:
-        raise UserError(Problem(f"The file {fault}. Give another picture.", str(path))) from fault
+        raise UserError(Problem(Phrase("The file {fault}. Give another picture.", fault=fault), str(path))) from fault
     return f"data:{media};base64,{base64.b64encode(found).decode()}"
 
 
@@ -63,8 +76,8 @@ def _unused(files: list[Path], made: HouseStyle) -> list[Problem]:
         if path.suffix in (".css", ".j2", ".html", ".jpg", ".jpeg", ".gif") and path.name not in (*made.templates, CSS)
     ]
     return [
-        Problem(f"Nothing asks for {path.name!r}{nearest(path.name, [CSS])}. A folder holds templates (NAME{ENDING}), {CSS}, "
-                "and pictures (PNG, SVG).", str(path))
+        Problem(Phrase("Nothing asks for {name}{nearest}. A folder holds templates (NAME{ending}), {css}, and pictures "
+"(PNG, SVG).", name=repr(path.name), nearest=nearest(path.name, [CSS]), ending=ENDING, css=CSS), str(path))
         for path in wrong
     ]  # fmt: skip
 
@@ -74,4 +87,4 @@ def _ending_style(made: HouseStyle) -> list[Problem]:
     if place < 0:
         return []
     line = made.css.count("\n", 0, place) + 1
-    return [Problem("'</' would end the style sheet within the page. Leave it out.", made.path(CSS), line)]
+    return [Problem(phrase("'</' would end the style sheet within the page. Leave it out."), made.path(CSS), line)]

@@ -8,6 +8,8 @@ import warnings
 from collections.abc import Mapping
 from xml.parsers import expat
 
+from diecut_report.languages.phrases import Phrase, phrase
+
 MOST = 300_000  # bytes of a picture
 MOST_PIXELS = 4_000_000
 MOST_ELEMENTS = 5_000
@@ -33,12 +35,18 @@ class PictureFault(ValueError):
 def media_type(content: bytes) -> str:
     """Return what a picture is; PictureFault where it is neither PNG nor SVG, or one that is not taken."""
     if len(content) > MOST:
-        raise PictureFault(f"is too large: {len(content) / 1e3:.0f} kB; at most {MOST / 1e3:g} kB are taken")
+        raise PictureFault(
+            Phrase(
+                "is too large: {count} kB; at most {most} kB are taken",
+                count=format(len(content) / 1000.0, ".0f"),
+                most=format(MOST / 1000.0, "g"),
+            )
+        )
     if content.startswith(SIGNATURE):
         _judge_png(content)
         return PNG
     if not content.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
-        raise PictureFault("is neither a PNG nor an SVG picture, whatever its name ends in")
+        raise PictureFault(phrase("is neither a PNG nor an SVG picture, whatever its name ends in"))
     _SvgJudge().judge(content)
     return SVG
 
@@ -50,13 +58,18 @@ def _judge_png(content: bytes) -> None:
         with warnings.catch_warnings(action="error"), Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
             if picture.width * picture.height > MOST_PIXELS:
                 raise PictureFault(
-                    f"has {picture.width} × {picture.height} pixels; at most {MOST_PIXELS / 1e6:g} million are taken"
+                    Phrase(
+                        "has {width} × {height} pixels; at most {most_pixels} million are taken",
+                        width=picture.width,
+                        height=picture.height,
+                        most_pixels=format(MOST_PIXELS / 1000000.0, "g"),
+                    )
                 )
             picture.load()
     except PictureFault:
         raise
     except Exception as cause:  # of many kinds, as the library raises them for a damaged file
-        raise PictureFault(f"is a PNG picture that cannot be read: {cause}") from cause
+        raise PictureFault(Phrase("is a PNG picture that cannot be read: {cause}", cause=cause)) from cause
 
 
 class _SvgJudge:
@@ -78,20 +91,28 @@ class _SvgJudge:
         try:
             self.parser.Parse(content, True)
         except expat.ExpatError as error:
-            raise PictureFault(f"is an SVG picture that cannot be read: {error}") from error
+            raise PictureFault(Phrase("is an SVG picture that cannot be read: {error}", error=error)) from error
 
     def _start(self, tag: str, given: Mapping[str, str]) -> None:
         space, _, name = tag.rpartition(" ")
         self.depth, self.count = self.depth + 1, self.count + 1
         if self.count > MOST_ELEMENTS or self.depth > DEEPEST:
             raise PictureFault(
-                f"has more than {MOST_ELEMENTS} elements, or more than {DEEPEST} within each other; give a simpler one"
+                Phrase(
+                    "has more than {most_elements} elements, or more than {deepest} within each other; give a "
+                    "simpler one",
+                    most_elements=MOST_ELEMENTS,
+                    deepest=DEEPEST,
+                )
             )
         if self.depth == 1:
             _judge_root(space, name, given)
         if (space == SPACE and name not in DRAWING) or space in ("", PAGES):
             raise PictureFault(
-                f"holds <{name}>; a logo holds shapes alone: save it as plain SVG, with its texts as paths"
+                Phrase(
+                    "holds <{name}>; a logo holds shapes alone: save it as plain SVG, with its texts as paths",
+                    name=name,
+                )
             )
         self.style = name == "style"
         for key, value in given.items():
@@ -103,28 +124,42 @@ class _SvgJudge:
 
     def _text(self, text: str) -> None:
         if self.style and (_OUTSIDE.search(text) or "\\" in text):
-            raise PictureFault("has a style that loads something from outside; embed nothing and refer to nothing")
+            raise PictureFault(
+                phrase("has a style that loads something from outside; embed nothing and refer to nothing")
+            )
 
     def _doctype(self, *_: object) -> None:
-        raise PictureFault("has a document type (<!DOCTYPE …>), which may define entities; remove that line")
+        raise PictureFault(phrase("has a document type (<!DOCTYPE …>), which may define entities; remove that line"))
 
     def _instruction(self, *_: object) -> None:
-        raise PictureFault("has a processing instruction (<?…?>), which may load a style from outside; remove it")
+        raise PictureFault(
+            phrase("has a processing instruction (<?…?>), which may load a style from outside; remove it")
+        )
 
 
 def _judge_root(space: str, name: str, given: Mapping[str, str]) -> None:
     if (space, name) != (SPACE, "svg"):
-        raise PictureFault(f"is not an SVG picture: its first element is <{name}>, without the name space {SPACE}")
+        raise PictureFault(
+            Phrase(
+                "is not an SVG picture: its first element is <{name}>, without the name space {space}",
+                name=name,
+                space=SPACE,
+            )
+        )
     sized = all(_LENGTH.fullmatch(given.get(key, "")) for key in ("width", "height"))
     if not sized and len(given.get("viewBox", "").replace(",", " ").split()) != 4:
-        raise PictureFault("does not say its size; give it a viewBox, or width and height")
+        raise PictureFault(phrase("does not say its size; give it a viewBox, or width and height"))
 
 
 def _judge_attribute(key: str, value: str) -> None:
     name = key.rpartition(" ")[2]
     if name.lower().startswith("on"):
-        raise PictureFault(f"holds a script ({name}); a logo holds shapes alone")
+        raise PictureFault(Phrase("holds a script ({name}); a logo holds shapes alone", name=name))
     if (key == LINK or name.lower() in ("href", "src")) and not value.startswith("#"):
-        raise PictureFault(f"refers to something outside ({name}); embed nothing and refer to nothing")
+        raise PictureFault(
+            Phrase("refers to something outside ({name}); embed nothing and refer to nothing", name=name)
+        )
     if _OUTSIDE.search(value) or "\\" in value:
-        raise PictureFault(f"refers to something outside ({name}); embed nothing and refer to nothing")
+        raise PictureFault(
+            Phrase("refers to something outside ({name}); embed nothing and refer to nothing", name=name)
+        )

@@ -31,12 +31,14 @@ Data = dict[str, Any]
 Tell = Callable[[str], None]
 Weigh = Callable[[Config, Data], list[Data]]  # which assumed values move a governing check
 Follow = Callable[[Config, Data], Data | None]  # what comes of the advice of all failing checks together
+Judge = Callable[[Config], list[Problem]]
 Matter = Callable[[Config], Data | None]  # what a chapter on the influence of inputs tells, where one is asked for
 Source = Path | Tree  # a configuration: its file, or what was read and changed
 
-NO_PANGO = (
-    "The PDF cannot be made, because a library of the system is missing: {}. Install it (Debian, Ubuntu: "
-    "apt-get install libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0), or leave the PDF out with --format html,json."
+NO_PANGO = phrase(
+    "The PDF cannot be made, because a library of the system is missing: {library}. Install it (Debian, "
+    "Ubuntu: apt-get install libpango-1.0-0 libpangoft2-1.0-0 libharfbuzz-subset0), or leave the "
+    "PDF out with --format html,json."
 )
 
 
@@ -82,12 +84,10 @@ class ReportOutcome:
     warnings: tuple[str, ...] = ()
 
 
-def validate(config: Source, discovery: Discovery) -> tuple[PluginError, ...]:
-    """Load, validate and resolve, and see whether the machines can exist; UserError with all problems at once.
-
-    Gives the plugins that are broken.
-    """
+def validate(config: Source, discovery: Discovery, judge: Judge | None = None) -> tuple[PluginError, ...]:
+    """Return the plugins that are broken; UserError with all that is wrong, also with machines that cannot exist, or that ``judge`` tells."""
     made, problems = examined(config, discovery)
+    problems += judge(made) if judge and not problems and not made.broken else []
     from diecut_report.results.feasible import impossible  # with the engine
 
     more, broken = impossible(made, problems)
@@ -287,9 +287,8 @@ def _pdf(rendering: Any) -> bytes:
     except OSError as error:
         if "cannot load library" not in str(error):
             raise
-        raise UserError(
-            Problem(NO_PANGO.format(str(error).split(":")[0].removeprefix("cannot load library ")))
-        ) from error
+        library = str(error).split(":")[0].removeprefix("cannot load library ")
+        raise UserError(Problem(Phrase(NO_PANGO, library=library))) from error
     return content
 
 

@@ -37,12 +37,13 @@
   }
 
   /* A number as the report prints it: to four digits, none finer than means something in its unit (the power of ten of the last one,
-     and how many a small number keeps). */
-  function printed(value, finest) {
+     and how many a small number keeps), nor than the page knows it (a power of ten). */
+  function printed(value, finest, known) {
     if (value === null || !isFinite(value)) { return "–"; }
     if (value === 0) { return "0"; }
     var power = Math.floor(Math.log10(Math.abs(Number(value.toPrecision(4)))));
-    var digits = finest ? Math.min(4, Math.max(power - finest[0] + 1, finest[1])) : 4;
+    var digits = Math.min(4, finest ? Math.max(power - finest[0] + 1, finest[1]) : 4, known === undefined ? 4 : power - known + 1);
+    if (digits < 1) { return "0"; }
     power = Math.floor(Math.log10(Math.abs(Number(value.toPrecision(digits)))));
     var scaled = power < -4 || power >= 6, shown = scaled ? (value / Math.pow(10, power)).toFixed(digits - 1) : value.toFixed(Math.max(digits - 1 - power, 0));
     var parts = shown.replace("-", "\u2212").split(".");
@@ -290,13 +291,24 @@
     });
   }
 
-  /* ---- what scrolls in a box of its own can be reached by the keyboard ---- */
+  /* ---- what scrolls in a box of its own can be reached by the keyboard; boxes are measured where the page has nothing else to do ---- */
+  var measuring = 0;
   function reach() {
-    var boxes = all("main .math, main .why, main .remark, main .scroll");
-    var wide = boxes.map(function (box) { return box.scrollWidth > box.clientWidth + 1; }); // measured at once, then changed at once
-    boxes.forEach(function (box, index) {
-      if (wide[index]) { box.tabIndex = 0; } else { box.removeAttribute("tabindex"); }
-    });
+    var boxes = all("main .math, main .why, main .remark, main .scroll"), own = measuring += 1;
+    var wait = window.requestIdleCallback || function (go) { window.setTimeout(go, 20); };
+    function some() {
+      if (own !== measuring) { return; }
+      var part = boxes.splice(0, 12);
+      var wide = part.map(function (box) { // by what it holds: what is far away is not laid out by itself; measured at once, then changed at once
+        var edge = box.getBoundingClientRect().right + 1;
+        return box.scrollWidth > box.clientWidth + 1 || Array.from(box.children).some(function (part) { return part.getBoundingClientRect().right > edge; });
+      });
+      part.forEach(function (box, index) {
+        if (wide[index]) { box.tabIndex = 0; } else { box.removeAttribute("tabindex"); }
+      });
+      if (boxes.length) { wait(some); } else { root.dataset.reached = "all"; }
+    }
+    wait(some);
   }
 
   /* ---- curves read at the cursor ---- */
@@ -309,7 +321,9 @@
   /* The height of a line at a place: on the straight piece between its points, the right one of a jump; null beside it. */
   function height(line, x) {
     var xs = data.rows[line.x], ys = data.rows[line.y], low = 0, high = xs.length - 1;
-    if (x < xs[low] || x > xs[high]) { return null; }
+    var hair = 1e-5 * (xs[high] - xs[low]); // by which rounded places may lie beside the ends of the range
+    if (x < xs[low] - hair || x > xs[high] + hair) { return null; }
+    x = Math.max(xs[low], Math.min(x, xs[high]));
     while (high - low > 1) {
       var middle = (low + high) >> 1;
       if (xs[middle] <= x) { low = middle; } else { high = middle; }
@@ -425,6 +439,7 @@
     });
     var place = make("div", { "class": "r-chart", role: "img", "aria-label": panel.title });
     box.append(head, place);
+    var known = Math.floor(Math.log10(Math.max(Math.abs(panel.range[0]), Math.abs(panel.range[1])))) - 4; // rows have five digits
     var span = panel.across.range, hair = (span[1] - span[0]) * 1e-9;
     var member = { chart: null, at: null, isReady: false, range: span };
     function draw() {
@@ -459,7 +474,7 @@
     member.at = function (x) {
       told.forEach(function (value, index) {
         var y = height(lines[index], x);
-        value.textContent = y === null ? "–" : withUnit(printed(y, panel.finest), panel.unit);
+        value.textContent = y === null ? "–" : withUnit(printed(y, panel.finest, known), panel.unit);
       });
       if (member.isReady && !(member.chart.cursor.event && member.chart.over.matches(":hover"))) {
         member.chart.setCursor({ left: member.chart.valToPos(x, "x"), top: 0 }, false);

@@ -17,22 +17,56 @@ ASKED = re.compile(r"```sh\ndiecut-report ([^\n]*)\n```\n```text\n(.*?)```", re.
 QUESTIONS = [(command, answer) for command, answer in ASKED.findall(GUIDE.read_text("utf-8"))]
 
 
-@pytest.mark.parametrize(("command", "answer"), few(QUESTIONS, lambda each: "press" not in each[0]))
-def test_each_question_has_its_true_answer(
-    command: str, answer: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
-) -> None:
+ADDRESS = "http://127.0.0.1:PORT/SECRET/"
+SEARCHED = "optimise"  # what is asked of its folder is asked after it
+TIMES = re.compile(r"(?m)^  time: .*")
+
+
+def after_search(command: str) -> bool:
+    return command.startswith((SEARCHED, "variants", "take"))
+
+
+ALONE = [each for each in QUESTIONS if not after_search(each[0])]
+
+
+@pytest.fixture
+def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
+    """A folder with the example configurations, and those that the guide shows."""
     (own,) = re.findall(r"`(\w+\.yaml)`, whose.*?```yaml\n(.*?)```", GUIDE.read_text("utf-8"), re.DOTALL)
     (tmp_path / own[0]).write_text(own[1], "utf-8")
     (tmp_path / "configs").mkdir()
     for config in [*EXAMPLES, *STUDIES]:
         (tmp_path / "configs" / config.name).write_bytes(config.read_bytes())
     monkeypatch.setattr("diecut_report.optimisation.command._files", lambda *_: {})  # the page has a test of its own
+    monkeypatch.setattr("diecut_report.live.server.serve", lambda _app, _port, ready: ready(ADDRESS))
     monkeypatch.chdir(tmp_path)
+    return tmp_path
+
+
+def asked(command: str, answer: str, capfd: pytest.CaptureFixture[str]) -> None:
     assert main(shlex.split(command)) == (1 if "\n  no value of" in answer else 0)
-    assert capfd.readouterr().out == answer
+    told = capfd.readouterr()
+    assert TIMES.sub("", answer) in (TIMES.sub("", told.out.lstrip("\n")), told.err)
+
+
+@pytest.mark.parametrize(("command", "answer"), few(ALONE, lambda each: "press" not in each[0]))
+def test_each_question_has_its_true_answer(
+    command: str, answer: str, folder: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    if command.startswith("live"):
+        (folder / command.split()[1]).write_bytes((folder / "configs" / "circular_knife.yaml").read_bytes())
+    asked(command, answer, capfd)
+
+
+def test_what_is_asked_of_a_search_has_its_true_answer(folder: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    for command, answer in QUESTIONS:
+        if after_search(command):
+            asked(command, answer, capfd)
 
 
 def test_all_commands_of_the_loop_are_asked() -> None:
-    assert {command.split()[0] for command, _ in QUESTIONS} == {"solve", "advise", "influence", "optimise"} and len(
-        QUESTIONS
-    ) >= 7
+    known = {command.split()[0] for command, _ in QUESTIONS}
+    assert known == {"new", "live", "solve", "advise", "optimise", "validate", "variants", "take", "influence"}
+    kinds = [re.search(r'--for "(.*?)"', command) for command, _ in QUESTIONS if command.startswith("solve")]
+    told = " ".join(kind[1] for kind in kinds if kind)
+    assert all(sign in told for sign in (" = ", " <= ", "max ", "min "))

@@ -81,11 +81,11 @@ def _options() -> Iterator[str]:
     rows = []
     for name, kind in Options.__annotations__.items():
         default = inspect.signature(api.Step).parameters[name].default
-        only = "" if name in StepCondition.__annotations__ else "gives a quantity"
+        only = "all" if name in StepCondition.__annotations__ else "those with a quantity"
         rows.append(
             (code(name), code(kind.__forward_arg__), code(repr(default)), only, MEANINGS[name].replace("|", "\\|"))
         )
-    yield from table(("option", "type", "default", "of a step that", "means"), rows)
+    yield from table(("option", "type", "default", "steps", "means"), rows)
 
 
 def _calls() -> Iterator[str]:
@@ -98,10 +98,11 @@ def _calls() -> Iterator[str]:
 
 
 def _call(name: str, method: Any, step: str) -> Iterator[str]:
-    """A call with its own words, and where these point to the step's, with those."""
+    """A call with the words of the step that it declares, where there is one."""
     yield from (f"### `chapter.{name}`", "", *_signature(f"chapter.{name}", method))
-    pointer = f": see ``{step}``." if step else ""
-    own = [each for each in paragraphs(method) if not (pointer and each.endswith(pointer))]
+    own = list(paragraphs(method))
+    if step:  # whose words are the longer ones; of the call's those that name nothing else anew
+        own = [each for each in own[1:] if not each.startswith("``")]
     yield from (_text(each) for each in ((*paragraphs(getattr(api, step)), *own) if step else own))
     yield from _example(step or STEPLESS.get(name, ""))
 

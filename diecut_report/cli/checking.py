@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-import sys
-from collections.abc import Iterator, Sequence
-from contextlib import redirect_stdout
+from collections.abc import Iterator, Mapping, Sequence
+from itertools import islice
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -26,12 +25,13 @@ from diecut_report.cli.output import (
     emit,
     tell,
     tell_written,
+    without_output,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.verdict import WORDS
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.discovery import Discovery
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import TOLD, Problem, UserError
 from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.languages.speech import localised, said, say, speaking
 
@@ -76,10 +76,11 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
     from diecut_report.study.machines.calculation import configurations
     from diecut_report.study.machines.verdicts import compared, in_language
 
-    files = configurations(given)
+    known = configurations(given)
+    files = known.files
     read = [from_standard_input() if file == DASH else file for file in files]
     discovery = Discovery(folders)
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output():
         found = _calculated(read, folders, jobs, progress)
     made = compared(in_language(found, spoken_catalogues(discovery)))
     for verdict in made.verdicts:
@@ -88,6 +89,7 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
     if folder is not None:
         _write(found, discovery, folder, formats, quiet, files)
     if not quiet:
+        tell(_passed_over(known.passed_over))
         tell(_counts(made.verdicts))
     return _code(made.verdicts, strict)
 
@@ -161,6 +163,14 @@ def _counts(verdicts: Sequence[Verdict]) -> list[Line]:
         )
     ]
     return [(Counted(len(verdicts), "{n} machine: ", "{n} machines: "), *named[1:], ".")]
+
+
+def _passed_over(files: Mapping[Path, str]) -> Iterator[str]:
+    """Tell which files of folders are not configurations, the first of many."""
+    for path, why in islice(files.items(), TOLD):
+        yield Phrase("{file}: passed over: {why}", file=path, why=why)
+    if len(files) > TOLD:
+        yield Counted(len(files) - TOLD, "and {n} more file is passed over", "and {n} more files are passed over")
 
 
 def _code(verdicts: Sequence[Verdict], strict: bool) -> int:

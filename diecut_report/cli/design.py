@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterable
-from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -13,7 +11,16 @@ import click
 
 from diecut_report.cli import completion
 from diecut_report.cli.given import source
-from diecut_report.cli.output import CHECK_FAILED, PASSED, HelpfulCommand, common, emit, tell, tell_written
+from diecut_report.cli.output import (
+    CHECK_FAILED,
+    PASSED,
+    HelpfulCommand,
+    common,
+    emit,
+    tell,
+    tell_written,
+    without_output,
+)
 from diecut_report.cli.progress import Progress
 from diecut_report.config.discovery import Discovery
 from diecut_report.languages.phrases import Phrase, phrase
@@ -66,7 +73,7 @@ def solve(
     from diecut_report.design.questions import question
     from diecut_report.design.solving import solved
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
         progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
@@ -96,11 +103,18 @@ def solve(
 @click.option(
     "--keep", metavar="INPUT", shell_complete=completion.inputs, multiple=True, help="An input that stays as it is."
 )
+@click.option(
+    "--most",
+    metavar="N",
+    type=click.IntRange(1),
+    default=10_000,
+    help="Machines that are calculated at most (default: 10000).",
+)
 @target_option
 @form_option
 @common
 def advise(
-    config: Path, free: tuple[str, ...], keep: tuple[str, ...], target: Path | None, form: str,
+    config: Path, free: tuple[str, ...], keep: tuple[str, ...], most: int, target: Path | None, form: str,
     folders: tuple[Path, ...], quiet: bool,
 ) -> int:  # fmt: skip
     """Find the smallest changes with which no check fails: the advice of all checks tried together, then less and less.
@@ -110,11 +124,11 @@ def advise(
     from diecut_report.design.advice import data, mended
     from diecut_report.design.advice_text import lines
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
         progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
-        found = mended(loaded, discovery, free=free, keep=keep, tell=progress)
+        found = mended(loaded, discovery, free=free, keep=keep, most=most, tell=progress)
         if target is not None and found.machine is not None:
             _write(loaded, found.machine, target)
     emit(_json(data(found)) if form == "json" else _text(lines(found)))
@@ -192,7 +206,7 @@ def influence(
     from diecut_report.design.influence import tornados, within_tolerances
     from diecut_report.design.influence_text import data, lines, page
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
         progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)

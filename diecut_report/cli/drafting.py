@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import os
-import sys
 from collections.abc import Iterator, Sequence
-from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +20,7 @@ from diecut_report.cli.output import (
     emit,
     tell,
     tell_problems,
+    without_output,
 )
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.discovery import Discovery, DuplicateKind
@@ -58,7 +57,7 @@ def new(kinds: tuple[str, ...], target: Path | None, force: bool, folders: tuple
             _refuse_existing(file)
         from diecut_report.drafting.draft import draft
 
-        with redirect_stdout(sys.stderr):
+        with without_output():
             made = draft(kinds, discovery, file.name if file else "my_press.yaml")
             problems = _problems(made, str(file or SHOWN), discovery)
         _give(made, file)
@@ -72,7 +71,7 @@ def _list(discovery: Discovery) -> int:
     codes, width = [PASSED], max(map(len, discovery.origins))
     for kind in discovery.origins:
         try:
-            with redirect_stdout(sys.stderr):
+            with without_output():
                 title = said(discovery.mechanism(kind).title, kind)
             emit(f"{kind:{width}}  {title}\n")
         except (DuplicateKind, PluginError) as fault:

@@ -24,6 +24,7 @@ from diecut_report.cli.output import (
     emit,
     tell,
     tell_written,
+    without_output,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.template import template_option
@@ -84,7 +85,7 @@ def verify(
     from diecut_report.study.analysis.assumed import moves
 
     carried = carried_results(report)
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output():
         found = judged(
             carried,
             Discovery(folders),
@@ -207,7 +208,7 @@ def diff(
     from diecut_report.exchange.sides import side
     from diecut_report.results.changes import changes
 
-    with Progress(quiet) as progress, redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
         sides = [side(source(given, discovery), discovery, progress) for given in (old, new)]
         found = changes(sides[0][0], sides[1][0])

@@ -10,12 +10,15 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli.given import DASH
 from diecut_report.cli.language import asked_language
-from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell
+from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell, without_output
+from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.discovery import Discovery
+from diecut_report.config.standard_input import SHOWN
 from diecut_report.errors import Problem, UserError
-from diecut_report.languages.phrases import phrase
-from diecut_report.languages.speech import say
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import say, speaking, spoken_language
 
 if TYPE_CHECKING:
     from diecut_report.live.session import LiveSession
@@ -31,16 +34,16 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
 
     The page is for this machine alone: its address holds a secret.
     """
-    if not config.is_file():
-        words = phrase("There is no such file. Check the name and the folder.")
-        raise UserError(Problem(words, str(config)))
+    _require_file(config)
     from diecut_report.live.application import LiveApplication
     from diecut_report.live.server import serve
     from diecut_report.live.session import LiveSession
 
     if not quiet:
         tell([say("reading and calculating {config} …", config=config)])
-    session = LiveSession(config.absolute(), Discovery(folders))
+    discovery = Discovery(folders)
+    with without_output():  # a plugin that prints does not spoil the address
+        session = LiveSession(config.absolute(), discovery)
 
     def ready(address: str) -> None:
         emit(f"{address}\n")
@@ -49,10 +52,30 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
         if is_opened and not webbrowser.open(address):
             tell([say("No browser could be started; open the address by hand.")])
 
-    with suppress(KeyboardInterrupt):  # how one ends it
+    words = speaking(spoken_language(), spoken_catalogues(discovery))
+    with words, suppress(KeyboardInterrupt):  # how one ends it
         serve(LiveApplication(session, folders, asked_language()), port, ready)
     tell(_unwritten(session))
     return PASSED
+
+
+def _require_file(config: Path) -> None:
+    """Refuse what cannot be followed: standard input, a folder, a file that is not there."""
+    if config == DASH:
+        words = phrase(
+            "The page follows a file that is saved again and again; standard input is read once. Name a file."
+        )
+        raise UserError(Problem(words, SHOWN))
+    if config.is_dir():
+        raise UserError(Problem(phrase("This is a folder. Name one configuration in it."), str(config)))
+    folder, _, number = str(config).rpartition("#")
+    if number.isdecimal() and Path(folder).is_dir() and not config.exists():
+        words = Phrase(
+            "A stored variant is not a file. Make it one: diecut-report take {variant} -o my_press.yaml", variant=config
+        )
+        raise UserError(Problem(words, str(config)))
+    if not config.is_file():
+        raise UserError(Problem(phrase("There is no such file. Check the name and the folder."), str(config)))
 
 
 def _unwritten(session: LiveSession) -> Iterator[str]:

@@ -3,9 +3,7 @@
 from __future__ import annotations
 
 import json
-import sys
 from collections.abc import Iterator
-from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING
 
@@ -22,6 +20,7 @@ from diecut_report.cli.output import (
     emit,
     tell,
     tell_written,
+    without_output,
 )
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import say
@@ -55,6 +54,9 @@ def _machines(_context: click.Context, _option: click.Parameter, given: str) -> 
     help="Full reports of these machines: `3,17`, `suggested`, `front` (those that are listed).",
 )
 @click.option("--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core).")
+@click.option(
+    "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
+)
 @click.option("--yes", is_flag=True, help="Calculate also a very large number of machines or reports.")
 @click.option(
     "--format",
@@ -64,7 +66,7 @@ def _machines(_context: click.Context, _option: click.Parameter, given: str) -> 
     help="Of what is shown: text (default), json, or csv of the whole front.",
 )
 @common
-def optimise(study: Path | None, folder: Path | None, resume: Path | None, reports: list[str], jobs: int | None, yes: bool,
+def optimise(study: Path | None, folder: Path | None, resume: Path | None, reports: list[str], jobs: int | None, dask: str | None, yes: bool,
              form: str, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Find the best machines of a STUDY by its objectives: a search through what it varies, within its constraints.
 
@@ -74,9 +76,9 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
     from diecut_report.study.command import Shown, Where
 
     target = _target(study, folder, resume)
-    where = Where(jobs, None, tuple(str(path.absolute()) for path in folders), asked_language())
+    where = Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language())
     try:
-        with redirect_stdout(sys.stderr), Shown(quiet) as shown:
+        with without_output(), Shown(quiet) as shown:
             outcome = command.run(
                 study, target, where, resume=resume is not None, agreed=yes, reports=reports, shown=shown
             )

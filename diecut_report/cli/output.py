@@ -20,9 +20,9 @@ from diecut_report.cli.exit_codes import DONE, HEAD
 from diecut_report.cli.language import language_option
 from diecut_report.cli.progress import is_styled
 from diecut_report.errors import TOLD, Problem, Unwritable
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE, of_all_plugins
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE
 from diecut_report.languages.phrases import Counted, Phrase, phrase
-from diecut_report.languages.speech import said, say, say_counted, speak, spoken_language
+from diecut_report.languages.speech import know_all_plugins, said, say, say_counted, speak, spoken_language
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
 INTERRUPTED, FAULT, UNWRITABLE = (
@@ -64,8 +64,8 @@ def tell_written(paths: Iterable[Path]) -> None:
 
 def tell_problems(problems: Sequence[Problem]) -> None:
     """What is wrong with a file: the first problems, and how many more there are."""
-    if (language := spoken_language()) != SOURCE_LANGUAGE:
-        speak(language, of_all_plugins(language))  # of whose inputs the problems tell
+    unreadable = know_all_plugins()  # of whose inputs the problems tell
+    problems = [*problems, *(fault for fault in unreadable if fault not in problems)]
     tell(str(problem) for problem in problems[:TOLD])
     if len(problems) > TOLD:
         tell(
@@ -263,9 +263,19 @@ def coloured(text: str, status: str) -> str:
     return Coloured(f"\x1b[{COLOURS[status]}m{text}\x1b[0m") if is_styled() else text
 
 
+def _with_words(context: click.Context, _: click.Parameter, folders: tuple[Path, ...]) -> tuple[Path, ...]:
+    """Let plugins of these folders speak by catalogues of their own."""
+    if folders and spoken_language() != SOURCE_LANGUAGE and not context.resilient_parsing:
+        from diecut_report.config.catalogues import spoken_catalogues  # with all plugins, which English does not need
+        from diecut_report.config.discovery import Discovery
+
+        speak(spoken_language(), spoken_catalogues(Discovery(folders)))
+    return folders
+
+
 def common(command: Command) -> Command:
     """The options that every command has."""
-    folders = click.option("--plugins", "folders", metavar="DIR", multiple=True, type=click.Path(path_type=Path),
+    folders = click.option("--plugins", "folders", metavar="DIR", multiple=True, type=click.Path(path_type=Path), callback=_with_words,
                            help="A folder with plugins: programs that run with your rights; may be given several times.")  # fmt: skip
     quiet = click.option(
         "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are reported all the same."

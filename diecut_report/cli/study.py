@@ -78,11 +78,15 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     help="How long a part of the study may take before it is ended as in error; 0 for any time (default: many times as long as others).",
 )
 @click.option("--yes", is_flag=True, help="Calculate also a very large sample without being asked.")
+@click.option(
+    "--strict", is_flag=True, help="Warnings, checks without a limit and plugins with faults count as failed."
+)
 @common
 def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
-          chunk_limit: float | None, yes: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+          chunk_limit: float | None, yes: bool, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Calculate all variants of a STUDY, and write them with a summary and full reports of some."""
     from diecut_report.study import command
+    from diecut_report.study.analysis.doubts import is_doubtful
 
     target = _target(study, folder, resume)
     where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language(), chunk_limit)
@@ -99,7 +103,8 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
         tell(_told(outcome, target))
     tell(_broken(outcome))
     tell(line for kind, faults in outcome.doubtful.items() for line in told_faults(kind, faults))
-    return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if outcome.is_failed else PASSED
+    is_failed = outcome.is_failed or (strict and (bool(outcome.doubtful) or is_doubtful(target)))
+    return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if is_failed else PASSED
 
 
 def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
@@ -128,6 +133,8 @@ def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     dropped = Phrase(more, n=counts["dropped"], why=why_dropped(counts)) if counts.get("dropped") else ""
     count = counts.get("variants", 0)
     yield (Counted(count, "{n} variant: ", "{n} variants: "), *(named[1:] or [phrase("none")]), dropped, ".")
+    if outcome.has_none:
+        yield phrase("No variant can exist; the summary tells why. Vary other inputs, or within other limits.")
     slow = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
     yield from (
         Phrase(slow, kind=kind, why=phrase(why))

@@ -3,8 +3,6 @@
 from __future__ import annotations
 
 import json
-import sys
-from contextlib import redirect_stdout
 from dataclasses import asdict, dataclass, field
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
@@ -13,7 +11,17 @@ import click
 
 from diecut_report.cli import exit_codes
 from diecut_report.cli.given import DASH, from_standard_input
-from diecut_report.cli.output import BAD_INPUT, PASSED, PLUGIN_BROKE, HelpfulCommand, common, emit, tell, tell_problems
+from diecut_report.cli.output import (
+    BAD_INPUT,
+    PASSED,
+    PLUGIN_BROKE,
+    HelpfulCommand,
+    common,
+    emit,
+    tell,
+    tell_problems,
+    without_output,
+)
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.standard_input import SHOWN
@@ -68,12 +76,13 @@ def validate(files: tuple[Path, ...], tries: bool, form: str, folders: tuple[Pat
 def _judged(file: Path, discovery: Discovery, tries: bool) -> JudgedFile:
     shown = SHOWN if file == DASH else str(file)
     try:
-        with redirect_stdout(sys.stderr):
+        with without_output():
             tree = from_standard_input() if file == DASH else yaml_tree.load(file)
             if not (isinstance(tree.data, dict) and "base" in tree.data and "mechanisms" not in tree.data):
                 from diecut_report import pipeline
+                from diecut_report.design.report_influence import misnamed
 
-                return JudgedFile(shown, broken=pipeline.validate(tree, discovery))
+                return JudgedFile(shown, broken=pipeline.validate(tree, discovery, misnamed))
             return _study(shown, tree, discovery, tries)
     except UserError as error:
         return JudgedFile(shown, problems=error.problems)

@@ -275,7 +275,7 @@ def _bare(
     bare: ConditionPart, other: ConditionPart, left: ConditionPart, right: ConditionPart, sign: str
 ) -> ConditionError:
     """Return what is wrong with a number beside a quantity that needs its unit."""
-    kinds = f"{_unlike(left, right)}; " if left.kind != right.kind else ""
+    kinds = Phrase("{kinds}; ", kinds=_unlike(left, right)) if left.kind != right.kind else ""
     if bare.exact:
         own = pretty(other.name.display) if other.name and other.name.display else phrase("its unit")
         words = "{kinds}the number {shown} beside {other} needs {unit}."

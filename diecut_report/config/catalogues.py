@@ -30,7 +30,9 @@ def catalogues_for(language: str, kinds: Iterable[str], discovery: Discovery, fi
 
 def spoken_catalogues(discovery: Discovery | None = None) -> Catalogues:
     """Return the catalogues of the language that is spoken; what plugins of others do not have stays English."""
-    return Catalogues(spoken_language(), partial(_plugin, discovery) if discovery else built_in)
+    if discovery is None:
+        return Catalogues(spoken_language())
+    return Catalogues(spoken_language(), partial(_plugin, discovery), discovery.origins)
 
 
 def lacking(catalogues: Catalogues, kinds: Iterable[str]) -> list[str]:

@@ -28,12 +28,13 @@ from typing import Any
 from diecut_report.config import yaml_tree
 from diecut_report.config.announced_kinds import announced
 from diecut_report.config.contract_version import other_program, refuse_other_contract
+from diecut_report.config.imports_beside import beside
 from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.place import Misdeclared
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.expressions.source import FormulaError
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import Phrase, joined, phrase
 
 GROUP = "diecut_report.plugins"
 EXTENSIONS = "diecut_report.extensions"
@@ -113,8 +114,9 @@ class Discovery:
             words = "{kind} is not a known kind{nearest}. Known: {known}."
             raise UnknownKind(Phrase(words, kind=repr(kind), nearest=near, known=", ".join(self.origins)))
         if len(origins) > 1:
-            places = " and from ".join(origin.told for origin in origins)
-            raise DuplicateKind(f"The kind {kind!r} comes from {places}. Remove or rename one of them.")
+            places = joined((origin.told for origin in origins), " and from ")
+            words = "The kind {kind} comes from {places}. Remove or rename one of them."
+            raise DuplicateKind(Phrase(words, kind=repr(kind), places=places))
         return origins[0]
 
 
@@ -124,13 +126,19 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
         found = origin.load()
         digest = module_hash(origin.file())
     except (Exception, SystemExit) as cause:
-        error = PluginError(f"it cannot be loaded from {origin.told}: {said(cause)}", origin.kind)
+        words = "it cannot be loaded from {told}: {said}"
+        error = PluginError(
+            Phrase(words, told=origin.told, said=said(cause)) + beside(origin.file(), cause), origin.kind
+        )
         error.__cause__ = cause
         return error
     if not isinstance(found, Mechanism):
-        return PluginError(f"{origin.told} gives a {type(found).__name__}, where a Mechanism is needed", origin.kind)
+        words = "{told} gives a {name}, where a Mechanism is needed"
+        return PluginError(Phrase(words, told=origin.told, name=type(found).__name__), origin.kind)
     if found.kind != origin.kind:
-        return PluginError(f"{origin.told} gives the kind {found.kind!r}; name it {origin.kind!r} there", origin.kind)
+        words = "{told} gives the kind {kind}; name it {wanted} there"
+        named = {"told": origin.told, "kind": repr(found.kind), "wanted": repr(origin.kind)}
+        return PluginError(Phrase(words, named), origin.kind)
     note_plugin(found, digest, None if origin.is_own else origin.file())
     return found if origin.is_own else _sound(origin, found)
 
@@ -144,15 +152,18 @@ def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
     try:
         found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
     except Exception as cause:
-        error = PluginError(f"what {origin.told} declares cannot be read: {said(cause)}", origin.kind)
+        words = "what {told} declares cannot be read: {said}"
+        error = PluginError(Phrase(words, told=origin.told, said=said(cause)), origin.kind)
         error.__cause__ = cause
         return error
     if not found:
         for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
             note_check(each, faults_of_formulas(each))
         return mechanism
-    head = f"{origin.told} declares what cannot be"
-    return PluginError(f"{head}: {found[0]}" if len(found) == 1 else "\n  ".join([f"{head}:", *found]), origin.kind)
+    head = Phrase("{told} declares what cannot be", told=origin.told)
+    return PluginError(
+        joined([head, found[0]], ": ") if len(found) == 1 else joined([head + ":", *found], "\n  "), origin.kind
+    )
 
 
 def said(cause: BaseException) -> str:
@@ -161,7 +172,7 @@ def said(cause: BaseException) -> str:
         return str(cause)
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
     own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
-    tells_place = isinstance(cause, SyntaxError | FormulaError)
+    tells_place = isinstance(cause, SyntaxError | FormulaError) or getattr(cause, "tells_place", False)
     declared = Path(getattr(cause, "at", "")).name  # of what is not proved, which the engine tells
     place = f" ({declared or f'{Path(own[-1].filename).name}:{own[-1].lineno}'})" if own and not tells_place else ""
     return f"{type(cause).__name__}: {other_program(cause) or ' '.join(str(cause).split())}{place}"
@@ -186,19 +197,25 @@ def _built_in() -> Iterator[Origin]:
     package = import_module(GROUP)
     for kind in _names_in(Path(package.__path__[0])):
         name = f"{GROUP}.{kind}"
-        yield Origin(kind, "the program itself", partial(_of_module, name), partial(_file_of_module, name), is_own=True)
+        yield Origin(
+            kind, phrase("the program itself"), partial(_of_module, name), partial(_file_of_module, name), is_own=True
+        )
 
 
 def _installed() -> Iterator[Origin]:
     for entry in entry_points(group=GROUP):
-        package = f"the package {entry.dist.name} {entry.dist.version}" if entry.dist else "an installed package"
+        package = (
+            Phrase("the package {name} {version}", name=entry.dist.name, version=entry.dist.version)
+            if entry.dist
+            else phrase("an installed package")
+        )
         load = entry.load if entry.attr else partial(_of_module, entry.module)
         yield Origin(entry.name, package, load, partial(file_of, entry.module))
 
 
 def _installed_extensions() -> Iterator[Origin]:
     for entry in entry_points(group=EXTENSIONS):
-        told = f"{entry.name} of an installed package"
+        told = Phrase("{name} of an installed package", name=entry.name)
         yield Origin(entry.name, told, entry.load, partial(file_of, entry.module))
 
 
@@ -247,7 +264,7 @@ def _module_of(file: Path) -> ModuleType:
     """The module of a local file; it stands in sys.modules while it runs, or postponed annotations would not resolve."""
     digest = hashlib.sha256(str(file.resolve()).encode()).hexdigest()[:16]
     if file.exists() and not file.is_file():
-        raise OSError("it is not a regular file")  # a pipe would be waited for
+        raise OSError(phrase("it is not a regular file"))  # a pipe would be waited for
     name = f"diecut_report_local_{digest}_{re.sub(r'[^A-Za-z0-9]', '_', file.stem)}"
     if name in sys.modules:
         return sys.modules[name]
@@ -277,5 +294,5 @@ def _of_file(file: Path, attribute: str) -> Any:
 
 def _attribute(module: ModuleType, name: str) -> Any:
     if not hasattr(module, name):
-        raise AttributeError(f"there is no {name} in it")
+        raise AttributeError(Phrase("there is no {name} in it", name=name))
     return getattr(module, name)

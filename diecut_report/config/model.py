@@ -8,7 +8,7 @@ from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report.contract.inputs import Annotated, Block, Quantity, Text
 from diecut_report.languages.catalogues import known
-from diecut_report.languages.phrases import phrase
+from diecut_report.languages.phrases import Phrase, phrase
 
 PRESS = "press"  # the name of the press in references, beside those of the mechanisms
 DETAILS = ("brief", "standard", "full")  # how much a report holds
@@ -45,9 +45,8 @@ class Project(Block):
     def without_reference(cls, given: Any) -> Any:
         """A text of the title block stands as it is."""
         if isinstance(given, str) and "${" in given:
-            raise ValueError(
-                f"is “{given}”; references stand in press and mechanisms, the title block takes plain text"
-            )
+            words = "is “{given}”; references stand in press and mechanisms, the title block takes plain text"
+            raise ValueError(Phrase(words, given=given))
         return given
 
 
@@ -119,5 +118,5 @@ class ConfigDocument(Block):
         """True equals 1 in Python, but is not a version."""
         if isinstance(given, bool | str):
             shown = f"“{given}”" if isinstance(given, str) else str(given).lower()
-            raise ValueError(f"is {shown}; the number 1 is needed, without quotes")
+            raise ValueError(Phrase("is {shown}; the number 1 is needed, without quotes", shown=shown))
         return given

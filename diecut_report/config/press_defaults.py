@@ -11,6 +11,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.input_places import of_input
 from diecut_report.declaration.words import Fault
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit
 
 NUMBERS = {f"press.{path}": meta for path, meta in fields(Press) if isinstance(meta, Quantity)}
@@ -31,7 +32,7 @@ def faults(mechanism: Mechanism) -> Iterator[Fault]:
 def _refused(path: str, value: Any) -> str:
     """What is wrong with a value of the press, in words."""
     if f"press.{path}" not in NUMBERS:
-        return f"is not a number of the press; it has {', '.join(NUMBERS)}"
+        return Phrase("is not a number of the press; it has {numbers}", numbers=", ".join(NUMBERS))
     try:
         NUMBERS[f"press.{path}"].validate(value)
     except ValueError as fault:
@@ -48,12 +49,24 @@ def _is_required(model: type[Block], path: str) -> bool:
 
 def _wrong(meta: Quantity, press: FromPress, is_required: bool) -> Iterator[str]:
     if is_required:
-        yield f"must be given, so that {press.path} is never taken; write Annotated[float | None, …] = None"
+        yield Phrase(
+            "must be given, so that {path} is never taken; write Annotated[float | None, …] = None", path=press.path
+        )
     given = NUMBERS.get(press.path)
     if given is None:
         known = ", ".join(NUMBERS)
-        yield f"takes {press.path}, which is not a number of the press{nearest(press.path, NUMBERS)}; it has {known}"
+        yield Phrase(
+            "takes {path}, which is not a number of the press{nearest}; it has {known}",
+            path=press.path,
+            nearest=nearest(press.path, NUMBERS),
+            known=known,
+        )
         return
     units = [meta.unit, *(other for _, other in meta.units)]
     if press.formula is None and all(unit(given.unit).kind != unit(other).kind for other in units):
-        yield f"in {meta.unit} takes {press.path}, which is in {given.unit}; name a formula between them: FromPress(…, formula)"
+        yield Phrase(
+            "in {unit} takes {path}, which is in {own}; name a formula between them: FromPress(…, formula)",
+            unit=meta.unit,
+            path=press.path,
+            own=given.unit,
+        )

@@ -213,7 +213,7 @@ class _Fault:
             allowed = f" ({meta.allowed})" if isinstance(meta, Quantity) and meta.allowed else ""
             return Phrase(
                 "is missing. Give it in {text}{allowed}: {description}.",
-                text=pretty(meta.unit) or "plain numbers",
+                text=pretty(meta.unit) or phrase("plain numbers"),
                 allowed=allowed,
                 description=phrase(meta.description),
             )

@@ -15,11 +15,20 @@ import yaml
 
 from diecut_report.config.yaml_tree import LOADER, KeyPath, Tree, parse
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import phrase
 
 ANCHOR = re.compile(r"&\S+\s+")
-EXPRESSION = "holds ${…}, a reference or an expression, and is not written over; change what it refers to, or write a number there first"
-SHARED = "stands in a part that an anchor (&) and its aliases (*) share, so that it cannot be changed here alone; write it out"
-NO_HOME = "cannot be put into the file, as the block that it belongs to does not stand there; write that block first"
+EXPRESSION = phrase(
+    "holds ${…}, a reference or an expression, and is not written over; change what it refers to, "
+    "or write a number there first"
+)
+SHARED = phrase(
+    "stands in a part that an anchor (&) and its aliases (*) share, so that it cannot be changed "
+    "here alone; write it out"
+)
+NO_HOME = phrase(
+    "cannot be put into the file, as the block that it belongs to does not stand there; write that block first"
+)
 
 
 @dataclass(frozen=True)

@@ -162,7 +162,7 @@ def _syntax_problem(error: Any, text: str, file: str) -> Problem:
 def _explained(error: Any, line: str) -> str:
     if "mapping values are not allowed" in error.problem:
         return phrase("a second colon or a wrong indentation. Align keys of one block; put text that holds ': ' in quotes.")  # fmt: skip
-    begin = f" that begins in line {error.context_mark.line + 1}" if error.context_mark else ""
+    begin = Phrase(" that begins in line {line}", line=error.context_mark.line + 1) if error.context_mark else ""
     said = f"{error.problem} {error.context}{begin}" if error.context else error.problem
     if "${" in line and "flow" in (error.context or ""):
         return phrase('a reference stands in braces or brackets without quotes, and YAML reads its brace as a map. Quote it: "${…}".')  # fmt: skip

@@ -10,6 +10,7 @@ import numpy as np
 from diecut_report.contract.place import Misdeclared
 from diecut_report.errors import nearest
 from diecut_report.expressions import Array, Constant, Formula, Node, Reading, formula, substitute
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit
 from diecut_report.standards import Column, StandardFault, StandardTable
 
@@ -95,21 +96,43 @@ class Between(Formula):
 
 def _columns(table: object, column: str) -> tuple[Column, Column]:
     if not isinstance(table, StandardTable):
-        raise StandardFault(f"{table!r} is not a table; write one with own_table(…), rows of numbers and its sources.")
+        raise StandardFault(
+            Phrase(
+                "{table} is not a table; write one with own_table(…), rows of numbers and its sources.",
+                table=repr(table),
+            )
+        )
     if table.names:
-        raise StandardFault(f"The table “{table.title}” goes by names; one that goes by numbers is needed.")
+        raise StandardFault(
+            Phrase("The table “{title}” goes by names; one that goes by numbers is needed.", title=table.title)
+        )
     if column == table.columns[0].name:
-        raise StandardFault(f"The table “{table.title}” goes by {column}; take another column.")
+        raise StandardFault(
+            Phrase("The table “{title}” goes by {column}; take another column.", title=table.title, column=column)
+        )
     return table.columns[0], table.column(column)
 
 
 def _line(table: StandardTable, columns: tuple[Column, Column], interpolation: Interpolation) -> Formula:
     if interpolation not in LINES:
         near = nearest(str(interpolation), LINES)
-        raise StandardFault(f"interpolation is {interpolation!r}{near}; allowed: {', '.join(LINES)}.")
+        raise StandardFault(
+            Phrase(
+                "interpolation is {interpolation}{near}; allowed: {lines}.",
+                interpolation=repr(interpolation),
+                near=near,
+                lines=", ".join(LINES),
+            )
+        )
     for own in (columns[number] for number in LOGARITHMIC[interpolation]):
         for value in own.values:
             if value <= 0:
-                words = f"has the number {value:g} in its column {own.name}, which has no logarithm"
-                raise StandardFault(f"The table “{table.title}” {words}; interpolate linearly there.")
+                words = Phrase(
+                    "has the number {value} in its column {name}, which has no logarithm",
+                    value=format(value, "g"),
+                    name=own.name,
+                )
+                raise StandardFault(
+                    Phrase("The table “{title}” {words}; interpolate linearly there.", title=table.title, words=words)
+                )
     return LINES[interpolation]

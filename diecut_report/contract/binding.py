@@ -11,6 +11,7 @@ from typing import Any
 
 from diecut_report.contract.place import Misdeclared
 from diecut_report.expressions import LAMBDA, Formula
+from diecut_report.languages.phrases import Phrase
 
 
 @dataclass(frozen=True, eq=False)
@@ -30,13 +31,23 @@ def bind(formula: Formula | Callable[..., Any], **names: str | float) -> Bound:
     """Bind a formula (or a lambda) to quantities; a parameter that is not named takes the quantity of its own name."""
     if not callable(formula):
         raise Misdeclared(
-            f"bind takes a formula, and {formula!r} is none; write a lambda, or a def with @formula above it"
+            Phrase(
+                "bind takes a formula, and {formula} is none; write a lambda, or a def with @formula above it",
+                formula=repr(formula),
+            )
         )
     formula = formula if isinstance(formula, Formula) else Formula(formula)
     unknown = sorted(set(names) - set(formula.parameters))
     if unknown:
         known = ", ".join(formula.parameters) or "none"
-        raise Misdeclared(f"formula {formula.__name__} has no parameter {', '.join(unknown)}; it has {known}")
+        raise Misdeclared(
+            Phrase(
+                "formula {name} has no parameter {unknown}; it has {known}",
+                name=formula.__name__,
+                unknown=", ".join(unknown),
+                known=known,
+            )
+        )
     return Bound(formula, {p: names.get(p, p) for p in formula.parameters})
 
 
@@ -76,13 +87,22 @@ def as_binding(part: Binding | Callable[..., Any], name: str) -> Binding:
 def _formula(function: Any, name: str) -> Formula:
     if not isinstance(function, FunctionType):
         raise Misdeclared(
-            f"{name} needs a formula, and {function!r} is none; write a lambda, or a def with @formula above it"
+            Phrase(
+                "{name} needs a formula, and {function} is none; write a lambda, or a def with @formula above it",
+                name=name,
+                function=repr(function),
+            )
         )
     optional = [p.name for p in signature(function).parameters.values() if p.default is not p.empty]
     if optional:
         raise Misdeclared(
-            f"the formula of {name} has a default for {', '.join(optional)}, which is never used: each parameter takes a quantity; "
-            f"remove it, or bind a number: bind(…, {optional[0]}=2)"
+            Phrase(
+                "the formula of {name} has a default for {optional}, which is never used: each parameter takes "
+                "a quantity; remove it, or bind a number: bind(…, {first}=2)",
+                name=name,
+                optional=", ".join(optional),
+                first=optional[0],
+            )
         )
     return Formula(function, name)
 

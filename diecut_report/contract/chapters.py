@@ -41,6 +41,7 @@ from diecut_report.contract.steps import (
 )
 from diecut_report.errors import nearest
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 from diecut_report.standards import StandardSeries, StandardTable
 
 
@@ -58,7 +59,7 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
         for step in steps:
             if isinstance(step, Step):
                 if any(step is other for other in self.steps):
-                    raise Misdeclared(f"{step.id} is added twice; add it once")
+                    raise Misdeclared(Phrase("{id} is added twice; add it once", id=step.id))
                 self.steps = (*self.steps, step)
             else:
                 self.add(*step)
@@ -278,8 +279,8 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
         given: dict[str, Any] = {"symbol": symbol, "unit": unit, "description": description, **options, **own}
         exists = options.get("exists")
         given["exists"] = None if exists is None else as_binding(exists, f"{id} (exists)")
-        for name in given.keys() - kind.__dataclass_fields__.keys():
-            raise Misdeclared(f"{id} has no option {name}{nearest(name, kind.__dataclass_fields__)}")
+        for name in given.keys() - (known := kind.__dataclass_fields__).keys():
+            raise Misdeclared(Phrase("{id} has no option {name}{near}", id=id, name=name, near=nearest(name, known)))
         self.add(kind(id=id, **given))
 
 

@@ -64,7 +64,7 @@ class Check:
     sized_unless: tuple[str, ...] | None = None
     presumed: bool = False
     at_least: str | float | None = None
-    at_least_label: str = "at least"
+    at_least_label: str = phrase("at least")
     named_by: str = ""
     part_id: str = "{id}_{name}"
     part_name: str = ""

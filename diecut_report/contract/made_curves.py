@@ -8,6 +8,7 @@ from typing import Any, Unpack
 from diecut_report.contract.options import Options, StepCondition
 from diecut_report.contract.phases import StepHolder
 from diecut_report.contract.steps import MadeCurve, Prepared
+from diecut_report.languages.phrases import Phrase
 
 
 class MadeCurveForm:
@@ -28,6 +29,10 @@ class MadeCurveForm:
         """Declare what plain code makes of inputs once, for steps that take it by its id: see ``Prepared``; ValueError for ``again`` alone."""
         if again and not for_many:
             raise ValueError(
-                f"{id} is prepared again=True, which calculates all machines at once: write it for many, with for_many=True"
+                Phrase(
+                    "{id} is prepared again=True, which calculates all machines at once: write it for many, with "
+                    "for_many=True",
+                    id=id,
+                )
             )
         self.add(Prepared(id=id, function=function, holds=holds, for_many=for_many, again=again, **when))

@@ -30,6 +30,7 @@ from diecut_report.contract.steps import (
     Step,
     Value,
 )
+from diecut_report.languages.phrases import Phrase, named
 from diecut_report.quantities.units import unit
 
 
@@ -51,7 +52,7 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
             case Value() | Choice():
                 own = {found[n] for n in step.takes() if isinstance(n, str) and n in found}
                 if len(own) > 1:
-                    raise ValueError(f"{step.id} mixes {' and '.join(sorted(own))}")
+                    raise ValueError(Phrase("{id} mixes {axes}", id=step.id, axes=named(sorted(own), " and ")))
                 found |= {step.id: own.pop()} if own else {}
     return found
 
@@ -117,7 +118,11 @@ class Comparison:
     def __post_init__(self) -> None:
         foreign = [key for key, (kind, _) in self.takes.items() if kind not in self.kinds]
         if foreign or self.mechanism.checks:
-            raise Misdeclared(f"{self.mechanism.kind}: a comparison has no checks, and takes from its own kinds only")
+            raise Misdeclared(
+                Phrase(
+                    "{kind}: a comparison has no checks, and takes from its own kinds only", kind=self.mechanism.kind
+                )
+            )
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

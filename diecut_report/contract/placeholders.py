@@ -91,19 +91,30 @@ class OneOf:
         told = ", or ".join(listed(group) for group in self.groups)
         heads = [group[0] for group in self.groups if group[0] in known]
         if len(heads) > 1:
-            return f"{listed(heads)} are both given, but only one can hold; give {told}."
+            return Phrase(
+                "{listed} are both given, but only one can hold; give {told}.", listed=listed(heads), told=told
+            )
         complete = [group for group in self.groups if known.issuperset(group)]
         if complete:
             idle = [key for group in self.groups for key in group if key in known - {*complete[0], *self.shared}]
-            without = f"has no use beside {listed(complete[0])}; remove it"
-            return f"{listed(idle)} {without}, or give {told}." if idle else ""
+            without = Phrase("has no use beside {listed}; remove it", listed=listed(complete[0]))
+            return (
+                Phrase("{listed} {without}, or give {told}.", listed=listed(idle), without=without, told=told)
+                if idle
+                else ""
+            )
         begun = [group for group in self.groups if known & set(group) - set(self.shared)]
         if begun:
             missing = [key for key in begun[0] if key not in known]
             beside = [key for key in begun[0] if key in known]
-            return f"{listed(missing)} is missing beside {listed(beside)}; give {told}."
-        chosen = f" with {self.when.replace('=', ': ')}" if self.when else ""
-        return "" if self.optional else f"{told} is needed{chosen}."
+            return Phrase(
+                "{listed} is missing beside {present}; give {told}.",
+                listed=listed(missing),
+                present=listed(beside),
+                told=told,
+            )
+        chosen = Phrase(" with {key}", key=self.when.replace("=", ": ")) if self.when else ""
+        return "" if self.optional else Phrase("{told} is needed{chosen}.", told=told, chosen=chosen)
 
 
 def listed(keys: Sequence[str]) -> str:

@@ -7,6 +7,7 @@ from typing import Any
 
 from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.placeholders import Pending
+from diecut_report.languages.phrases import Phrase, joined, phrase
 from diecut_report.quantities.units import pretty, unit
 
 
@@ -32,7 +33,14 @@ class Varying(Quantity):
         """Return what the plugin's code takes; ValueError in words where it is not allowed."""
         if isinstance(given, Pending) and given.is_curve:
             if given.unit is None or unit(given.unit).kind != self.parsed_unit.kind:
-                raise ValueError(f"${{{given.path}}} is not a curve in {pretty(self.unit)}, but in {given.unit}")
+                raise ValueError(
+                    Phrase(
+                        "${{path}} is not a curve in {unit}, but in {own}",
+                        path=given.path,
+                        unit=pretty(self.unit),
+                        own=given.unit,
+                    )
+                )
             return given
         if isinstance(given, Extremes) or hasattr(given, "curve_id"):
             return given
@@ -41,23 +49,23 @@ class Varying(Quantity):
         try:
             return super().validate(given)
         except ValueError as fault:
-            raise ValueError(f"{fault}{self._ways(given)}") from None
+            raise ValueError(Phrase("{fault}{ways}", fault=fault, ways=self._ways(given))) from None
 
     def _ways(self, given: Any) -> str:
         """What else would be allowed, where something else than a number was given."""
         if not isinstance(given, str) or not given[:1].isalpha():
             return ""
-        ways = ["a reference to a curve", *(f"“{word}”" for word in self.words)]
-        return f"; or give {', or '.join(ways)}"
+        ways = [phrase("a reference to a curve"), *(f"“{word}”" for word in self.words)]
+        return Phrase("; or give {ways}", ways=joined(ways, ", or "))
 
     def _extremes(self, given: dict[Any, Any]) -> Extremes:
         if not self.extremes:
-            raise ValueError("is a block of keys; a number or a reference to a curve is needed")
+            raise ValueError(phrase("is a block of keys; a number or a reference to a curve is needed"))
         if set(given) != {"min", "max"}:
-            raise ValueError("is a block of keys; as a block it has the keys min and max, and no others")
+            raise ValueError(phrase("is a block of keys; as a block it has the keys min and max, and no others"))
         low, high = (super(Varying, self).validate(given[key]) for key in ("min", "max"))
         if not isinstance(low, Pending) and not isinstance(high, Pending) and low > high:
-            raise ValueError("has a min above its max; exchange them")
+            raise ValueError(phrase("has a min above its max; exchange them"))
         return Extremes(low, high)
 
 

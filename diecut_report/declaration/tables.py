@@ -93,7 +93,7 @@ def _is_picked(step: Lookup, names: DeclaredNames) -> bool:
     """Whether the number is always one that was picked from a series of numbers that the table has."""
     own = set(step.sought.values)
     given = [giver.step for giver in names.givers(step.by)]
-    return all(isinstance(each, Pick) and _series_of(each) <= own for each in given)
+    return all(isinstance(each, Pick) and not each.given and _series_of(each) <= own for each in given)
 
 
 def _series_of(step: Pick) -> set[float]:

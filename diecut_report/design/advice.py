@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+import math
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -10,14 +11,16 @@ import numpy as np
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
+from diecut_report.contract.inputs import Quantity
 from diecut_report.design.advised import Advised, advised
-from diecut_report.design.changeable import changeable, named_paths
+from diecut_report.design.changeable import changeable, is_stepped, named_paths
+from diecut_report.design.changed_machines import MOST, ChangedMachines, Enough, Spent
+from diecut_report.design.choice_search import ChangeableChoice, changeable_choices, with_choices
 from diecut_report.design.conflicts import CheckConflict, conflict_of, scattered
-from diecut_report.design.design_inputs import DesignInput
+from diecut_report.design.design_inputs import DesignInput, design_input
 from diecut_report.design.mending import MendingPath
 from diecut_report.design.proved_machine import ProvedMachine, proved
 from diecut_report.design.typed_changes import fewer, passes, rounded
-from diecut_report.design.varied_machines import VariedMachines, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import phrase
@@ -42,6 +45,7 @@ class Mended:
     """Hold what became of a machine: its checks before, the changes, the machine with them (None where none passes), why none does.
 
     ``left`` are the checks that fail at the best machine that was found, ``conflict`` those of them and others that do not hold together.
+    ``is_ended``: as many machines were calculated as were allowed, and the search is not at its end.
     """
 
     before: ProvedMachine
@@ -51,6 +55,7 @@ class Mended:
     conflict: CheckConflict | None = None
     free: int = 0
     calculated: int = 0
+    is_ended: bool = False
 
     @property
     def size(self) -> float:
@@ -58,68 +63,92 @@ class Mended:
         return float(sum(abs(each.share) for each in self.changes if each.share is not None))
 
 
-Choices = dict[Input, str]
-"""Texts and yes/no that are advised."""
-
-
-class _Machines:
-    """Calculates machines by the shares of their inputs that are changed; counts them."""
-
-    def __init__(self, config: Config, inputs: list[DesignInput], choices: Choices) -> None:
-        self.config, self.inputs, self.choices, self.count = config, inputs, choices, 0
-        self.today = np.array([each.today for each in inputs], dtype=float)
-
-    def __call__(self, shares: Array) -> VariedMachines:
-        count = len(shares)
-        self.count += count
-        values = self.today * (1.0 + shares)
-        given: dict[Input, Any] = {each.asked: values[:, index] for index, each in enumerate(self.inputs)}
-        return varied(self.config, given | {asked: [text] * count for asked, text in self.choices.items()}, count)
-
-
 def mended(
-    config: Config, discovery: Discovery, *, free: Iterable[str] = (), keep: Iterable[str] = (), tell: Tell
+    config: Config,
+    discovery: Discovery,
+    *,
+    free: Iterable[str] = (),
+    keep: Iterable[str] = (),
+    most: float = MOST,
+    tell: Tell,
 ) -> Mended:
     """Return the machine with the smallest changes with which no check fails, calculated as a machine of its own.
 
-    UserError where nothing is free to be changed, or the machine cannot be as it is.
+    ``most`` machines are calculated at most to find it. UserError where nothing is free to be changed, or the machine cannot be as it is.
     """
     before = proved(config.tree, {}, discovery)
+    free, keep = list(free), list(keep)
     numbers, only = named_paths(config, free)
     _, kept = named_paths(config, keep)
     if not before.checks("fail"):
         return Mended(before)
     advice = advised(config, before.checks("fail"))
     advice.leave_out(lambda path: path in kept or bool(only and path not in only))
-    further = [each.name for each, _ in advice.numbers.values()]
+    further = [each.name for each, _ in advice.numbers.values() if not is_stepped(each)]
     inputs = changeable(config, numbers, kept, further) if numbers or not only else []
-    if not inputs and not advice.choices:
+    choices = changeable_choices(config, free, kept)
+    begun = dict(advice.choices.values()) | advice.stepped
+    if not inputs and not begun and not choices:
         words = phrase("nothing is free to be changed: name more inputs by --free, or keep fewer by --keep.")
         raise UserError(Problem(words, config.tree.file))
-    run = _Machines(config, inputs, dict(advice.choices.values()))
-    path = MendingPath(run, inputs, _start(run, inputs, advice))
-    if inputs:
-        path.go(tell)
-        path = path if path.passes else _again(path, tell)
-    if not path.passes:
-        touched = {each.asked.instance for each in inputs} | {asked.instance for asked in run.choices}
-        why = conflict_of(config, path, touched, tell)
-        return Mended(before, (), None, tuple(path.made.failing(0)), why, len(inputs), run.count)
-    tell(phrase("leaving out what is not needed"))
-    return _shortest(config, discovery, before, run, path.share)
+    run = ChangedMachines(config, inputs, begun, Spent(most))
+    path, is_ended = _searched(MendingPath(run, inputs, _start(run, inputs, advice)), choices, tell)
+    run = _machines(path)
+    if path.passes:
+        tell(phrase("leaving out what is not needed"))
+        run.spent.most = math.inf  # what is found is not lost for want of a few more
+        return _shortest(config, discovery, before, run, path.share)
+    free_ones = [*(each.asked for each in inputs), *(each.asked for each in choices), *run.choices]
+    touched = {asked.instance for asked in free_ones}
+    why = None
+    if not is_ended:
+        why, is_ended = _conflict(config, path, touched, tell)
+    return Mended(
+        before, (), None, tuple(path.made.failing(0)), why, len(inputs) + len(choices), run.spent.count, is_ended
+    )
 
 
-def _shortest(config: Config, discovery: Discovery, before: ProvedMachine, run: _Machines, share: Array) -> Mended:
+def _searched(path: MendingPath, choices: Sequence[ChangeableChoice], tell: Tell) -> tuple[MendingPath, bool]:
+    """The best path that is found, and whether it was ended as enough machines were calculated."""
+    try:
+        if len(path.inputs):
+            path.go(tell)
+            path = path if path.passes else _again(path, tell)
+        if not path.passes and choices:
+            path = with_choices(path, choices, tell)
+    except Enough:
+        return path, True
+    return path, False
+
+
+def _conflict(
+    config: Config, path: MendingPath, touched: Collection[str], tell: Tell
+) -> tuple[CheckConflict | None, bool]:
+    """Why no machine passes, as far as enough machines tell it, and whether it was ended before."""
+    try:
+        return conflict_of(config, path, touched, tell), False
+    except Enough:
+        return None, True
+
+
+def _machines(path: MendingPath) -> ChangedMachines:
+    assert isinstance(path.run, ChangedMachines)
+    return path.run
+
+
+def _shortest(
+    config: Config, discovery: Discovery, before: ProvedMachine, run: ChangedMachines, share: Array
+) -> Mended:
     """The machine that passes with what is needed alone, and with few digits; proved."""
     for asked in list(run.choices):
-        without = _Machines(config, run.inputs, {each: text for each, text in run.choices.items() if each is not asked})
+        without = run.with_choices({each: text for each, text in run.choices.items() if each is not asked})
         if passes(without(share[None])).all():
-            run.choices = without.choices
+            run = without
     share, typed = rounded(run, run.inputs, fewer(run, share))
     changes = [*_numbers(run.inputs, share, typed), *_choices(config, run.choices)]
     machine = proved(config.tree, {each.stands: each.after for each in changes}, discovery)
     left = tuple(name for name, _ in machine.checks("fail"))
-    return Mended(before, tuple(changes), machine if not left else None, left, None, len(run.inputs), run.count)
+    return Mended(before, tuple(changes), machine if not left else None, left, None, len(run.inputs), run.spent.count)
 
 
 def _again(path: MendingPath, tell: Tell) -> MendingPath:
@@ -131,7 +160,7 @@ def _again(path: MendingPath, tell: Tell) -> MendingPath:
     return other if other.passes or other.merit < path.merit else path
 
 
-def _start(run: _Machines, inputs: list[DesignInput], advice: Advised) -> Array:
+def _start(run: ChangedMachines, inputs: Sequence[DesignInput], advice: Advised) -> Array:
     """Where the search begins: at what is advised, where that machine is better than today's."""
     today = np.zeros(len(inputs))
     shares = [
@@ -146,7 +175,7 @@ def _start(run: _Machines, inputs: list[DesignInput], advice: Advised) -> Array:
     return today if worse else advised
 
 
-def _numbers(inputs: list[DesignInput], share: Array, typed: dict[int, str]) -> list[InputChange]:
+def _numbers(inputs: Sequence[DesignInput], share: Array, typed: dict[int, str]) -> list[InputChange]:
     return [
         InputChange(
             inputs[each].name,
@@ -159,16 +188,30 @@ def _numbers(inputs: list[DesignInput], share: Array, typed: dict[int, str]) -> 
     ]
 
 
-def _choices(config: Config, choices: Choices) -> list[InputChange]:
+def _choices(config: Config, choices: Mapping[Input, str]) -> list[InputChange]:
     found = []
     for asked, text in choices.items():
         instance = config.instances[asked.instance]
         assert instance is not None
         _, stands = instance.place.stands(asked.key)
         found.append(
-            InputChange(asked.path.removeprefix(f"{MECHANISMS}."), config.tree.typed(stands) or "", text, None, stands)
+            InputChange(
+                asked.path.removeprefix(f"{MECHANISMS}."),
+                config.tree.typed(stands) or "",
+                text,
+                _share(config, asked, text),
+                stands,
+            )
         )
     return found
+
+
+def _share(config: Config, asked: Input, text: str) -> float | None:
+    """By how much a stepped number is changed; None for a text."""
+    if not isinstance(asked.meta, Quantity):
+        return None
+    today = design_input(config, asked.path).today
+    return float(asked.meta.validate(text)) / today - 1.0 if today else None
 
 
 def data(found: Mended) -> dict[str, Any]:
@@ -185,4 +228,5 @@ def data(found: Mended) -> dict[str, Any]:
         "conflict": None if why is None else {"checks": list(why.checks), "proved": why.is_proved, "least": why.is_least},
         "free": found.free,
         "calculated": found.calculated,
+        "ended": found.is_ended,
     }  # fmt: skip

@@ -8,6 +8,7 @@ from typing import Any
 
 from diecut_report.config.loader import Config
 from diecut_report.contract.inputs import Quantity
+from diecut_report.design.changeable import is_stepped
 from diecut_report.design.design_inputs import DesignInput, design_input
 from diecut_report.errors import UserError
 from diecut_report.results.advised_changes import AdvisedChange, advised_changes
@@ -27,6 +28,11 @@ class Advised:
         """Forget what is advised of inputs with such a path."""
         self.numbers = {path: each for path, each in self.numbers.items() if not is_out(path)}
         self.choices = {path: each for path, each in self.choices.items() if not is_out(path)}
+
+    @property
+    def stepped(self) -> dict[Input, str]:
+        """Return the numbers that take some values alone, as they are typed."""
+        return {each.asked: each.typed(value) for each, value in self.numbers.values() if is_stepped(each)}
 
     @property
     def is_empty(self) -> bool:

@@ -32,8 +32,9 @@ def changeable(
     if free:
         named = [design_input(config, name) for name in free]
         _require_values(config, named)
+        named = [each for each in named if not is_stepped(each)]
     else:
-        own = [each for each in given_numbers(config) if _is_form(config, each)]
+        own = [each for each in given_numbers(config) if is_form(config, each) and not is_stepped(each)]
         named = own + [design_input(config, name) for name in advised]
     found = {each.asked.path: each for each in named if each.asked.path not in keep and each.today}
     return list(found.values())
@@ -59,7 +60,13 @@ def _require_values(config: Config, named: Iterable[DesignInput]) -> None:
             raise UserError(Problem(Phrase(words, input=each.name), config.tree.file, path="--free"))
 
 
-def _is_form(config: Config, design: DesignInput) -> bool:
+def is_stepped(design: DesignInput) -> bool:
+    """Return whether a number takes some values alone, and so none between them."""
+    return design.is_whole or bool(design.meta.listed)
+
+
+def is_form(config: Config, design: DesignInput) -> bool:
+    """Return whether an input gives a part its form, and is neither demanded nor fixed by what it rests on."""
     instance = config.instances[design.asked.instance]
     key = str(design.asked.key[-1])
     if instance is None or design.asked.instance == PRESS or design.is_whole or LIMIT.search(key):

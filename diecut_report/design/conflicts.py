@@ -84,6 +84,8 @@ def conflict_of(config: Config, path: MendingPath, free: Collection[str], tell: 
     fixed = tuple(name for name in failing if is_fixed(config, name, free))
     if fixed:
         return CheckConflict(fixed, is_proved=True)
+    if not len(path.inputs):  # choices alone, each of whose values was tried
+        return CheckConflict(tuple(failing))
     search = _ConflictSearch(
         path.run, path.inputs, (path.share, np.zeros(len(path.inputs))), scattered(len(path.inputs)), tell
     )

@@ -81,7 +81,7 @@ def tornados(
     Without names these are the utilisations of the checks that govern. UserError where there is nothing to look at.
     """
     for each in tolerances:
-        _require_scatter(each)
+        require_scatter(each)
     own = {each.asked.path for each in tolerances}
     inputs = [*tolerances, *(each for each in given_numbers(config) if each.today and each.asked.path not in own)]
     if not inputs:
@@ -98,7 +98,8 @@ def tornados(
     return [_tornado(made, each, inputs, steps) for each in asked]
 
 
-def _require_scatter(design: DesignInput) -> None:
+def require_scatter(design: DesignInput) -> None:
+    """Refuse a tolerance of what does not scatter: a whole number, or one without a value today."""
     if design.is_whole or design.today is None:
         words = "{input} is a whole number or has no value today, so that it has no tolerance."
         raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
@@ -169,7 +170,7 @@ def within_tolerances(
     draws = np.random.default_rng(seed)
     given = {}
     for design, tolerance in tolerances.items():
-        _require_scatter(design)
+        require_scatter(design)
         assert design.today is not None
         off = (
             draws.normal(0.0, tolerance / IN_TOLERANCE, count)
@@ -179,7 +180,9 @@ def within_tolerances(
         given[design.asked] = design.today + off
     made = varied(config, given, count)
     chances = [_chance(name, made.check(name) == "pass", _judged(made, name)) for name in made.checks]
-    whole = _chance("all checks", np.isin(made.status.astype(str), ["pass", "warn"]), np.ones(count, dtype=bool))
+    whole = _chance(
+        phrase("all checks"), np.isin(made.status.astype(str), ["pass", "warn"]), np.ones(count, dtype=bool)
+    )
     found = sorted((each for each in chances if each.count), key=lambda each: (each.probability, each.check))
     return Tolerances(tolerances, distribution, seed, count, whole, tuple(found))
 

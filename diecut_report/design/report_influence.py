@@ -11,7 +11,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import InfluenceSettings
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.design.design_inputs import DesignInput, design_input
-from diecut_report.design.influence import Chance, Tolerances, Tornado, tornados, within_tolerances
+from diecut_report.design.influence import Chance, Tolerances, Tornado, require_scatter, tornados, within_tolerances
 from diecut_report.design.questions import quantity
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase
@@ -33,10 +33,31 @@ def influenced(config: Config) -> Data | None:
         return None
     sizes = dict(_tolerance(config, name, str(size)) for name, size in (asked.tolerances or {}).items())
     for index, name in enumerate(asked.of):
-        _placed(config, ("of", index), partial(quantity, config, name))
-    found = tornados(config, asked.of, asked.by, sizes)
+        _asked(config, index, name)
+    found = _placed(config, ("of",), lambda: tornados(config, asked.of, asked.by, sizes))
     drawn = _drawn(config, asked, sizes) if sizes else None
     return {"by": asked.by, "tornados": [_tornado(each) for each in found]} | ({"tolerances": drawn} if drawn else {})
+
+
+def misnamed(config: Config) -> list[Problem]:
+    """Return what is wrong with what a configuration asks the chapter for, without calculating."""
+    asked, problems = config.report.influence, list[Problem]()
+    if asked is None:
+        return problems
+    finds: list[Callable[[], object]] = [
+        partial(_tolerance, config, name, str(size)) for name, size in (asked.tolerances or {}).items()
+    ]
+    finds += [partial(_asked, config, index, name) for index, name in enumerate(asked.of)]
+    for find in finds:
+        try:
+            find()
+        except UserError as fault:
+            problems += fault.problems
+    return problems
+
+
+def _asked(config: Config, index: int, name: str) -> object:
+    return _placed(config, ("of", index), partial(quantity, config, name))
 
 
 def _drawn(config: Config, asked: InfluenceSettings, sizes: dict[DesignInput, float]) -> Data:
@@ -53,6 +74,7 @@ def _tolerance(config: Config, name: str, typed: str) -> tuple[DesignInput, floa
         raise UserError(_problem(config, own, str(fault))) from None
     if not 0 < size < math.inf:
         raise UserError(_problem(config, own, Phrase("{name}: {size} is not above zero", name=name, size=typed)))
+    _placed(config, own, lambda: require_scatter(design))
     return design, size
 
 
@@ -61,12 +83,13 @@ def _placed(config: Config, key: KeyPath, find: Callable[[], Found]) -> Found:
     try:
         return find()
     except UserError as fault:
-        raise UserError([_problem(config, key, each.message) for each in fault.problems]) from None
+        raise UserError([_problem(config, key, each.message, is_name=True) for each in fault.problems]) from None
 
 
-def _problem(config: Config, key: KeyPath, words: str) -> Problem:
+def _problem(config: Config, key: KeyPath, words: str, *, is_name: bool = False) -> Problem:
+    """What is wrong with a value there, or with the name that is its key."""
     place = (*PLACE, *key)
-    line, column = config.tree.position(place)
+    line, column = config.tree.key_position(place) if is_name else config.tree.position(place)
     return Problem(words, config.tree.file, line, column, ".".join(map(str, place)))
 
 

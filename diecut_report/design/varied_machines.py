@@ -15,9 +15,10 @@ from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.errors import PluginError
 from diecut_report.expressions import Array
 from diecut_report.results.checks import checks_of, judged
+from diecut_report.results.press_run import Tell
 from diecut_report.results.unchecked import is_of_machine
 from diecut_report.study.definition.base_inputs import Input
-from diecut_report.study.execution.press_batch import CalculatedVariants
+from diecut_report.study.execution.press_batch import CalculatedVariants, untold
 from diecut_report.study.execution.result_columns import columns_of
 from diecut_report.study.execution.variant_rows import Given, Rows, calculate_rows
 from diecut_report.study.storage.description import ResultColumn
@@ -92,10 +93,13 @@ class VariedMachines:
         return np.where(self.exists, slack, np.nan)
 
 
-def varied(config: Config, given: Given, count: int, inputs: Iterable[Input] = ()) -> VariedMachines:
+def varied(
+    config: Config, given: Given, count: int, inputs: Iterable[Input] = (), tell: Tell = untold
+) -> VariedMachines:
     """Calculate so many machines of a configuration with other values: arrays of shape (count,), SI, or lists of texts.
 
-    ``inputs`` are those whose values are to be among the results. PluginError where a plugin breaks on every machine.
+    ``inputs`` are those whose values are to be among the results. ``tell`` is called with the name of each mechanism before
+    it is calculated; what it raises ends the run. PluginError where a plugin breaks on every machine.
     """
     asked = list(inputs)
 
@@ -104,7 +108,7 @@ def varied(config: Config, given: Given, count: int, inputs: Iterable[Input] = (
             each.path: values for each in asked if (values := _input(config, made, each)) is not None
         }
 
-    rows = calculate_rows(config, given, count, further=further)
+    rows = calculate_rows(config, given, count, further=further, tell=tell)
     if rows.broken and all(rows.status == "error"):
         kind, words = next(iter(rows.broken.items()))
         raise PluginError(words, kind)

@@ -7,6 +7,7 @@ from typing import Any
 
 from diecut_report.contract.figures import Range, View
 from diecut_report.engine.drawable import Undrawable
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
 
@@ -37,13 +38,26 @@ def checked(panel: Data, lines: Lines) -> Data:
     low, high = panel["range"]
     name = panel.get("title") or panel["label"]
     if low is not None and high is not None and not low < high:
-        raise Undrawable(f"the range of {name!r} goes from {_told(low, panel)} to {_told(high, panel)}, which is none")
+        raise Undrawable(
+            Phrase(
+                "the range of {name} goes from {low} to {high}, which is none",
+                name=repr(name),
+                low=_told(low, panel),
+                high=_told(high, panel),
+            )
+        )
     room = SAME * max(abs(end) for end in (low, high, 0.0) if end is not None)
     for label, value in _heights(panel, lines):
         if (low is not None and value < low - room) or (high is not None and value > high + room):
             limits = f"{'…' if low is None else _told(low, panel)} to {'…' if high is None else _told(high, panel)}"
             raise Undrawable(
-                f"{label} reaches {_told(value, panel)}, outside of the range of {name!r}, {limits}; widen it"
+                Phrase(
+                    "{label} reaches {value}, outside of the range of {name}, {limits}; widen it",
+                    label=label,
+                    value=_told(value, panel),
+                    name=repr(name),
+                    limits=limits,
+                )
             )
     return panel
 

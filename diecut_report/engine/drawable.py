@@ -12,6 +12,7 @@ import numpy as np
 
 from diecut_report.config.discovery import said
 from diecut_report.engine.calculation import Calculation
+from diecut_report.languages.phrases import Phrase, phrase
 
 Data = dict[str, Any]
 FLOATS = {float, np.float64}
@@ -31,7 +32,7 @@ def guarded(make: Callable[[], Data], lost: Data, place: str) -> Data:
     except Undrawable as fault:
         return lost | {"error": f"{fault} ({place})"}
     except Exception as cause:
-        return lost | {"error": f"{said(cause)}, asked for at {place}"}
+        return lost | {"error": Phrase("{said}, asked for at {place}", said=said(cause), place=place)}
 
 
 def _plain(made: Data) -> None:
@@ -42,7 +43,11 @@ def _plain(made: Data) -> None:
         json.dumps(made, allow_nan=False)
     except (TypeError, ValueError) as fault:
         raise Undrawable(
-            f"it gives something that is not a finite number, text or list of these ({fault}); an absent number in a line is None"
+            Phrase(
+                "it gives something that is not a finite number, text or list of these ({fault}); an absent "
+                "number in a line is None",
+                fault=fault,
+            )
         ) from None
 
 
@@ -60,9 +65,18 @@ def curve_named(calc: Calculation, name: str, abscissa: str | None = None) -> st
     """Return a curve's abscissa; refused where the results have no such curve, or not over this abscissa."""
     found = _abscissas(calc).get(name)
     if found is None:
-        raise Undrawable(f"{name!r} is {_what(calc, name)}; it takes a curve that the results hold")
+        raise Undrawable(
+            Phrase("{name} is {what}; it takes a curve that the results hold", name=repr(name), what=_what(calc, name))
+        )
     if abscissa is not None and found != abscissa:
-        raise Undrawable(f"{name!r} runs over {found!r}, not over {abscissa!r}; both must have one abscissa")
+        raise Undrawable(
+            Phrase(
+                "{name} runs over {found}, not over {abscissa}; both must have one abscissa",
+                name=repr(name),
+                found=repr(found),
+                abscissa=repr(abscissa),
+            )
+        )
     return found
 
 
@@ -76,7 +90,7 @@ def _abscissas(calc: Calculation) -> Mapping[str, str]:
 
 def _what(calc: Calculation, name: str) -> str:
     if name in calc.curves:
-        return "a curve that is not an output"
+        return phrase("a curve that is not an output")
     if name in calc.values or name in calc.inputs:
-        return "a number or a text, not a curve"
-    return "not a quantity of this machine"
+        return phrase("a number or a text, not a curve")
+    return phrase("not a quantity of this machine")

@@ -20,6 +20,7 @@ from diecut_report.engine.moving_shapes import frame_places, laid_out, moving_sh
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.steps.rerun import varied, varied_curves
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 
 
 class MachineView:
@@ -39,7 +40,7 @@ class MachineView:
     def __getitem__(self, name: str) -> float:
         """A number by its id, SI."""
         if name not in self:
-            raise Undrawable(f"there is no number {name!r} in this machine")
+            raise Undrawable(Phrase("there is no number {name} in this machine", name=repr(name)))
         self.asked[name] = None
         return float(self.calc[name][0, 0])
 
@@ -163,11 +164,11 @@ def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: Machine
             drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": laid_out(_listed(build, view))}
             return head | drawn | ({"schematic": True} if schematic else {}) | _moving(calc, figure)
         case Chart(build=build):
-            panels = [axis_range.of_lines(panel) for panel in _listed(build, view)]
-            for over in {panel["over"] for panel in panels if "over" in panel}:
+            own = [axis_range.of_lines(panel) for panel in _listed(build, view)]
+            for over in (panel["over"] for panel in own if "over" in panel):
                 curve_named(calc, over, over)
-            return head | {"type": "chart", "panels": panels}
-    raise TypeError(f"{figure.id} is not a known figure")
+            return head | {"type": "chart", "panels": own}
+    raise TypeError(Phrase("{id} is not a known figure", id=figure.id))
 
 
 def _moving(calc: Calculation, drawing: Drawing) -> dict[str, Any]:
@@ -189,15 +190,21 @@ def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:
     """What an author's function draws, which must be a list of shapes; a function without a return gives none."""
     drawn = build(view)
     if not isinstance(drawn, list) or not all(isinstance(shape, dict) for shape in drawn):
-        name = getattr(build, "__name__", "its function")
+        name = getattr(build, "__name__", phrase("its function"))
         given = (
             "nothing"
             if drawn is None
             else f"a {type(drawn).__name__}"
             if not isinstance(drawn, list)
-            else "other things in its list"
+            else phrase("other things in its list")
         )
-        raise Undrawable(f"{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give")
+        raise Undrawable(
+            Phrase(
+                "{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give",
+                name=name,
+                given=given,
+            )
+        )
     return drawn
 
 
@@ -258,7 +265,11 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
     ]
     ranged = axis_range.declared(head | made, figure.range, view, distances)
     if (ranged.get("range", [None])[0] or 0) < 0:
-        raise Undrawable(f"the range of {figure.title!r} begins below zero, where no distance from the pole is")
+        raise Undrawable(
+            Phrase(
+                "the range of {title} begins below zero, where no distance from the pole is", title=repr(figure.title)
+            )
+        )
     return ranged
 
 

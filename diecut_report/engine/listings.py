@@ -8,11 +8,11 @@ from typing import Any
 from diecut_report.contract.listings import Cell, Listing
 from diecut_report.contract.place import Misdeclared
 from diecut_report.engine.calculation import Calculation
-from diecut_report.quantities.formatting import number_text
+from diecut_report.languages.phrases import Phrase
+from diecut_report.quantities.formatting import listed_text
 from diecut_report.quantities.units import unit
 
 Data = dict[str, Any]
-DIGITS = 6
 
 
 def rows(calc: Calculation, step: Listing) -> list[list[Cell]]:
@@ -21,7 +21,12 @@ def rows(calc: Calculation, step: Listing) -> list[list[Cell]]:
     found = [[_plain(cell) for cell in row] for row in step.function(known)]
     for row in found:
         if len(row) != len(step.heads) or any(isinstance(cell, float) and not math.isfinite(cell) for cell in row):
-            words = f"step {step.id}: its function gives the row {row}; {len(step.heads)} texts and finite numbers are wanted"
+            words = Phrase(
+                "step {id}: its function gives the row {row}; {count} texts and finite numbers are wanted",
+                id=step.id,
+                row=row,
+                count=len(step.heads),
+            )
             raise Misdeclared(words, step.at)
     return found
 
@@ -45,12 +50,12 @@ def results(calc: Calculation) -> Data:
 def printed(calc: Calculation, step: Listing) -> list[Data]:
     """Return a listing as a table of the calculation; none where it has no rows."""
     columns = [{"title": each.description, "symbol": each.symbol, "unit": each.unit} for each in step.heads]
-    factors = [unit(each.unit).factor for each in step.heads]
-    lines = [[_text(cell, factor) for cell, factor in zip(row, factors, strict=True)] for row in rows(calc, step)]
+    units = [each.unit for each in step.heads]
+    lines = [[_text(cell, display) for cell, display in zip(row, units, strict=True)] for row in rows(calc, step)]
     return [{"type": "table", "title": step.description, "columns": columns, "rows": lines}] if lines else []
 
 
-def _text(cell: Cell, factor: float) -> str:
+def _text(cell: Cell, display: str) -> str:
     if cell is None:
         return "–"
-    return cell if isinstance(cell, str) else number_text(cell / factor, DIGITS)
+    return cell if isinstance(cell, str) else listed_text(cell, display)

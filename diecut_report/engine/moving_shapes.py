@@ -11,6 +11,7 @@ import numpy as np
 from diecut_report.contract.figures import Shape, circle, point, polyline
 from diecut_report.engine.drawable import Undrawable
 from diecut_report.engine.numerics.domain import Domain
+from diecut_report.languages.phrases import Phrase
 
 FRAMES = 72  # places of a turn, beside the ends of its pieces; a screen draws straight on between them
 BEFORE = 1e-9  # of the abscissa: so far before the end of a piece its curves are still those of the piece
@@ -28,7 +29,13 @@ def moving_shapes(title: str, frames: Sequence[Sequence[Shape]]) -> list[Shape]:
     """Return the shapes of all frames once: as it is what stands still, others with their numbers in each frame (``moves``)."""
     forms = [[_form(shape) for shape in frame] for frame in frames]
     if any(form != forms[0] for form in forms) or not all(_is_movable(shape) for shape in frames[0]):
-        raise Undrawable(f"what moves in {title!r} must be the same {', '.join(MOVABLE)}, rigid at each place")
+        raise Undrawable(
+            Phrase(
+                "what moves in {title} must be the same {movable} at each place",
+                title=repr(title),
+                movable=f"{', '.join(MOVABLE)}, rigid",
+            )
+        )
     return [_moved(shapes) for shapes in zip(*frames, strict=True)]
 
 

@@ -11,6 +11,7 @@ from diecut_report.contract.place import Misdeclared
 from diecut_report.contract.result_names import ResultName, named, names_ahead, numbered_symbol
 from diecut_report.contract.steps import Reduction, Step
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase
 
 
 class NamedQuantities:
@@ -60,7 +61,12 @@ def _declared(
     if path not in inputs:
         given = [each.name for step in steps.values() for each in names_ahead(step)]
         near = nearest(path, [*given, *inputs])
-        raise Misdeclared(f"{name!r} is not a quantity of this machine{near}; name a step or an input", at)
+        raise Misdeclared(
+            Phrase(
+                "{name} is not a quantity of this machine{near}; name a step or an input", name=repr(name), near=near
+            ),
+            at,
+        )
     return cast(Quantity, inputs[path])
 
 
@@ -70,7 +76,7 @@ def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, st
         case "place":
             return steps[axis[cast(Reduction, step).of]]
         case "count":
-            many = f"{step.description}: how many"
+            many = Phrase("{description}: how many", description=step.description)
             return replace(
                 step, id=found.name, symbol=f"n_{step.symbol.replace('_', ',')}", unit="1", units=(), description=many
             )

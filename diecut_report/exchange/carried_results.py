@@ -12,6 +12,7 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.html_links import linked_results
 from diecut_report.exchange.results_form import results_of
 from diecut_report.given_files import content
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.results.results_file import config_content, logo_content, table_contents
 
 MOST = 200_000_000  # bytes of a report
@@ -40,10 +41,13 @@ class CarriedResults:
 
 def carried_results(path: Path) -> CarriedResults:
     """Return what a report or a results file carries; UserError where it is neither, or cannot be read."""
-    whole = content(path, MOST, "a report (PDF, HTML) or a results file (JSON)")
+    whole = content(path, MOST, phrase("a report (PDF, HTML) or a results file (JSON)"))
     form = form_of(whole)
     if form is None:
-        words = "This is neither a report (PDF, HTML) nor a results file (JSON). Give a file that `diecut-report report` wrote."
+        words = phrase(
+            "This is neither a report (PDF, HTML) nor a results file (JSON). Give a file that "
+            "`diecut-report report` wrote."
+        )
         raise UserError(Problem(words, str(path)))
     found = _results_content(whole, form, str(path))
     results = results_of(found, str(path))
@@ -62,14 +66,21 @@ def _results_content(whole: bytes, form: Form, file: str) -> bytes:
     if form == "json":
         found: bytes | None = whole
         if len(whole) > MOST_RESULTS:
-            words = f"The file is too large: {len(whole) / 1e6:.1f} MB; results have at most {MOST_RESULTS / 1e6:g} MB."
+            words = Phrase(
+                "The file is too large: {count} MB; results have at most {most_results} MB.",
+                count=format(len(whole) / 1000000.0, ".1f"),
+                most_results=format(MOST_RESULTS / 1000000.0, "g"),
+            )
             raise UserError(Problem(words, file))
     elif form == "html":
         found = linked_results(whole, MOST_RESULTS, file)
     else:
         found = _attached(whole, "results.json", file)
     if found is None:
-        words = "This file carries no results: another program made it, or an earlier version of diecut-report, or it was printed anew."
+        words = phrase(
+            "This file carries no results: another program made it, or an earlier version of diecut-report, "
+            "or it was printed anew."
+        )
         raise UserError(Problem(words, file))
     return found
 
@@ -84,18 +95,39 @@ def _config(whole: bytes, form: Form, results: dict[str, Any], file: str) -> byt
     """The configuration in the results; that of the PDF, which is attached for a reader's convenience, must be the same."""
     found = config_content(results)
     if form == "pdf" and _attached(whole, "config.yaml", file) not in (None, found):
-        words = "The configuration that is attached is not the one in the attached results. Somebody has exchanged one of the two."
+        words = phrase(
+            "The configuration that is attached is not the one in the attached results. Somebody has "
+            "exchanged one of the two."
+        )
         raise UserError(Problem(words, file))
     return found
 
 
 def _tables(results: dict[str, Any], file: str) -> dict[str, bytes]:
     found, logo = table_contents(results), logo_content(results)
-    faults = [Problem(f"The name of a table {fault}.", file) for name in found if (fault := name_fault(name))]
-    faults += [Problem(f"The name of the logo {fault}.", file) for name in logo if (fault := logo_fault(name))]
+    faults = [
+        Problem(Phrase("The name of a table {fault}.", fault=fault), file)
+        for name in found
+        if (fault := name_fault(name))
+    ]
+    faults += [
+        Problem(Phrase("The name of the logo {fault}.", fault=fault), file)
+        for name in logo
+        if (fault := logo_fault(name))
+    ]
     found |= logo
     long = [name for name in found if max(len(part.encode()) for part in Path(name).parts) > LONGEST_NAME]
-    faults += [Problem(f"The name of a file is longer than {LONGEST_NAME} bytes: {name[:80]}….", file) for name in long]
+    faults += [
+        Problem(
+            Phrase(
+                "The name of a file is longer than {longest_name} bytes: {name}….",
+                longest_name=LONGEST_NAME,
+                name=name[:80],
+            ),
+            file,
+        )
+        for name in long
+    ]
     if faults:
         raise UserError(faults)
     return found

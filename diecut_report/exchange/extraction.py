@@ -10,6 +10,7 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.carried_results import carried_results
 from diecut_report.files import write_all
 from diecut_report.given_files import content
+from diecut_report.languages.phrases import Phrase, phrase
 
 
 def extract(report: Path, folder: Path) -> list[Path]:
@@ -21,7 +22,10 @@ def extract(report: Path, folder: Path) -> list[Path]:
     found = carried_results(report)
     contents = {f"{report.stem}.yaml": found.config_content, f"{report.stem}.json": found.results_content}
     if doubled := sorted(contents.keys() & found.tables.keys()):
-        words = f"The configuration names a file {doubled[0]}, and would be called so itself. Rename the report."
+        words = Phrase(
+            "The configuration names a file {doubled}, and would be called so itself. Rename the report.",
+            doubled=doubled[0],
+        )
         raise UserError(Problem(words, str(report)))
     files = {folder / name: each for name, each in (contents | found.tables).items()}
     if problems := list(_refused(files, folder)):
@@ -33,10 +37,10 @@ def extract(report: Path, folder: Path) -> list[Path]:
 def _refused(files: Mapping[Path, bytes], folder: Path) -> Iterator[Problem]:
     for path, wanted in files.items():
         if os.path.lexists(path) and not _is_same(path, wanted):
-            words = "There is another file of this name. It is not written over: choose another folder with -o."
+            words = phrase("There is another file of this name. It is not written over: choose another folder with -o.")
             yield Problem(words, str(path))
         elif not Path(os.path.realpath(path.parent)).is_relative_to(os.path.realpath(folder)):
-            words = "A link leads out of the folder here, and is not followed: choose another folder with -o."
+            words = phrase("A link leads out of the folder here, and is not followed: choose another folder with -o.")
             yield Problem(words, str(path))
 
 

@@ -8,6 +8,7 @@ import re
 import zlib
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 
 LINK = re.compile(rb'download="results\.json\.gz" href="data:application/gzip;base64,([A-Za-z0-9+/]*={0,2})"')
 GZIP = 16 + zlib.MAX_WBITS
@@ -19,8 +20,9 @@ def linked_results(content: bytes, most: int, file: str) -> bytes | None:
     if not found:
         return None
     if len(found) > 1:
-        words = (
-            f"The page carries {len(found)} results files, and a report has one. Give the file as the program wrote it."
+        words = Phrase(
+            "The page carries {count} results files, and a report has one. Give the file as the program wrote it.",
+            count=len(found),
         )
         raise UserError(Problem(words, file))
     return _unpacked(found[0], most, file)
@@ -33,7 +35,9 @@ def _unpacked(text: bytes, most: int, file: str) -> bytes:
     except (binascii.Error, zlib.error) as error:
         raise UserError(Problem(_damaged(), file)) from error
     if len(content) > most:
-        words = f"What the page carries is too large: it unpacks to more than {most / 1e6:g} MB."
+        words = Phrase(
+            "What the page carries is too large: it unpacks to more than {most} MB.", most=format(most / 1000000.0, "g")
+        )
         raise UserError(Problem(words, file))
     if not unpacking.eof or unpacking.unused_data:
         raise UserError(Problem(_damaged(), file))
@@ -41,4 +45,4 @@ def _unpacked(text: bytes, most: int, file: str) -> bytes:
 
 
 def _damaged() -> str:
-    return "The results that the page carries are damaged. Give the file as the program wrote it."
+    return phrase("The results that the page carries are damaged. Give the file as the program wrote it.")

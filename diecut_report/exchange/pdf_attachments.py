@@ -9,6 +9,7 @@ import pikepdf
 from pikepdf import settings
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 
 MOST_ITEMS = 1_000_000  # of an array or a dictionary
 MOST_WARNINGS = 100
@@ -24,10 +25,13 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
         with pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True) as pdf:
             return _found(pdf, name, most, file)
     except pikepdf.PasswordError as error:
-        words = "The PDF is encrypted, and opens only with a password. Give one without."
+        words = phrase("The PDF is encrypted, and opens only with a password. Give one without.")
         raise UserError(Problem(words, file)) from error
     except FAULTS as error:
-        words = f"The PDF is damaged, or holds more than {most / 1e6:g} MB in one piece. Give the file as the program wrote it."
+        words = Phrase(
+            "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it.",
+            most=format(most / 1000000.0, "g"),
+        )
         raise UserError(Problem(words, file)) from error
 
 
@@ -50,6 +54,10 @@ def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
         return None
     content = found[0]["/EF"]["/F"].read_bytes()
     if len(content) > most:
-        words = f"What is attached is too large: {len(content) / 1e6:.1f} MB; at most {most / 1e6:g} MB are taken."
+        words = Phrase(
+            "What is attached is too large: {count} MB; at most {most} MB are taken.",
+            count=format(len(content) / 1000000.0, ".1f"),
+            most=format(most / 1000000.0, "g"),
+        )
         raise UserError(Problem(words, file))
     return bytes(content)

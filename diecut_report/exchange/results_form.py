@@ -12,12 +12,13 @@ from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_valida
 from diecut_report.config.hidden_letters import CONTROL
 from diecut_report.config.own_tables import MOST as MOST_TABLES
 from diecut_report.errors import TOLD, Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_TEXT
 from diecut_report.pictures import MOST as MOST_OF_PICTURE
 from diecut_report.pictures import media_type
 
 MOST_VALUES = 10_000_000  # of a results file
-ASK = "Give a results file as the program wrote it."
+ASK = phrase("Give a results file as the program wrote it.")
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=1000)]
 Id = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=200)]
 Status = Literal["pass", "warn", "fail", "error", "skipped"]
@@ -95,7 +96,7 @@ class LogoForm(_PartOfResults):
         """The picture is one, and of its type."""
         content = b64decode(self.base64, validate=True)  # binascii's error is a ValueError
         if media_type(content) != self.media_type:
-            raise ValueError(f"the logo is not {self.media_type}")
+            raise ValueError(Phrase("the logo is not {media_type}", media_type=self.media_type))
         return self
 
 
@@ -177,13 +178,24 @@ def results_of(content: bytes, file: str) -> dict[str, Any]:
 def parsed(content: bytes, file: str) -> dict[str, Any]:
     """Return the block of keys that a JSON file holds; UserError where it holds none, or too much."""
     if content.count(b",") + content.count(b"[") + content.count(b"{") > MOST_VALUES:
-        raise UserError(Problem(f"The file holds more than {MOST_VALUES:,} values. {ASK}", file))
+        raise UserError(
+            Problem(
+                Phrase(
+                    "The file holds more than {most_values} values. {ask}",
+                    most_values=format(MOST_VALUES, ","),
+                    ask=ASK,
+                ),
+                file,
+            )
+        )
     try:
         found = json.loads(content, parse_constant=_refuse_constant, parse_float=_finite)
     except (ValueError, RecursionError) as error:
-        raise UserError(Problem(f"This is not a JSON file that can be read: {_told(error)}. {ASK}", file)) from error
+        raise UserError(
+            Problem(Phrase("This is not a JSON file that can be read: {told}. {ask}", told=_told(error), ask=ASK), file)
+        ) from error
     if not isinstance(found, dict):
-        raise UserError(Problem(f"This JSON file does not hold results. {ASK}", file))
+        raise UserError(Problem(Phrase("This JSON file does not hold results. {ask}", ask=ASK), file))
     return found
 
 
@@ -194,22 +206,22 @@ class _NotANumber(ValueError):
 def _told(error: ValueError | RecursionError) -> str:
     match error:
         case RecursionError():
-            return "it is nested too deeply"
+            return phrase("it is nested too deeply")
         case UnicodeDecodeError():
-            return "it is not UTF-8 text"
+            return phrase("it is not UTF-8 text")
         case json.JSONDecodeError() | _NotANumber():
             return str(error)
-    return "a whole number in it has too many digits"
+    return phrase("a whole number in it has too many digits")
 
 
 def _refuse_constant(name: str) -> NoReturn:
-    raise _NotANumber(f"it holds {name}, which is not a number")
+    raise _NotANumber(Phrase("it holds {name}, which is not a number", name=name))
 
 
 def _finite(text: str) -> float:
     value = float(text)
     if math.isinf(value):
-        raise _NotANumber(f"it holds {text[:20]}, which is beyond the range of numbers")
+        raise _NotANumber(Phrase("it holds {text}, which is beyond the range of numbers", text=text[:20]))
     return value
 
 
@@ -228,4 +240,13 @@ def _refuse_hidden(data: Any, file: str) -> None:
         elif isinstance(part, list):
             waiting += [each for each in part if not isinstance(each, float)]
         elif isinstance(part, str) and (found := CONTROL.search(part)):
-            raise UserError(Problem(f"The file holds the control character U+{ord(found[0]):04X}. {ASK}", file))
+            raise UserError(
+                Problem(
+                    Phrase(
+                        "The file holds the control character U+{code}. {ask}",
+                        code=format(ord(found[0]), "04X"),
+                        ask=ASK,
+                    ),
+                    file,
+                )
+            )

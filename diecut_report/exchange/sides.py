@@ -12,6 +12,7 @@ from diecut_report.errors import PluginError
 from diecut_report.exchange.carried_results import MOST, carried_results, form_of
 from diecut_report.exchange.results_form import parsed
 from diecut_report.given_files import content
+from diecut_report.languages.phrases import phrase
 from diecut_report.results.results_file import encoded
 
 
@@ -27,6 +28,6 @@ def side(
 
 def _carries_results(path: Path) -> bool:
     """Whether a file is a report or a results file; a configuration may be written as JSON too."""
-    whole = content(path, MOST, "a configuration, a results file or a report")
+    whole = content(path, MOST, phrase("a configuration, a results file or a report"))
     form = form_of(whole)
     return form in ("pdf", "html") or (form == "json" and b'"program"' in whole and b'"mechanisms"' in whole)

@@ -33,7 +33,7 @@ from diecut_report.report.letters import LINE, MILLIMETRE, drawn, fitted
 SMALLEST, LARGEST = 2.5, 8.0  # points of the letters in a field
 PAD = 1.0  # points between a field's edge and its letters
 LIFTED = 0.3  # of a line: its baseline above its lower edge
-NONE_FREE = (
+NONE_FREE = phrase(
     "This PDF has no free field for a signature: an earlier version or another program made it, or all have signed it."
 )
 

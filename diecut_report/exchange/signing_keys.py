@@ -19,7 +19,7 @@ from diecut_report.languages.phrases import Phrase, phrase
 
 MOST = 1_000_000  # bytes of a key or of certificates
 PEM = b"-----BEGIN"
-WRONG = "The key cannot be opened: the password is wrong, or the file is damaged or not a key (PKCS #12, PEM)."
+WRONG = phrase("The key cannot be opened: the password is wrong, or the file is damaged or not a key (PKCS #12, PEM).")
 Ask = Callable[[], bytes]
 """Gives the password; UserError where nobody can be asked for it."""
 

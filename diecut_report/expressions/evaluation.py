@@ -11,6 +11,7 @@ import numpy as np
 from diecut_report.expressions.formula import FormulaName
 from diecut_report.expressions.functions import APPLY, NUMERIC
 from diecut_report.expressions.tree import Node
+from diecut_report.languages.phrases import phrase
 
 
 def evaluate(node: Node, value_of: Callable[[Node], Any]) -> Any:
@@ -43,4 +44,4 @@ def _first_that_holds(branches: tuple[tuple[Node, ...], ...], value_of: Callable
             return np.where(held, evaluate(branch[0], value_of), _first_that_holds(branches[number + 1 :], value_of))
         if held:
             return evaluate(branch[0], value_of)
-    raise ValueError("no case of the formula holds")
+    raise ValueError(phrase("no case of the formula holds"))

@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import math
 from collections.abc import Callable
+from decimal import Decimal
 from functools import cached_property
 from typing import Any, NamedTuple, overload
 
@@ -14,6 +15,12 @@ from diecut_report.expressions.functions import BINARY, COMPARE, FUNCTIONS, OF_T
 from diecut_report.expressions.hints import instead
 from diecut_report.expressions.source import FormulaError, Unreadable, body, given_to, perhaps_named, place
 from diecut_report.expressions.tree import Node, substitute
+from diecut_report.languages.phrases import Phrase, joined
+
+GREAT, SHORT = (
+    1e5,
+    4,
+)  # a number from which zeros are not counted, and letters of what then stands before the power of ten
 
 
 class Formula:
@@ -72,8 +79,8 @@ class Formula:
         if full not in self._readings:
             if self in above:
                 chain = " → ".join(each.__name__ for each in (*above[above.index(self) :], self))
-                raise FormulaError(f"{self.place}: formula {self.__name__} calls itself ({chain}) and would never end; "
-                                   "give the formula another name than what it calls")  # fmt: skip
+                raise FormulaError(Phrase("{place}: formula {name} calls itself ({chain}) and would never end; give the formula another "
+"name than what it calls", place=self.place, name=self.__name__, chain=chain))  # fmt: skip
             self._readings[full] = _BodyReader(self, above, full).read()
         return self._readings[full]
 
@@ -132,19 +139,26 @@ class _BodyReader:
                     continue  # the docstring
                 case _:
                     raise self._refuse(statement)
-        raise FormulaError(f"{self.owner.place}: formula {self.owner.__name__} returns nothing")
+        raise FormulaError(
+            Phrase("{place}: formula {name} returns nothing", place=self.owner.place, name=self.owner.__name__)
+        )
 
     def _statements(self) -> list[ast.stmt]:
         try:
             return body(self.function.__code__)
         except Unreadable as error:
-            words = f"{self.owner.place}: the source of formula {self.owner.__name__} cannot be read: {error}"
+            words = Phrase(
+                "{place}: the source of formula {name} cannot be read: {error}",
+                place=self.owner.place,
+                name=self.owner.__name__,
+                error=error,
+            )
             raise FormulaError(words) from None
 
     def _node(self, expression: ast.expr) -> Node:
         match expression:
             case ast.Constant(value=int() | float() as value) if not isinstance(value, bool):
-                return Node("num", (repr(value),))
+                return Node("num", (_literal(value),))
             case ast.Name(id=name) if name in self.locals:
                 return self.locals[name]
             case ast.Name() | ast.Attribute():
@@ -188,8 +202,15 @@ class _BodyReader:
         wanted = 2 if name in OF_TWO else 1
         if len(args) != wanted:
             raise FormulaError(
-                f"{self._place(at)}: formula {self.owner.__name__} calls {ast.unparse(at.func)} with {len(args)}, in {ast.unparse(at)!r}; "
-                f"it takes {wanted}"
+                Phrase(
+                    "{place}: formula {name} calls {called} with {count}, in {call}; it takes {wanted}",
+                    place=self._place(at),
+                    name=self.owner.__name__,
+                    called=ast.unparse(at.func),
+                    count=len(args),
+                    call=repr(ast.unparse(at)),
+                    wanted=wanted,
+                )
             )
 
     def _called(self, callee: Formula, args: tuple[Node, ...], at: ast.Call) -> Node:
@@ -230,8 +251,22 @@ class _BodyReader:
 
     def _refuse(self, node: ast.AST) -> FormulaError:
         value = self._object(node) if isinstance(node, ast.Name) else None
-        words = f"formula {self.owner.__name__} cannot print {ast.unparse(node)!r}; {instead(node, value)}"
-        return FormulaError(f"{self._place(node)}: {words}")
+        words = Phrase(
+            "formula {name} cannot print {node}; {instead}",
+            name=self.owner.__name__,
+            node=repr(ast.unparse(node)),
+            instead=instead(node, value),
+        )
+        return FormulaError(joined((self._place(node), words), ": "))
 
     def _place(self, node: ast.AST) -> str:
         return f"{self.function.__code__.co_filename}:{getattr(node, 'lineno', '?')}"
+
+
+def _literal(value: float) -> str:
+    """A number of a formula's body as it is printed: a great power of ten as such, not with its zeros and a decimal."""
+    text = repr(value)
+    if not text.endswith(".0") or abs(value) < GREAT:
+        return text
+    mantissa, power = f"{Decimal(value).normalize():e}".split("e")
+    return f"{mantissa}e{int(power)}" if len(mantissa) < SHORT else f"{value:.0f}"

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.expressions.tree import Node
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit as known
 
 ROUNDING = 1e-9  # of a factor of 1; how far beyond ±1 rounding may carry the cosine of an angle that exists
@@ -25,7 +26,14 @@ class Constant(float):
         given = known(unit)
         if abs(given.factor - 1) > ROUNDING:
             raise TypeError(
-                f"{symbol} is in {unit}, which is {given.factor:g} {given.si}; give it in SI, {value * given.factor:g} {given.si}"
+                Phrase(
+                    "{symbol} is in {unit}, which is {factor} {si}; give it in SI, {value} {si}",
+                    symbol=symbol,
+                    unit=unit,
+                    factor=format(given.factor, "g"),
+                    si=given.si,
+                    value=format(value * given.factor, "g"),
+                )
             )
         self = super().__new__(cls, value)
         self.symbol, self.unit = symbol, unit

@@ -13,8 +13,10 @@ from textwrap import dedent
 from types import CodeType, ModuleType
 from typing import Any
 
+from diecut_report.languages.phrases import phrase
+
 LAMBDA = "<lambda>"
-CHANGED = "its place in the file holds something else; was the file changed?"
+CHANGED = phrase("its place in the file holds something else; was the file changed?")
 Place = tuple[int, int]  # line from 1, column from 0 in bytes
 
 
@@ -33,7 +35,7 @@ def body(code: CodeType) -> list[ast.stmt]:
     """
     lines = linecache.getlines(code.co_filename)
     if not lines:
-        raise Unreadable("there is no such file")
+        raise Unreadable(phrase("there is no such file"))
     return [_returned(code, lines)] if code.co_name == LAMBDA else _definition(code, lines).body
 
 
@@ -47,7 +49,7 @@ def _definition(code: CodeType, lines: list[str]) -> ast.FunctionDef:
         definition = found.body[0]
         if isinstance(definition, ast.FunctionDef):
             return definition
-    raise Unreadable("its lines are not a function")
+    raise Unreadable(phrase("its lines are not a function"))
 
 
 def _returned(code: CodeType, lines: list[str]) -> ast.Return:
@@ -70,7 +72,9 @@ def _span(code: CodeType) -> tuple[Place, Place] | None:
 def _number(code: CodeType) -> ast.expr:
     numbers = [value for value in code.co_consts if isinstance(value, int | float)]
     if len(numbers) != 1 or code.co_names or code.co_argcount:
-        raise Unreadable("this Python was told to keep no columns (PYTHONNODEBUGRANGES); write a def with @formula")
+        raise Unreadable(
+            phrase("this Python was told to keep no columns (PYTHONNODEBUGRANGES); write a def with @formula")
+        )
     return ast.Constant(numbers[0], lineno=code.co_firstlineno, col_offset=0)
 
 

@@ -33,6 +33,7 @@ from diecut_report.formula_checks.kinds import (
     kind_text,
     times,
 )
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import Kind, unit
 
 
@@ -85,7 +86,13 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
             continue
         wanted = _wanted(step, part, units)
         if wanted is not None and not alike(given, unit(wanted).kind):
-            yield f"{step.id}: {link.formula.__name__} gives {kind_text(given)}, declared is {wanted}"
+            yield Phrase(
+                "{id}: {name} gives {given}, declared is {wanted}",
+                id=step.id,
+                name=link.formula.__name__,
+                given=kind_text(given),
+                wanted=wanted,
+            )
 
 
 def curve_units(mechanism: Mechanism) -> Iterator[str]:
@@ -95,7 +102,13 @@ def curve_units(mechanism: Mechanism) -> Iterator[str]:
     for _, step in mechanism.steps:
         for name, made, wanted in _made_of(step, units, axis_of):
             if not alike(made, wanted):
-                yield f"{step.id}: {name} gives {kind_text(made)}, declared is {kind_text(wanted)}"
+                yield Phrase(
+                    "{id}: {name} gives {given}, declared is {wanted}",
+                    id=step.id,
+                    name=name,
+                    given=kind_text(made),
+                    wanted=kind_text(wanted),
+                )
 
 
 def _made_of(step: Step, units: dict[str, str], axis_of: dict[str, str]) -> Iterator[tuple[str, Found, Found]]:
@@ -107,9 +120,9 @@ def _made_of(step: Step, units: dict[str, str], axis_of: dict[str, str]) -> Iter
     own = of(step.id) if step.id in units else None
     match step:
         case Derivative(of=curve):
-            yield f"the derivative of {curve}", times(of(curve), of(axis_of[curve]), -1), own
+            yield Phrase("the derivative of {curve}", curve=curve), times(of(curve), of(axis_of[curve]), -1), own
         case Accumulated(of=curve) | Reduction(of=curve, operation="integral"):
-            yield f"the integral of {curve}", times(of(curve), of(axis_of[curve])), own
+            yield Phrase("the integral of {curve}", curve=curve), times(of(curve), of(axis_of[curve])), own
         case Reduction(of=curve):
             yield curve, of(curve), own
         case Abscissa(period=str() as period):
@@ -129,8 +142,10 @@ def relations(mechanism: Mechanism) -> Iterator[str]:
     for step, part, link in formulas(mechanism):
         if part in ("left", "right"):
             sides.setdefault(step.id, []).append(_given(link, units))
-    yield from (f"{name}: the relation equals {kind_text(a)} with {kind_text(b)}" for name, (a, b) in sides.items()
-                if not alike(a, b))  # fmt: skip
+    for name, (a, b) in sides.items():
+        if not alike(a, b):
+            words = "{name}: the relation equals {one} with {other}"
+            yield Phrase(words, name=name, one=kind_text(a), other=kind_text(b))
 
 
 def _wanted(step: Step, part: str, units: dict[str, str]) -> str | None:
@@ -159,4 +174,6 @@ def check_units(mechanism: Mechanism) -> Iterator[str]:
 def _unlike(check: Check, units: dict[str, str]) -> Iterator[str]:
     for side in (check.demand, check.limit):
         if isinstance(side, str) and side in units and unit(units[side]).kind != unit(check.unit).kind:
-            yield f"check {check.id} is in {check.unit}, {side} in {units[side]}"
+            yield Phrase(
+                "check {id} is in {unit}, {side} in {units}", id=check.id, unit=check.unit, side=side, units=units[side]
+            )

@@ -15,6 +15,7 @@ from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import Step
 from diecut_report.declaration.input_places import of_input
 from diecut_report.declaration.sources import own_files, parsed
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.formatting import NAMED
 
 SAID = ("symbol", "unit", "description", "source", "title", "summary", "caption", "at", "kind", "version", "id")
@@ -28,7 +29,12 @@ def idle_inputs(mechanism: Mechanism) -> Iterator[str]:
     for path, meta in fields(mechanism.inputs):
         if not isinstance(meta, Text) and path not in used and path.rpartition(".")[2] not in told:
             place = Path(of_input(mechanism.inputs, path, mechanism.at)).name
-            yield f"{place}: input {path}: nothing takes it, so that it changes no result; take it in a step, or remove it"
+            yield Phrase(
+                "{place}: input {path}: nothing takes it, so that it changes no result; take it in a step, or "
+                "remove it",
+                place=place,
+                path=path,
+            )
 
 
 def _used(mechanism: Mechanism) -> Iterator[str]:

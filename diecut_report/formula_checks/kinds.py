@@ -13,6 +13,7 @@ from collections.abc import Mapping
 
 from diecut_report.conditions.kinds import alike as kinds_alike
 from diecut_report.expressions import AS_ANGLE, AS_NUMBER, Formula, Node, evaluate, symbols, written
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import (
     DIMENSIONS,
     Kind,
@@ -142,14 +143,28 @@ class _Walk:
     def _said(self, node: Node, inner: Found, power: int) -> Found:
         """What is said to be a number or an angle; KindError where it is that already."""
         if inner is None or inner[ANGLE_AT] == power:
-            raise KindError(f"{_shortened(node)} says that rad {'comes in' if power else 'drops'}, but "
-                            f"{_shortened(node.args[1])} is {kind_text(inner)} already")  # fmt: skip
+            raise KindError(
+                Phrase(
+                    "{part} says that rad {text}, but {inner} is {kind} already",
+                    part=_shortened(node),
+                    text=phrase("comes in") if power else phrase("drops"),
+                    inner=_shortened(node.args[1]),
+                    kind=kind_text(inner),
+                )
+            )
         return _turned(inner, power)
 
     def _needed(self, kind: Kind, argument: Node) -> Kind:
         found = self.kind(argument)
         if found not in (ANY, kind):
-            raise KindError(f"{_shortened(argument)} is {kind_text(found)}, {kind_text(kind)} is needed")
+            raise KindError(
+                Phrase(
+                    "{part} is {kind}, {wanted} is needed",
+                    part=_shortened(argument),
+                    kind=kind_text(found),
+                    wanted=kind_text(kind),
+                )
+            )
         return kind
 
     def _common(self, node: Node, *parts: Node) -> Found:
@@ -159,8 +174,16 @@ class _Walk:
         for part in others:
             found = self.kind(part)
             if not alike(common, found):
-                raise KindError(f"{_shortened(node)} brings together {kind_text(common)} ({_shortened(first)}) and "
-                                f"{kind_text(found)} ({_shortened(part)})")  # fmt: skip
+                raise KindError(
+                    Phrase(
+                        "{part} brings together {kind} ({one}) and {other_kind} ({other})",
+                        part=_shortened(node),
+                        kind=kind_text(common),
+                        one=_shortened(first),
+                        other_kind=kind_text(found),
+                        other=_shortened(part),
+                    )
+                )
             common = found if common is None else common if found in (ANY, common) else _turned(common, 0)
         return common
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable, Iterable, Iterator
 from functools import cache, cached_property
 from gettext import c2py
 from importlib import import_module
@@ -39,8 +39,9 @@ class TextCatalogue:
             self._plural = c2py(found.plural_expr)
             judge(found, self._plural)
         except Exception as error:  # of any kind: that of a plugin may hold anything
-            words = (
-                f"This catalogue of texts cannot be read: {error}. Mend it, or remove it: its texts are English then."
+            words = Phrase(
+                "This catalogue of texts cannot be read: {error}. Mend it, or remove it: its texts are English then.",
+                error=error,
             )
             raise UserError(Problem(words, str(file))) from error
         self._texts: dict[tuple[str | None, str], tuple[str, ...]] = {}
@@ -99,6 +100,11 @@ def known(language: str) -> str:
     return language
 
 
+def built_in_kinds() -> list[str]:
+    """Return the kinds of the program's own plugins."""
+    return sorted(folder.name for folder in Path(import_module(PLUGINS).__path__[0]).iterdir())
+
+
 def built_in(kind: str) -> Path | None:
     """Return the file of a plugin of the program; None for other kinds."""
     file = Path(import_module(PLUGINS).__path__[0]) / kind / "__init__.py"
@@ -108,16 +114,15 @@ def built_in(kind: str) -> Path | None:
 def of_all_plugins(language: str) -> Catalogues:
     """Return the catalogues of the program and of all its plugins."""
     found = Catalogues(language)
-    for folder in sorted(Path(import_module(PLUGINS).__path__[0]).iterdir()):
-        found.of(folder.name)
+    found.know(built_in_kinds())
     return found
 
 
 class Catalogues:
-    """All catalogues that a report needs; ``find`` gives the file of a plugin that is not the program's own."""
+    """All catalogues that a report needs; ``find`` gives the file of a plugin that is not the program's own, one of ``others``."""
 
-    def __init__(self, language: str, find: Find = built_in) -> None:
-        self.language, self._find = known(language), find
+    def __init__(self, language: str, find: Find = built_in, others: Iterable[str] = ()) -> None:
+        self.language, self._find, self._others = known(language), find, tuple(others)
         self._kinds: dict[str, TextCatalogue | None] = {}
 
     @cached_property
@@ -130,6 +135,22 @@ class Catalogues:
         if kind not in self._kinds:
             self._kinds[kind] = self._read(kind)
         return self._kinds[kind]
+
+    def know(self, kinds: Iterable[str]) -> None:
+        """Let the texts of these plugins be known wherever a text is said; UserError where one cannot be read."""
+        for kind in kinds:
+            self.of(kind)
+
+    def know_all(self) -> list[Problem]:
+        """Let the texts of all plugins be known; return what is wrong with catalogues of others that cannot be read."""
+        self.know(built_in_kinds())
+        faults: list[Problem] = []
+        for kind in self._others:
+            try:
+                self.of(kind)
+            except UserError as error:
+                faults += error.problems
+        return faults
 
     def _read(self, kind: str) -> TextCatalogue | None:
         code = built_in(kind) or self._find(kind)

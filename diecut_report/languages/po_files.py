@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from io import BytesIO
 from pathlib import Path
 
 from babel.messages.catalog import Catalog
 from babel.messages.pofile import read_po, write_po
+
+from diecut_report.languages.phrases import Phrase
 
 NEVER = datetime(2026, 1, 1, tzinfo=UTC)  # equal texts give equal files
 WIDTH = 140
@@ -29,7 +31,9 @@ def read(file: Path, language: str) -> Catalog:
     """Return the catalogue of a file; ValueError, or another exception of Babel's, where it is none."""
     content = file.read_bytes()
     if any(int(count[:9]) > MOST_FORMS for count in _FORMS.findall(content)):  # Babel makes a list of so many
-        raise ValueError(f"a language has at most {MOST_FORMS} forms of a word for a number")
+        raise ValueError(
+            Phrase("a language has at most {most_forms} forms of a word for a number", most_forms=MOST_FORMS)
+        )
     return read_po(BytesIO(content), locale=language, charset="utf-8", abort_invalid=True)
 
 
@@ -38,10 +42,14 @@ def judge(catalogue: Catalog, plural: Callable[[int], int]) -> None:
     for message in catalogue:
         said = (message.string or "",) if isinstance(message.string, str | None) else message.string
         if letter := next(filter(None, map(_HIDDEN.search, said)), None):
-            raise ValueError(f"the translation of {message.id!r} holds U+{ord(letter[0]):04X}")
+            raise ValueError(
+                Phrase(
+                    "the translation of {id} holds U+{code}", id=repr(message.id), code=format(ord(letter[0]), "04X")
+                )
+            )
     for count in range(200):
         if not 0 <= plural(count) < catalogue.num_plurals:
-            raise ValueError(f"its plural forms have none for {count}")
+            raise ValueError(Phrase("its plural forms have none for {count}", count=count))
 
 
 def written(catalogue: Catalog) -> bytes:
@@ -50,3 +58,20 @@ def written(catalogue: Catalog) -> bytes:
     write_po(stream, catalogue, width=WIDTH, ignore_obsolete=True)
     lines = stream.getvalue().splitlines(keepends=True)
     return b"".join(line for line in lines if not line.startswith(UNSAID))
+
+
+def added(there: bytes | None, language: str, project: str, texts: Iterable[tuple[str, str]]) -> tuple[bytes, int]:
+    """Return a catalogue's file with untranslated messages of these texts, each with what it is of, and how many there are.
+
+    What it has already is left out and stays as it is; where it is not there yet (None) it begins with its head.
+    """
+    found = empty(language, project, holder=f"the authors of {project}")
+    known = () if there is None else read_po(BytesIO(there), locale=language, charset="utf-8", abort_invalid=True)
+    for text, of in texts:
+        if text not in known:
+            found.add(text, auto_comments=[of])
+    if there is None:
+        return written(found), len(found)
+    stream = BytesIO()
+    write_po(stream, found, width=WIDTH, omit_header=True)
+    return there.rstrip(b"\n") + b"\n\n" + stream.getvalue(), len(found)

@@ -5,11 +5,12 @@ It holds for all that is called within ``speaking``. What goes into results, and
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar, Token
 from typing import NamedTuple
 
+from diecut_report.errors import Problem
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.languages.phrases import Counted, Phrase
 from diecut_report.languages.translation import Translator, with_decimal
@@ -51,9 +52,28 @@ def spoken_language() -> str:
     return _NOW.get().language
 
 
+def catalogues_spoken() -> Catalogues | None:
+    """Return the catalogues of the language that is spoken; None for the one that texts are written in."""
+    translator = _NOW.get().translator
+    return None if translator is None else translator.catalogues
+
+
 def decimal_sign() -> str:
     """Return its sign of decimals."""
     return _NOW.get().decimal
+
+
+def know_plugins(kinds: Iterable[str]) -> None:
+    """Let the words of these plugins be known in the language that is spoken; UserError where a catalogue cannot be read."""
+    translator = _NOW.get().translator
+    if translator is not None:
+        translator.catalogues.know(kinds)
+
+
+def know_all_plugins() -> list[Problem]:
+    """Let the words of all plugins be known; return what is wrong with catalogues of others that cannot be read."""
+    translator = _NOW.get().translator
+    return [] if translator is None else translator.catalogues.know_all()
 
 
 def said(text: str, kind: str = "") -> str:

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import asyncio
 import json
+import threading
 from collections.abc import AsyncIterator, Callable
 from concurrent.futures import ThreadPoolExecutor
 from contextlib import asynccontextmanager, suppress
@@ -24,12 +25,17 @@ from diecut_report.live.page import assets, page
 from diecut_report.live.page_data import page_data
 from diecut_report.live.pictures_of_run import Pictures
 from diecut_report.live.reports import LiveReports
-from diecut_report.live.session import LiveSession
+from diecut_report.live.session import LiveMachine, LiveSession
 
 Found = TypeVar("Found")
 SETTLED, STEP = 60, 20  # milliseconds: an editor may write a file in several steps
 ALIVE = 15.0  # seconds after which a silent stream says that it is there
+LOOK = 0.1  # seconds between looks whether a page still waits for what is calculated
 AGAIN = 1.0  # seconds between looks for a folder that is gone
+
+
+class _GivesWay(Exception):
+    """End what nobody waits for as long as for what has come meanwhile."""
 
 
 class LiveApplication:
@@ -41,6 +47,7 @@ class LiveApplication:
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="live")
         self._changed = asyncio.Condition()
         self._told = -1, b""
+        self._waiting = 0  # how much is to be done that a hand waits for
         self._is_ending = asyncio.Event()
         routes = [
             Route("/", self._page), Route("/assets/{name}", self._asset), Route("/events", self._events),
@@ -71,8 +78,15 @@ class LiveApplication:
 
     async def _done(self, work: Callable[[], Found]) -> Found:
         """Let the one thread do it: the session and the figures know only one."""
+        self._waiting += 1
+        try:
+            return await self._begun(work)
+        finally:
+            self._waiting -= 1
+
+    def _begun(self, work: Callable[[], Found]) -> asyncio.Future[Found]:
         spoken = copy_context()  # with the language that is spoken
-        return await asyncio.get_running_loop().run_in_executor(self._worker, spoken.run, work)
+        return asyncio.get_running_loop().run_in_executor(self._worker, spoken.run, work)
 
     # --- what changes ------------------------------------------------------------------------------------------------
 
@@ -120,7 +134,7 @@ class LiveApplication:
                 self._told = self.session.serial, text.encode()
             return self._told
 
-        return await self._done(made)
+        return self._told if self._told[0] == self.session.serial else await self._done(made)
 
     async def _events(self, _request: Request) -> Response:
         return StreamingResponse(self._stream(), media_type="text/event-stream")
@@ -154,15 +168,33 @@ class LiveApplication:
         return await self._of_machine(lambda machine: self.pictures.figure(machine, mechanism, index))
 
     async def _effect(self, request: Request) -> Response:
-        name = request.query_params.get("input", "")
-        return await self._of_machine(lambda machine: effect(machine, name))
+        """An effect is a whole run of many machines: it gives way to all else, and ends where its page looks at another."""
+        name, has_gone = request.query_params.get("input", ""), threading.Event()
 
-    async def _of_machine(self, make: Callable[[Any], dict[str, Any]]) -> Response:
+        def give_way(_mechanism: str) -> None:
+            if self._waiting or has_gone.is_set():
+                raise _GivesWay
+
+        while not has_gone.is_set():
+            found = self._begun(self._of_last(lambda machine: effect(machine, name, give_way)))
+            while not (await asyncio.wait([found], timeout=LOOK))[0]:
+                if self._is_ending.is_set() or await request.is_disconnected():
+                    has_gone.set()
+            with suppress(_GivesWay):
+                return JSONResponse(found.result())
+        return Response(status_code=503)
+
+    async def _of_machine(self, make: Callable[[LiveMachine], dict[str, Any]]) -> Response:
+        return JSONResponse(await self._done(self._of_last(make)))
+
+    def _of_last(self, make: Callable[[LiveMachine], dict[str, Any]]) -> Callable[[], dict[str, Any]]:
+        """What is made of the last machine that could be calculated."""
+
         def made() -> dict[str, Any]:
             machine = self.session.machine
             return {"none": True} if machine is None else make(machine)
 
-        return JSONResponse(await self._done(made))
+        return made
 
     async def _report(self, request: Request) -> Response:
         machine = self.session.machine

@@ -14,21 +14,24 @@ from diecut_report.languages.phrases import Phrase
 from diecut_report.live.page_data import slider
 from diecut_report.live.session import LiveMachine
 from diecut_report.quantities.units import unit
+from diecut_report.results.press_run import Tell
+from diecut_report.study.execution.press_batch import untold
 
 Data = dict[str, Any]
 POINTS = 25  # of a line: fine enough for its size, and quick enough for a hand on a slider
 
 
-def effect(machine: LiveMachine, name: str) -> Data:
+def effect(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
     """Return the checks' utilisations and statuses along an input's slider, with the places in the input's unit.
 
-    UserError where the file gives no such number. A place where the machine cannot exist has neither.
+    UserError where the file gives no such number. A place where the machine cannot exist has neither. ``tell`` is called with
+    the name of each mechanism before it is calculated; what it raises ends the run.
     """
     asked = machine.inputs.get(name)
     if asked is None:
         raise UserError(Problem(Phrase("{name} is not a number that the file gives.", name=repr(name))))
     places = _places(asked)
-    found = varied(machine.config, {asked.asked: places}, len(places))
+    found = varied(machine.config, {asked.asked: places}, len(places), tell=tell)
     own = unit(asked.unit)
     return {
         "input": name,

@@ -7,9 +7,10 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from diecut_report.config.model import PRESS
+from diecut_report.design.design_choices import DesignChoice
 from diecut_report.design.design_inputs import DesignInput
 from diecut_report.errors import Problem
-from diecut_report.languages.speech import said
+from diecut_report.languages.speech import localised, said
 from diecut_report.live.session import LiveMachine, LiveSession
 from diecut_report.quantities.plausible import plausible
 from diecut_report.quantities.units import unit
@@ -61,7 +62,10 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
     run = machine.run
     kind = instance.mechanism.kind if instance.mechanism else ""
     own = {
-        "inputs": [_input(each, kind, start, edits) for each in machine.inputs.values() if each.asked.instance == name]
+        "inputs": [
+            _input(each, kind, start, edits) if isinstance(each, DesignInput) else _choice(each, kind, start, edits)
+            for each in _inputs(name, machine)
+        ]
     }
     if instance.mechanism is None:
         return own | {"name": name, "title": PRESS, "checks": [], "outputs": [], "figures": [], "skipped": False}
@@ -79,7 +83,28 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
 
 def _told(text: object, kind: str) -> str:
     """A text of a plugin of this kind as the page shows it."""
-    return tidy(said(str(text or ""), kind))
+    return tidy(localised(said(text if isinstance(text, str) else "", kind)))
+
+
+def _inputs(name: str, machine: LiveMachine) -> list[DesignInput | DesignChoice]:
+    """What may be changed of a mechanism, in the order of the file."""
+    every: list[DesignInput | DesignChoice] = [*machine.inputs.values(), *machine.choices.values()]
+    own = (each for each in every if each.asked.instance == name)
+    return sorted(own, key=lambda each: machine.tree.position(each.stands))
+
+
+def _choice(asked: DesignChoice, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
+    first = start.choices.get(asked.name)
+    return {
+        "name": asked.name,
+        "path": asked.asked.path,
+        "text": _told(asked.asked.meta.description, kind),
+        "symbol": asked.asked.meta.symbol,
+        "unit": "",
+        "typed": edits.get(asked.name) or asked.typed,
+        "start": first.typed if first else "",
+        "options": list(asked.options),
+    }
 
 
 def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
@@ -156,10 +181,10 @@ def _shown(output: Mapping[str, Any]) -> str:
     display = output.get("display")
     if not display:
         return str(output["value"])
-    return quantity(display["text"], display["unit"])
+    return localised(quantity(display["text"], display["unit"]))
 
 
 def _change(value: Any, first: Any) -> float | None:
     """By how much a number has changed since the start, as a share; None where that says nothing."""
     numbers = isinstance(value, int | float) and isinstance(first, int | float) and not isinstance(value, bool)
-    return (value - first) / abs(first) if numbers and first and value != first else None
+    return (value - first) / abs(first) if numbers and first and value != first and value * first >= 0 else None

@@ -7,9 +7,11 @@ from typing import Any
 from diecut_report.engine.figure_views import shown_figures
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.speech import catalogues_spoken, spoken_language
 from diecut_report.live.session import LiveMachine
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.reader_data import figure_readings
+from diecut_report.report.translated import figure_translated
 
 Data = dict[str, Any]
 
@@ -27,7 +29,7 @@ class Pictures:
         figure = _shown(machine, mechanism, index)
         known = self._drawn.get((mechanism, index))
         if known is None or known[0] is not figure:
-            known = figure, _drawn(figure, machine.run.curves(mechanism), mechanism, index)
+            known = figure, _drawn(*_in_words(machine, mechanism, figure), mechanism, index)
             self._drawn[mechanism, index] = known
         return known[1]
 
@@ -41,10 +43,18 @@ def _shown(machine: LiveMachine, mechanism: str, index: int) -> Data:
     return found
 
 
+def _in_words(machine: LiveMachine, mechanism: str, figure: Data) -> tuple[Data, Data]:
+    """The figure and the curves of its mechanism, in the language that is spoken."""
+    curves, catalogues = machine.run.curves(mechanism), catalogues_spoken()
+    if catalogues is None:
+        return figure, curves
+    return figure_translated(figure, curves, machine.run.calculations[mechanism].mechanism.kind, catalogues)
+
+
 def _drawn(figure: Data, curves: Data, mechanism: str, index: int) -> Data:
     from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
 
-    words = Catalogue("en")
+    words = Catalogue(spoken_language())
     try:
         if figure["type"] in ("plot", "chart") and (readings := figure_readings(mechanism, figure, curves, words)):
             return {"plot": readings}

@@ -12,11 +12,12 @@ from diecut_report.config.discovery import Discovery, said
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.written_values import as_file, rewritten
 from diecut_report.config.yaml_tree import KeyPath, Tree
+from diecut_report.design.design_choices import DesignChoice, given_choices
 from diecut_report.design.design_inputs import DesignInput, given_numbers
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import write
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.units import UnitError, parse_quantity
+from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity
 from diecut_report.results.warm_press import WarmPress, WarmRun
 
 Data = dict[str, Any]
@@ -26,12 +27,13 @@ MOST_EDITS = 1_000
 
 @dataclass(frozen=True)
 class LiveMachine:
-    """Hold a machine that could be calculated: the text that it follows from, its inputs by name, and its run."""
+    """Hold a machine that could be calculated: the text that it follows from, its inputs and choices by name, and its run."""
 
     tree: Tree
     config: Config
     run: WarmRun
     inputs: Mapping[str, DesignInput]
+    choices: Mapping[str, DesignChoice]
 
 
 class LiveSession:
@@ -70,14 +72,14 @@ class LiveSession:
         self._calculate()
 
     def change(self, changes: Mapping[str, str]) -> None:
-        """Take numbers of the page, as typed, by the names of their inputs; UserError where one is no number for its input."""
+        """Take values of the page, as typed, by the names of their inputs; UserError where one is not a value of its input."""
         machine = self._changeable()
         taken = {name: self._judged(machine, name, typed.strip()) for name, typed in changes.items()}
         if len(self.edits.keys() | taken.keys()) > MOST_EDITS:
             words = "At most {n} numbers can be changed before they are written to the file."
             raise UserError(Problem(Phrase(words, n=MOST_EDITS)))
         for name, typed in taken.items():
-            self._places[name] = machine.inputs[name].stands
+            self._places[name] = (machine.inputs.get(name) or machine.choices[name]).stands
             self.edits[name] = typed
             if self.tree is not None and self.tree.typed(self._places[name]) == typed:
                 del self.edits[name]
@@ -116,6 +118,8 @@ class LiveSession:
         return self.machine
 
     def _judged(self, machine: LiveMachine, name: str, typed: str) -> str:
+        if name in machine.choices:
+            return _chosen(machine.choices[name], typed)
         asked = machine.inputs.get(name)
         if asked is None:
             raise UserError(Problem(Phrase("{name} is not a number that the file gives.", name=repr(name))))
@@ -125,7 +129,16 @@ class LiveSession:
             parse_quantity(typed, asked.meta.unit)
         except UnitError as fault:
             raise UserError(Problem(str(fault), str(self.file), path=asked.asked.path)) from None
-        return typed
+        return typed if number_and_unit(typed)[1] else self._in_its_unit(asked, typed)
+
+    def _in_its_unit(self, asked: DesignInput, number: str) -> str:
+        """A bare number is in the unit that stands beside the input, which is the one that the file gives it in."""
+        stands = self.tree.typed(asked.stands) if self.tree else None
+        try:
+            is_bare = stands is None or not number_and_unit(stands)[1]
+        except UnitError:
+            is_bare = True
+        return number if is_bare or asked.unit == "1" else f"{number} {asked.unit}"
 
     def _calculate(self) -> None:
         """Calculate the file with the changes over it; what is wrong is kept in ``faults``, and the last machine stays."""
@@ -151,11 +164,24 @@ class LiveSession:
         for error in run.errors.values():
             raise error
         _require_shown(run)
-        return LiveMachine(tree, config, run, {found.name: found for found in given_numbers(config)})
+        numbers, choices = given_numbers(config), given_choices(config)
+        return LiveMachine(
+            tree, config, run, {each.name: each for each in numbers}, {each.name: each for each in choices}
+        )
 
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)
         self.serial += 1
+
+
+def _chosen(asked: DesignChoice, typed: str) -> str:
+    """One of the values that a choice has; UserError with them where it is another."""
+    if typed not in asked.options:
+        words = "{given} is not a value of {name}; allowed: {options}."
+        raise UserError(
+            Problem(Phrase(words, given=repr(typed[:LONGEST]), name=asked.name, options=", ".join(asked.options)))
+        )
+    return typed
 
 
 def _require_shown(run: WarmRun) -> None:

@@ -27,11 +27,14 @@ WORDS = {
     "write": phrase("Write to file"),
     "write_n": phrase("Write {n} to file"),
     "written": phrase("Written to {file}."),
+    "taken_back": phrase("Taken back: {n}."),
+    "put_back": phrase("Put back again"),
     "take_back": phrase("Take back"),
     "take_back_of": phrase("Take back {input}"),
     "slider": phrase("{input}, slider"),
     "before": phrase("at the start {value}"),
     "no_inputs": phrase("The file gives no number here that is not taken from elsewhere."),
+    "not_found": phrase("No input that the file gives has this in its key or words."),
     "effect": phrase("Effect"),
     "effect_of": phrase("Effect of {input}"),
     "effect_line": phrase("utilisation from {first} to {last}"),
@@ -39,7 +42,8 @@ WORDS = {
     "drawing": phrase("drawing …"),
     "refused": phrase("The program does not take this ({status})."),
     "no_answer": phrase("The program does not answer; is it still running?"),
-    "lost": phrase("The program does not answer; the page goes on when it is there again."),
+    "making": phrase("The report is being made; it opens in a tab of its own."),
+    "lost": phrase("The program does not answer. If it was started anew, open the address that it prints."),
 }
 """What is in braces the script fills in."""
 

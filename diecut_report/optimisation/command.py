@@ -18,7 +18,7 @@ from diecut_report.optimisation.texts import lines
 from diecut_report.study.analysis.query import answer
 from diecut_report.study.analysis.question import Request
 from diecut_report.study.analysis.stored_variants import opened
-from diecut_report.study.command import Shown, in_its_language, loaded
+from diecut_report.study.command import Shown, in_its_language, loaded, untranslated
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.refusals import LARGEST
 from diecut_report.study.execution.study_run import Where
@@ -75,6 +75,7 @@ def run(
         write_all(files, keep=directory / state.STATE)
         told = tuple(lines(found))
         plain = data(found)
+        notes = (*notes, *untranslated(study, where))
     return OptimiseOutcome(told, plain, csv, tuple(files), search, broken, notes, found.conflict is None)
 
 

@@ -8,15 +8,17 @@ from dataclasses import dataclass, field
 import numpy as np
 
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.definition.optimise import Optimise
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.definition.wanted_results import Objective
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
 from diecut_report.study.sampling.variables import Values
 from diecut_report.study.storage.description import ResultColumn
+from diecut_report.study.storage.state_form import SEARCHED
 
 VIOLATION = ResultColumn(
-    "violation", "float", description="By how much limits and constraints are broken in sum; 0 where none is"
+    SEARCHED, "float", description="By how much limits and constraints are broken in sum; 0 where none is"
 )
 STATUS, UTILISATION = ".status", ".utilisation"
 TOGETHER = 256  # machines of a piece, whatever number of processes there is: equal pieces give equal bytes
@@ -36,7 +38,7 @@ class GenerationPiece:
     values: Mapping[str, Values]
 
     def __str__(self) -> str:
-        return f"machines from {self.start} on"
+        return Phrase("machines from {start} on", start=self.start)
 
 
 @dataclass

@@ -12,6 +12,7 @@ from typing import Any
 from diecut_report.config.discovery import Discovery
 from diecut_report.design.proved_machine import ProvedMachine, proved
 from diecut_report.errors import PluginError, UserError
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.analysis.stored_variants import Stored, opened, quoted
 from diecut_report.study.analysis.titles import UTILISATION
 from diecut_report.study.analysis.variant_config import variant_of
@@ -31,7 +32,7 @@ class SomeMachines:
     variants: tuple[int, ...]
 
     def __str__(self) -> str:
-        return f"machines {', '.join(map(str, self.variants))} by themselves"
+        return Phrase("machines {variants} by themselves", variants=", ".join(map(str, self.variants)))
 
 
 @dataclass(frozen=True)

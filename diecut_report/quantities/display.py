@@ -68,6 +68,12 @@ def is_nothing(value: float, unit_text: str) -> bool:
     return (own.si in NEVER_SMALL or own.text == "%") and abs(value) < NOTHING * own.factor
 
 
+def finest_step(unit_text: str) -> float | None:
+    """Return the finest step of a quantity that can be made or measured, in its unit; None where none is known."""
+    own = unit(unit_text)
+    return UNIT_STEPS.get(own.text) or (STEPS[own.si] / own.factor if own.si in STEPS else None)
+
+
 def meant_digits(value: float, unit_text: str, digits: int) -> int:
     """Return how many of the significant digits of an SI value mean something: none finer than can be made or measured."""
     number, known = abs(value) / unit(unit_text).factor, finest(unit_text)
@@ -80,6 +86,7 @@ def meant_digits(value: float, unit_text: str, digits: int) -> int:
 @cache
 def finest(unit_text: str) -> tuple[int, int] | None:
     """Return the place (a power of ten) of the last digit that means something in a unit, and how many digits a small number keeps."""
-    own = unit(unit_text)
-    step = UNIT_STEPS.get(own.text) or (STEPS[own.si] / own.factor if own.si in STEPS else None)
-    return None if step is None else (round(math.log10(step)), FEWEST_OF_LENGTH if own.si == "m" else FEWEST)
+    step = finest_step(unit_text)
+    return (
+        None if step is None else (round(math.log10(step)), FEWEST_OF_LENGTH if unit(unit_text).si == "m" else FEWEST)
+    )

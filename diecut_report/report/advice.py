@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from diecut_report.report.i18n import Catalogue
+from diecut_report.report.number_format import number
 
 
 def followed_line(results: Mapping[str, Any], words: Catalogue) -> Iterator[str]:
@@ -13,10 +14,16 @@ def followed_line(results: Mapping[str, Any], words: Catalogue) -> Iterator[str]
     advice = results.get("summary", {}).get("advice")
     if not advice:
         return
-    changes = ", ".join(f"{each['path']} {each['value']}" for each in advice["changes"])
+    changes = ", ".join(f"{each['path']} {_local(each['value'], words)}" for each in advice["changes"])
     if advice["error"]:
         yield words.say("advice_impossible", changes=changes)
     elif advice["failing"]:
         yield words.say("advice_leaves", changes=changes, checks=", ".join(advice["failing"]))
     else:
         yield words.say("advice_passes", changes=changes)
+
+
+def _local(value: str, words: Catalogue) -> str:
+    """A value as it is typed, its number in the language's form."""
+    text, _, unit = value.partition(" ")
+    return " ".join(filter(None, (number(text, words["decimal"]), unit)))

@@ -28,6 +28,7 @@ from diecut_report.report.symbol_list import SymbolRow, symbol_rows
 from diecut_report.report.symbol_list import placed as symbols_at
 from diecut_report.report.tables import Tables
 from diecut_report.report.told_before import ToldBefore
+from diecut_report.results.plugin_checks import found_check, is_doubtful
 
 Data = Mapping[str, Any]
 
@@ -49,7 +50,8 @@ def chapter(
         version=mechanism.get("plugin_version", ""),
         source_sha256=mechanism.get("plugin_sha256", ""),
         source_file=mechanism.get("plugin_file", ""),
-        source_check=found if (found := mechanism.get("plugin_check", "")) in ("passed", "failed") else "",
+        source_check=found_check(mechanism),
+        is_doubtful=is_doubtful(mechanism),
         status=mechanism["status"],
         error=mechanism.get("error", ""),
     )
@@ -92,7 +94,7 @@ class _Filler:
         single, lists = gathered(mechanism["inputs"])
         is_left = {key: not self.is_full and _is_left_alone(row) for key, row in single.items()}
         part.inputs = [self._input(key, row) for key, row in single.items() if not is_left[key]]
-        part.defaults = [self._input(key, row) for key, row in single.items() if is_left[key]]
+        part.defaults = _each_once(self._input(key, row) for key, row in single.items() if is_left[key])
         part.input_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=True)]
         part.figures = [(each.number, each.figure) for each in self.placed]
         part.halves = frozenset(each.number for row in self.rows if len(row.figures) > 1 for each in row.figures)
@@ -152,6 +154,9 @@ class _Filler:
 
     def _origin(self, origin: str, path: str, typed: str) -> str:
         """Where an input comes from; the path of a reference stands in what was typed."""
+        is_seen = "${" in typed or (path and path in typed)
+        if is_seen and not self.is_full:
+            return ""  # what was typed says it
         if not path:
             return self.words[origin]
         if path in typed:
@@ -162,10 +167,12 @@ class _Filler:
         """Outputs line by line, those of repeated parts as tables: all, or those that no step has printed; the key ones."""
         part, rows = self.part, self._rows(outputs)
         printed = set() if self.is_full else set(self._printed())
+        counted_in_tables = set() if self.is_full else set(self._listed())
         told = {
             name: row
             for name, row in outputs.items()
             if not {(key, row["display"]["text"]) for key in (name, row["symbol"])} & printed
+            and name not in counted_in_tables
         }
         single, lists = gathered(told)
         part.outputs = [rows[name] for name in single]
@@ -190,6 +197,11 @@ class _Filler:
             for place, column in enumerate(item.get("columns", ())):
                 if column["symbol"]:
                     yield from ((column["symbol"], row[place]) for row in item["rows"])
+
+    def _listed(self) -> Iterator[str]:
+        """The results that say only how many lines a table of the calculation has."""
+        items = (item for section in self.mechanism["sections"] for item in section["items"])
+        return (f"{item['id']}_count" for item in items if item["type"] == "table" and "id" in item)
 
     def _phases(self, phases: Data, absent: Data) -> None:
         """When the mechanism does what, a table for each abscissa; and what is not known of it."""
@@ -270,6 +282,12 @@ class _Filler:
     def _touched(self, erratum: Data) -> str:
         rows = self.mechanism["outputs"] | self.mechanism["values"] | self.mechanism["curves"]
         return ", ".join(rows[key]["description"] if key in rows else key for key in erratum["touches"])
+
+
+def _each_once(rows: Iterator[QuantityRow]) -> list[QuantityRow]:
+    """Inputs of which something is to be said: those of repeated parts that say the same once, and none that has no value."""
+    found = {(row.description, row.value, row.unit): row for row in rows if row.value}
+    return list(found.values())
 
 
 def _is_left_alone(row: Data) -> bool:

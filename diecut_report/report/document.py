@@ -120,7 +120,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         press=results["press"],
         status=results["status"],
         verdict=words[_verdict(results, every, any(part.is_doubtful for part in chapters))],
-        counts=[*_counts(every, chapters, words), *_left_out(results)],
+        counts=_begun([*_counts(every, chapters, words), *_left_out(results)]),
         governing=_governing(results, checks),
         checks=checks,
         unchecked=[row for row in every if row.status == "not_checked"],
@@ -168,6 +168,11 @@ def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[Prin
     for part, (_, data) in zip(chapters, parts(results), strict=True):
         part.between = [mechanisms[name] for name in data.get("between", ())]
     return chapters
+
+
+def _begun(counts: list[str]) -> list[str]:
+    """The counts as they begin a sentence."""
+    return [counts[0][:1].upper() + counts[0][1:], *counts[1:]] if counts else counts
 
 
 def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:

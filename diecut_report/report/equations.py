@@ -13,6 +13,7 @@ Item = Mapping[str, Any]
 Measure = Callable[[str], float]  # the width of LaTeX in em
 
 WIDTH = 48.0  # of the text column, in em of the formulas' size
+SHORT = 3.0  # a factor that does not stand alone in a line
 ONE_LINE = 46.0  # an equation no wider stands in one line
 BLANK: Tree = ["sym", ""]  # what a broken-off rest of a sum is added to
 OPERATORS = {"max": r"\max", "min": r"\min", "sum": r"\sum", "product": r"\prod", "integral": r"\int"}
@@ -145,7 +146,9 @@ class Equations:
         differential = rf"\mathrm{{d}}{by.latex}"
         if item["operation"] == "derivative":
             form = ["derivative", curve.form, by.form]
-            return Link(rf"\frac{{\mathrm{{d}}{curve.latex}}}{{{differential}}}", f"d{curve.text}/d{by.text}", form=form)
+            return Link(
+                rf"\frac{{\mathrm{{d}}{curve.latex}}}{{{differential}}}", f"d{curve.text}/d{by.text}", form=form
+            )
         end = self._result(item["over"]) if "over" in item else by
         latex = rf"\int_{{0}}^{{{end.latex}}} {curve.latex}\,{differential}"
         form = ["integral", curve.form, by.form, end.form]
@@ -204,6 +207,8 @@ class Equations:
                 lines[-1] = [*lines[-1], *group]
             else:
                 lines.append(group)
+        if joined == self._product and len(lines) > 1 and self.measure(joined(lines[0], first=True).latex) < SHORT:
+            lines[:2] = [[*lines[0], *lines[1]]]  # a little too wide rather than a number alone
         return [joined(line, first=index == 0) for index, line in enumerate(lines)]
 
     def _sum(self, parts: list[tuple[str, Tree]], *, first: bool) -> Link:

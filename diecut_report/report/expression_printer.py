@@ -20,6 +20,8 @@ NAMES = {
     "ceil": "ceil", "floor": "floor", "round": "round", "arctan2": "arctan2",
 }  # fmt: skip
 SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
+OPPOSITE = {"+": "-", "-": "+"}
+LEVEL = ("min", "max", "minimum", "maximum")  # of as many arguments as there are
 BRACKETS = {"abs": ("|", "|"), "ceil": ("⌈", "⌉"), "floor": ("⌊", "⌋")}
 
 
@@ -62,6 +64,10 @@ class Printer:
     def name(self, function: str) -> str:
         """A function's name."""
         raise NotImplementedError
+
+    def function(self, name: str) -> str:
+        """The name of a formula that is called by it: a letter with its subscript, or a word as functions have it."""
+        return self.name(name) if len(name) > 1 and name.isalpha() else self.symbol(name)
 
     def word(self, text: str, before: str = " ", behind: str = " ") -> str:
         """A word between formulas, with its spaces."""
@@ -112,11 +118,11 @@ class Printer:
             case ["^", base, exponent]:
                 return self._power(base, exponent)
             case ["call", name, *args]:
-                return self._call(name, [self.piece(a) for a in args])
+                return self._call(name, [self.piece(a) for a in _nested(name, args)])
             case ["at", symbol, *place]:
                 return Piece(self(symbol) + self.bracket(f" {self.signs['==']} ".join(map(self, place))), POWER)
             case ["apply", name, *args]:
-                return Piece(self.symbol(name) + self.bracket(self.comma.join(map(self, args))), POWER)
+                return Piece(self.function(name) + self.bracket(self.comma.join(map(self, args))), POWER)
         return self._logic(tree)
 
     def _logic(self, tree: Tree) -> Piece:
@@ -153,7 +159,7 @@ class Printer:
         return self.bracket(piece.text) if loose else piece.text
 
     def _sum(self, tree: Tree) -> Piece:
-        pieces = [(sign, self.piece(term)) for sign, term in terms(tree)]
+        pieces = [(sign, self.piece(term)) for sign, term in map(_plain_sign, terms(tree))]
         text = pieces[0][1].text if pieces[0][1].level >= SUM else self.bracket(pieces[0][1].text)
         for sign, piece in pieces[1:]:
             loose = piece.negative or piece.level < SUM or (sign == "-" and piece.level == SUM)
@@ -205,6 +211,35 @@ class Printer:
 def dotted(left: Piece, right: Piece) -> bool:
     """Whether two factors need a dot between them: before a digit, after a value, or where a mixed number would be read."""
     return right.digit or left.quantity or (left.number and right.fraction)
+
+
+def _plain_sign(term: tuple[str, Tree]) -> tuple[str, Tree]:
+    """A term that begins with a minus of its own number, as one that is taken away: + (−0.131 w) is − 0.131 w."""
+    sign, tree = term
+    match tree:
+        case ["*", ["neg", ["num", _] as number], right]:
+            return OPPOSITE[sign], ["*", number, right]
+        case ["*", ["num", text], right] if text.startswith("-"):
+            return OPPOSITE[sign], ["*", ["num", text[1:]], right]
+        case ["*", ["*", *_] as left, right]:
+            new, first = _plain_sign((sign, left))
+            return new, ["*", first, right]
+    return term
+
+
+def _nested(name: str, args: list[Tree]) -> list[Tree]:
+    """The arguments of a function; those of the same function within it stand beside them: min(min(a, b), c) is min(a, b, c)."""
+    if name not in LEVEL:
+        return args
+    return [
+        inner
+        for each in args
+        for inner in (
+            _nested(name, each[2:])
+            if each[0] == "call" and NAMES.get(each[1], each[1]) == NAMES.get(name, name)
+            else [each]
+        )
+    ]
 
 
 def terms(tree: Tree) -> list[tuple[str, Tree]]:

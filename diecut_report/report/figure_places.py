@@ -11,7 +11,9 @@ from diecut_report.report.model import Item
 Data = Mapping[str, Any]
 BEFORE = -1  # the first step of a section
 NEAR = 2  # sections later a figure may stand, beside another one
-LONGEST_LEGEND = 110  # letters in the names of a diagram's lines that have room over half the width
+MOST_NOTES = 3  # within a diagram that has room for them over half the width
+LONGEST_LEGEND = 110  # letters in the names of a diagram's lines, or of its marks, that have room over half the width
+VALUE = 16  # letters of the numbers behind the name of a mark
 
 
 class Place(NamedTuple):
@@ -79,12 +81,25 @@ def rows_of(figures: list[Placed], *, paired: bool) -> list[Row]:
 
 
 def _is_narrow(figure: Data) -> bool:
-    """Whether a figure can be drawn half as wide as a sheet: it has no bars, no scheme of boxes, no long legend."""
+    """Whether a figure can be drawn half as wide as a sheet: it has no bars, no scheme of boxes, no long legend, few names within."""
     names = [
         sum(len(line.get("label", "")) for key in ("lines", "fills", "series") for line in panel.get(key, ()))
         for panel in figure.get("panels", ())
     ]
-    return figure["type"] != "bars" and not figure.get("schematic") and max(names, default=0) <= LONGEST_LEGEND
+    marked = [
+        sum(len(mark["label"]) + VALUE for mark in panel.get("marks", ()) if mark.get("label"))
+        for panel in figure.get("panels", ())
+    ]
+    if figure["type"] == "bars" or figure.get("schematic"):
+        return False
+    longest, most = max([*names, *marked], default=0), max(map(_notes, figure.get("panels", ())), default=0)
+    return longest <= LONGEST_LEGEND and most <= MOST_NOTES
+
+
+def _notes(panel: Data) -> int:
+    """How many names stand within a diagram, beside those of its lines."""
+    kinds = ("marks", "levels", "verticals", "fills")
+    return sum(bool(note.get("label")) for kind in kinds for note in panel.get(kind, ()))
 
 
 def _are_near(one: Place, other: Place) -> bool:

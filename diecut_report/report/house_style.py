@@ -27,6 +27,7 @@ from jinja2 import (
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.languages.phrases import Phrase, phrase
 
 OWN = "program/"  # before the name of a template: the program's, whatever the firm has
 ENDING, CSS = ".html.j2", "house.css"
@@ -64,7 +65,13 @@ class HouseStyle:
 
     def _picture(self, name: str) -> str:
         if name not in self.pictures:
-            raise ValueError(f"{name!r} is not a picture of the folder{nearest(name, self.pictures)}")
+            raise ValueError(
+                Phrase(
+                    "{name} is not a picture of the folder{nearest}",
+                    name=repr(name),
+                    nearest=nearest(name, self.pictures),
+                )
+            )
         return self.pictures[name]
 
     def path(self, name: str) -> str:
@@ -93,7 +100,8 @@ def problems(house: HouseStyle, programs: Path) -> list[Problem]:
         problem for name, text in house.templates.items() for problem in _judged(house, name, text, known, environment)
     ]
     return found + [
-        Problem(f"{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write them as data: addresses.",
+        Problem(Phrase("{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write "
+"them as data: addresses.", what=what),
                 house.path(CSS), line)
         for what, line in _fetched(house.css)
     ]  # fmt: skip
@@ -101,7 +109,11 @@ def problems(house: HouseStyle, programs: Path) -> list[Problem]:
 
 def _judged(house: HouseStyle, name: str, text: str, known: list[str], environment: Environment) -> Iterator[Problem]:
     if name not in known and not name.startswith("_"):
-        words = f"{name!r} is not a template of the program{nearest(name, known)}, so nothing asks for it. Your own begin with _."
+        words = Phrase(
+            "{name} is not a template of the program{nearest}, so nothing asks for it. Your own begin with _.",
+            name=repr(name),
+            nearest=nearest(name, known),
+        )
         yield Problem(words, house.path(name))
     try:
         tree = environment.parse(text)
@@ -110,17 +122,25 @@ def _judged(house: HouseStyle, name: str, text: str, known: list[str], environme
         yield Problem(f"{(error.message or '').rstrip('.')}.", house.path(name), error.lineno)
         return
     except (RecursionError, ValueError) as error:  # brackets in brackets, a number of thousands of digits
-        yield Problem(f"The template cannot be read: {error}.", house.path(name))
+        yield Problem(Phrase("The template cannot be read: {error}.", error=error), house.path(name))
         return
     extended = [each.template.value for each in asked_for if isinstance(each.template, nodes.Const)]
     for asked in extended:
         if str(asked).removeprefix(OWN) not in known:
             yield Problem(
-                f"{asked!r} is not a template of the program{nearest(str(asked).removeprefix(OWN), known)}.",
+                Phrase(
+                    "{asked} is not a template of the program{nearest}.",
+                    asked=repr(asked),
+                    nearest=nearest(str(asked).removeprefix(OWN), known),
+                ),
                 house.path(name),
             )
         elif not str(asked).startswith(OWN) and asked == name:
-            yield Problem(f'A template cannot extend itself. Write {{% extends "{OWN}{name}" %}}.', house.path(name), 1)
+            yield Problem(
+                Phrase('A template cannot extend itself. Write {% extends "{name}" %}.', name=f"{OWN}{name}"),
+                house.path(name),
+                1,
+            )
         else:
             yield from _unknown_blocks(house, name, tree, blocks(str(asked).removeprefix(OWN), environment))
 
@@ -128,7 +148,12 @@ def _judged(house: HouseStyle, name: str, text: str, known: list[str], environme
 def _unknown_blocks(house: HouseStyle, name: str, tree: nodes.Template, known: list[str]) -> Iterator[Problem]:
     for block in tree.find_all(nodes.Block):
         if block.name not in known:
-            words = f"{block.name!r} is not a block of the template{nearest(block.name, known)}; its blocks: {', '.join(known)}."
+            words = Phrase(
+                "{name} is not a block of the template{nearest}; its blocks: {known}.",
+                name=repr(block.name),
+                nearest=nearest(block.name, known),
+                known=", ".join(known),
+            )
             yield Problem(words, house.path(name), block.lineno)
 
 
@@ -162,8 +187,8 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
             raise
         said = f"{cause}"
         if isinstance(cause, TemplateNotFound):
-            said = f"{cause.name!r} is not a template of the folder or the program"
-        words = f"The template cannot be filled: {said.rstrip('.') or type(cause).__name__}."
+            said = Phrase("{name} is not a template of the folder or the program", name=repr(cause.name))
+        words = Phrase("The template cannot be filled: {reason}.", reason=said.rstrip(".") or type(cause).__name__)
         raise UserError(Problem(words, places[-1].filename, places[-1].lineno)) from cause
 
 
@@ -174,14 +199,27 @@ def refuse_fetching(page: str, house: HouseStyle, policy: str) -> None:
     """
     reader = _Fetched()
     reader.feed(page)
-    advice = 'a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.'
-    found = [Problem(f"{each} would be fetched; {advice}", house.folder) for each in reader.found]
+    advice = phrase('a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.')
+    found = [
+        Problem(Phrase("{each} would be fetched; {advice}", each=each, advice=advice), house.folder)
+        for each in reader.found
+    ]
     if policy and (len(reader.policies) != 1 or not reader.policies[0].startswith(policy)):
-        words = f"The page has lost its Content-Security-Policy. Override blocks of {MAIN}, not the whole of it, or keep its head."
+        words = Phrase(
+            "The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
+            "or keep its head.",
+            main=MAIN,
+        )
         found.append(Problem(words, house.folder))
     if letter := _UNWRITTEN.search(page):
         found.append(
-            Problem(f"A template writes U+{ord(letter[0]):04X}, which a page cannot hold. Leave it out.", house.folder)
+            Problem(
+                Phrase(
+                    "A template writes U+{code}, which a page cannot hold. Leave it out.",
+                    code=format(ord(letter[0]), "04X"),
+                ),
+                house.folder,
+            )
         )
     if found:
         raise UserError(found)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable
-from functools import cache
+from functools import cache, partial
 from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
@@ -17,10 +17,10 @@ from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.house_style import OPTIONS, in_words, refuse_fetching
 from diecut_report.report.model import Item
-from diecut_report.report.number_format import tidy
+from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_columns
-from diecut_report.report.symbols import prose, symbol
+from diecut_report.report.symbols import pieces, prose, symbol
 
 if TYPE_CHECKING:
     from diecut_report.report.sheet_frames import SheetBlocks
@@ -38,7 +38,15 @@ POLICY = (
 READER = ("uplot/uPlot.min.css", "reader.css")
 SCRIPTS = ("uplot/uPlot.iife.min.js", "reader.js")
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
-FILTERS: dict[str, Callable[..., Any]] = {"prose": prose, "symbol": symbol, "tidy": tidy, "in_columns": in_columns}
+FILTERS: dict[str, Callable[..., Any]] = {
+    "prose": prose,
+    "symbol": symbol,
+    "tidy": tidy,
+    "in_columns": in_columns,
+    "pieces": pieces,
+    "behind": partial(joined, ""),
+    "sentence": sentence,
+}
 END = "</body>\n</html>"
 MATH = {("Report Math", 400, "normal"): "report-math"}
 
@@ -57,6 +65,9 @@ class Medium(Protocol):
 
     def fits_beside(self, item: Item) -> bool:
         """Whether a step's formula stands in the line of its description."""
+
+    def has_room_beside(self, item: Item) -> bool:
+        """Whether the description there has more room than usual."""
 
     def figure(self, number: str, title: str) -> Markup:
         """A figure by its number."""
@@ -81,6 +92,8 @@ class Screen:
     def fits_beside(self, _item: Item) -> bool:
         """Never: a screen may be narrow."""
         return False
+
+    has_room_beside = fits_beside
 
     def figure(self, number: str, title: str) -> Markup:
         """A figure inline, named by its title."""

@@ -149,6 +149,7 @@ class PrintedChapter:
     source_sha256: str = ""
     source_file: str = ""
     source_check: str = ""  # of a foreign plugin: passed or failed
+    is_doubtful: bool = False  # whether the formulas of its plugin have faults
     error: str = ""
     summary: str = ""
     assumptions: list[str] = field(default_factory=list)
@@ -175,11 +176,6 @@ class PrintedChapter:
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
     headings: list[Heading] = field(default_factory=list)
-
-    @property
-    def is_doubtful(self) -> bool:
-        """Whether the formulas of its plugin have faults."""
-        return self.source_check == "failed"
 
     @property
     def lost(self) -> bool:

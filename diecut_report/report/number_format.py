@@ -80,3 +80,8 @@ def tidy(text: str) -> str:
     """A sentence with real minus signs, powers of ten written out, and degrees close to their number."""
     powers = re.sub(r"(?<=\d)[eE]([+-]?\d+)(?!\w)", lambda found: power_of_ten(int(found[1])), text.replace(" °", "°"))
     return re.sub(r"(?<![\w.)])-(?=\d)", MINUS, powers)
+
+
+def sentence(text: str) -> str:
+    """A text as the beginning of a sentence."""
+    return text[:1].upper() + text[1:]

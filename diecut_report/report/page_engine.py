@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase
 from diecut_report.report.surroundings import no_compiler
 
 with no_compiler():
@@ -38,7 +39,9 @@ def fetching_refused(folder: str) -> Iterator[None]:
         if not folder:
             raise RuntimeError(str(error)) from error
         raise UserError(
-            Problem(f"{error}: a report fetches nothing. Put what it needs into the folder.", folder)
+            Problem(
+                Phrase("{error}: a report fetches nothing. Put what it needs into the folder.", error=error), folder
+            )
         ) from error
 
 

@@ -26,6 +26,10 @@ from diecut_report.report.sheet_frames import SheetBlocks, sheet_blocks
 
 BESIDE_WIDTH = 33.0  # em of a formula that stands beside its description
 BESIDE_LETTERS = 60  # of a description of two lines beside a formula
+NARROW_WIDTH, ROOMY_LETTERS = (
+    22.0,
+    100,
+)  # em of a formula beside which a description has more room, and its letters then
 SMALLER = 0.85  # of the letters of a source
 BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, which WeasyPrint finds in its cache
 
@@ -57,8 +61,17 @@ class Paper:
         """Whether a formula and its description, in two lines at most, have room side by side."""
         if item.equation is None or item.condition or item.words:
             return False
-        letters = len(item.description) + len(item.text) + SMALLER * len(item.source)
-        return letters <= BESIDE_LETTERS and self.material.typesetter.measure(item.equation.latex) <= BESIDE_WIDTH
+        if self.has_room_beside(item):
+            return True
+        return (
+            _letters(item) <= BESIDE_LETTERS and self.material.typesetter.measure(item.equation.latex) <= BESIDE_WIDTH
+        )
+
+    def has_room_beside(self, item: Item) -> bool:
+        """Whether a formula is so narrow that its description may be wider."""
+        if item.equation is None or _letters(item) > ROOMY_LETTERS:
+            return False
+        return self.material.typesetter.measure(item.equation.latex) <= NARROW_WIDTH
 
     def _picture(self, equation: Equation, style: str) -> Markup:
         outline = self.material.typesetter.outline(equation.latex)
@@ -82,6 +95,11 @@ class Paper:
     def _image(self, number: str, title: str) -> Markup:
         data = base64.b64encode(self.material.figures[number].text.encode()).decode()
         return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(data, title)
+
+
+def _letters(item: Item) -> float:
+    """How long what is said of a formula is, in letters of the description."""
+    return len(item.description) + len(item.text) + SMALLER * len(item.source)
 
 
 def sheets(material: Material) -> bytes:

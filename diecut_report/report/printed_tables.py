@@ -9,6 +9,8 @@ from markupsafe import Markup
 from diecut_report.report.alignment import decimals, is_power, rooms
 
 LONG = 10  # rows of a table
+WIDE = 10  # columns of a table
+LONG_NAME, FEW = 18, 7  # letters of a line's name, and columns beside which it has room
 DASH = "–"
 
 
@@ -28,20 +30,36 @@ class PrintedTable:
 
     def _kind(self, index: int) -> str:
         texts = [row[index] for row in self.rows]
-        if any(decimals(text) is None and not is_power(text) and text != DASH for text in texts):
-            return "words" if index else "named"
+        if any(decimals(text) is None and not is_power(text) and text not in (DASH, "") for text in texts):
+            return "named" if index in self._first else "words"
         _, letter, unit = self.columns[index]
         return (
             "nth"
-            if not index and texts == [str(nth) for nth in range(1, len(texts) + 1)] and not (letter or unit)
+            if index in self._first and texts == [str(nth) for nth in range(1, len(texts) + 1)] and not (letter or unit)
             else ""
         )
+
+    @property
+    def _first(self) -> tuple[int, ...]:
+        """The places of the first column: two in a table that is set in halves."""
+        half = len(self.columns) // 2
+        return (0, half) if half > 1 and self.columns[:half] == self.columns[half:] else (0,)
 
     @property
     def cells(self) -> list[list[tuple[str, str]]]:
         """Each text with the class by which its column is aligned on the decimal sign."""
         aligned = [zip(texts, rooms(texts), strict=True) for texts in zip(*self.rows, strict=True)]
         return [list(row) for row in zip(*aligned, strict=True)]
+
+    @property
+    def is_wide(self) -> bool:
+        """Whether its columns have room for their symbols alone."""
+        return len(self.columns) >= WIDE
+
+    @property
+    def has_long_names(self) -> bool:
+        """Whether what its first column names needs more room than numbers do."""
+        return len(self.columns) <= FEW and max((len(row[0]) for row in self.rows), default=0) > LONG_NAME
 
     @property
     def is_long(self) -> bool:

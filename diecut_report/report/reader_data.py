@@ -14,7 +14,7 @@ from diecut_report.report.context import Material
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import displayed, joined, tidy
 from diecut_report.report.reader_moving import moving_data
-from diecut_report.report.reader_pool import X_DIGITS, Y_DIGITS, Pool
+from diecut_report.report.reader_pool import X_DIGITS, Y_DIGITS, ReaderRows
 from diecut_report.report.scope import parts
 
 if TYPE_CHECKING:
@@ -28,7 +28,7 @@ SAFE = str.maketrans({mark: f"\\u{ord(mark):04x}" for mark in "<>&\u2028\u2029"}
 
 def reader_data(material: Material) -> str:
     """Return all that the page's scripts use as JSON, in which no character opens or closes anything of HTML."""
-    pool = Pool()
+    pool = ReaderRows()
     figures = {number: made for number, made in _figures(material, pool) if made}
     moving = list(_moving(material, pool))
     data = {
@@ -43,12 +43,12 @@ def reader_data(material: Material) -> str:
 
 def figure_readings(name: str, figure: Data, curves: Data, words: Catalogue) -> dict[str, Any] | None:
     """Return what can be read in a figure of curves alone: its panels, and the rows of numbers that they name; None where nothing can."""
-    pool = Pool()
+    pool = ReaderRows()
     found = _figure(name, figure, curves, words, pool)
     return None if found is None else {**found, "rows": pool.rows}
 
 
-def _figures(material: Material, pool: Pool) -> Iterable[tuple[str, Data | None]]:
+def _figures(material: Material, pool: ReaderRows) -> Iterable[tuple[str, Data | None]]:
     """The figures by their numbers with what can be read in them; None where nothing can."""
     calculated = dict(parts(material.said))
     for chapter in material.document.chapters:
@@ -57,7 +57,7 @@ def _figures(material: Material, pool: Pool) -> Iterable[tuple[str, Data | None]
                 yield number, _figure(chapter.name, figure, calculated[chapter.name]["curves"], material.words, pool)
 
 
-def _moving(material: Material, pool: Pool) -> Iterator[Data]:
+def _moving(material: Material, pool: ReaderRows) -> Iterator[Data]:
     """The drawings that move with the cursor of their curves."""
     calculated = dict(parts(material.said))
     for chapter in material.document.chapters:
@@ -66,7 +66,7 @@ def _moving(material: Material, pool: Pool) -> Iterator[Data]:
                 yield moving_data(chapter.name, number, figure, calculated[chapter.name]["curves"], pool)
 
 
-def _figure(name: str, figure: Data, curves: Data, words: Catalogue, pool: Pool) -> Data | None:
+def _figure(name: str, figure: Data, curves: Data, words: Catalogue, pool: ReaderRows) -> Data | None:
     from diecut_report.report.figures.charts import diagrams  # with matplotlib, which takes half a second
 
     if figure["type"] == "polar":
@@ -86,7 +86,11 @@ def _figure(name: str, figure: Data, curves: Data, words: Catalogue, pool: Pool)
 def _unrolled(figure: Data) -> Data:
     """A polar figure's curves as a diagram over its angle, which is read beside it."""
     notes: dict[str, Any] = {"levels": [], "marks": [], "spans": []}
-    return {**figure, "type": "plot", "panels": [{"title": figure["title"], "unit": figure["unit"], "series": figure["series"], **notes}]}
+    return {
+        **figure,
+        "type": "plot",
+        "panels": [{"title": figure["title"], "unit": figure["unit"], "series": figure["series"], **notes}],
+    }
 
 
 def _is_readable(panel: PanelData) -> bool:
@@ -99,7 +103,7 @@ def _finite(values: Any) -> Any:
     return values[np.isfinite(values)]
 
 
-def _panel(panel: PanelData, raw: Data, words: Catalogue, pool: Pool) -> dict[str, Any]:
+def _panel(panel: PanelData, raw: Data, words: Catalogue, pool: ReaderRows) -> dict[str, Any]:
     across = panel.across
     return {
         "title": tidy(panel.title), "unit": pretty(panel.unit), "finest": finest(panel.unit),
@@ -117,7 +121,7 @@ def _panel(panel: PanelData, raw: Data, words: Catalogue, pool: Pool) -> dict[st
     }  # fmt: skip
 
 
-def _line(line: Line, pool: Pool) -> Data:
+def _line(line: Line, pool: ReaderRows) -> Data:
     """A line with the rows of its numbers; where it breaks it keeps its place, and has no height."""
     known = np.maximum.accumulate(np.where(np.isfinite(line.x), np.arange(len(line.x)), 0))
     heights = np.where(np.isfinite(line.x), line.y, np.nan)

@@ -11,14 +11,14 @@ from numpy.typing import NDArray
 
 from diecut_report.quantities.units import pretty, to_display, unit
 from diecut_report.report.number_format import tidy
-from diecut_report.report.reader_pool import X_DIGITS, Y_DIGITS, Pool, rounded
+from diecut_report.report.reader_pool import X_DIGITS, Y_DIGITS, ReaderRows, rounded
 
 Data = Mapping[str, Any]
 Points = NDArray[Any]
 AIR = 0.03  # around all that is ever drawn, of its greater side
 
 
-def moving_data(chapter: str, number: str, figure: Data, curves: Data, pool: Pool) -> dict[str, Any]:
+def moving_data(chapter: str, number: str, figure: Data, curves: Data, pool: ReaderRows) -> dict[str, Any]:
     """Return a moving drawing: its abscissa, the room that it takes, and each shape with its numbers at each place."""
     moving = figure["moving"]
     over = curves[moving["over"]]
@@ -33,7 +33,7 @@ def moving_data(chapter: str, number: str, figure: Data, curves: Data, pool: Poo
     }  # fmt: skip
 
 
-def _shape(shape: Data, pool: Pool) -> Data:
+def _shape(shape: Data, pool: ReaderRows) -> Data:
     """A shape: its own numbers where it stands still, else those at each place, one that does not change once."""
     kept = {key: shape[key] for key in ("shape", "role", "closed") if shape.get(key)}
     if "shapes" in shape:

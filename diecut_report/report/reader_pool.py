@@ -15,8 +15,8 @@ Data = Mapping[str, Any]
 X_DIGITS, Y_DIGITS = 6, 5  # of the greatest number of a line: finer than a cursor reads
 
 
-class Pool:
-    """Rows of numbers, and the groups of diagrams that share a cursor, with the turn after which the place of each comes again."""
+class ReaderRows:
+    """Hold rows of numbers, and the groups of diagrams that share a cursor, with the turn after which the place of each comes again."""
 
     def __init__(self) -> None:
         self.rows: list[list[float | None]] = []

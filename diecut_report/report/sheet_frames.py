@@ -14,7 +14,8 @@ PAD = 0.9  # millimetres between a line and a text
 LABEL = 2.2  # height of a label in its box
 LABEL_SIZE, LEAST = 5.5, 4.5  # points
 SIDE = 0.18  # half a line's width
-_ISO_DATE = re.compile(r"\d\d(\d\d)-(\d\d)-(\d\d)")
+_DATE = re.compile(r"\d\d(?P<year>\d\d)-(?P<month>\d\d)-(?P<day>\d\d)")  # as it is typed, and as Ukrainian prints it
+_UKRAINIAN = re.compile(r"(?P<day>\d\d)\.(?P<month>\d\d)\.\d\d(?P<year>\d\d)")
 
 
 class Cell(NamedTuple):
@@ -215,5 +216,5 @@ def _state(block: TitleBlock, words: Catalogue) -> str:
 
 def _short(date: str) -> str:
     """A date as it fits into a centimetre; one that is written otherwise stands in the document alone."""
-    found = _ISO_DATE.fullmatch(date)
-    return ".".join(reversed(found.groups())) if found else ""
+    found = _DATE.fullmatch(date) or _UKRAINIAN.fullmatch(date)
+    return f"{found['day']}.{found['month']}.{found['year']}" if found else ""

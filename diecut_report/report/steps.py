@@ -10,6 +10,7 @@ from diecut_report.languages.tokens import worded
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import BEFORE, Place, Row, figures_at
 from diecut_report.report.i18n import Catalogue
+from diecut_report.report.left_out import gathered_notes
 from diecut_report.report.model import Heading, Item, PrintedSection
 from diecut_report.report.number_format import quantity
 from diecut_report.report.said_once import SaidOnce
@@ -50,7 +51,9 @@ class PrintedSteps:
         """A section with its figures."""
         notes: set[str] = set()
         steps = [_PrintedStep(item) for item in figures_at(self.figures, Place(index, BEFORE))]
-        for place, item in enumerate(section["items"] if self.told is None else brought_together(section)):
+        for place, item in enumerate(
+            section["items"] if self.told is None else gathered_notes(brought_together(section))
+        ):
             steps += [] if item is None else list(self._step(item, notes))
             steps += [_PrintedStep(each) for each in figures_at(self.figures, Place(index, place))]
         return PrintedSection(heading, self._text(section), _gathered(steps), self._shown(section.get("shown", ())))
@@ -143,8 +146,7 @@ class PrintedSteps:
     def _looked_up(self, item: Data) -> str:
         """Where a number was taken from: the table's title, and the text that chose it."""
         if item["table"]:
-            choice = ", ".join(worded(text) for text in (item["key"], item.get("column")) if text)
-            return self.words.say("looked_up", table=item["table"], choice=choice)
+            return self.words.say("looked_up", table=item["table"], choice=worded(item["key"]))
         return f"{item['by']}: {worded(item['key'])}"
 
 

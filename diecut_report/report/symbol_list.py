@@ -10,6 +10,7 @@ from typing import Any, NamedTuple
 from markupsafe import Markup
 
 from diecut_report.quantities.units import pretty
+from diecut_report.report.printed_tables import WIDE
 from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
@@ -49,11 +50,12 @@ def symbol_rows(mechanism: Data) -> list[SymbolRow]:
 def in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
     """The rows in columns for paper, of about as many lines each."""
     lines = [ceil((len(row.meaning) + len(row.unit) + 2) / ROOM) for row in rows]
-    share = ceil(sum(lines) / COLUMNS)
+    count = min(COLUMNS, len(rows))
+    share = ceil(sum(lines) / count)
     before = [0, *accumulate(lines)]
-    columns: list[list[SymbolRow]] = [[] for _ in range(COLUMNS)]
+    columns: list[list[SymbolRow]] = [[] for _ in range(count)]
     for row, above, height in zip(rows, before, lines, strict=False):
-        columns[min(int((above + height / 2) / share), COLUMNS - 1)].append(row)
+        columns[min(int((above + height / 2) / share), count - 1)].append(row)
     return columns
 
 
@@ -87,6 +89,8 @@ def _used(sections: list[Data]) -> Iterator[str]:
         for item in section["items"]:
             if item.get("symbol"):
                 yield item["symbol"]
+            if len(columns := item.get("columns", ())) >= WIDE:
+                yield from (column["symbol"] for column in columns if column["symbol"])
             for tree in (item.get(key) for key in TREES):
                 yield from _leaves(tree)
             for each in item.get("where", ()):

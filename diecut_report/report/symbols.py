@@ -11,10 +11,11 @@ from diecut_report.report.number_format import tidy
 _SIGNS = "=<>≤≥≈≠−+√"
 SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[′'|\]]*)")
 # A symbol within a sentence: one or two letters with a short subscript (keys such as crank_speed or n_points are none),
-# a lone letter beside a sign of arithmetic, or a lone Greek one.
+# a lone letter beside a sign of arithmetic (no Cyrillic one: і and а are words), or a lone Greek one.
+_LONE = r"[^\W\d_\u0400-\u04ff][′']?"
 _IN_TEXT = re.compile(
-    r"(?<![\w.])(?:([^\W\d_]{1,2}[′']?)_(\d{1,2}|[^\W\d_]{1,3}(?:,[^\W_]{1,3})?)(?!\w)"
-    rf"|([^\W\d_][′']?)(?=\s?[{_SIGNS}])|([Α-Ωα-ωϑϕ])(?!\w)|(?<=[{_SIGNS}])([^\W\d_][′']?)(?!\w)|(?<=[{_SIGNS}] )([^\W\d_][′']?)(?!\w))"
+    r"(?<![\w.])(?:([^\W\d_]{1,2}[′']?)_(\d{1,2}|[^\W\d_]{1,3}(?:,[^\W_]{1,3})?|\w{1,6}(?=\s?=))(?!\w)"
+    rf"|(?<!\d[ \u00a0\u202f/])({_LONE})(?=\s?[{_SIGNS}])|([Α-Ωα-ωϑϕ])(?!\w)|(?<=[{_SIGNS}])({_LONE})(?!\w)|(?<=[{_SIGNS}] )({_LONE})(?!\w))"
 )
 
 
@@ -25,6 +26,15 @@ def symbol(name: str) -> Markup:
         return escape(name)
     below = Markup("<sub>{}</sub>").format(found["below"].replace("_", "\u2009")) if found["below"] else Markup("")
     return Markup("{}<i class=sy>{}</i>{}{}").format(found["before"], found["base"], below, found["after"])
+
+
+def pieces(typed: str) -> Markup:
+    """What was typed, with the places where a line may break: between its words, and behind the dots of a path."""
+    words = [re.split(r"(?<=\.)(?=[^\W\d])", word) for word in typed.split(" ")]
+    joint = Markup("<wbr>")
+    return Markup(" ").join(
+        joint.join(Markup("<span class=whole>{}</span>").format(part) for part in word) for word in words
+    )
 
 
 def prose(sentence: str) -> Markup:

@@ -3,13 +3,15 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from itertools import zip_longest
 from types import MappingProxyType
 from typing import Any, TypeVar
 
 from markupsafe import Markup
 
 from diecut_report.languages.tokens import worded
-from diecut_report.quantities.units import pretty, to_display
+from diecut_report.quantities.formatting import place_shown
+from diecut_report.quantities.units import pretty
 from diecut_report.report.curves import CurvePlace, table_places
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import rests, utilisation
@@ -19,8 +21,10 @@ from diecut_report.report.repeated_parts import Parts
 from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
+Column = tuple[str, Markup, str]
 Columns = TypeVar("Columns")
 ROUNDING = 2e-6  # of a curve's greatest value: what is less is the root of rounding, and printed as zero
+NARROW, TALL = 3, 16  # columns and lines of a table that is set in two halves
 MOST_COLUMNS = 7  # beside the first one
 
 
@@ -36,7 +40,7 @@ class Tables:
         """A table of the calculation."""
         columns = [(c["title"], symbol(c["symbol"]), pretty(c["unit"])) for c in item["columns"]]
         rows = [[number(text, self.decimal) for text in row] for row in item["rows"]]
-        return PrintedTable(item["title"], columns, rows, self._number())
+        return PrintedTable(item["title"], *in_halves(columns, rows), self._number())
 
     def of_curves(self, curves: Data) -> list[PrintedTable]:
         """Some rows of all curves, by their abscissa, so many columns a table as the page holds."""
@@ -79,7 +83,7 @@ class Tables:
         return PrintedTable(self.words["phases"], columns, rows, self._number())
 
     def _abscissa(self, axis: Data, x: float) -> str:
-        return number(f"{to_display(x, axis['display_unit']):.6g}", self.decimal)
+        return number(place_shown(x, axis["display_unit"])["text"], self.decimal)
 
     def _sample(self, curve: Data, place: CurvePlace) -> str:
         value = curve[place.values][place.number]
@@ -152,6 +156,15 @@ class Tables:
     def _number(self) -> str:
         self.count += 1
         return f"{self.letter}.{self.count}"
+
+
+def in_halves(columns: list[Column], rows: list[list[str]]) -> tuple[list[Column], list[list[str]]]:
+    """A long table of few columns as two halves side by side."""
+    if len(columns) > NARROW or len(rows) < TALL:
+        return columns, rows
+    half = -(-len(rows) // 2)
+    empty = [""] * len(columns)
+    return columns * 2, [[*one, *other] for one, other in zip_longest(rows[:half], rows[half:], fillvalue=empty)]
 
 
 def shared_out(columns: Sequence[Columns]) -> Iterator[list[Columns]]:

@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.report.i18n import Catalogue
+from diecut_report.results.plugin_checks import calculated, is_doubtful
 
 Data = Mapping[str, Any]
 PLAIN, ISO, DSTU = "plain", "iso7200", "dstu2104"
@@ -50,10 +51,9 @@ def title_block(results: Data, words: Catalogue) -> TitleBlock:
 
 def held(results: Data) -> bool:
     """Return whether a calculation cannot be released: a check fails, is not made, something could not be calculated, or formulas have faults."""
-    calculated = (*results["mechanisms"].values(), *results.get("comparisons", {}).values())
-    is_left = any(check["status"] == "not_checked" for data in calculated for check in data.get("checks", ()))
-    is_doubtful = any(data.get("plugin_check") == "failed" for data in calculated)
-    return is_left or is_doubtful or results["status"] not in ("pass", "warn")
+    parts = calculated(results)
+    is_left = any(check["status"] == "not_checked" for data in parts for check in data.get("checks", ()))
+    return is_left or any(map(is_doubtful, parts)) or results["status"] not in ("pass", "warn")
 
 
 def _texts(project: Data, words: Catalogue) -> Data:

@@ -14,7 +14,7 @@ from diecut_report.report.i18n import Catalogue
 Data = Mapping[str, Any]
 Say = Callable[[str], str]
 SAID = frozenset({"title", "summary", "assumptions", "error", "warnings", "description", "message", "demand_label", "limit_label", "method",
-                  "words", "caption", "label", "touches", "lines", "by", "table", "series"})  # fmt: skip
+                  "words", "caption", "governing_title", "label", "touches", "lines", "by", "table", "series"})  # fmt: skip
 """Keys of results whose texts the report prints."""
 NUMBERS = frozenset({"values", "left", "right", "breakpoints", "points", "outer", "holes", "intervals"})
 DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d)")
@@ -34,7 +34,20 @@ def translated(results: Data, catalogues: Catalogues) -> Data:
     rest = _Mechanism(words, "")
     found["press"] = rest.of_press(results["press"])
     found |= {key: rest.walk(results[key]) for key in ("comparisons_left_out", "changes") if key in results}
+    if "changes" in found:
+        sides = {
+            side: {**found["changes"][side], "date": _date(found["changes"][side]["date"])} for side in ("old", "new")
+        }
+        found["changes"] = {**found["changes"], **sides}
     return found
+
+
+def figure_translated(
+    figure: Data, curves: Data, kind: str, catalogues: Catalogues
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return a figure of a mechanism of this kind with the curves that it shows, in the language of the catalogues."""
+    words = _Mechanism(Translator(catalogues, {}, Catalogue(catalogues.language)["decimal"]), kind)
+    return words.drawn(figure), words.walk(curves)
 
 
 def _dated(project: Data) -> Data:
@@ -59,7 +72,7 @@ class _Mechanism:
         own = {
             "inputs": {key: self._row(row) for key, row in data["inputs"].items()},
             "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
-            "figures": [self._drawn(figure) for figure in data.get("figures", ())],
+            "figures": [self.drawn(figure) for figure in data.get("figures", ())],
         }
         return {**self.walk({key: part for key, part in data.items() if key not in own}), **own}
 
@@ -106,21 +119,19 @@ class _Mechanism:
             return self._shown(text)
         return text
 
-    def _drawn(self, data: Any) -> Any:
+    def drawn(self, data: Any) -> Any:
         """A figure, or a part of it: whatever text is not translated has at least its numbers in the language's form."""
         if isinstance(data, Mapping):
             return {key: self._drawn_part(key, part) for key, part in data.items()}
-        return [self._drawn(part) for part in data] if isinstance(data, list) else data
+        return [self.drawn(part) for part in data] if isinstance(data, list) else data
 
     def _drawn_part(self, key: str, part: Any) -> Any:
         if key in NUMBERS:
             return part
         if key not in SAID and key != "text":
-            return self._drawn(part)
+            return self.drawn(part)
         if isinstance(part, str):
             return self.words.numbers(self.text(part))
         if isinstance(part, list):
-            return [
-                self.words.numbers(self.text(each)) if isinstance(each, str) else self._drawn(each) for each in part
-            ]
-        return self._drawn(part)
+            return [self.words.numbers(self.text(each)) if isinstance(each, str) else self.drawn(each) for each in part]
+        return self.drawn(part)

@@ -46,7 +46,14 @@ def _document(results: Data) -> Row:
         "status": results["status"],
         "checks": counts,
         "governing": f"{found['mechanism']}.{found['check']}" if found else "",
+        "governing_title": _title(results, found) if found else "",
     }
+
+
+def _title(results: Data, governing: Data) -> str:
+    """The title of the check that governs."""
+    data = results["mechanisms"].get(governing["mechanism"]) or results["comparisons"][governing["mechanism"]]
+    return next(str(check["title"]) for check in data["checks"] if check["id"] == governing["check"])
 
 
 def _mechanisms(old: Data, new: Data) -> Iterator[Row]:

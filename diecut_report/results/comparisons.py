@@ -15,6 +15,7 @@ from diecut_report.contract.mechanism import Comparison
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.engine import Calculation, CurveHandle, calculate
 from diecut_report.engine.chosen_units import NONE_CHOSEN, ChosenUnits
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism import Provenance, mechanism_results
@@ -79,7 +80,12 @@ def _block(case: Found, values: Mapping[str, Any]) -> Block:
             raise  # a fault of what is declared
         kind, name = case.comparison.takes[key]
         instance = case.between[kind]
-        words = f"The comparison {case.name} takes {instance}.{name}: {fault['msg'].removeprefix('Value error, ')}."
+        words = Phrase(
+            "The comparison {name} takes {output}: {fault}.",
+            name=case.name,
+            output=f"{instance}.{name}",
+            fault=fault["msg"].removeprefix("Value error, "),
+        )
         raise Uncomparable(words, instance, name) from error
 
 

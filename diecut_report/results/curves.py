@@ -13,6 +13,7 @@ from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.shown_units import declared_unit, unit_for
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit
 
 Data = dict[str, Any]
@@ -48,7 +49,14 @@ def _spectrum(spectrum: Spectrum) -> Data:
 
 def _curve(step: Step | SpectrumLine, values: Any, display: str) -> Data:
     if not np.isfinite(np.asarray(values, dtype=float)).all():
-        raise Unproven(f"{step.description} ({step.id}) is a curve that has no value at some of its places", step.at)
+        raise Unproven(
+            Phrase(
+                "{description} ({id}) is a curve that has no value at some of its places",
+                description=step.description,
+                id=step.id,
+            ),
+            step.at,
+        )
     return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
             "description": step.description, "display_unit": display, "source": step.source,
             **({"source_symbol": step.source_symbol} if isinstance(step, Step) and step.source_symbol else {})}  # fmt: skip

@@ -8,14 +8,14 @@ from typing import Any
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.source_hashes import plugin_faults
 from diecut_report.languages.phrases import Counted, Phrase
+from diecut_report.results.plugin_checks import calculated, is_doubtful
 
 TOLD = 3  # faults of a plugin that are told
 
 
 def doubtful_kinds(results: Mapping[str, Any]) -> list[str]:
     """Return the kinds of a report whose foreign plugins have faults in their formulas."""
-    calculated = (*results["mechanisms"].values(), *results.get("comparisons", {}).values())
-    return list(dict.fromkeys(each["kind"] for each in calculated if each.get("plugin_check") == "failed"))
+    return list(dict.fromkeys(each["kind"] for each in calculated(results) if is_doubtful(each)))
 
 
 def doubtful(results: Mapping[str, Any], discovery: Discovery | None = None) -> list[str]:

@@ -38,7 +38,9 @@ class SelfTestFailed(Exception):
 
     def __init__(self, checks: list[Data]) -> None:
         told = " ".join(f"{check['title']}: {check['message']}" for check in checks)
-        super().__init__(f"The calculation contradicts itself, and its numbers must not be used. {told}")
+        super().__init__(
+            Phrase("The calculation contradicts itself, and its numbers must not be used. {told}", told=told)
+        )
         self.checks = checks
 
 
@@ -176,13 +178,20 @@ def _origin(provenance: Provenance | None) -> Data:
     )
 
 
+def _as_text(value: Any) -> str:
+    """A choice as one would say it: texts after one another, yes or no."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return ", ".join(value) if isinstance(value, tuple) else str(value)
+
+
 def _input(meta: Any, value: Any, display: str) -> Data:
     if isinstance(value, TakenWhole) or (isinstance(meta, Quantity) and isinstance(value, str)):
         return {"value": str(value), "unit": "1", "symbol": meta.symbol, "description": meta.description,
                 "display": {"text": str(value), "unit": "1"}}  # fmt: skip
     if not isinstance(meta, Quantity):
         is_curve = isinstance(meta, CurveInput)
-        text = "a curve" if is_curve else ", ".join(value) if isinstance(value, tuple) else str(value)
+        text = "a curve" if is_curve else _as_text(value)
         plain = list(value) if isinstance(value, tuple) else value
         return {"value": text if is_curve else plain, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
                 "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
@@ -242,8 +251,9 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     place = place_name(step.id)
     if place in calc.values:
         axis = calc.steps[calc.axis[step.of]]  # type: ignore[attr-defined]
-        at = place_shown(float(calc[place][0, 0]), declared_unit(calc, axis.id, axis.unit))
-        found["at"] = {"symbol": axis.symbol} | at
+        value = float(calc[place][0, 0])
+        found["at"] = {"symbol": axis.symbol, "value": value}
+        found["at"] |= place_shown(value, declared_unit(calc, axis.id, axis.unit))
     return {step.id: found}
 
 

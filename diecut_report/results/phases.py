@@ -16,6 +16,7 @@ from diecut_report.quantities.formatting import place_shown, shown
 from diecut_report.quantities.units import unit
 
 Data = dict[str, Any]
+MORE = range(3)  # digits beyond those that mean something
 
 
 def phases(calc: Calculation) -> Data:
@@ -26,6 +27,8 @@ def phases(calc: Calculation) -> Data:
         if held:
             axis = calc.steps[step.abscissa]
             display = declared_unit(calc, axis.id, axis.unit)
+            speed = speed_of(calc, step.abscissa)
+            more = _more_digits(calc, step.abscissa, display)
             found[name] = {
                 "role": step.role,
                 "description": step.description,
@@ -35,19 +38,29 @@ def phases(calc: Calculation) -> Data:
                 "intervals": [list(interval) for interval in held],
                 "display": {
                     "unit": display,
-                    "intervals": [_shown(interval, display, speed_of(calc, step.abscissa)) for interval in held],
+                    "intervals": [_shown(interval, display, more) | _lasts(interval, speed) for interval in held],
                 },
             }
     return found
 
 
-def _shown(interval: Interval, display: str, speed: float | None) -> dict[str, str]:
-    """An interval as texts: both ends and its length in the abscissa's unit, and its time in ms where the speed is known."""
+def _shown(interval: Interval, display: str, more: int) -> dict[str, str]:
+    """An interval as texts: both ends and its length in the abscissa's unit."""
     start, end = interval
     texts = {"from": start, "to": end, "length": end - start}
-    tried = [{key: place_shown(value, display, more)["text"] for key, value in texts.items()} for more in range(3)]
-    told = next(filter(_agree, tried), tried[0])
-    return told | ({"time": shown((end - start) / speed, "ms")["text"]} if speed else {})
+    return {key: place_shown(value, display, more)["text"] for key, value in texts.items()}
+
+
+def _lasts(interval: Interval, speed: float | None) -> dict[str, str]:
+    """The time of an interval in ms, where the speed is known."""
+    return {"time": shown((interval[1] - interval[0]) / speed, "ms")["text"]} if speed else {}
+
+
+def _more_digits(calc: Calculation, abscissa: str, display: str) -> int:
+    """With how many more digits all phases over an abscissa are shown, so that the printed ends give the printed lengths."""
+    names = [name for name, step in phases_of(calc).items() if step.abscissa == abscissa]
+    held = [interval for name in names for interval in intervals(calc, name)]
+    return next((more for more in MORE if all(_agree(_shown(each, display, more)) for each in held)), 0)
 
 
 def _agree(told: dict[str, str]) -> bool:

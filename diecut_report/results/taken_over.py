@@ -54,7 +54,7 @@ def phase(calc: Calculation, name: str, target: Target) -> PhaseHandle:
     """Return a phase as a reference takes it over. Absent where the (first) machine does not have it."""
     handle = PhaseHandle(calc, name.removeprefix(PREFIX), f"${{{target.path}}}")
     if not handle.intervals():
-        raise Absent("does not apply to this machine.")
+        raise Absent(phrase("does not apply to this machine."))
     return handle
 
 
@@ -69,10 +69,10 @@ def output(calc: Calculation, name: str, target: Target) -> Any:
         return CurveHandle(calc, name)
     numbers = number(calc, name)
     if numbers is None:
-        raise Absent("does not exist for this machine.")
+        raise Absent(phrase("does not exist for this machine."))
     value = numbers[0]
     if isinstance(value, str):
         return value
     if math.isnan(value):
-        raise Absent("does not apply to this machine.")
+        raise Absent(phrase("does not apply to this machine."))
     return SI(float(without_rounding(value, str(target.unit))), str(target.unit), target.path)

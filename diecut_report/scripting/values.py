@@ -113,7 +113,13 @@ class QuantityValue:
     def __float__(self) -> float:
         """Return a pure number; TypeError of one with a unit, of which ``to("N*m").value`` is the number."""
         if pretty(self.unit):
-            raise TypeError(f"{self} has a unit; take the number of one, as in .to({self.unit!r}).value")
+            raise TypeError(
+                Phrase(
+                    "{value} has a unit; take the number of one, as in .to({unit}).value",
+                    value=self,
+                    unit=repr(self.unit),
+                )
+            )
         return self.magnitude
 
     def __bool__(self) -> bool:
@@ -145,7 +151,7 @@ class QuantityValue:
                 return parse_quantity(other, self.unit)
             except UnitError as fault:
                 raise ConfigError(Problem(fault.args[0], path=self.name)) from None
-        raise TypeError(f"{self} cannot be compared with {other!r}")
+        raise TypeError(Phrase("{value} cannot be compared with {other}", value=self, other=repr(other)))
 
 
 @dataclass(frozen=True, eq=False, repr=False)

@@ -19,6 +19,7 @@ from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.standards.file_forms import (
     DecadesData,
     ListedData,
@@ -31,7 +32,8 @@ from diecut_report.standards.file_forms import (
     form_of,
     in_range,
 )
-from diecut_report.standards.own_tables import own_series, own_table, table_beside
+from diecut_report.standards.own_tables import own_series, own_table
+from diecut_report.standards.table_files import table_beside
 from diecut_report.standards.tables import Column, StandardFault, StandardSeries, StandardTable, sources_told
 
 __all__ = ["Column", "StandardFault", "StandardSeries", "StandardTable", "own_series", "own_table", "sources_told", "standard_ids",
@@ -51,7 +53,7 @@ def standard_series(id: str, folder: Path = DATA) -> StandardSeries:
     """Return the series of that id; a table gives its different values in order."""
     match data_file(id, folder):
         case NamedData():
-            fault(id, "holds one series for each name; use standard_series_by")
+            fault(id, phrase("holds one series for each name; use standard_series_by"))
         case ListedData() as file:
             return _series(id, file, file.values)
         case TableData() as file:
@@ -65,7 +67,7 @@ def standard_series_by(id: str, folder: Path = DATA) -> Mapping[str, StandardSer
     """Return the series of each name (such as the section of a V-belt) in the file of that id."""
     file = data_file(id, folder)
     if not isinstance(file, NamedData):
-        fault(id, f"is of the form {form_of(file)!r}, not 'by'")
+        fault(id, Phrase("is of the form {form_of}, not 'by'", form_of=repr(form_of(file))))
     return MappingProxyType({name: _named(f"{id}.{name}", file, part) for name, part in file.by.items()})
 
 
@@ -74,7 +76,7 @@ def standard_table(id: str, folder: Path = DATA) -> StandardTable:
     """Return the table of that id: a number for each name."""
     file = data_file(id, folder)
     if not isinstance(file, TableData):
-        fault(id, f"is of the form {form_of(file)!r}, not 'table'")
+        fault(id, Phrase("is of the form {form_of}, not 'table'", form_of=repr(form_of(file))))
     column = Column("", file.unit, tuple(file.table.values()))
     return StandardTable(id, file.title, (column,), tuple(file.sources), file.left_out, tuple(file.table))
 
@@ -91,7 +93,7 @@ def _named(id: str, file: NamedData, part: NamedValues) -> StandardSeries:
 def _over_decades(id: str, file: DecadesData, folder: Path) -> list[float]:
     decade = standard_series(file.decade, folder).values
     if (decade[0], decade[-1]) != (1.0, 10.0):
-        fault(id, f"is made from {file.decade}, which does not run from 1 to 10")
+        fault(id, Phrase("is made from {decade}, which does not run from 1 to 10", decade=file.decade))
     first, last = file.range
     everything = {float(Decimal(repr(value)).scaleb(power)) for power in file.decades for value in decade}
     values = sorted(value for value in everything if first <= value <= last)

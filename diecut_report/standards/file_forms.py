@@ -12,27 +12,28 @@ from typing import Annotated, Any, NoReturn, Self
 
 from pydantic import AfterValidator, BaseModel, BeforeValidator, ConfigDict, Field, ValidationError, model_validator
 
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.standards.tables import StandardFault
 
 WRITTEN = {  # what pydantic finds amiss: how the key is written instead
     "string_type": "a text",
     "list_type": "a list",
-    "dict_type": "a table of names",
+    "dict_type": phrase("a table of names"),
     "float_type": "numbers",
-    "int_type": "whole numbers",
+    "int_type": phrase("whole numbers"),
 }
 
 
 def _said(text: Any) -> Any:
     if not isinstance(text, str) or not text.strip():
-        raise ValueError("has an empty title or source")
+        raise ValueError(phrase("has an empty title or source"))
     return text
 
 
 def _agreeing(sources: list[str]) -> list[str]:
     if len(set(sources)) < 2:
-        raise ValueError("needs two sources that agree")
+        raise ValueError(phrase("needs two sources that agree"))
     return sources
 
 
@@ -40,19 +41,19 @@ def _usable(text: str) -> str:
     try:
         unit(text)
     except UnitError as error:
-        raise ValueError(f"has no usable unit: {error}") from error
+        raise ValueError(Phrase("has no usable unit: {error}", error=error)) from error
     return text
 
 
 def _above_zero(value: Any) -> float:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value) or value <= 0:
-        raise ValueError(f"holds {value!r}, which is not a number above 0")
+        raise ValueError(Phrase("holds {value}, which is not a number above 0", value=repr(value)))
     return float(value)
 
 
 def _both_ends(limits: list[float]) -> list[float]:
     if len(limits) != 2:
-        raise ValueError("needs the first and the last value as range")
+        raise ValueError(phrase("needs the first and the last value as range"))
     return limits
 
 
@@ -122,12 +123,26 @@ FORMS: dict[str, type[AnyData]] = {"values": ListedData, "table": TableData, "by
 def in_range(values: Sequence[float], limits: list[float]) -> None:
     """Raise ValueError unless values ascend from the first limit to the last."""
     if not values:
-        raise ValueError("has no values")
+        raise ValueError(phrase("has no values"))
     for before, after in pairwise(values):
         if not before < after:
-            raise ValueError(f"must ascend without repetition, but {after:g} follows {before:g}")
+            raise ValueError(
+                Phrase(
+                    "must ascend without repetition, but {after} follows {before}",
+                    after=format(after, "g"),
+                    before=format(before, "g"),
+                )
+            )
     if [values[0], values[-1]] != limits:
-        raise ValueError(f"runs from {values[0]:g} to {values[-1]:g}, but its range is {limits[0]:g} to {limits[1]:g}")
+        raise ValueError(
+            Phrase(
+                "runs from {first} to {last}, but its range is {low} to {high}",
+                first=format(values[0], "g"),
+                last=format(values[-1], "g"),
+                low=format(limits[0], "g"),
+                high=format(limits[1], "g"),
+            )
+        )
 
 
 @cache
@@ -135,14 +150,16 @@ def data_file(id: str, folder: Path) -> AnyData:
     """Return what stands in the file of an id; StandardFault where there is none or it cannot be trusted."""
     names = {path.stem: path for path in folder.glob("*.json")}
     if id not in names:
-        raise StandardFault(f"There is no standard series {id!r}; there are: {', '.join(sorted(names))}.")
+        raise StandardFault(
+            Phrase("There is no standard series {id}; there are: {names}.", id=repr(id), names=", ".join(sorted(names)))
+        )
     try:
         data = json.loads(names[id].read_text(encoding="utf-8"), object_pairs_hook=_once)
     except ValueError as error:
-        fault(id, f"is not readable: {error}", error)
+        fault(id, Phrase("is not readable: {error}", error=error), error)
     forms = [name for name in FORMS if isinstance(data, dict) and name in data]
     if len(forms) != 1:
-        fault(id, f"needs exactly one of {', '.join(FORMS)}")
+        fault(id, Phrase("needs exactly one of {forms}", forms=", ".join(FORMS)))
     try:
         return FORMS[forms[0]].model_validate(data)
     except ValidationError as error:
@@ -157,14 +174,14 @@ def form_of(file: AnyData) -> str:
 
 def fault(id: str, what: str, cause: Exception | None = None) -> NoReturn:
     """Raise StandardFault with what is wrong with a series."""
-    raise StandardFault(f"Standard series {id!r} {what}.") from cause
+    raise StandardFault(Phrase("Standard series {id} {what}.", id=repr(id), what=what)) from cause
 
 
 def _once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
     found = dict(pairs)
     if len(found) < len(pairs):
         names = [name for name, _ in pairs]
-        raise ValueError(f"{next(n for n in names if names.count(n) > 1)!r} stands twice in it")
+        raise ValueError(Phrase("{next} stands twice in it", next=repr(next(n for n in names if names.count(n) > 1))))
     return found
 
 
@@ -178,9 +195,11 @@ def _faults(error: ValidationError) -> Iterator[tuple[tuple[str, ...], str]]:
 
 def _words(kind: str, key: str, each: Any) -> str:
     if kind == "missing":
-        return f"lacks {key}"
+        return Phrase("lacks {key}", key=key)
     if kind == "extra_forbidden":
-        return f"has the unknown {key}"
+        return Phrase("has the unknown {key}", key=key)
     if kind == "value_error":
         return str(each["ctx"]["error"])
-    return f"needs {WRITTEN[kind]} as {key}" if key else "must be a table of names"
+    return (
+        Phrase("needs {wanted} as {key}", wanted=WRITTEN[kind], key=key) if key else phrase("must be a table of names")
+    )

@@ -1,25 +1,17 @@
-"""Tables of an author's own, with their sources: written in the plugin, or in a file beside it (YAML, JSON, CSV)."""
+"""Tables and series of an author's own, with their sources, checked where they are written."""
 
 from __future__ import annotations
 
-import csv
 import math
-import re
 from collections.abc import Iterable, Mapping, Sequence
 from itertools import pairwise
-from pathlib import Path
 from typing import Any, NoReturn
 
-import yaml
-from pydantic import BaseModel, ConfigDict, ValidationError
-
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.standards.tables import Column, StandardFault, StandardSeries, StandardTable
 
 Rows = Mapping[str, Any] | Sequence[Sequence[Any]]
-HEADED = re.compile(r"(.*?)\s*\[(.*)\]")  # a column of a CSV file: name [unit]
-DECIMAL = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
-SAID = re.compile(r"#\s*(\w+):\s*(.*)")  # a line above the columns of a CSV file: # title: …
 
 
 def own_table(
@@ -40,11 +32,11 @@ def own_table(
     """
     _texts(title, sources, only_source)
     if bool(unit) is bool(columns):
-        _fault(title, 'needs one of unit="…" (a value for each name) and columns={"name": "unit", …}')
+        _fault(title, phrase('needs one of unit="…" (a value for each name) and columns={"name": "unit", …}'))
     names, cells = _cells(title, rows)
     units = dict(columns) if columns else {"": unit}
-    for where, row in zip(names or cells, cells, strict=True):
-        _row(title, where, row, len(units))
+    for number, (where, row) in enumerate(zip(names or cells, cells, strict=True)):
+        _row(title, where, row, len(units), number)
     made = [
         Column(name, shown, tuple(float(v) for v in values))
         for (name, shown), values in zip(units.items(), zip(*cells, strict=True), strict=True)
@@ -67,7 +59,7 @@ def own_series(
     """Return a standard series that an author brings, checked as ``own_table`` checks; its values ascend."""
     _texts(title, sources, only_source)
     for value in values:
-        _number(title, "the series", value)
+        _number(title, phrase("the series"), value)
     column = Column("values", unit, tuple(float(value) for value in values))
     _units(title, [column])
     _ascending(title, [column], least=1)
@@ -76,11 +68,11 @@ def own_series(
 
 def _texts(title: object, sources: Any, only_source: str) -> None:
     if not isinstance(title, str) or not title.strip():
-        _fault(str(title), "has no title")
+        _fault(str(title), phrase("has no title"))
     if isinstance(sources, str) or not all(isinstance(text, str) and text.strip() for text in sources):
-        _fault(title, "needs its sources as texts in brackets, that say what was published where")
+        _fault(title, phrase("needs its sources as texts in brackets, that say what was published where"))
     if not sources or (len(set(sources)) < 2 and not only_source):
-        _fault(title, 'needs two sources that agree, or one and only_source="why there is no other"')
+        _fault(title, phrase('needs two sources that agree, or one and only_source="why there is no other"'))
 
 
 def _cells(title: str, rows: Rows) -> tuple[list[str], list[tuple[Any, ...]]]:
@@ -90,29 +82,31 @@ def _cells(title: str, rows: Rows) -> tuple[list[str], list[tuple[Any, ...]]]:
     else:
         listed = [tuple(row) if isinstance(row, list | tuple) else (row,) for row in rows]
     if not listed:
-        _fault(title, "has no rows")
+        _fault(title, phrase("has no rows"))
     if not isinstance(listed[0][0], str):
         return [], listed
     names = [row[0] for row in listed]
-    strange = next((name for name in names if not isinstance(name, str) or not name.strip()), None)
-    if strange is not None:
-        _fault(title, f"has the name {strange!r} of a row, which is not a text")
-    twice = next((name for name in names if names.count(name) > 1), None)
-    if twice is not None:
-        _fault(title, f"has two rows of the name {twice!r}")
+    for number, name in enumerate(names):
+        if not isinstance(name, str) or not name.strip():
+            told = Phrase("has the name {strange} of a row, which is not a text", strange=repr(name))
+            _fault(title, told, row=number)
+        if name in names[:number]:
+            _fault(title, Phrase("has two rows of the name {twice}", twice=repr(name)), row=number)
     return names, [row[1:] for row in listed]
 
 
-def _row(title: str, where: object, row: tuple[Any, ...], count: int) -> None:
+def _row(title: str, where: object, row: tuple[Any, ...], count: int, number: int) -> None:
     if len(row) != count:
-        _fault(title, f"has {len(row)} values in the row {where!r}, where {count} are needed")
+        words = "has {count} values in the row {where}, where {wanted} are needed"
+        _fault(title, Phrase(words, count=len(row), where=repr(where), wanted=count), row=number)
     for value in row:
-        _number(title, f"the row {where!r}", value)
+        _number(title, Phrase("the row {where}", where=repr(where)), value, number)
 
 
-def _number(title: str, where: str, value: object) -> None:
+def _number(title: str, where: str, value: object, row: int | None = None) -> None:
     if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
-        _fault(title, f"holds {value!r} in {where}, which is not a finite number")
+        words = "holds {value} in {where}, which is not a finite number"
+        _fault(title, Phrase(words, value=repr(value), where=where), row=row)
 
 
 def _units(title: str, columns: Iterable[Column]) -> None:
@@ -120,104 +114,33 @@ def _units(title: str, columns: Iterable[Column]) -> None:
         try:
             unit(column.unit)
         except UnitError as error:
-            _fault(title, f"has no usable unit{f' of {column.name}' if column.name else ''}: {error}", error)
+            _fault(
+                title,
+                Phrase(
+                    "has no usable unit{where}: {error}",
+                    where=Phrase(" of {name}", name=column.name) if column.name else "",
+                    error=error,
+                ),
+                error,
+            )
 
 
 def _ascending(title: str, columns: Sequence[Column], least: int = 2) -> None:
     """Check the first column; a table that goes by numbers needs two rows and a column of values."""
     if len(columns) < least:
-        _fault(title, "goes by the numbers of its first column and has no other; name its rows, or add a column")
+        _fault(
+            title, phrase("goes by the numbers of its first column and has no other; name its rows, or add a column")
+        )
     if len(columns[0].values) < least:
-        _fault(title, "has too few values; give two rows at least" if least > 1 else "has no values")
-    for before, after in pairwise(columns[0].values):
+        _fault(title, phrase("has too few values; give two rows at least") if least > 1 else phrase("has no values"))
+    for number, (before, after) in enumerate(pairwise(columns[0].values), 1):
         if not before < after:
-            name = columns[0].name
-            _fault(title, f"must ascend in {name} without repetition, but {after:g} follows {before:g}")
+            words = "must ascend in {name} without repetition, but {after} follows {before}"
+            told = Phrase(words, name=columns[0].name, after=format(after, "g"), before=format(before, "g"))
+            _fault(title, told, row=number)
 
 
-def _fault(title: str, what: str, cause: Exception | None = None) -> NoReturn:
-    raise StandardFault(f"The table “{title}” {what}.") from cause
-
-
-# --- files beside a plugin -------------------------------------------------------------------------------------------
-
-
-class _Written(BaseModel):
-    """A table in a file: what ``own_table`` takes."""
-
-    model_config = ConfigDict(extra="forbid", strict=True)
-
-    title: str
-    sources: list[str]
-    rows: dict[str, Any] | list[list[Any]]
-    unit: str = ""
-    columns: dict[str, str] | None = None
-    left_out: str = ""
-    only_source: str = ""
-
-
-def table_beside(plugin: str, name: str) -> StandardTable:
-    """Return the table in the file ``name`` beside a plugin's file: ``table_beside(__file__, "steels.yaml")``.
-
-    YAML and JSON hold what ``own_table`` takes. CSV says it in lines above (# title: …, # source: …) and names its columns
-    with their units (bore [mm]); a first column without a unit holds the rows' names.
-    """
-    file = Path(plugin).with_name(name)
-    try:
-        text = file.read_text(encoding="utf-8")
-        data = _from_csv(text) if file.suffix == ".csv" else _once(yaml.compose(text, yaml.SafeLoader))
-        written = _Written.model_validate(data)
-    except (OSError, UnicodeDecodeError, yaml.YAMLError, csv.Error) as error:
-        raise StandardFault(f"The table {file} cannot be read: {error}.") from error
-    except ValidationError as error:
-        told = "; ".join(f"{'.'.join(map(str, each['loc']))}: {each['msg']}" for each in error.errors())
-        raise StandardFault(f"The table {file} is not written as a table: {told}.") from error
-    made = own_table(**written.model_dump())
-    return StandardTable(**{**vars(made), "id": file.stem, "file": str(file)})
-
-
-def _once(node: yaml.Node | None) -> Any:
-    """Return a file's data; a key that stands twice is a fault, where YAML alone would take the last."""
-    if isinstance(node, yaml.MappingNode):
-        keys = [key.value for key, _ in node.value]
-        twice = next((key for key in keys if keys.count(key) > 1), None)
-        if twice is not None:
-            raise yaml.YAMLError(f"{twice!r} stands twice in it")
-        return {key.value: _once(value) for key, value in node.value}
-    if isinstance(node, yaml.SequenceNode):
-        return [_once(each) for each in node.value]
-    return None if node is None else _scalar(node)
-
-
-def _scalar(node: Any) -> Any:
-    """A number written as a decimal one; all else is text, so that neither 1:30 nor 010 becomes what nobody wrote."""
-    return node.value if node.style else _number_or_text(node.value)
-
-
-def _number_or_text(text: str) -> float | str:
-    return float(text) if DECIMAL.fullmatch(text.strip()) else text
-
-
-def _headed(cell: str) -> tuple[str, str]:
-    """The name of a column and its unit."""
-    found = HEADED.fullmatch(cell)
-    return (found[1], found[2]) if found else (cell, "")
-
-
-def _from_csv(text: str) -> dict[str, Any]:
-    lines = [line for line in text.splitlines() if line.strip()]
-    said = [found.groups() for line in lines if (found := SAID.match(line))]
-    table = list(csv.reader((line for line in lines if not line.startswith("#")), skipinitialspace=True))
-    if not table:
-        raise csv.Error("it has no line with the names of its columns")
-    heads = [_headed(cell.strip()) for cell in table[0]]
-    named = not heads[0][1]
-    heads = heads[1:] if named else heads
-    if len(dict(heads)) < len(heads):
-        raise csv.Error("two of its columns have one name")
-    return {
-        **{key: value for key, value in said if key != "source"},
-        "sources": [value for key, value in said if key == "source"],
-        "columns": dict(heads),
-        "rows": [[*row[:named], *map(_number_or_text, row[named:])] for row in table[1:]],
-    }
+def _fault(title: str, what: str, cause: Exception | None = None, row: int | None = None) -> NoReturn:
+    found = StandardFault(Phrase("The table “{title}” {what}.", title=title, what=what))
+    found.row = row
+    raise found from cause

@@ -10,7 +10,13 @@ from diecut_report.languages.phrases import Phrase, phrase
 
 
 class StandardFault(ValueError):
-    """Report a series or table that cannot be trusted, or an id that no file has; the text says which and what to fix."""
+    """Report a series or table that cannot be trusted, or an id that no file has; the text says which and what to fix.
+
+    ``row`` is the number of the row at fault, from 0; of a file beside a plugin the text ``tells_place``, with the line.
+    """
+
+    row: int | None = None
+    tells_place: bool = False
 
 
 @dataclass(frozen=True)
@@ -74,8 +80,15 @@ class StandardTable:
             return self.of_values[0]
         known = {column.name: column for column in self.columns}
         if name not in known:
-            asked = f"has no column {name!r}" if name else "has several columns; name one"
-            raise StandardFault(f"The table “{self.title}” {asked}; it has {', '.join(known)}.")
+            asked = Phrase("has no column {name}", name=repr(name)) if name else phrase("has several columns; name one")
+            raise StandardFault(
+                Phrase(
+                    "The table “{title}” {asked}; it has {known}.",
+                    title=self.title,
+                    asked=asked,
+                    known=", ".join(known),
+                )
+            )
         return known[name]
 
     def by_name(self, column: str = "") -> Mapping[str, float]:

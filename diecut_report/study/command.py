@@ -9,8 +9,9 @@ from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
-from diecut_report.config.catalogues import catalogues_for
+from diecut_report.config.catalogues import catalogues_for, lacking
 from diecut_report.config.discovery import Discovery
+from diecut_report.languages.catalogues import Catalogues
 from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import said, say, speaking
 from diecut_report.study.definition.study_file import Study, load_study
@@ -111,14 +112,25 @@ def run(
         told += export(outcome.store, formats)
         with in_its_language(known, where):
             summarise(directory)
-    return replace(outcome, broken_reports=broken, notes=(*filter(None, [known.sample.note]), *told))
+    return replace(
+        outcome, broken_reports=broken, notes=(*filter(None, [known.sample.note]), *told, *untranslated(known, where))
+    )
 
 
 def in_its_language(study: Study, where: Where) -> AbstractContextManager[None]:
     """Speak the language of the study's documents: the one that is asked for, else that of the base's project."""
+    found = _catalogues(study, where)
+    return speaking(found.language, found)
+
+
+def untranslated(study: Study, where: Where) -> list[str]:
+    """Return in words which foreign plugins have no words, or not all, in the language of the study's documents."""
+    return lacking(_catalogues(study, where), study.base.kinds.values())
+
+
+def _catalogues(study: Study, where: Where) -> Catalogues:
     language = where.language or study.base.project.language
-    kinds = dict.fromkeys(study.base.kinds.values())
-    return speaking(language, catalogues_for(language, kinds, _discovery(where)))
+    return catalogues_for(language, dict.fromkeys(study.base.kinds.values()), _discovery(where))
 
 
 def _discovery(where: Where) -> Discovery:

@@ -8,7 +8,7 @@ from functools import cached_property
 from typing import Any
 
 from diecut_report.errors import nearest
-from diecut_report.quantities.units import parse_quantity, pretty, to_display, unit
+from diecut_report.quantities.units import pretty, to_display, unit
 
 Data = Mapping[str, Any]
 
@@ -164,10 +164,9 @@ def _quantity(name: str, row: Data) -> QuantityFound:
 
 
 def _place(row: Data) -> Data:
-    """The place of an extreme, as exactly as it is reported."""
+    """The place of an extreme."""
     at = row["at"]
-    own = unit(at["unit"])
-    return {"value": parse_quantity(float(at["text"]), at["unit"]), "unit": own.si, "symbol": at["symbol"],
+    return {"value": at["value"], "unit": unit(at["unit"]).si, "symbol": at["symbol"],
             "description": row["description"], "display": at}  # fmt: skip
 
 

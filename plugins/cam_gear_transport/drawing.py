@@ -6,7 +6,19 @@ from math import cos, pi, sin
 
 import numpy as np
 
-from diecut_report.api import Point, Shape, View, arc, circle, dimension, label, point, polyline, radius_dimension, rigid
+from diecut_report.api import (
+    Point,
+    Shape,
+    View,
+    arc,
+    circle,
+    dimension,
+    label,
+    point,
+    polyline,
+    radius_dimension,
+    rigid,
+)
 
 MOST_POINTS = 720  # of a drawn curve
 MOST_MOVING = 180  # of one beside which a drawing moves on a screen

@@ -30,6 +30,12 @@ OFFSETS = (
     ListedColumn("end", "to", "Φ_b", "deg"),
 )
 LACKING = (ListedColumn("what", "What"), ListedColumn("because", "Because"))
+ROLES = {
+    "working": phrase("working"),
+    "rest": phrase("at rest"),
+    "moving": phrase("moving"),
+    "window": phrase("room for another part"),
+}
 
 
 def phases(given: Mapping[str, Any]) -> Rows:
@@ -39,7 +45,7 @@ def phases(given: Mapping[str, Any]) -> Rows:
         for name in line.phases:
             for start, end in line.on_main_shaft(name, timing.common, None):
                 times = (timing.time(start), timing.time(end), timing.time(end - start))
-                yield (f"{line.name}.{name}", line.roles[name], start, end, *times)
+                yield (f"{line.name}.{name}", ROLES.get(line.roles[name], line.roles[name]), start, end, *times)
 
 
 def margins(given: Mapping[str, Any]) -> Rows:

@@ -62,7 +62,7 @@ for name, symbol, words, function in (
     ("slack", "g_s", "What the lesser margin has above the required one", _slack),
     ("held_length", "l_A", "Length of what must be held", _worst("inner_length")),
 ):
-    interlocks.computed(name, symbol, "deg", words, function, TIMING, PHASES, over="interlocks", digits=6)
+    interlocks.computed(name, symbol, "deg", words, function, TIMING, PHASES, over="interlocks")
 for name, symbol, words, of in (("margin_start_time", "t_1", "Margin at the start, as a time", "margin_start"),
                                 ("margin_end_time", "t_2", "Margin at the end, as a time", "margin_end")):
     interlocks.value(name, symbol, "ms", words, bind(lambda angle, main_shaft_speed: angle / main_shaft_speed, angle=of))
@@ -70,7 +70,7 @@ interlocks.value("length_demand", "l_d", "deg", "Length that is needed, margins 
                  lambda held_length, margin_required: held_length + 2 * margin_required, output=False)
 interlocks.value("length_available", "l_v", "deg", "Length that there is", lambda held_length, margin_least: held_length + 2 * margin_least,
                  output=False)
-interlocks.total("best_margin", "g_min", "deg", "Least slack of all interlocks", "min", of="slack", digits=6)
+interlocks.total("best_margin", "g_min", "deg", "Least slack of all interlocks", "min", of="slack")
 interlocks.value("best_margin_time", "t_g", "ms", "The same as a time", bind(common.quotient, quantity="best_margin", by="main_shaft_speed"))
 
 
@@ -97,7 +97,7 @@ interlocks.computed("is_window", "k_w", "1", "Whether each is held by one interv
                     lambda timing: np.array([np.isfinite(timing.needed_lengths)]).astype(float), TIMING, PHASES, over="interlocks", output=False)
 interlocks.computed("needed_length", "l_n", "deg", "Length that what holds it must have, for the interlock alone at its best offset",
                     lambda timing: np.nan_to_num([timing.needed_lengths]), TIMING, "length of the one interval less twice the greatest slack",
-                    over="interlocks", digits=6, exists=lambda is_window: is_window > 0)
+                    over="interlocks", exists=lambda is_window: is_window > 0)
 interlocks.listing("margins", "Margins of each interval", listings.MARGINS, listings.margins, TIMING)
 interlocks.listing("offsets", "Offsets that leave all margins", listings.OFFSETS, listings.offsets, TIMING)
 interlocks.listing("lacking", "Not checked", listings.LACKING, listings.lacking, ("timing", "station.transport"))

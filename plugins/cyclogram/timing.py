@@ -207,9 +207,9 @@ class Timing:
         sheets = speed / line.mechanism.period() / float(line.line.turns)
         return abs(sheets / self.productivity - 1)
 
-    def told(self, angle: float) -> str:
+    def told(self, angle: float, up: bool | None = None) -> str:
         """Return an angle of the main shaft in words, with its time."""
-        return f"{told(angle, 'deg', 6)} ({told(self.time(angle), 'ms', 6)})"
+        return f"{told(angle, 'deg', up=up)} ({told(self.time(angle), 'ms', up=up)})"
 
     def time(self, angle: float) -> float:
         """Return the time in which the main shaft turns by an angle, s."""

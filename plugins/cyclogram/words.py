@@ -70,7 +70,9 @@ def _offset(timing: Timing, index: int) -> Iterator[str]:
             if held.is_apart
             else timing.name_of(held.outer)
         )
-        yield Phrase("At the best offset for it alone {what} must be {told} long.", what=what, told=timing.told(length))
+        yield Phrase(
+            "At the best offset for it alone {what} must be {told} long.", what=what, told=timing.told(length, up=True)
+        )
 
 
 def _speed(timing: Timing) -> str:

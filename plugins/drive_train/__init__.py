@@ -42,7 +42,7 @@ MECHANISM = Mechanism(
     ),
     sources=(
         Source("002", "Loizyk V. V., Bryndas A. M., Shelonh N. M., Ternytskyi S. V. Analytical studies of drive mechanism parameters of "
-               "flat cylinder die-cutting press. Lviv Polytechnic National University."),
+               "flat cylinder die-cutting press. Lviv Polytechnic National University (in Ukrainian)."),
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "
                "of the pressure cylinder of a flat-bed type die-cutting machine. 2024. "
                "doi: 10.32403/1998-6912-2024-2-69-140-150."),

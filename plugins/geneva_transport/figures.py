@@ -41,7 +41,9 @@ def panel(title: str, unit: str, alpha: Any, values: Any, label: str, view: View
     """One curve over the crank angle, with entry and exit."""
     half = view["engagement_half_angle"]
     edges = [vertical(-half, "entry"), vertical(half, "exit")]
-    return chart_panel(title, unit, *FROM_MIDDLE, lines=[line(alpha, values, label)], verticals=edges, over=OVER, **more)
+    return chart_panel(
+        title, unit, *FROM_MIDDLE, lines=[line(alpha, values, label)], verticals=edges, over=OVER, **more
+    )
 
 
 def motion(view: View) -> list[Shape]:

@@ -61,7 +61,11 @@ def planetary(view: View) -> list[Shape]:
     for phi in (contact, pi / 2):
         shapes.append(polyline(_planetary(view, phi), "ghost"))
     shapes += [circle(_planetary(view, contact)[1], radius, "hidden"), polyline(_planetary(view, 3 * pi / 2), "link")]
-    shapes += [point((0.0, 0.0), "pivot"), point(_planetary(view, contact)[1], "joint"), point(_planetary(view, 3 * pi / 2)[1], "joint")]
+    shapes += [
+        point((0.0, 0.0), "pivot"),
+        point(_planetary(view, contact)[1], "joint"),
+        point(_planetary(view, 3 * pi / 2)[1], "joint"),
+    ]
     shapes += _table(view, lowest, lowest[1] + view["working_depth"])
     stroke = dimension(lowest, (0.0, 2 * radius), 2.3 * radius, view.text("planetary_stroke"))
     return [*shapes, stroke]

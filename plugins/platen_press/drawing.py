@@ -4,7 +4,19 @@ from __future__ import annotations
 
 from math import asin, cos, pi, sin, sqrt
 
-from diecut_report.api import Point, Shape, View, arc, circle, dimension, label, point, polyline, radius_dimension, rigid
+from diecut_report.api import (
+    Point,
+    Shape,
+    View,
+    arc,
+    circle,
+    dimension,
+    label,
+    point,
+    polyline,
+    radius_dimension,
+    rigid,
+)
 
 SHOWN = -pi / 3  # crank angle of the main position: a sixth of a turn before the dead centre
 

@@ -35,7 +35,7 @@ MECHANISM = Mechanism(
     ),
     sources=(
         Source("ISO 606", "ISO 606, Short-pitch transmission precision roller and bush chains, attachments and associated chain sprockets."),
-        Source("Shigley", "Budynas R. G., Nisbett J. K. Shigley's Mechanical Engineering Design. McGraw-Hill; section 17-5, roller chain."),
+        Source("Shigley", "Budynas R. G., Nisbett J. K. Shigley's Mechanical Engineering Design. 10th ed. McGraw-Hill, 2015, chapters 6, 7 and 17."),
         Source("iwis", "iwis, Grundlagen der Kettentechnik: Bruchkraft (breaking load): a safety of 7 against it by rule of thumb. iwis.de."),
         Source("Diamond Chain", "Diamond Chain, What is working load, and what role does it play in selecting roller chain? At most a sixth of the "
                "breaking load, a ninth with slip-fit or cranked connecting links. diamondchain.com."),

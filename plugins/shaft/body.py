@@ -8,7 +8,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Phrase, Refusal
+from diecut_report.api import Phrase, Refusal, phrase
 from diecut_report.mechanics.beams import SAME_PLACE
 
 Array = NDArray[Any]
@@ -134,7 +134,10 @@ def body(
     kinds = (*steps, *(types or ()), *[NO_NOTCH] * rest)
     told = (
         *(Phrase("shoulder {i}", i=i + 1) for i in range(count - 1)),
-        *(Phrase("notch {i} ({kind})", i=i + 1, kind=kind) for i, kind in enumerate(types or ())),
+        *(
+            Phrase("notch {i} ({kind})", i=i + 1, kind=phrase(kind.replace("_", " ")))
+            for i, kind in enumerate(types or ())
+        ),
         "bearing A",
         "bearing B",
         *(Phrase("load {name}", name=name) for name in names),

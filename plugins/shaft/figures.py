@@ -88,7 +88,7 @@ def _goodman(view: View) -> list[Shape]:
                 line([0, strength / required], [limit / required, 0], "with the required safety"),
                 line([0, mean], [0, alternating], view.words("places")[index]),
             ],
-            marks=[mark(mean, alternating, view.text("fatigue_safety"))],
+            marks=[mark(mean, alternating, "stress there")],
         )
     ]  # fmt: skip
 
@@ -104,7 +104,7 @@ def _amplitudes(view: View) -> list[Shape]:
     size = view["endurance_limit"] / view["required_fatigue_safety"]
     return [
         chart_panel(
-            "Amplitude of the shear stress × K_fs", "MPa", "Amplitude of the normal stress × K_f", "K_f σ_a", "MPa",
+            "Amplitude of the shear stress, with its notch factor", "MPa", "Amplitude of the normal stress, with its notch factor", "", "MPa",
             lines=[line(size * np.cos(turn), size * np.sin(turn) / 3**0.5, "endurance limit by the required safety, without mean stress")],
             marks=[mark(x, y, view.words("places")[i] if i == index else "") for i, (x, y) in enumerate(zip(normal, shear, strict=True))],
         )

@@ -4,7 +4,11 @@
   var MARKS = { pass: "✓", warn: "!", fail: "✗", error: "✗", skipped: "–", not_checked: "?" };
   var WORDS = JSON.parse(document.body.dataset.words);
   var byId = function (id) { return document.getElementById(id); };
-  var state = null, open = null, chosen = null, effect = null, sending = false, waiting = {}, shownFigures = {}, isLost = false;
+  var PAUSE = 250;  /* milliseconds */
+  var MOST = 60;  /* inputs that a search shows */
+  var state = null, open = null, chosen = null, effect = null, sending = false, waiting = {}, flying = {}, shownFigures = {}, isLost = false;
+
+  var FIGURES = new Intl.NumberFormat(document.documentElement.lang, { maximumSignificantDigits: 6 });
 
   /* A text of the page in its language, its places filled. */
   function t(name, values) { return WORDS[name].replace(/\{(\w+)\}/g, function (place, key) { return String(values[key]); }); }
@@ -27,11 +31,28 @@
     return parts.length > 1 ? [base, make("sub", {}, parts.slice(1).join(" "))] : [base];
   }
 
-  function say(text) { byId("told").textContent = text || ""; }
+  /* What became of an act; what was refused stands until it, or the file, is another. */
+  var saidAt = null;
+  function say(text, isGood) {
+    byId("told").textContent = text || "";
+    byId("told").className = isGood ? "good" : "";
+    saidAt = text && !isGood && state ? state.serial : null;
+  }
 
   function mark(status) { return make("span", { "class": "mark s-" + status }, MARKS[status] || "·"); }
 
-  function percent(ratio) { return ratio === null || ratio === undefined ? "–" : (100 * ratio).toFixed(ratio < 0.0995 ? 1 : 0) + " %"; }
+  /* A number in the form of the page's language. */
+  function told(number, digits) {
+    return number.toLocaleString(document.documentElement.lang, { minimumFractionDigits: digits, maximumFractionDigits: digits, useGrouping: false });
+  }
+
+  /* So many digits that what is beyond its limit does not look as if it were at it. */
+  function percent(ratio) {
+    if (ratio === null || ratio === undefined) { return "–"; }
+    var digits = ratio < 0.0995 ? 1 : 0;
+    while (digits < 4 && ratio !== 1 && Math.abs(ratio - 1) > 1e-9 && (100 * ratio).toFixed(digits) === (100).toFixed(digits)) { digits += 1; }
+    return told(100 * ratio, digits) + " %";
+  }
 
   /* ---- talking to the program ---- */
   function post(path, body) {
@@ -48,13 +69,37 @@
   /* One request at a time: what is moved meanwhile is sent with the next. */
   function send() {
     if (sending || !Object.keys(waiting).length) { return; }
-    var changes = waiting;
+    busy();
+    var changes = flying = waiting;
     sending = true;
     waiting = {};
     post("change", { changes: changes }).then(function () { wrong(changes, ""); }, function (fault) {
       failed(fault);
       wrong(changes, fault.refused || "");
-    }).then(function () { sending = false; send(); });
+    }).then(function () { sending = false; flying = {}; ready(); send(); });
+  }
+
+  /* What takes longer than a moment is said. */
+  var isBusy = 0;
+  function busy() { clearTimeout(isBusy); isBusy = setTimeout(function () { byId("busy").hidden = false; }, 150); }
+  function ready() { clearTimeout(isBusy); byId("busy").hidden = true; }
+
+  function act(path, body) {
+    busy();
+    return post(path, body).then(function () { return true; }, function (fault) { failed(fault); return false; }).then(function (isDone) { ready(); return isDone; });
+  }
+
+  /* What is taken back can be put back again, until something else is said. */
+  function takeBack(names) {
+    var former = {};
+    names.forEach(function (name) { if (name in state.edits) { former[name] = state.edits[name]; } });
+    act("back", { names: names }).then(function (isDone) {
+      if (!isDone || !Object.keys(former).length) { return; }
+      var again = make("button", { type: "button" }, t("put_back"));
+      again.addEventListener("click", function () { Object.keys(former).forEach(function (name) { waiting[name] = former[name]; }); send(); });
+      say(t("taken_back", { n: Object.keys(former).length }) + " ", true);
+      byId("told").append(again);
+    });
   }
 
   function change(name, typed) { waiting[name] = typed; send(); }
@@ -64,7 +109,7 @@
       var row = document.querySelector('.input[data-name="' + CSS.escape(name) + '"]');
       if (row) {
         row.querySelector(".wrong").textContent = text;
-        row.querySelector("input[type=text]").setAttribute("aria-invalid", String(Boolean(text)));
+        row.querySelector(".typed").setAttribute("aria-invalid", String(Boolean(text)));
       }
     });
   }
@@ -120,46 +165,80 @@
     byId("mechanisms").replaceChildren.apply(byId("mechanisms"), all.map(function (each) {
       var button = make("button", { type: "button", "data-mechanism": each.name, title: each.title }, [each.checks.length ? mark(worst(each)) : make("span", { "class": "mark" }, ""), " " + each.name]);
       if (each.name === open) { button.setAttribute("aria-current", "true"); }
-      button.addEventListener("click", function () { open = each.name; chosen = effect = null; show(); });
+      button.addEventListener("click", function () { visit(each.name); });
       return button;
     }));
     if (held) { var again = document.querySelector('[data-mechanism="' + CSS.escape(held) + '"]'); if (again) { again.focus(); } }
+  }
+
+  function visit(name) {
+    open = name;
+    chosen = effect = null;
+    byId("search").value = "";
+    show();
   }
 
   function current() { return state.machine.mechanisms.find(function (each) { return each.name === open; }); }
 
   /* ---- inputs: rows are kept while a hand is on them ---- */
   function inputs() {
-    var rows = byId("inputs").querySelector(".rows"), own = current().inputs, names = own.map(function (each) { return each.name; });
+    var rows = byId("inputs").querySelector(".rows"), own = found(), names = own.map(function (each) { return each.name; });
     var there = Array.from(rows.children).map(function (row) { return row.dataset.name; });
     if (there.join() !== names.join()) {
       rows.replaceChildren.apply(rows, own.map(inputRow));
     }
     own.forEach(function (each, index) { fill(rows.children[index], each); });
-    if (!own.length) { rows.replaceChildren(make("p", { "class": "hint" }, t("no_inputs"))); }
+    if (!own.length) { rows.replaceChildren(make("p", { "class": "hint" }, sought() ? t("not_found") : t("no_inputs"))); }
+  }
+
+  function sought() { return byId("search").value.trim().toLowerCase(); }
+
+  function everyInput() { return [].concat.apply([], state.machine.mechanisms.map(function (each) { return each.inputs; })); }
+
+  /* The inputs of the mechanism that is shown, or all in whose key, words or sign each word stands that is searched for. */
+  function found() {
+    var words = sought().split(/\s+/);
+    if (!sought()) { return current().inputs; }
+    return everyInput().filter(function (each) {
+      var text = (each.name + " " + each.text + " " + each.symbol).toLowerCase();
+      return words.every(function (word) { return text.indexOf(word) >= 0; });
+    }).slice(0, MOST);
   }
 
   function inputRow(each) {
     var id = "in-" + each.name.replace(/\W/g, "-");
-    var slider = make("input", { type: "range", "aria-label": t("slider", { input: each.text }) });
-    var typed = make("input", { type: "text", id: id, autocomplete: "off", spellcheck: "false", maxlength: "100" });
+    var slider = each.options ? null : make("input", { type: "range", "aria-label": t("slider", { input: each.text }) });
+    var typed = each.options ? make("select", { id: id, "class": "typed" }) : make("input", { type: "text", id: id, "class": "typed", autocomplete: "off", spellcheck: "false", maxlength: "100" });
     var back = make("button", { type: "button", title: t("take_back"), "aria-label": t("take_back_of", { input: each.text }) }, "↺");
     var row = make("div", { "class": "input", "data-name": each.name }, [
-      make("label", { "for": id }, [each.text + " "].concat(each.symbol ? sign(each.symbol) : [])),
-      make("div", { "class": "line" }, [slider, typed, back]), make("div", { "class": "was" }), make("div", { "class": "wrong", role: "alert" })]);
-    slider.addEventListener("input", function () { typed.value = slider.value + (row.unit ? " " + row.unit : ""); change(each.name, typed.value); });
-    typed.addEventListener("change", function () { change(each.name, typed.value); });
-    typed.addEventListener("keydown", function (event) { if (event.key === "Escape") { typed.value = row.typed; wrong(Object.fromEntries([[each.name, ""]]), ""); } });
-    back.addEventListener("click", function () { post("back", { names: [each.name] }).catch(failed); });
-    [slider, typed].forEach(function (field) { field.addEventListener("focus", function () { choose(each.name); }); });
+      make("label", { "for": id }, [each.text + " "].concat(each.symbol ? sign(each.symbol) : [])), make("div", { "class": "key" }, sought() ? each.name : key(each)),
+      make("div", { "class": "line" }, [slider || "", typed, back]), make("div", { "class": "was" }), make("div", { "class": "wrong", role: "alert" }), make("div", { "class": "fault" })]);
+    if (slider) { slider.addEventListener("input", function () { typed.value = slider.value + (row.unit ? " " + row.unit : ""); change(each.name, typed.value); }); }
+    typed.addEventListener("change", function () { row.sent = typed.value; change(each.name, typed.value); });
+    typed.addEventListener("keydown", function (event) { if (event.key === "Escape" && slider) { typed.value = row.typed; wrong(Object.fromEntries([[each.name, ""]]), ""); } });
+    back.addEventListener("click", function () { delete waiting[each.name]; takeBack([each.name]); });
+    if (slider) { [slider, typed].forEach(function (field) { field.addEventListener("focus", function () { choose(each.name); }); }); }
     return row;
   }
 
+  /* What an input is called in the block of its mechanism in the file. */
+  function key(each) { return each.name.slice(each.name.indexOf(".") + 1); }
+
+  /* The values that an input may have, and what stands in the file. */
+  function options(select, each) {
+    var values = each.options.indexOf(each.typed) < 0 ? [each.typed].concat(each.options) : each.options;
+    if (select.dataset.values !== values.join("\n")) {
+      select.dataset.values = values.join("\n");
+      select.replaceChildren.apply(select, values.map(function (value) { return make("option", { value: value }, value); }));
+    }
+  }
+
   function fill(row, each) {
-    var slider = row.querySelector("input[type=range]"), typed = row.querySelector("input[type=text]"), isEdited = each.name in state.edits;
+    var slider = row.querySelector("input[type=range]"), typed = row.querySelector(".typed"), isEdited = each.name in state.edits;
     row.unit = each.unit;
     row.typed = each.typed;
-    if (document.activeElement !== slider) {
+    if (each.options) { options(typed, each); }
+    if (slider && document.activeElement !== slider) {
       var low = Math.min(each.low, each.value), high = Math.max(each.high, each.value);
       var step = each.whole ? 1 : round((high - low) / 200);
       slider.step = step;
@@ -167,7 +246,9 @@
       slider.max = (Math.floor(high / step + 1e-9) * step).toPrecision(12);
       slider.value = each.value;
     }
-    if (document.activeElement !== typed && !(each.name in waiting) && typed.getAttribute("aria-invalid") !== "true") { typed.value = each.typed; }
+    var isHeld = document.activeElement === typed && typed.value !== row.sent, isOnItsWay = each.name in waiting || each.name in flying;
+    if (!isHeld && !isOnItsWay && typed.getAttribute("aria-invalid") !== "true") { typed.value = each.typed; }
+    row.querySelector(".fault").textContent = state.faults.filter(function (fault) { return isEdited && (fault.path === each.path || fault.path === each.path + ".value"); }).map(function (fault) { return fault.text; }).join(" ");
     row.classList.toggle("edited", isEdited);
     row.classList.toggle("chosen", each.name === chosen);
     row.querySelector("button").hidden = !isEdited;
@@ -186,18 +267,31 @@
     chosen = name;
     effect = null;
     document.querySelectorAll(".input").forEach(function (row) { row.classList.toggle("chosen", row.dataset.name === name); });
+    checks();
     asks();
   }
 
-  var asking = false, isOld = false;
+  var asked = null, later = 0;
+  /* A moment after the last move of a hand: an effect is a run of many machines. */
   function asks() {
-    if (!chosen) { return; }
-    if (asking) { isOld = true; return; }
-    asking = true;
-    isOld = false;
-    fetch("effect?input=" + encodeURIComponent(chosen)).then(function (answer) { return answer.ok ? answer.json() : null; }).then(function (found) {
-      if (found && found.input === chosen) { effect = found; checks(); }
-    }, failed).then(function () { asking = false; if (isOld) { asks(); } });
+    clearTimeout(later);
+    if (asked) { asked.abort(); }
+    asked = null;
+    if (chosen && state.machine) { later = setTimeout(ask, PAUSE); }
+  }
+
+  function ask() {
+    var own = asked = new AbortController(), name = chosen;
+    effectHead();
+    fetch("effect?input=" + encodeURIComponent(name), { signal: own.signal }).then(function (answer) { return answer.ok ? answer.json() : null; }).then(function (found) {
+      if (found && found.input === chosen) { effect = found; }
+    }).catch(function (fault) { if (fault.name !== "AbortError") { failed(fault); } }).then(function () {
+      if (asked === own) { asked = null; checks(); }
+    });
+  }
+
+  function effectHead() {
+    byId("effect-head").textContent = chosen ? t("effect_of", { input: chosen }) + (asked ? " …" : "") : t("effect");
   }
 
   function line(name, value) {
@@ -222,21 +316,38 @@
   }
 
   /* ---- checks and numbers ---- */
+  var turned = {};  /* whether the words of a check are shown, where a hand has chosen it */
+
+  function explained(name, isFailing, title, words) {
+    var box = make("details", {}, [make("summary", {}, title), make("p", {}, words)]);
+    box.open = name in turned ? turned[name] : isFailing;
+    box.querySelector("summary").addEventListener("click", function () { turned[name] = !box.open; });
+    return box;
+  }
+
+  /* Where a check of another mechanism stands: leads there. */
+  function place(mechanism, isTold) {
+    if (!isTold) { return ""; }
+    var link = make("button", { type: "button", "class": "to" }, mechanism.name);
+    link.addEventListener("click", function () { visit(mechanism.name); });
+    return link;
+  }
+
   function checks() {
-    var every = byId("all-checks").checked, rows = [], input = chosen && current().inputs.find(function (each) { return each.name === chosen; });
+    var every = byId("all-checks").checked, rows = [], input = chosen && everyInput().find(function (each) { return each.name === chosen; });
     state.machine.mechanisms.forEach(function (each) {
       if (every || each.name === open) { each.checks.forEach(function (check) { rows.push([each, check]); }); }
     });
     var rank = { fail: 0, warn: 1, pass: 2, not_checked: 3 };
     rows.sort(function (a, b) { return rank[a[1].status] - rank[b[1].status] || (b[1].utilisation || 0) - (a[1].utilisation || 0); });
-    byId("effect-head").textContent = input ? t("effect_of", { input: chosen }) : t("effect");
+    effectHead();
     byId("checks").tBodies[0].replaceChildren.apply(byId("checks").tBodies[0], rows.map(function (row) {
       var each = row[0], check = row[1], words = [check.message, check.advice].filter(Boolean).join(" ");
-      var title = (every ? each.name + ": " : "") + check.title, was = check.start_status;
-      var told = make("td", {}, words ? make("details", {}, [make("summary", {}, title), make("p", {}, words)]) : title);
+      var title = check.title, was = check.start_status;
+      var cell = make("td", {}, [place(each, every), words ? explained(each.name + "." + check.id, check.status === "fail", title, words) : title]);
       var isOther = was && (was !== check.status || percent(check.start_utilisation) !== percent(check.utilisation));
       return make("tr", { "data-check": each.name + "." + check.id }, [
-        make("td", {}, [mark(check.status), " " + t("status_" + check.status)]), told,
+        make("td", {}, [mark(check.status), " " + t("status_" + check.status)]), cell,
         make("td", { "class": "number" }, percent(check.utilisation)),
         make("td", { "class": "number" + (isOther ? " changed" : "") }, was ? [mark(was), " " + percent(check.start_utilisation)] : t("absent_before")),
         make("td", {}, input ? line(each.name + "." + check.id, input.value) : "")]);
@@ -245,7 +356,7 @@
 
   function outputs() {
     byId("outputs").tBodies[0].replaceChildren.apply(byId("outputs").tBodies[0], current().outputs.map(function (each) {
-      var change = each.change === null ? "" : (each.change > 0 ? "+" : "−") + Math.abs(100 * each.change).toFixed(Math.abs(each.change) < 0.0995 ? 1 : 0) + " %";
+      var change = each.change === null ? "" : (each.change > 0 ? "+" : "−") + told(Math.abs(100 * each.change), Math.abs(each.change) < 0.0995 ? 1 : 0) + " %";
       return make("tr", { "data-output": open + "." + each.id }, [
         make("td", {}, [each.text + " "].concat(each.symbol ? sign(each.symbol) : [])), make("td", { "class": "number" }, each.shown),
         make("td", { "class": "number" }, each.start), make("td", { "class": "number" + (change ? " changed" : "") }, change)]);
@@ -274,7 +385,7 @@
   }
 
   function fetchFigure(figure) {
-    if (figure.serial === state.serial || state.faults.length) { return; }
+    if (figure.serial === state.serial || (figure.known && state.faults.length)) { return; }
     if (figure.isAsking) { figure.isOld = true; return; }
     var serial = state.serial;
     figure.isAsking = true;
@@ -317,7 +428,7 @@
     var ink = colour("ink"), grid = colour("line"), limit = colour("fail");
     var lines = panel.lines.concat(panel.fills), joined = uPlot.join(lines.map(function (each) { return [rows[each.x], rows[each.y]]; }));
     var levels = panel.levels.map(function (level) { return { y: level.y, text: level.text }; });
-    var axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", labelSize: 18 };
+    var axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, values: function (u, places) { return places.map(function (place) { return place === null ? "" : FIGURES.format(place); }); }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", labelSize: 18 };
     box.append(make("p", { "class": "panel" }, panel.title + (panel.unit ? ", " + panel.unit : "")));
     var made = new uPlot({
       width: Math.max(280, box.clientWidth), height: 240, cursor: { sync: { key: group.split("/")[0] + panel.across.title + panel.across.unit } },
@@ -359,15 +470,17 @@
 
   var source = new EventSource("events");
   source.onmessage = function (event) {
-    if (isLost) { isLost = false; say(""); }
     state = JSON.parse(event.data);
+    if (isLost || (saidAt !== null && saidAt !== state.serial)) { isLost = false; say(""); }
     show();
     asks();
     document.body.dataset.serial = state.serial;
   };
   source.onerror = function () { isLost = true; say(t("lost")); };
 
-  byId("write").addEventListener("click", function () { post("write").then(function () { say(t("written", { file: state.file })); }, failed); });
-  byId("back").addEventListener("click", function () { post("back").catch(failed); });
+  byId("write").addEventListener("click", function () { act("write").then(function (isDone) { if (isDone) { say(t("written", { file: state.file }), true); } }); });
+  byId("back").addEventListener("click", function () { waiting = {}; takeBack(Object.keys(state.edits)); });
+  document.querySelectorAll("a.button").forEach(function (link) { link.addEventListener("click", function () { say(t("making"), true); }); });
   byId("all-checks").addEventListener("change", checks);
+  byId("search").addEventListener("input", function () { if (state && state.machine) { byId("inputs").querySelector(".rows").replaceChildren(); inputs(); } });
 })();

@@ -136,6 +136,42 @@ def test_a_wrong_number_is_told_beside_it_and_changes_nothing(browser: Browser, 
     expect(tab.page.locator("#faults")).to_be_hidden(timeout=SECONDS)
 
 
+def test_an_input_is_found_by_a_search_and_a_fault_stands_beside_what_gave_it(browser: Browser, live: Live) -> None:
+    tab = Tab(browser, live.address)
+    tab.page.get_by_role("button", name="press").click()
+    tab.page.get_by_role("searchbox").fill("KNIFE.eccentr")
+    expect(tab.page.locator(".input")).to_have_count(1)
+    expect(tab.page.locator(".input .key")).to_have_text("knife.eccentricity")
+    tab.type("knife.eccentricity", "2")
+    expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("2 mm", timeout=SECONDS)
+    tab.type("knife.eccentricity", "-3")
+    expect(tab.input("knife.eccentricity").locator(".fault")).to_contain_text("out of range", timeout=SECONDS)
+    other = Tab(browser, live.address)  # opened while there is a fault: the last machine is drawn
+    expect(other.page.locator("#figures svg").first).to_be_visible(timeout=SECONDS)
+    tab.type("knife.eccentricity", "2.1 cm")
+    tab.page.get_by_role("button", name="Take all back").click()
+    expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("20 mm", timeout=SECONDS)
+    tab.page.get_by_role("button", name="Put back again").click()
+    expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("2.1 cm", timeout=SECONDS)
+    tab.page.get_by_role("searchbox").fill("no such thing")
+    expect(tab.page.locator("#inputs .rows")).to_contain_text("No input that the file gives")
+
+
+def test_why_a_check_fails_stands_open_and_leads_to_its_mechanism(browser: Browser, live: Live) -> None:
+    tab = Tab(browser, live.address)
+    tab.type("knife.eccentricity", "26 mm")
+    tab.page.get_by_role("button", name="press", exact=True).click()
+    tab.page.get_by_label("of all mechanisms").check()
+    failing = tab.page.locator("#checks tr").filter(has=tab.page.locator(".s-fail")).first
+    expect(failing.locator("details p")).to_be_visible(timeout=SECONDS)
+    failing.locator("summary").click()
+    tab.type("press.sheet.thickness", "0.6 mm")
+    expect(tab.input("press.sheet.thickness").locator(".was")).to_contain_text("at the start", timeout=SECONDS)
+    expect(failing.locator("details p")).to_be_hidden()  # as a hand has left it
+    failing.locator("button.to").click()
+    expect(tab.page.locator("#mechanisms [aria-current]")).to_contain_text("knife")
+
+
 def test_two_tabs_show_the_same_and_the_end_tells_what_is_not_written(browser: Browser, live: Live) -> None:
     one, two = Tab(browser, live.address), Tab(browser, live.address)
     one.type("knife.speed", "55 rpm")

@@ -67,9 +67,13 @@ class Opened:
         self.page.goto(file.resolve().as_uri())
 
     def scrolled(self) -> None:
-        """Go down the whole page, so that every curve is drawn."""
-        self.page.evaluate("""async () => { for (let y = 0; y < document.documentElement.scrollHeight; y += 600) {
-            scrollTo(0, y); await new Promise(done => setTimeout(done, 30)); } scrollTo(0, 0); }""")
+        """Go to every figure that is read, until it is drawn."""
+        self.page.evaluate("""async () => { const data = JSON.parse(document.getElementById("reader-data").textContent);
+            for (const number of Object.keys(data.figures)) { const figure = document.getElementById("fig-" + number);
+                figure.scrollIntoView();
+                while (!figure.querySelector(".r-chart canvas")) { await new Promise(done => setTimeout(done, 20)); } }
+            while (!document.documentElement.dataset.reached) { await new Promise(done => setTimeout(done, 20)); }
+            scrollTo(0, 0); }""")
 
 
 def _results(report: Path) -> dict[str, Any]:
@@ -263,6 +267,134 @@ def test_a_figure_is_shown_as_printed_on_demand_and_on_paper(browser: Browser, r
     figure.locator(".as-printed").click()
     page.emulate_media(media="print")
     assert figure.locator(".fig svg").is_visible() and not figure.locator(".reading").is_visible()
+
+
+DRAWN_TEXTS = """() => { window.outside = []; const draw = CanvasRenderingContext2D.prototype.fillText;
+    CanvasRenderingContext2D.prototype.fillText = function (text, x, y) {
+        const wide = this.measureText(text).width, at = this.textAlign === "right" ? x - wide : this.textAlign === "center" ? x - wide / 2 : x;
+        if (at < -1 || at + wide > this.canvas.width + 1) { window.outside.push(text); }
+        draw.call(this, text, x, y); }; }"""
+POSES = """figure => Array.from(document.getElementById(figure).querySelectorAll(".moving")).map(s => Array.from(s.children).map(e =>
+    e.tagName === "g" ? e.getAttribute("transform") : e.getAttribute("points") || [e.getAttribute("cx"), e.getAttribute("cy")].join(" ")))"""
+
+
+def _moving(report: Path) -> Iterator[tuple[str, dict[str, Any]]]:
+    for mechanism in _results(report)["mechanisms"].values():
+        yield from (
+            (figure["title"], figure["moving"]) for figure in mechanism.get("figures", ()) if "moving" in figure
+        )
+
+
+def _figure_of(page: Page, title: str) -> str:
+    """The id of the figure of a title, on the page."""
+    strong = page.locator("figure figcaption strong", has_text=re.compile(f"^{re.escape(title)}")).first
+    found: str = strong.evaluate("e => e.closest('figure').id")
+    return found
+
+
+def _set(page: Page, figure: str, place: float) -> None:
+    slider = page.locator(f'[id="{figure}"] input[type=range]').first
+    slider.evaluate("(e, x) => { e.step = 'any'; e.value = x; e.dispatchEvent(new Event('input')); }", place)
+
+
+def test_the_drawings_of_a_mechanism_move_with_the_cursor_as_the_results_tell(browser: Browser, report: Path) -> None:
+    """Held against the numbers of the results at a place; what turns is turned the other way, as a page's ordinate points down."""
+    opened = Opened(browser, report)
+    opened.scrolled()
+    for title, moving in _moving(report):
+        figure, k = _figure_of(opened.page, title), len(moving["places"]) // 3
+        _set(opened.page, figure, moving["places"][k] * 57.29577951308232)
+        shown = opened.page.evaluate(POSES, figure)[0]
+        greatest = max(
+            abs(number) for shape in moving["shapes"] if "moves" in shape for number in shape["moves"][k][:2]
+        )
+        for text, shape in zip(shown, moving["shapes"], strict=True):
+            if "moves" not in shape:
+                continue
+            numbers = [float(number) for number in re.findall(r"-?[\d.]+(?:e-?\d+)?", text)]
+            expected = shape["moves"][k]
+            if shape["shape"] == "rigid":
+                assert numbers[2] == pytest.approx(-expected[2] * 57.29577951308232, abs=0.05)
+                numbers, expected = numbers[:2], expected[:2]
+            signs = [1, -1] * (len(numbers) // 2)
+            assert numbers == pytest.approx([s * n for s, n in zip(signs, expected, strict=False)], abs=1e-3 * greatest)
+
+
+def test_a_turn_plays_and_stops_and_the_curves_go_with_it(browser: Browser, report: Path) -> None:
+    opened = Opened(browser, report)
+    opened.scrolled()
+    page = opened.page
+    for title, _ in list(_moving(report))[:1]:
+        box = page.locator(f'[id="{_figure_of(page, title)}"]')
+        before, button = box.locator("output").inner_text(), box.locator(".r-play")
+        button.focus()
+        page.keyboard.press("Enter")
+        page.wait_for_function("([id, text]) => document.getElementById(id).querySelector('output').textContent !== text",
+                               arg=[box.get_attribute("id"), before])  # fmt: skip
+        assert button.get_attribute("aria-pressed") == "true"
+        page.keyboard.press("Enter")
+        assert button.get_attribute("aria-pressed") == "false"
+        place = box.locator("output").inner_text()
+        page.wait_for_timeout(200)
+        assert box.locator("output").inner_text() == place
+        assert (
+            page.locator("figure.read output", has_text=place).count() >= 1 or not page.locator("figure.read").count()
+        )
+
+
+def test_polar_figures_are_read_beside_what_is_printed_at_the_same_angle(browser: Browser, report: Path) -> None:
+    opened = Opened(browser, report)
+    opened.scrolled()
+    page = opened.page
+    polar = page.evaluate("""Object.entries(JSON.parse(document.getElementById('reader-data').textContent).figures)
+        .filter(([n, f]) => f.beside).map(([n]) => 'fig-' + n)""")
+    for figure in polar:
+        box = page.locator(f'[id="{figure}"]')
+        box.scroll_into_view_if_needed()
+        assert box.locator(".fig svg").is_visible() and box.locator(".as-printed").count() == 0
+        _set(page, figure, 123.0)
+        value = box.locator(".r-value").first.inner_text()
+        same = page.locator("figure.read", has=page.locator("output", has_text="123°")).locator(".r-value")
+        assert re.search(r"\d", value) and value in same.all_inner_texts()
+
+
+def test_texts_in_charts_stay_inside_and_every_curve_has_a_value_where_it_begins(
+    browser: Browser, report: Path
+) -> None:
+    opened = Opened(browser, report)
+    opened.page.evaluate(DRAWN_TEXTS)
+    opened.scrolled()
+    opened.page.wait_for_timeout(300)
+    assert opened.page.evaluate("outside") == []
+    for head in opened.page.locator("figure.read .r-head").all():
+        values = head.locator(".r-value").all_inner_texts()
+        assert len(values) > 1 or re.search(r"\d", values[0]), head.inner_text()
+
+
+def test_the_tab_key_stops_only_where_something_is_seen(browser: Browser, report: Path) -> None:
+    page = Opened(browser, report).page
+    for _ in range(40):
+        page.keyboard.press("Tab")
+        state = page.evaluate("""() => { const e = document.activeElement, r = e.getBoundingClientRect();
+            return [e.outerHTML.slice(0, 80), r.width > 0 && r.height > 0 && r.bottom > 0 && r.top < innerHeight,
+                    getComputedStyle(e).outlineStyle]; }""")
+        assert state[1] and state[2] != "none", state
+
+
+def test_without_scripts_a_phone_scrolls_wide_tables_in_boxes_of_their_own(browser: Browser, report: Path) -> None:
+    page = Opened(browser, report, java_script_enabled=False, viewport=NARROW).page
+    assert page.evaluate("document.documentElement.scrollWidth") <= NARROW["width"]
+    lost = """() => Array.from(document.querySelectorAll("main table")).filter(e => e.getBoundingClientRect().right > innerWidth + 1
+        && !e.closest(".scroll")).map(e => e.textContent.trim().slice(0, 60))"""
+    assert page.evaluate(lost) == []
+
+
+def test_a_page_opens_without_laying_out_what_is_far_away(browser: Browser, report: Path) -> None:
+    """Its own work, not the machine's clock: most formulas have not been laid out when the page stands."""
+    page = Opened(browser, report).page
+    hidden = page.evaluate("""() => { const all = Array.from(document.querySelectorAll(".math math"));
+        return [all.filter(e => !e.checkVisibility({contentVisibilityAuto: true})).length, all.length]; }""")
+    assert hidden[1] < 40 or hidden[0] > 0.6 * hidden[1]
 
 
 HOSTILE = "</script><img src=x onerror=alert(1)><script>alert(2)</script>"

@@ -53,6 +53,7 @@ class Shaft(Inputs):
     teeth: Annotated[float, Quantity("z", "1", "Teeth")] = 13
     length: Annotated[float, Quantity("l", "mm", "Length")] = 13
     bore: Annotated[float | None, Quantity("d_g", "mm", "Bore")] = None
+    count: Annotated[float | None, Quantity("z_x", "1", "Count")] = None
     force: Annotated[float | None, Quantity("F", "N", "Force")] = None
     wheels: Annotated[list[Wheel], Text("Wheels")] = []  # noqa: RUF012
     n_points: Annotated[int, POINTS] = 36
@@ -78,6 +79,16 @@ def by_number(table: Any, by: str, **more: Any) -> Callable[[Chapter], None]:
     def declare(chapter: Chapter) -> None:
         chapter.value("twice", "2z", "1", "Twice the teeth", lambda teeth: 2 * teeth)
         chapter.pick("own_teeth", "z_o", "1", "Teeth of the table", "above", of="teeth", series=FACTORS.series("teeth"))
+        chapter.pick(
+            "given_teeth",
+            "z_g",
+            "1",
+            "Teeth, given or picked",
+            "above",
+            of="teeth",
+            series=FACTORS.series("teeth"),
+            given="count",
+        )
         chapter.pick("other_teeth", "z_e", "1", "Teeth of elsewhere", "above", of="teeth", series=(12, 13))
         unit, column = ("1", "Y") if table is FACTORS else ("kN", "C")
         chapter.lookup("found", "f", unit, "Found", table, by, column=column, **more)
@@ -110,6 +121,7 @@ MISTAKES = {
     "a number that two rows have": (by_number(ALIKE, "length", sought_in="bore"), "the table “Alike”, which has a number twice"),
     "no key of a number that may be none of the table": (by_number(FACTORS, "twice"), "which may be a number that the table does not have"),
     "no key of what is picked elsewhere": (by_number(FACTORS, "other_teeth"), "takes other_teeth, which may be a number"),
+    "no key of what may be given": (by_number(FACTORS, "given_teeth"), "takes given_teeth, which may be a number"),
     "a key of a text": (lookup(key="length"), "names the key length, but its row is that of a text"),
     "a text without a row": (lookup(ONLY_SMALL, column=""), "has no row in the table for bearing=big"),
     "given that is not an input": (lookup(given="boer"), "given is boer, which is not an input that is a number (did you mean 'bore'?)"),
@@ -247,5 +259,8 @@ def test_a_file_beside_a_plugin_is_judged_again_when_it_changes(
     with pytest.raises(PluginError, match="the column Y of the table is in mm, the step in 1"):
         _read_anew(tmp_path)
     (tmp_path / "factors.yaml").write_text(TABLE.replace("15", "11"), "utf-8")
-    with pytest.raises(PluginError, match=r"must ascend in teeth without repetition, but 11 follows 12. \(own.py:9\)"):
+    with pytest.raises(
+        PluginError,
+        match=r"factors\.yaml:4: The table “Factors” must ascend in teeth without repetition, but 11 follows 12\.$",
+    ):
         _read_anew(tmp_path)

@@ -102,7 +102,7 @@ def test_what_cannot_be_mended_names_the_checks(press: Path, capfd: Capture, tmp
         (["--free", "a.arn"], "did you mean 'arm'?"),
         (["--free", "b.arm"], "b.arm follows from an expression"),
         (["--free", "a.width"], "a.width has no value today, or is zero"),
-        (["--free", "a.grade"], "nothing is free to be changed"),
+        (["--free", "a.remark"], "nothing is free to be changed"),
         (["--free", "a.n_points"], "a.n_points says how densely curves are listed"),
     ],
 )

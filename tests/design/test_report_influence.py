@@ -61,6 +61,10 @@ def test_without_names_the_governing_checks_are_looked_at(tmp_path: Path) -> Non
 @pytest.mark.parametrize(
     ("asked", "words"),
     [
+        (
+            "{tolerances: {a.n_points: 1}}",
+            "press.yaml:3:35: report.influence.tolerances.a.n_points: a.n_points says how densely",
+        ),
         ("{of: [a.momemt]}", "press.yaml:3:27: report.influence.of.0: a.momemt is neither a number that a gives"),
         ("{tolerances: {a.arn: 1 mm}}", "report.influence.tolerances.a.arn: a.arn 'arn' is not an input of a"),
         ("{tolerances: {a.arm: 1 kg}}", "report.influence.tolerances.a.arm: 1 kg is a mass"),
@@ -75,6 +79,19 @@ def test_what_is_wrong_is_told_with_its_place(tmp_path: Path, capfd: Capture, as
     assert report(tmp_path, config(asked)) == 2
     _, err = capfd.readouterr()
     assert words in err and list(tmp_path.iterdir()) == [tmp_path / "press.yaml"]
+
+
+def test_validate_tells_all_that_is_wrong_with_it_at_once(tmp_path: Path, capfd: Capture) -> None:
+    file = saved(tmp_path, config("{of: [a.moment, a.momemt, b.moment], tolerances: {a.arn: 1 mm, a.arm: 1 kg}}"))
+    assert main(["validate", str(file), "--plugins", str(GOOD)]) == 2
+    _, err = capfd.readouterr()
+    assert [line.split(" ")[1] for line in err.splitlines()] == [
+        f"report.influence.{key}:" for key in ("of.1", "of.2", "tolerances.a.arn", "tolerances.a.arm")
+    ]
+    assert err.splitlines()[0].startswith(f"{file}:3:37: ") and "did you mean 'moment'?" in err
+    assert f"{file}:3:71: report.influence.tolerances.a.arn" in err and "did you mean 'arm'?" in err
+    file.write_text(config(ASKED), encoding="utf-8")
+    assert main(["validate", str(file), "--plugins", str(GOOD)]) == 0
 
 
 def test_the_schema_knows_it(capfd: Capture) -> None:

@@ -21,7 +21,9 @@ TURNED = (0.0, pi / 2, pi, -pi / 2)
 
 def test_what_stands_still_is_kept_as_it_is_and_what_moves_once_with_its_numbers() -> None:
     pins = [(1.0, 0.0), (0.0, 1.0)]
-    ring, link, pin = moving_shapes("T", [[circle((0.0, 0.0), 2.0), polyline([(0.0, 0.0), at], "link"), point(at, "joint")] for at in pins])
+    ring, link, pin = moving_shapes(
+        "T", [[circle((0.0, 0.0), 2.0), polyline([(0.0, 0.0), at], "link"), point(at, "joint")] for at in pins]
+    )
     assert ring == circle((0.0, 0.0), 2.0)
     assert link["moves"] == [[0.0, 0.0, 1.0, 0.0], [0.0, 0.0, 0.0, 1.0]] and "points" not in link
     assert pin["moves"] == [[1.0, 0.0], [0.0, 1.0]]
@@ -66,7 +68,9 @@ def test_both_sides_of_a_jump_are_shown() -> None:
 def test_curves_are_taken_at_all_places_at_once_and_what_is_made_once_is_kept() -> None:
     calc, places, made = drive(), (0.0, 1.0, 2.0), []
     view, alone = MachineView(calc, places), MachineView(calc)
-    assert [view.at("displacement", place) for place in places] == pytest.approx([alone.at("displacement", place) for place in places])
+    assert [view.at("displacement", place) for place in places] == pytest.approx(
+        [alone.at("displacement", place) for place in places]
+    )
     assert len(view._heights["displacement"]) == 3 and view.at("displacement", 0.5) == alone.at("displacement", 0.5)
 
     def outline(own: MachineView) -> object:

@@ -86,6 +86,14 @@ def test_the_printed_numbers_give_the_printed_result() -> None:
     assert set(symbols(printed["equation"])) == {"Y_1", "Y_2", "z", "z_1", "z_2"}
 
 
+@pytest.mark.parametrize(("teeth", "factor"), [(12, "0.245"), (20, "0.32"), (30, "0.36")])
+def test_a_value_at_a_row_is_printed_as_this_row(teeth: float, factor: str) -> None:
+    printed = item(geared(teeth=teeth), "factor")
+    assert (printed["type"], printed["table"], printed["key"]) == ("lookup", "Factors of teeth", f"z = {teeth}")
+    assert printed["column"] == "Y" and printed["result"] == {"text": factor, "unit": "1"}
+    assert printed["note"] == "Factors of teeth: Book one; Book two"
+
+
 def test_the_numbers_stand_in_the_tables_unit() -> None:
     printed = item(geared(), "lift")
     assert (

@@ -45,6 +45,11 @@ def test_what_changed_is_told_and_marked(folder: Path) -> None:
     assert unchanged and not any(MARKED.search(row) for row in unchanged)
 
 
+def test_the_governing_checks_are_told_by_their_titles(folder: Path) -> None:
+    page = (folder / "new.html").read_text("utf-8")
+    assert page.count('<td>Moment<span class="sub key">a.moment</span></td>') == 2
+
+
 def test_a_report_without_a_former_one_has_neither(folder: Path) -> None:
     page = (folder / "old.html").read_text("utf-8")
     assert 'class="mark"' not in page and 'id="changes"' not in page

@@ -66,4 +66,4 @@ def test_a_report_is_refused_with_the_name_of_the_file(tmp_path: Path, capfd: py
     config, out = saved(tmp_path, LEVER), tmp_path / "out"
     asked = ["report", config, "-o", out, "--format", "html", "--language", "uk", "--plugins", tmp_path]
     assert main(list(map(str, asked))) == 2
-    assert f"{tmp_path / 'lever.uk.po'}: This catalogue" in capfd.readouterr().err and not out.exists()
+    assert f"{tmp_path / 'lever.uk.po'}: Цей каталог" in capfd.readouterr().err and not out.exists()

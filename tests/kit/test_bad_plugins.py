@@ -131,8 +131,13 @@ WRITES = "print('by-print'); import os, subprocess; os.write(1, b'by-write'); su
 
 
 @pytest.mark.parametrize(
-    "command", [["calc", "CONFIG"], ["plugins"], ["schema", "faulty"], ["check-plugin", "faulty", "--format", "json"]]
-)
+    "command",
+    [
+        ["calc", "CONFIG"], ["plugins"], ["schema", "faulty"], ["check-plugin", "faulty", "--format", "json"],
+        ["influence", "CONFIG", "--of", "faulty.b", "--format", "json"], ["advise", "CONFIG", "--format", "json"],
+        ["solve", "CONFIG", "--vary", "faulty.x", "--for", "faulty.a = 30 mm", "--format", "json"],
+    ],
+)  # fmt: skip
 def test_what_a_plugin_writes_does_not_spoil_what_is_asked_for(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch, command: list[str]
 ) -> None:
@@ -143,7 +148,7 @@ def test_what_a_plugin_writes_does_not_spoil_what_is_asked_for(
         "--plugins",
         str(GOOD),
     )
-    config = saved(tmp_path, LEVER + "  faulty: {kind: faulty}\n")
+    config = saved(tmp_path, LEVER + "  faulty: {kind: faulty, x: 10 mm}\n")
     assert main([*[str(config) if part == "CONFIG" else part for part in command], *folders, "--quiet"]) in (0, 1)
     out, err = capfd.readouterr()
     assert not re.search("by-", out) and all(w in err for w in ("by-print", "by-write", "by-process"))

@@ -11,8 +11,8 @@ from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.kit.checking import meant
-from diecut_report.kit.scaffold import contents
 from diecut_report.kit.missing_words import write_missing
+from diecut_report.kit.scaffold import contents
 from diecut_report.languages.catalogues import catalogue
 from diecut_report.languages.po_files import read
 from diecut_report.testing import ContractTest, check_contract
@@ -65,7 +65,7 @@ def test_a_sound_plugin_holds_all_rules_and_is_shown(
 
 
 MISTAKES = {
-    "dimensions": (("wire**4 / (8", "wire**3 / (8"), ("toggle.py:58: spring_rate: ", "gives Pa, declared is N/m")),
+    "dimensions": (("wire**4 / (8", "wire**3 / (8"), ("toggle.py:59: spring_rate: ", "gives Pa, declared is N/m")),
     "inputs": (
         ("    # A limit", '    spare: Annotated[float, Quantity("z", "mm", "Spare")] = 1\n    # A limit'),
         ("toggle.py:", "input spare: nothing takes it"),
@@ -169,8 +169,8 @@ def test_a_plugin_that_breaks_for_an_extreme_value_is_told(tmp_path: Path) -> No
     tried = found(contract(tmp_path, *odd("return {True: travel}[bool((travel < 1.0).all())] * 1e5")), "hostile")
     assert tried.status == "fail"
     assert (
-        "toggle.py:41: travel: with 100000: the plugin breaks: " in tried.faults[0]
-        and "KeyError: False (toggle.py:53)" in tried.faults[0]
+        "toggle.py:42: travel: with 100000: the plugin breaks: " in tried.faults[0]
+        and "KeyError: False (toggle.py:54)" in tried.faults[0]
     )
 
 
@@ -186,7 +186,7 @@ def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pyt
     assert (
         tried.status == "broke"
         and "it did not come back within 0.2 s" in tried.faults[0]
-        and "toggle.py:53" in tried.faults[0]
+        and "toggle.py:54" in tried.faults[0]
     )
 
 
@@ -199,7 +199,7 @@ def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
 def test_authors_may_assert_the_contract(tmp_path: Path) -> None:
     keys = {"springs": [{"wire": "3 mm", "coil": "24 mm", "turns": 8}], "travel": "10 mm"}
     mechanism = contract(tmp_path, ("wire**4 / (8", "wire**3 / (8")).mechanism
-    with pytest.raises(AssertionError, match=r"Dimensions of formulas: toggle.py:58: spring_rate: "):
+    with pytest.raises(AssertionError, match=r"Dimensions of formulas: toggle.py:59: spring_rate: "):
         check_contract(mechanism, keys)
 
 
@@ -231,7 +231,7 @@ def test_a_broken_rule_ends_with_1_and_without_a_machine_the_rest_is_not_tried(t
     (home / "examples" / "toggle.yaml").unlink()
     assert main(["check-plugin", str(home)]) == 1
     out = capfd.readouterr().out
-    assert "  fails  Dimensions of formulas\n      toggle.py:58: spring_rate: " in out
+    assert "  fails  Dimensions of formulas\n      toggle.py:59: spring_rate: " in out
     assert (
         "note  Example machine\n      there is no machine of this kind to try the rest on; give a configuration" in out
     )

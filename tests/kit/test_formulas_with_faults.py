@@ -14,7 +14,7 @@ from tests.kit.test_check_plugin import toggle
 Capture = pytest.CaptureFixture[str]
 WRONG = ("wire**4 / (8", "wire**5 / (8")  # springs that are too soft, so that no check fails
 SAID = "The formulas of the plugin of 'toggle' have faults; do not rely on its results."
-FAULT = "  toggle.py:58: spring_rate: "
+FAULT = "  toggle.py:59: spring_rate: "
 
 
 def run(home: Path, *arguments: str) -> int:

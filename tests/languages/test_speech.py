@@ -49,7 +49,7 @@ def test_a_problem_is_said_with_its_place_and_what_was_typed_as_it_stands() -> N
     assert str(problem) == "press.2.yaml:3:5: a.b: is 1.5 (did you mean 'mass'?); allowed: mass"
     with speaking("uk"):
         assert said(str(problem)) == "press.2.yaml:3:5: a.b: задано 1.5 (можливо, 'mass'?); допустимі: mass"
-        assert said(str(PluginError("oh", "clutch", "a"))) == "механізм 'a', модуль 'clutch': oh"
+        assert said(str(PluginError("oh", "clutch", "a"))) == "механізм 'a', плагін 'clutch': oh"
 
 
 def test_errors_name_file_line_and_key_in_ukrainian(tmp_path: Path, capfd: Capture) -> None:

@@ -24,6 +24,14 @@ KEY = re.compile(r"\b[a-z]+(?:_[a-z0-9]+)+\b")
 MIXED = re.compile(r"[а-яіїєґА-ЯІЇЄҐ][a-zA-Z]|[a-zA-Z][а-яіїєґА-ЯІЇЄҐ]|[ыэъёЫЭЪЁ]")
 TYPED = re.compile(r"`[^`]*`")  # what is typed stands as it is
 SIGNS = re.compile(r"['\"“”]|  ")  # the apostrophe is ’, quotation marks are « »
+NAMES = re.compile(r"--?\w+|\b[A-Z]{2,}\b|\[[^\]]*\]")  # options, places of a command, what stands in brackets of YAML
+TERMS = {  # of the glossary, each with the beginnings of its words
+    "plugin": ("плагін",), "objective": ("ціл",), "study": ("дослідж",), "Pareto": ("парето",), "constraint": ("обмеж",),
+    "cyclogram": ("циклограм",), "dwell": ("вист",), "rocker": ("коромис",), "governing check": ("визначальн",),
+}  # fmt: skip
+ORDER = re.compile(
+    r"(?<!\w)(?:ви|за|на|по|до|з|у)?(?:бер|да|дай|зв|чит|став|пиш|мін|лиш)\w*(?:іть|йте)(?!\w)", re.IGNORECASE
+)
 ADDED_NUMBERS = {
     "`3,17`",  # two numbers, typed
     "figure 2a",
@@ -97,3 +105,17 @@ def test_letters_and_signs_are_ukrainian(name: str) -> None:
         if MIXED.search(text.ukrainian) or SIGNS.search(TYPED.sub("x", text.ukrainian.lstrip()))
     ]
     assert wrong == []
+
+
+@pytest.mark.parametrize("term", TERMS)
+def test_a_term_has_one_word(name: str, term: str) -> None:
+    """As the glossary has it: whoever reads of one thing by two names looks for a second thing."""
+    word = re.compile(rf"(?<![\w.-]){term}s?(?![\w:])", re.IGNORECASE)
+    told = [
+        text for text in translations(name) if word.search(NAMES.sub("", TYPED.sub("", PLACE.sub("", text.english))))
+    ]
+    assert [text for text in told if not any(stem in text.ukrainian.lower() for stem in TERMS[term])] == []
+
+
+def test_advice_is_an_infinitive(name: str) -> None:
+    assert [text for text in translations(name) if ORDER.search(TYPED.sub("", text.ukrainian))] == []

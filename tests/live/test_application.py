@@ -144,5 +144,8 @@ def test_a_port_in_use_and_a_file_that_is_none_end_with_words(
         port = other.getsockname()[1]
         assert main(["live", str(KNIFE), "--port", str(port), "--no-open"]) == 2
     assert f"The port {port} of this machine cannot be had: another program has it" in capfd.readouterr().err
-    assert main(["live", str(tmp_path), "--no-open"]) == 2
-    assert "There is no such file" in capfd.readouterr().err
+    stored = f"{tmp_path}#17"
+    for given, words in ((str(tmp_path), "This is a folder."), (str(tmp_path / "none.yaml"), "There is no such file."),
+                         ("-", "standard input is read once"), (stored, f"diecut-report take {stored} -o my_press.yaml")):  # fmt: skip
+        assert main(["live", given, "--no-open"]) == 2
+        assert words in capfd.readouterr().err

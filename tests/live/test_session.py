@@ -136,6 +136,34 @@ def test_what_is_no_number_for_an_input_is_refused_and_changes_nothing(
     assert session.edits == {} and session.serial == before
 
 
+def test_a_bare_number_is_in_the_unit_that_stands_there(session: LiveSession) -> None:
+    session.change({"knife.eccentricity": "22"})
+    assert session.edits == {"knife.eccentricity": "22 mm"}
+    session.take_back()
+    replaced(session, "20 mm, basis", "2 cm, basis")
+    before = force(session)
+    session.change({"knife.eccentricity": " 2.2 "})
+    assert session.edits == {"knife.eccentricity": "2.2 cm"} and force(session) != before
+
+
+def test_a_choice_is_one_of_its_values_and_is_written_like_a_number(tmp_path: Path) -> None:
+    file = tmp_path / "knife.yaml"
+    text = next(path for path in EXAMPLES if path.stem == "folding_knife").read_text("utf-8")
+    file.write_text(text, encoding="utf-8")
+    session, name = LiveSession(file, Discovery([])), "knife.crank_rocker.lowest_dead_center"
+    (shown,) = (each for each in shown_of(session, "knife")["inputs"] if each["name"] == name)
+    assert (shown["typed"], shown["options"]) == ("inner", ["outer", "inner"])
+    with pytest.raises(UserError, match=r"'middle' is not a value of .*; allowed: outer, inner"):
+        session.change({name: "middle"})
+    before = session.serial
+    session.change({name: "outer"})
+    assert session.edits == {name: "outer"} and session.serial > before
+    (shown,) = (each for each in shown_of(session, "knife")["inputs"] if each["name"] == name)
+    assert (shown["typed"], shown["start"]) == ("outer", "inner")
+    session.take_back()
+    assert session.edits == {} and session.faults == []
+
+
 def test_a_number_out_of_bounds_is_told_with_its_place_and_can_be_taken_back(session: LiveSession) -> None:
     before = force(session)
     session.change({"knife.eccentricity": "-3 mm"})
@@ -158,6 +186,19 @@ def test_the_effect_of_an_input_is_that_of_machines_calculated_one_by_one(sessio
         for check in session.machine.run.checks["knife"]:
             if (name := f"knife.{check['id']}") in lines and check["status"] != "not_checked":
                 assert lines[name][place] == pytest.approx(check["utilisation"], rel=1e-3), name
+
+
+def test_an_effect_ends_where_what_it_tells_ends_it(session: LiveSession) -> None:
+    assert session.machine is not None
+    told: list[str] = []
+
+    def tell(mechanism: str) -> None:
+        told.append(mechanism)
+        raise TimeoutError
+
+    with pytest.raises(TimeoutError):
+        effect(session.machine, "knife.eccentricity", tell)
+    assert told == ["knife"]
 
 
 def test_the_page_names_the_figures_of_a_mechanism_and_makes_none(
@@ -206,6 +247,16 @@ def test_a_change_reads_its_text_once_and_makes_nothing_that_is_not_shown_at_onc
         session.change({"knife.eccentricity": value})
         assert session.faults == [] and shown_of(session, "knife")["outputs"]
     assert len([text for text in read if "mechanisms:" in text]) == 2
+
+
+def test_figures_are_in_the_language_that_is_spoken(session: LiveSession) -> None:
+    assert session.machine is not None
+    with speaking("uk"):
+        pictures = Pictures()
+        drawing, chart = pictures.figure(session.machine, "knife", 0), pictures.figure(session.machine, "knife", 2)
+    panels = chart["plot"]["panels"]
+    told = [text for panel in panels for text in (panel["title"], panel["across"]["title"])]
+    assert [text for text in told if not CYRILLIC.search(text)] == [] and CYRILLIC.search(drawing["svg"])
 
 
 def test_what_breaks_only_where_results_are_shown_is_a_fault_and_the_last_machine_stays(

@@ -102,6 +102,24 @@ def test_it_speaks_ukrainian(tmp_path: Path, capfd: Any) -> None:
     assert "шукано: найменше: a.moment" in text and "пропозиція: " in text and "searched" not in text
 
 
+def test_a_cluster_that_cannot_be_reached_is_told_before_anything_is_written(
+    tmp_path: Path, capfd: Any, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("diecut_report.study.execution.dask_cluster.PATIENCE", 1)
+    assert optimised(search_file(tmp_path), tmp_path / "out", "--dask", "tcp://127.0.0.1:1") == 2
+    assert "The Dask scheduler at tcp://127.0.0.1:1 cannot be reached" in capfd.readouterr().err
+    assert not (tmp_path / "out").exists()
+
+
+def test_what_goes_on_with_a_search_is_named_so(tmp_path: Path, capfd: Any) -> None:
+    assert optimised(search_file(tmp_path), tmp_path / "out", "--quiet") == 0
+    state = tmp_path / "out" / "study.json"
+    state.write_text(state.read_text("utf-8").replace('"rows": 120', '"rows": 119'), "utf-8")
+    capfd.readouterr()
+    assert main(["variants", str(tmp_path / "out")]) == 2
+    assert f"diecut-report optimise --resume {tmp_path / 'out'}" in capfd.readouterr().err
+
+
 def test_a_machine_that_is_not_named_is_refused(tmp_path: Path, capfd: Any) -> None:
     assert optimised(search_file(tmp_path), tmp_path / "out", "--report", "best") == 2
     assert "'best' is neither the number of a machine nor one of: suggested, front." in capfd.readouterr().err

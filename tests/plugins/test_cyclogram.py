@@ -282,7 +282,7 @@ def test_a_failed_interlock_says_by_how_much_and_what_would_do() -> None:
         "3° (5 ms) are required",
         "The best offset of feeder is 141.0056",
         "no offset holds all",
-        "feeder.dwell must be 213.66",
+        "feeder.dwell must be 213.7°",
         "press.productivity does not help: angles decide",
     ):
         assert words in check["message"]
@@ -292,12 +292,12 @@ def test_an_interlock_at_a_fixed_offset_is_told_the_best_one() -> None:
     check = check_of(press("cross", locks("cutting passing", "cross"), "0 deg"), "interlock_cutting")
     assert check["status"] == "fail"
     assert "The best offset of cross is 38.1164" in check["message"]
-    assert "leaves a slack of 11.327" in check["message"]
+    assert "leaves a slack of 11.33°" in check["message"]
 
 
 def test_a_dwell_of_the_length_that_is_needed_holds_the_cutting() -> None:
     run = linked({"timing": {"kind": "cyclogram"} | keys_of("feeder", locks("cutting", "feeder"))})
-    assert "feeder.dwell must be 207.66" in check_of(run.calculations["timing"], "interlock_cutting")["message"]
+    assert "feeder.dwell must be 207.7°" in check_of(run.calculations["timing"], "interlock_cutting")["message"]
     data = yaml.safe_load(TEXT)["mechanisms"]["feeder"] | {"dwell_angle": "207.662 deg"}
     run = linked({"feeder": data, "timing": {"kind": "cyclogram"} | keys_of("feeder", locks("cutting", "feeder"))})
     assert 0 <= degrees(number(run.calculations["timing"], "best_margin")) < 1e-3

@@ -109,7 +109,7 @@ def test_each_drive_has_its_checks_and_only_the_drives_that_are_given() -> None:
         ({"crank_rocker": LINKAGE | {"frame": 180}}, "crank_rocker.crank", "frame = 180 mm"),
         ({"crank_rocker": LINKAGE | {"frame": 200}}, "crank_rocker.crank", "shorter than the two others together, 190 mm"),
         (PLANETARY | {"working_depth": 0.2}, "grip_angle", "before the knife meets the signature"),
-        (PLANETARY | {"working_depth": 0.2}, "grip_angle", "make grip_angle at most 3.16268°"),
+        (PLANETARY | {"working_depth": 0.2}, "grip_angle", "make grip_angle at most 3.162°"),
         (OUTER | {"working_depth": 60}, "working_depth", "at most 55.44 mm"),
         (PLANETARY | {"signature_length": 40}, "signature_length", "make signature_length greater than that"),
     ],

@@ -100,7 +100,10 @@ def test_the_drives_links_keep_their_lengths_and_the_pin_follows_the_cursor() ->
 def test_sector_and_pinion_roll_on_each_other_and_the_cylinder_goes_as_its_curve_tells() -> None:
     drawn = moving("drive")
     joints, (_, sector), (_, pinion) = drawn.links(), drawn.pose(0), drawn.pose(1)
-    assert np.allclose(np.exp(1j * sector), complex_points(joints[:, 2] - joints[:, 3]) / abs(complex_points(joints[:, 2] - joints[:, 3])))
+    assert np.allclose(
+        np.exp(1j * sector),
+        complex_points(joints[:, 2] - joints[:, 3]) / abs(complex_points(joints[:, 2] - joints[:, 3])),
+    )
     arcs = number(drawn.calc, "sector_radius") * (sector - sector[0]) + 0.06 * (pinion - pinion[0])
     assert np.abs(arcs).max() < 1e-12
     way = drawn.of("circle", "hidden")[:, 0]
@@ -128,7 +131,10 @@ def test_the_roller_stays_on_its_cam(which: str) -> None:
     assert np.ptp(lengths(arm)) < 1e-12 and lengths(arm)[0, 0] == pytest.approx(0.09)
     assert np.allclose(np.abs(complex_points(arm[:, 0])), 0.3)
     fine = np.linspace(0, 2 * pi, 7201)[None, :]
-    x, y = (drawn.calc.sample(f"cam_{which}_{axis}", fine, drawn.calc.domains["disc_angle"].middle_of(fine))[0] for axis in "xy")
+    x, y = (
+        drawn.calc.sample(f"cam_{which}_{axis}", fine, drawn.calc.domains["disc_angle"].middle_of(fine))[0]
+        for axis in "xy"
+    )
     gaps = np.abs(complex_points(roller)[:, None] - (x + 1j * y)[None, :]).min(axis=1)
     assert np.allclose(gaps, 0.025, atol=2e-6), "the roller touches the profile, and cuts it nowhere"
 
@@ -141,7 +147,9 @@ def test_the_genevas_roller_runs_in_a_slot_and_in_the_dwell_the_disc_holds_the_w
     in_wheel = (roller - complex_points(axis)) * np.exp(-1j * wheel)
     half, turn = number(calc, "engagement_half_angle"), np.mod(drawn.places + pi, 2 * pi) - pi
     slots = np.exp(1j * step * np.arange(6))
-    off = np.abs((in_wheel[:, None] / slots[None, :]).imag) + np.where((in_wheel[:, None] / slots[None, :]).real > 0, 0, 1)
+    off = np.abs((in_wheel[:, None] / slots[None, :]).imag) + np.where(
+        (in_wheel[:, None] / slots[None, :]).real > 0, 0, 1
+    )
     engaged = np.abs(turn) <= half + 1e-12
     assert off[engaged].min(axis=1).max() < 1e-9
     arcs = (number(calc, "center_distance") * np.exp(1j * step * (np.arange(6) + 0.5)))[None, :]
@@ -157,22 +165,31 @@ def test_the_knifes_edge_goes_through_the_cutting_point_and_the_blade_stays_as_i
     center = number(calc, "eccentricity") * np.exp(1j * turned)
     from_middle = np.mod(drawn.places - number(calc, "middle_angle") + pi, 2 * pi) - pi
     cutting = np.abs(from_middle) < number(calc, "cut_angle") / 2 - 1e-12
-    assert np.abs(from_middle[cutting]).max() == pytest.approx(number(calc, "cut_angle") / 2), "up to the very end of the cut"
+    assert np.abs(from_middle[cutting]).max() == pytest.approx(number(calc, "cut_angle") / 2), (
+        "up to the very end of the cut"
+    )
     assert cutting.sum() >= 4
     assert np.allclose(np.abs(complex_points(cut) - center)[cutting], number(calc, "edge_radius"))
     assert np.allclose(cut[:, 1], -number(calc, "depth"))
-    assert np.allclose(np.abs(complex_points(drawn.own(0)[1:]) - number(calc, "eccentricity")), number(calc, "edge_radius"))
+    assert np.allclose(
+        np.abs(complex_points(drawn.own(0)[1:]) - number(calc, "eccentricity")), number(calc, "edge_radius")
+    )
 
 
 def test_the_platens_rods_are_as_long_as_they_are_but_where_they_stretch() -> None:
     drawn = moving("platen")
     calc, rods = drawn.calc, lengths(drawn.links())[:, 1]
-    free = (drawn.places >= number(calc, "dwell_end_angle")) & (drawn.places <= 2 * pi - number(calc, "cutting_start_angle"))
+    free = (drawn.places >= number(calc, "dwell_end_angle")) & (
+        drawn.places <= 2 * pi - number(calc, "cutting_start_angle")
+    )
     assert np.allclose(rods[free], number(calc, "rod_length"))
     stretch = rods - number(calc, "rod_length")
     assert stretch.min() > -1e-12
     assert stretch.max() == pytest.approx(number(calc, "drive_deformation"), rel=1e-6)
-    assert np.allclose(drawn.links()[:, 2, 0] - drawn.links()[0, 2, 0], drawn.curve("platen_displacement_true") - number(calc, "drive_deformation"))
+    assert np.allclose(
+        drawn.links()[:, 2, 0] - drawn.links()[0, 2, 0],
+        drawn.curve("platen_displacement_true") - number(calc, "drive_deformation"),
+    )
 
 
 @pytest.mark.parametrize(("name", "key", "expected"), [

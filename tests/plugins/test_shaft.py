@@ -16,7 +16,7 @@ from tests.machines import inputs, number
 from tests.plugins.shafts import CRANK, CRANKSHAFT, GEAR, LAYSHAFT, SECTIONS, STANDING, crankshaft, row, shaft
 
 SHOULDER_1, SHOULDER_2, SHOULDER_3 = "shoulder 1", "shoulder 2", "shoulder 3"
-GEAR_KEY, CRANK_KEY = "notch 1 (keyseat_end_mill)", "notch 2 (keyseat_end_mill)"
+GEAR_KEY, CRANK_KEY = "notch 1 (keyseat end mill)", "notch 2 (keyseat end mill)"
 
 
 def checks(calculation: Calculation) -> dict[str, str]:

@@ -98,10 +98,10 @@ def test_the_crankshaft_of_the_press_has_the_numbers_of_the_method(results: Any,
 
 def test_the_crank_key_governs(results: Any) -> None:
     own = results["mechanisms"]["crankshaft"]
-    assert own["outputs"]["fatigue_place"]["value"] == "notch 2 (keyseat_end_mill)"
+    assert own["outputs"]["fatigue_place"]["value"] == "notch 2 (keyseat end mill)"
     fatigue = next(check for check in own["checks"] if check["id"] == "fatigue")
-    assert "at notch 2 (keyseat_end_mill)" in fatigue["message"]
-    assert fatigue["part_name"] == "notch 2 (keyseat_end_mill)"
+    assert "at notch 2 (keyseat end mill)" in fatigue["message"]
+    assert fatigue["part_name"] == "notch 2 (keyseat end mill)"
     assert [part["name"] for part in fatigue["parts"]][:2] == ["shoulder 1", "shoulder 2"]
 
 

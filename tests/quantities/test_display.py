@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.quantities.display import FAMILIES, easy_unit
-from diecut_report.quantities.formatting import place_shown, shortest, shown, with_unit
+from diecut_report.quantities.formatting import listed_text, place_shown, shortest, shown, si, with_unit
 from diecut_report.quantities.units import parse_quantity, unit
 
 
@@ -87,3 +87,21 @@ def test_a_typed_number_is_never_rounded(text: str) -> None:
 
 def test_revolutions_a_minute_are_printed_as_the_standard_writes_them() -> None:
     assert with_unit("60", "rpm") == "60 r/min" and unit("r/min") == unit("rpm")
+
+
+@pytest.mark.parametrize(
+    ("quantity", "display", "text"),
+    [
+        ("314.10237 deg", "deg", "314.1"),
+        ("-28.90312 deg", "deg", "-28.9"),
+        ("0.921246 deg", "deg", "0.92"),
+        ("1149.2213 ms", "ms", "1149.2"),
+        ("-0.00001 ms", "ms", "0"),
+        ("160 deg", "deg", "160"),
+        ("1.2345678", "1", "1.23457"),  # of a pure number nobody knows the step
+    ],
+)
+def test_numbers_of_a_column_stop_at_the_step_that_can_be_made_or_measured(
+    quantity: str, display: str, text: str
+) -> None:
+    assert listed_text(si(float(quantity.split()[0]), display), display) == text

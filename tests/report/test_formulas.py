@@ -25,6 +25,13 @@ MM = ["qty", "40", "mm"]
 
 CASES: list[tuple[Tree, str, str]] = [
     (["-", A, ["-", B, C]], r"a - (b - c)", "a − (b − c)"),
+    (["+", A, ["*", ["neg", ["num", "0.13"]], B]], r"a - 0.13\,b", "a − 0.13·b"),
+    (["+", A, ["*", ["num", "-0.5"], B]], r"a - 0.5\,b", "a − 0.5·b"),
+    (["-", A, ["*", ["*", ["neg", TWO], B], C]], r"a + 2\,b\,c", "a + 2·b·c"),
+    (["call", "minimum", ["call", "minimum", A, B], C], r"\min(a,\, b,\, c)", "min(a, b, c)"),
+    (["call", "maximum", ["call", "minimum", A, B], C], r"\max(\min(a,\, b),\, c)", "max(min(a, b), c)"),
+    (["apply", "inv", A], r"\operatorname{inv}(a)", "inv(a)"),
+    (["*", A, ["qty", "1", "in"]], r"a \cdot 1\,\mathrm{in}", "a · 1 in"),
     (["-", ["-", A, B], C], r"a - b - c", "a − b − c"),
     (["-", A, ["+", B, C]], r"a - (b + c)", "a − (b + c)"),
     (["+", A, ["-", B, C]], r"a + b - c", "a + b − c"),
@@ -227,6 +234,17 @@ def test_wide_product_is_broken_before_a_dot() -> None:
     assert equation is not None
     assert typesetter.measure(equation.latex) <= WIDTH + 3
     assert r"&\quad {} \cdot " in equation.latex
+
+
+def test_a_number_does_not_stand_alone_before_a_wide_factor() -> None:
+    equations, _ = _equations()
+    wide: Tree = ["sym", "η_first"]
+    for index in range(9):
+        wide = ["+", wide, ["sym", f"η_part{index}"]]
+    tree = ["*", TWO, ["call", "sin", wide]]
+    equation = equations.of(_item(equation=None, substituted=tree))
+    assert equation is not None
+    assert [row.strip() for row in equation.latex.split(r"\\")[0].split("&=")][-1] != "2"
 
 
 def test_found_value_shows_its_relation() -> None:

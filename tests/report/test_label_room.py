@@ -23,11 +23,12 @@ from diecut_report.report.figures.by_type import build
 from diecut_report.report.figures.label_layout import AWAY, LabelLayout
 from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, framed
 from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import load_fonts
+from diecut_report.report.figures.style import load_fonts, text_size
 from diecut_report.report.figures.style import style as style_of
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.translated import translated
 from tests.configs import EXAMPLES
+from tests.report.made_figures import chart, line, panel
 
 TAIL = 2.2  # points of a line of text below its letters: so much two boxes may share without a letter touching another
 EDGE = 0.5
@@ -136,10 +137,10 @@ def test_titles_that_are_wider_than_their_diagram_stand_in_lines() -> None:
     assert sum("\n" in box.text for box in _boxes(figure, {}, Size.HALF)[0]) == 3
 
 
-def _crowded() -> LabelLayout:
+def _crowded(line_count: int = 3) -> LabelLayout:
     """Five marks close together, a level through steep curves, and a named range, in a diagram 400 by 90 points large."""
     x = np.linspace(0.0, 10.0, 400)
-    lines = [Line(x, 5 + 5 * np.sin(8 * x + phase), "") for phase in (0.0, 1.0, 2.0)]
+    lines = [Line(x, 5 + 5 * np.sin(8 * x + phase), "") for phase in (0.0, 1.0, 2.0)[:line_count]]
     marks = [Note(5.0 + 0.2 * n, 5.0, f"place {n} of five 1.234") for n in range(5)]
     panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=lines, marks=marks,
                       levels=[Note(0.0, 5.0, "allowed")], spans=[SpanData(2.0, 8.0, "stroke")])  # fmt: skip
@@ -148,7 +149,7 @@ def _crowded() -> LabelLayout:
 
 @pytest.mark.usefixtures("style")
 def test_a_name_that_stands_away_from_its_mark_has_a_line_to_it() -> None:
-    layout = _crowded()
+    layout = _crowded(line_count=0)
     names = [text for text in layout.texts if text.text.startswith("place")]
     assert len(names) == 5
     for name, mark in zip(names, layout.panel.marks, strict=True):
@@ -163,3 +164,58 @@ def test_a_name_that_stands_away_from_its_mark_has_a_line_to_it() -> None:
 @pytest.mark.usefixtures("style")
 def test_lines_do_not_run_through_a_name_that_has_no_room_beside_them() -> None:
     assert next(text for text in _crowded().texts if text.text == "allowed").solid
+
+
+@pytest.mark.usefixtures("style")
+def test_a_name_rather_covers_a_vertical_line_than_a_curve() -> None:
+    """A falling curve, above it the names of two verticals: a mark's name has room below it alone, across both of them."""
+    x = np.linspace(0.02, 0.9, 200)
+    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.02, 0.9), lines=[Line(x, 0.4 / (x + 0.4), "")],
+                      marks=[Note(0.4444, 0.4 / 0.8444, "this machine 0.2727 (0.4444)")],
+                      verticals=[Note(0.54, 0.0, "return too short"), Note(0.6, 0.0, "no return")])  # fmt: skip
+    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
+    name = next(text for text in layout.texts if text.text.startswith("this machine"))
+    wide, high = text_size(name.text, name.size)
+    curve = np.concatenate(layout.lines)
+    assert not ((np.abs(curve[:, 0] - name.x) < wide / 2) & (np.abs(curve[:, 1] - name.y) < high / 2)).any()
+
+
+@pytest.mark.usefixtures("style")
+def test_a_vertical_line_through_several_diagrams_is_named_once() -> None:
+    each = panel(
+        "y", "N", ("Angle", "φ", "deg"), lines=[line([0, 1], [0, 1])], verticals=[{"x": 0.5, "label": "contact"}]
+    )
+    found = _boxes(chart("x", "x", [each, each, each]), {}, Size.LARGE)[0]
+    assert [box.text for box in found].count("contact") == 1
+
+
+def test_a_diagram_with_many_names_is_as_wide_as_the_sheet() -> None:
+    few = panel("y", "N", ("Angle", "φ", "deg"), verticals=[{"x": 0.5, "label": "contact"}] * 3)
+    many = few | {"marks": [{"x": 0.5, "y": 0.5, "label": "greatest"}]}
+    narrow, wide = ({"sections": [], "figures": [chart("x", "x", [each])] * 2} for each in (few, many))
+    assert [len(row.figures) for row in rows_of(placed("A", narrow), paired=True)] == [2]
+    assert [len(row.figures) for row in rows_of(placed("A", wide), paired=True)] == [1, 1]
+
+
+@pytest.mark.usefixtures("style")
+def test_a_name_that_has_no_room_beside_the_lines_stands_in_the_legend_and_covers_none() -> None:
+    layout = _crowded()
+    assert layout.told_marks == [0, 1, 2, 3, 4]
+    assert layout.told_levels == [0]
+    assert [text.text for text in layout.texts] == ["stroke"]
+
+
+@pytest.mark.usefixtures("style")
+def test_the_legend_names_such_marks_and_levels_by_their_signs() -> None:
+    x = np.linspace(0.0, 2 * np.pi, 200)
+    wave = {"x": list(x), "y": list(100 * np.sin(7 * x)), "label": "torque"}
+    mark = {"x": 1.57, "y": 99.0, "label": "greatest driving torque of the turn"}
+    panel = {
+        "title": "Torque", "unit": "N*m", "x": {"title": "Angle", "symbol": "φ", "unit": "deg"}, "fills": [], "marks": [mark],
+        "lines": [wave], "levels": [{"value": 30.0, "label": "mean of the whole turn"}], "verticals": [],
+    }  # fmt: skip
+    figure = {"id": "narrow", "type": "chart", "panels": [panel]}
+    boxes = {box.text: box for box in _boxes(figure, {}, Size.HALF)[0]}
+    names = [box for text, box in boxes.items() if text.startswith(("greatest driving", "mean of"))]
+    assert len(names) == 2 and all(box.bottom > boxes["Torque, N·m"].top - 20 for box in names)
+    assert list(_faults(figure, {}, Size.HALF)) == []

@@ -48,3 +48,17 @@ def test_values_of_a_quantity_do_not_number_lines() -> None:
 def test_phases_are_named_in_every_language(language: str) -> None:
     (table,) = Tables("A", Catalogue(language)).of_phases({"cuts": PHASE})
     assert table.kinds == ["named", "words", "", "", ""]
+
+
+def test_a_long_table_of_few_columns_stands_in_two_halves() -> None:
+    rows = [[f"phase {n}", f"{n}.5"] for n in range(17)]
+    columns = [{"title": "Phase", "symbol": "", "unit": "1"}, {"title": "Time", "symbol": "t", "unit": "ms"}]
+    table = Tables("A", Catalogue("en")).of_item({"title": "Times", "columns": columns, "rows": rows})
+    assert len(table.columns) == 4 and len(table.rows) == 9
+    assert table.rows[0] == ["phase 0", "0.5", "phase 9", "9.5"] and table.rows[8] == ["phase 8", "8.5", "", ""]
+    assert table.kinds == ["named", "", "named", ""]
+
+
+def test_columns_of_a_wide_table_have_room_for_symbols_alone() -> None:
+    wide = PrintedTable("", [("A long title", Markup("a"), "mm")] * 13, [["1"] * 13])
+    assert wide.is_wide and not PrintedTable("", wide.columns[:8], [["1"] * 8]).is_wide

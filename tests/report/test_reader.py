@@ -19,7 +19,7 @@ from diecut_report.report.html import folder
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.reader_data import _figure, _is_readable, _line, figure_readings, reader_data
 from diecut_report.report.reader_moving import _room, _shape
-from diecut_report.report.reader_pool import Pool
+from diecut_report.report.reader_pool import ReaderRows
 
 UPLOT = {  # version 1.6.32 as it is published, with its licence
     "uPlot.iife.min.js": "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f",
@@ -130,14 +130,14 @@ def test_no_text_breaks_out_of_the_data(plain: dict[str, Any]) -> None:
 
 
 def test_a_line_keeps_its_jump_and_its_gap() -> None:
-    pool, nan = Pool(), math.nan
+    pool, nan = ReaderRows(), math.nan
     made = _line(Line(np.array([0.0, 1.0, 1.0, nan, 2.0]), np.array([1.0, 2.0, 5.0, 7.0, 6.00004]), "F_t"), pool)
     assert pool.rows[made["x"]] == [0.0, 1.0, 1.0, 1.0, 2.0]
     assert pool.rows[made["y"]] == [1.0, 2.0, 5.0, None, 6.0]
 
 
 def test_rounding_takes_no_more_than_a_cursor_can_show_and_no_minus_stays_before_zero() -> None:
-    pool = Pool()
+    pool = ReaderRows()
     assert pool.rows[pool.row([123456.0, -1e-9, 0.0, math.inf], 5)] == [123460.0, 0.0, 0.0, None]
     assert math.copysign(1.0, pool.rows[0][1] or 0.0) == 1.0
 
@@ -153,7 +153,14 @@ def test_a_line_is_read_where_it_has_one_height_at_a_place(x: list[float], reada
 
 ANGLE = {"unit": "rad", "display_unit": "deg", "symbol": "φ", "description": "Angle", "period": 2 * math.pi,
          "values": [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]}  # fmt: skip
-FORCE = {"unit": "N", "display_unit": "N", "symbol": "F", "description": "Force", "abscissa": "angle", "values": [1.0, -2.0, 3.0, -4.0]}
+FORCE = {
+    "unit": "N",
+    "display_unit": "N",
+    "symbol": "F",
+    "description": "Force",
+    "abscissa": "angle",
+    "values": [1.0, -2.0, 3.0, -4.0],
+}
 
 
 def _chart(symbol: str, over: str = "") -> dict[str, Any]:
@@ -164,7 +171,7 @@ def _chart(symbol: str, over: str = "") -> dict[str, Any]:
 
 
 def test_diagrams_of_a_mechanism_over_the_same_angle_share_their_cursor() -> None:
-    pool, words, curves = Pool(), Catalogue("en"), {"angle": ANGLE, "force": FORCE}
+    pool, words, curves = ReaderRows(), Catalogue("en"), {"angle": ANGLE, "force": FORCE}
     plot = {"type": "plot", "title": "T", "abscissa": "angle", "panels": [
         {"title": "T", "unit": "N", "series": [{"curve": "force", "label": ""}], "levels": [], "marks": [], "spans": []}]}  # fmt: skip
     shown = [("a", _chart("ψ")), ("a", plot), ("a", _chart("ψ", "angle")), ("a", _chart("φ")), ("b", plot)]
@@ -174,7 +181,13 @@ def test_diagrams_of_a_mechanism_over_the_same_angle_share_their_cursor() -> Non
 
 
 def test_a_polar_figure_is_read_over_its_angle_with_the_sign_of_its_curve() -> None:
-    polar = {"type": "polar", "title": "T", "abscissa": "angle", "unit": "N", "series": [{"curve": "force", "label": "F"}]}
+    polar = {
+        "type": "polar",
+        "title": "T",
+        "abscissa": "angle",
+        "unit": "N",
+        "series": [{"curve": "force", "label": "F"}],
+    }
     found = figure_readings("a", polar, {"angle": ANGLE, "force": FORCE}, Catalogue("en"))
     assert found and found["beside"]
     (own,) = found["panels"][0]["lines"]
@@ -193,8 +206,10 @@ def test_a_moving_drawing_has_the_numbers_of_its_shapes_at_each_place() -> None:
     angles = [0.0, math.pi / 2, math.pi]
     pins = [[math.cos(a), math.sin(a)] for a in angles]
     spoke = {"shape": "polyline", "points": [[0.0, 0.0], [2.0, 0.0]], "closed": False, "role": "body"}
-    pool = Pool()
-    crank = _shape({"shape": "polyline", "role": "link", "closed": False, "moves": [[0.0, 0.0, *pin] for pin in pins]}, pool)
+    pool = ReaderRows()
+    crank = _shape(
+        {"shape": "polyline", "role": "link", "closed": False, "moves": [[0.0, 0.0, *pin] for pin in pins]}, pool
+    )
     wheel = _shape({"shape": "rigid", "shapes": [spoke], "moves": [[0.0, 5.0, a - math.pi / 2] for a in angles]}, pool)
     still = _shape({"shape": "circle", "center": [1.0, 2.0], "radius": 0.123456789, "role": "ghost"}, pool)
     assert [pool.rows[row] for row in crank["rows"]] == [[0], [0], [1, 0, -1], [0, 1, 0]]
@@ -204,8 +219,11 @@ def test_a_moving_drawing_has_the_numbers_of_its_shapes_at_each_place() -> None:
 
 def test_a_moving_drawing_has_room_for_all_that_it_ever_reaches() -> None:
     spoke = {"shape": "polyline", "points": [[0.0, 0.0], [2.0, 0.0]], "closed": False, "role": "body"}
-    wheel = {"shape": "rigid", "shapes": [spoke], "moves": [[1.0, 0.0, angle] for angle in np.linspace(0, 2 * math.pi, 73)]}
+    wheel = {
+        "shape": "rigid",
+        "shapes": [spoke],
+        "moves": [[1.0, 0.0, angle] for angle in np.linspace(0, 2 * math.pi, 73)],
+    }
     roller = {"shape": "circle", "role": "mark", "moves": [[0.0, 3.0, 1.0], [0.0, 1.0, 1.0]]}
     left, top, width, height = _room([wheel, roller])
     assert np.allclose([left, top, width, height], [-1.18, -4.18, 4.36, 6.36])
-

@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.report.symbol_list import symbol_rows
+from markupsafe import Markup
+
+from diecut_report.report.symbol_list import SymbolRow, in_columns, symbol_rows
 
 
 def row(symbol: str, description: str, unit: str = "mm", **more: Any) -> dict[str, Any]:
@@ -35,3 +37,8 @@ def test_a_symbol_of_a_formula_stands_once_with_meaning_and_unit_by_the_alphabet
 def test_the_list_tells_the_letter_of_the_source() -> None:
     first, *others = symbol_rows(mechanism())
     assert "W" in first.in_source and not any(each.in_source for each in others)
+
+
+def test_a_lone_symbol_stands_in_the_first_column() -> None:
+    row = SymbolRow(Markup("φ"), "Angle of the cycle", "°", Markup(""))
+    assert in_columns([row]) == [[row]]

@@ -32,6 +32,11 @@ def test_symbol(name: str, html: str) -> None:
         ("give n_points or crank_speed", "give n_points or crank_speed"),
         ("drive.crank_torque", "drive.crank_torque"),
         ("a force of 3 kN·m instead", "a force of 3 kN·m instead"),
+        (
+            "дорівнює −ω_3 і −ε_3, а ε = β",
+            "дорівнює −<i class=sy>ω</i><sub>3</sub> і −<i class=sy>ε</i><sub>3</sub>, "
+            "а <i class=sy>ε</i> = <i class=sy>β</i>",
+        ),
         ("divided by η there", "divided by <i class=sy>η</i> there"),
         ("<script>alert</script>", "&lt;script&gt;alert&lt;/script&gt;"),
     ],

@@ -74,6 +74,13 @@ def test_the_texts_of_a_title_block_fit_into_their_boxes(results: Data, frame: s
             assert all(measured(line, **face) * size / MILLIMETRE <= cell.width for line in cell.shown)
 
 
+@pytest.mark.parametrize("date", ["2026-11-22", "22.11.2026"])
+def test_the_line_of_changes_has_its_date_in_each_language(results: Data, date: str) -> None:
+    results["project"]["date"] = date
+    blocks = sheet_blocks(block(results, frame="dstu2104"), WORDS, has_logo=False)
+    assert all(["22.11.26"] in [cell.shown for cell in sheet.cells] for sheet in blocks)
+
+
 def test_a_title_that_has_room_is_not_cut(results: Data) -> None:
     results["project"]["title"] = LONG
     shown = [cell.shown for cell in sheet_blocks(block(results, frame="dstu2104"), WORDS, has_logo=False).first.cells]

@@ -139,8 +139,8 @@ def test_a_check_on_a_curve_judges_its_extreme_and_not_its_samples() -> None:
     assert found["status"] == "fail" and found["demand"] == pytest.approx(
         3, rel=1e-12
     )  # of the 36 samples none is above 2.992
-    assert found["message"] == "Force 3 N, allowed 2.999 N at φ = 95.7296°: relieve it"
-    assert found["at"] == {"symbol": "φ", "text": "95.7296", "unit": "deg"}
+    assert found["message"] == "Force 3 N, allowed 2.999 N at φ = 95.73°: relieve it"
+    assert found["at"] == {"symbol": "φ", "text": "95.73", "unit": "deg"}
 
 
 def test_two_curves_are_compared_where_the_one_is_furthest_beyond_the_other() -> None:
@@ -176,7 +176,7 @@ def test_a_two_sided_check_on_a_row_and_on_a_curve() -> None:
         found["part"] == 1 and found["message"] == "Force 2 N, at least 4 N (allowed 20 N) at part 1 of 3: relieve it"
     )
     low = judged(check("torque", 5.0, at_least=-2.0))
-    assert low["status"] == "fail" and low["limit"] == pytest.approx(-3) and low["at"]["text"] == "275.730"
+    assert low["status"] == "fail" and low["limit"] == pytest.approx(-3) and low["at"]["text"] == "275.73"
 
 
 CHECKS = (

@@ -42,7 +42,7 @@ def test_each_row_is_the_machine_of_its_values(press: dr.LoadedPress) -> None:
     assert np.isnan(moments[[2, 5]]).all() and "a hundred at most" in table["error"][2]
 
 
-def test_what_is_at_its_limit_does_not_govern_here_either() -> None:
+def test_what_the_calculation_presumes_does_not_govern_here_either() -> None:
     knife = dr.load(EXAMPLE.with_name("circular_knife.yaml"))
     table = knife.sweep({"knife.friction": [0.3]}, outputs=["knife.force_max"])
     governing = knife.calculate().governing

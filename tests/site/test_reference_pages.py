@@ -131,8 +131,17 @@ def test_names_that_begin_with_an_underscore_are_passed_over_and_not_run(folder:
 def test_a_plugin_of_one_file_cannot_import_a_file_beside_it(tmp_path: Path, line: str) -> None:
     (tmp_path / "_helpers.py").write_text("", encoding="utf-8")
     (tmp_path / "hook.py").write_text(f"{line}\n", encoding="utf-8")
-    with pytest.raises(PluginError, match=r"ImportError|ModuleNotFoundError"):
+    with pytest.raises(
+        PluginError, match=r"(?:ImportError|ModuleNotFoundError).*; a plugin of one file .* make a folder hook/ of it"
+    ):
         Discovery([tmp_path]).mechanism("hook")
+
+
+def test_a_library_that_is_missing_is_told_alone(tmp_path: Path) -> None:
+    (tmp_path / "hook.py").write_text("import no_such_library\n", encoding="utf-8")
+    with pytest.raises(PluginError) as found:
+        Discovery([tmp_path]).mechanism("hook")
+    assert "no_such_library" in found.value.message and "one file" not in found.value.message
 
 
 def test_with_a_list_only_what_it_names_is_a_kind(folder: Path) -> None:

@@ -142,6 +142,28 @@ def test_a_file_that_is_no_table_is_told(tmp_path: Path, name: str, text: str, t
         table_beside(str(tmp_path / "plugin.py"), name)
 
 
+NUMBERED = "# title: Rods\n# source: One\n# a remark\n# source: Two\n\nbore [mm],rod [mm]\n25,12\n\n32,14\n40,{last}\n"
+
+
+@pytest.mark.parametrize(
+    ("name", "text", "told"),
+    [
+        ("a.csv", NUMBERED.format(last="x"), "a.csv:10: The table “Rods” holds 'x'"),
+        ("a.csv", NUMBERED.format(last="18,3"), "a.csv:10: The table “Rods” has 3 values"),
+        ("a.csv", NUMBERED.format(last="18\n40,3"), "a.csv:11: The table “Rods” must ascend in bore"),
+        ("a.csv", CSV.replace("S355", "S235"), "a.csv:7: The table “Steels” has two rows of the name 'S235'"),
+        ("a.csv", NUMBERED.replace("source: Two", "left_out: Two").format(last="18"), "a.csv: The table “Rods” needs two sources"),
+        ("a.yaml", YAML.replace("235, 7850", "x, 7850"), "a.yaml:6: The table “Steels” holds 'x'"),
+        ("a.json", JSON.replace("[15", "[11"), "a.json:1: The table “Factors” must ascend"),
+    ],
+)  # fmt: skip
+def test_a_fault_of_a_file_is_told_with_its_line(tmp_path: Path, name: str, text: str, told: str) -> None:
+    (tmp_path / name).write_text(text, encoding="utf-8")
+    with pytest.raises(StandardFault) as found:
+        table_beside(str(tmp_path / "plugin.py"), name)
+    assert str(found.value).startswith(told) and found.value.tells_place
+
+
 def test_a_file_that_is_not_there_is_told(tmp_path: Path) -> None:
     with pytest.raises(StandardFault, match=r"b\.yaml cannot be read"):
         table_beside(str(tmp_path / "plugin.py"), "b.yaml")

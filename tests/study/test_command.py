@@ -38,6 +38,14 @@ def rows(folder: Path) -> list[dict[str, object]]:
     return found
 
 
+def test_strict_fails_where_a_variant_warns_or_a_check_is_not_made(tmp_path: Path, without_summary: None) -> None:
+    without_limit = files(tmp_path)
+    assert run("batch", without_limit, "-o", tmp_path / "one") == 0
+    assert run("batch", "--resume", tmp_path / "one", "--strict") == 1
+    limited = files(tmp_path, base=BASE.replace("force:", "allowable_moment: 1000 N*m, force:"))
+    assert run("batch", limited, "-o", tmp_path / "two", "--strict") == 0
+
+
 @pytest.mark.wheel
 def test_a_study_becomes_a_folder_named_as_it(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture) -> None:
     files(tmp_path)
@@ -67,6 +75,14 @@ def test_a_variant_that_fails_gives_1_and_one_in_error_does_not(tmp_path: Path) 
     assert rows(tmp_path / "out")[5]["governing"] == "a.checks.moment"
     impossible = varied("[100 mm, 999 mm]", path="mechanisms.a.arm").replace("count", "")
     assert run("batch", files(tmp_path, impossible), "-o", tmp_path / "other", "--quiet") == 0
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_a_study_of_which_no_variant_can_exist_gives_1_and_says_so(tmp_path: Path, capfd: Capture) -> None:
+    impossible = varied("[200, 210]", path="mechanisms.a.teeth")
+    assert run("batch", files(tmp_path, impossible), "-o", tmp_path / "out") == 1
+    assert [row["status"] for row in rows(tmp_path / "out")] == ["error", "error"]
+    assert "No variant can exist; the summary tells why." in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("without_summary")

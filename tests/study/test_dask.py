@@ -21,6 +21,7 @@ from diecut_report.study.execution.engines import ChunkFailed, InProcess, dask_c
 from diecut_report.study.execution.process_pool import SAFE_PATH
 from diecut_report.study.execution.study_run import Counts, Where, run_study
 from tests.configs import GOOD
+from tests.optimisation.searches import optimised, search_file
 from tests.processes import until
 from tests.study.made_store import dies_at_three, fails_at_three, slow_square, square, warm
 from tests.study.studies import study
@@ -122,6 +123,19 @@ def test_study_on_a_cluster_that_loses_a_worker_has_the_rows_of_one_in_this_proc
     assert there.counts == here.counts and there.counts["dropped"] == 1000 and there.counts["pass"] > 10_000
     rows = [pq.read_table(outcome.store.directory / "variants") for outcome in (there, here)]
     assert rows[0].equals(rows[1]) and rows[0].num_rows == 39_000
+
+
+@pytest.mark.nightly
+def test_a_search_on_a_cluster_has_the_bytes_of_one_in_this_process(
+    cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr("diecut_report.optimisation.command._files", lambda *_: {})
+    cluster.worker()
+    asked = search_file(tmp_path, more="evaluations: 900, population: 300")  # two chunks in a generation
+    assert optimised(asked, tmp_path / "there", "--quiet", "--dask", cluster.address) == 0
+    assert optimised(asked, tmp_path / "here", "--quiet") == 0
+    there, here = (sorted((tmp_path / name / "variants").iterdir()) for name in ("there", "here"))
+    assert [path.read_bytes() for path in there] == [path.read_bytes() for path in here] and len(here) == 3
 
 
 @pytest.mark.nightly

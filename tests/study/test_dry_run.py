@@ -106,9 +106,23 @@ def test_of_a_search_it_tells_how_many_machines_are_tried(tmp_path: Path, capfd:
     ranged = FORCES.replace("sample: {method: grid}\n", "").replace("[1 kN, 2, 3000 N, 4, 5]", "{from: 1 kN, to: 5 kN}")
     search = "optimise: {objectives: [minimise: a.moment], evaluations: 400, population: 40, seed: 1}\n"
     found = validated(tmp_path, ranged + search, capfd, "--dry-run")["study"]
-    assert (found["rows"], found["optimise"]) == (40, {"evaluations": 400})
+    goals = {"objectives": [{"minimise": "a.moment"}], "passing": True}
+    assert (found["rows"], found["optimise"]) == (40, {"evaluations": 400, "population": 40} | goals)
     assert main(["validate", str(tmp_path / "study.yaml"), "--dry-run", "--plugins", str(GOOD)]) == 0
-    assert "optimise tries 400 machines, which take one processor about " in capfd.readouterr().out
+    lines = capfd.readouterr().out.splitlines()
+    assert lines[0].endswith("study.yaml: a search through 400 machines, 40 in a generation")
+    assert lines[1:3] == ["  searched for: least a.moment", "  allowed are machines of which no check fails"]
+    assert "  mechanisms.a.force  1 … 5 kN" in lines  # the whole range, and not what the first generation takes of it
+    assert lines[-1].startswith("  time: ") and lines[-1].endswith(" on one processor, without page and reports")
+
+
+def test_of_a_study_with_a_search_beside_its_sample_both_are_told(tmp_path: Path, capfd: Capture) -> None:
+    search = "optimise: {objectives: [minimise: a.moment], evaluations: 400, population: 40, passing: false}\n"
+    saved(tmp_path, BASE)
+    file = saved(tmp_path, FORCES + search, "study.yaml")
+    assert main(["validate", str(file), "--dry-run", "--plugins", str(GOOD)]) == 0
+    out = capfd.readouterr().out
+    assert "optimise tries 400 machines, which take one processor about " in out and "variant 0: " in out
 
 
 def test_all_faults_are_told_at_once_and_nothing_is_calculated(tmp_path: Path, capfd: Capture) -> None:

@@ -254,6 +254,11 @@ FAULTS = [  # values of mechanisms.a.force, and the whole beginning of what is t
 ]  # fmt: skip
 
 
+def test_known_inputs_of_a_list_say_how_its_parts_are_numbered(tmp_path: Path) -> None:
+    (told,) = faults(tmp_path, varied("[1, 2]", path="mechanisms.a.parts.1.x"))
+    assert "parts.0…1.length" in told
+
+
 @pytest.mark.parametrize(("values", "message"), FAULTS, ids=[values for values, _ in FAULTS])
 def test_wrong_values_are_told_as_in_a_config(tmp_path: Path, values: str, message: str) -> None:
     assert [told[: len(message) + 11] for told in faults(tmp_path, varied(values))] == [f"study.yaml:{message}"]
@@ -261,6 +266,7 @@ def test_wrong_values_are_told_as_in_a_config(tmp_path: Path, values: str, messa
 
 PATHS = [  # a path that cannot be varied, and what is told
     ("mechanisms.a.forc", "'forc' is not an input of a (did you mean 'force'?). Known: force, arm, grade"),
+    ("mechanisms.a.parts.1.lenght", "'parts.1.lenght' is not an input of a (did you mean 'parts.1.length'?)"),
     ("mechanisms.c.force", "there is no mechanism 'c'. Known: a, b."),
     ("mechanisms.a", "names no input; known of a: force, arm"),
     ("mechanisms", "is not a path of an input"),

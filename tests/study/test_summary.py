@@ -535,6 +535,9 @@ def test_titles_are_unlike_each_other() -> None:
     gear = [ResultColumn(f"mechanisms.train.gears.{i}.teeth", description="Teeth of the gear") for i in range(2)]
     force = [ResultColumn(f"{name}.force", description=f"Force ({end})") for name, end in (("a", "up"), ("b", "up"))]
     both = [ResultColumn(f"a.force_{end}", description=f"Force ({end})") for end in ("mean", "peak")]
+    assert list(titles(gear[:1]).values()) == [
+        "Teeth of the gear: no. 1 of gears (train)"
+    ]  # one alone that is varied, too
     found = titles([*gear, *force, *both, ResultColumn("status", description="Status")])
     assert list(found.values()) == [
         "Teeth of the gear: no. 1 of gears (train)", "Teeth of the gear: no. 2 of gears (train)",
@@ -592,6 +595,16 @@ def test_few_variants_have_a_summary_too(tmp_path: Path, count: int) -> None:
     folder = many(tmp_path / "out", count, seed=3)
     summarise(folder)
     assert (folder / "summary.pdf").read_bytes().startswith(b"%PDF")
+
+
+def test_what_passes_is_told_to_pass_what_is_made_where_checks_are_not(tmp_path: Path) -> None:
+    values = calculated(np.array([3.0, 3.5]), np.array([0.05, 0.06]), ["harmonic"] * 2)
+    values["cylinder.checks.wall.utilisation"] = np.full(2, np.nan)
+    values["cylinder.checks.wall.status"] = np.array(["not_checked"] * 2, object)
+    found = summary_of(written(tmp_path / "out", (*INPUTS, *RESULTS), values, varied=[SPEED, BORE]))
+    text = re.sub(r"<[^>]+>", "", page(found))
+    assert found.status == "incomplete" and "2 of 2 variants pass all checks that are made." in text
+    assert "1 check is not made, in all variants or in some, as a limit or another key is not given." in text
 
 
 def test_a_study_of_errors_alone_has_a_summary(tmp_path: Path) -> None:

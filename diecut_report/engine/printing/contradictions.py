@@ -5,6 +5,7 @@ from __future__ import annotations
 from diecut_report.contract.binding import Bound
 from diecut_report.contract.steps import Step
 from diecut_report.engine.printing.substitution import MOST_DIGITS, Contradiction
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.formatting import number_text, with_unit
 from diecut_report.quantities.units import unit
 
@@ -18,7 +19,13 @@ def contradicted(step: Step, part: Bound, found: Contradiction) -> str:
             break
     result, again = (with_unit(text, step.unit) for text in said)
     formula = part.formula
-    return (
-        f"{step.description} ({step.id}) is {result}, but its formula {formula.__name__} as it is printed gives {again}, "
-        f"which is more than rounding; it must compute by its parameters and constants alone ({formula.place})"
+    return Phrase(
+        "{description} ({id}) is {result}, but its formula {name} as it is printed gives {again}, which "
+        "is more than rounding; it must compute by its parameters and constants alone ({place})",
+        description=step.description,
+        id=step.id,
+        result=result,
+        name=formula.__name__,
+        again=again,
+        place=formula.place,
     )

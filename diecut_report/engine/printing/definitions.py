@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+import unicodedata
 from collections.abc import Iterator
 from typing import Any
 
 from diecut_report.expressions import Formula, FormulaName
-from diecut_report.expressions.tree import Node, walk
+from diecut_report.expressions.tree import Node, transform, walk
 from diecut_report.quantities.formatting import shortest
 
 ALL_DIGITS = 17
@@ -17,7 +18,9 @@ def definitions(tree: Node) -> list[dict[str, Any]]:
     found: dict[str, Formula] = {}
     for formula in _called(tree):
         found.setdefault(formula.printed_as, formula)
-    defined = [_pair(_head(formula), formula.tree) for formula in found.values()]
+    defined = [
+        _pair(*(transform(side, _in_letters) for side in (_head(formula), formula.tree))) for formula in found.values()
+    ]
     constants = {symbol: value for formula in found.values() for symbol, value in _own(formula).items()}
     values = [
         _pair(Node("sym", (symbol,)), Node("qty", (shortest(value, ALL_DIGITS), value.unit)))
@@ -32,6 +35,15 @@ def _called(tree: Node) -> Iterator[Formula]:
             case Node("apply", (FormulaName(formula=formula), *_)):
                 yield formula
                 yield from _called(formula.tree)
+
+
+def _in_letters(leaf: Node) -> Node:
+    """A parameter that is named after a Greek letter as that letter: alpha is α."""
+    name = leaf.args[0] if leaf.op == "sym" else ""
+    try:
+        return Node("sym", (unicodedata.lookup(f"GREEK SMALL LETTER {name.upper()}"),)) if name.isalpha() else leaf
+    except KeyError:
+        return leaf
 
 
 def _head(formula: Formula) -> Node:

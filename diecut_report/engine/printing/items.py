@@ -131,12 +131,14 @@ def _value(calc: Calculation, step: Value, part: Bound) -> list[Item]:
     axis = calc.axis.get(step.id)
     if step.id in calc.values and calc.values[step.id].dtype == bool:
         return [_yes_or_no(calc, step, part)]
+    if isinstance(step, Interpolated) and axis is None and (row := tables.exact_row(calc, step)) is not None:
+        return [_head(step) | row | {"result": step_shown(calc, step, value_at(calc, step.id, None))}]
     elsewhere = is_elsewhere(calc, step, axis)
     item = _head(step) | {"type": "formula"} | _formula(calc, part, step, axis, elsewhere)
     if axis in calc.domains:
         item |= located(calc, str(axis), elsewhere)
     elif axis is not None:
-        item["note"] = joined(filter(None, (item.get("note"), named_parts.told(calc, step, axis))), " ")
+        item["note"] = joined(filter(None, (item.get("note"), named_parts.told(calc, step, axis))), ". ")
         if not named_parts.has_tables(calc, axis):
             taken = [name for name in part.names.values() if isinstance(name, str)]
             return [item, tables.table(calc, step, [*taken, step.id])]

@@ -15,7 +15,7 @@ from typing import TYPE_CHECKING, Any
 import numpy as np
 
 from diecut_report.contract.binding import Bound
-from diecut_report.contract.steps import Words
+from diecut_report.contract.steps import Step, Words
 from diecut_report.engine.printing.rounding import bounded
 from diecut_report.engine.shown_units import declared_unit, number_unit, unit_for
 from diecut_report.engine.steps import plain_code
@@ -40,6 +40,7 @@ if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
 MOST_DIGITS = 17
+PURE_NOTHING = 1e-12  # a pure number that is but the rounding of the computer: a residual
 TRUSTED = 8  # digits up to which a number that is but the rounding of the computer stands as 0
 EXACT = ("num", "qty")
 TRIGONOMETRIC = ("sin", "cos", "tan")
@@ -128,7 +129,7 @@ class Substitution:
     def _symbol(self, leaf: Node) -> Node:
         name = self.part.names.get(leaf.args[0]) if leaf.op == "sym" else None
         if name is None:
-            return leaf
+            return _quantity(leaf.args[0]) or leaf if leaf.op == "sym" else leaf
         return self._marked(name) if isinstance(name, str) else Node("num", (f"{name:g}",))
 
     def _marked(self, name: str) -> Node:
@@ -146,6 +147,8 @@ class Substitution:
         None where it is proved that only rounding keeps printed numbers from showing it: the terms that it is the
         difference of are equal, or nearly so. ``Contradiction`` where the expression gives something else.
         """
+        if unit(display).text == "1" and 0 < abs(target) < PURE_NOTHING:
+            return None
         asked, result_digits = result_digits, shown_digits(target, display, result_digits)
         wanted = rounded(target, display, result_digits)
         self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.formula.tree)
@@ -241,7 +244,7 @@ class Substitution:
         name = self.part.names.get(leaf.args[0])
         if name is None:
             constant = self.constants.get(leaf.args[0])
-            return leaf if constant is None else _constant(float(constant), constant.unit)
+            return leaf if constant is None else _constant(leaf.args[0], float(constant), constant.unit)
         if not isinstance(name, str):
             return Node("num", (f"{name:g}",))
         declared, value = self.calc.step_or_input(name), self.value_of(name)
@@ -256,7 +259,7 @@ class Substitution:
         """A number with so many digits; what is typed as it is."""
         if digits == MOST_DIGITS:
             return f"{number:.{digits}g}"  # exact: neither as typed nor taken as whole
-        is_typed = name not in self.calc.values and name not in self.calc.curves
+        is_typed = name not in self.calc.curves and not isinstance(self.calc.step_or_input(name), Step)
         return shortest(number, digits) if is_typed else number_text(number, digits)
 
     def display(self, name: str) -> str:
@@ -269,7 +272,19 @@ class Substitution:
         return number_unit(self.calc, name, self.calc.step_or_input(name), self.value_of(name))
 
 
-def _constant(value: float, declared: str) -> Node:
-    """A constant of a formula, in a unit of its family in which it is easy to read."""
+QUANTITY = re.compile(r"(\d+(?:\.\d+)?) (\S+)")  # a constant that is named by what it is: 254 mm
+
+
+def _quantity(symbol: str) -> Node | None:
+    """A constant that is named by its number and its unit, as both; None for any other name."""
+    found = QUANTITY.fullmatch(symbol)
+    return Node("qty", found.groups()) if found else None
+
+
+def _constant(symbol: str, value: float, declared: str) -> Node:
+    """A constant of a formula: as it is named where its name is its quantity in SI's powers of ten, else in a unit easy to read."""
+    named = _quantity(symbol)
+    if named and formula_unit(named.args[1]) == named.args[1]:
+        return named
     display = easy_unit(value, declared)
     return Node("qty", (shortest(unit(display).from_si(value), MOST_DIGITS), display))

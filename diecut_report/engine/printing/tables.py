@@ -7,15 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.part_steps import Lookup, Part, Pick, Total
+from diecut_report.contract.part_steps import Interpolated, Lookup, Part, Pick, Total
 from diecut_report.contract.steps import Crossings, Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
-from diecut_report.engine.steps.lookups import given_of
+from diecut_report.engine.steps.lookups import SAME, given_of
 from diecut_report.engine.steps.part_rows import series_of
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import given_shown, place_shown, shown, with_unit
+from diecut_report.quantities.formatting import DIGITS, given_shown, place_shown, shown, with_unit
 from diecut_report.standards import StandardSeries, StandardTable, sources_told
 
 Item = dict[str, Any]
@@ -72,8 +72,9 @@ def _cell(calc: Calculation, name: str, display: str, part: int) -> str:
         return value
     if np.isnan(float(value)):
         return "–"
-    told = shown if name in calc.values else given_shown
-    return told(float(value), display)["text"]
+    if name not in calc.values:
+        return given_shown(float(value), display)["text"]
+    return shown(float(value), display, getattr(calc.step_or_input(name), "digits", DIGITS))["text"]
 
 
 def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:
@@ -133,6 +134,23 @@ def _lookup(calc: Calculation, step: Lookup) -> Item:
 def _as_given(calc: Calculation, step: Lookup | Pick) -> Item:
     declared = calc.meta[step.given.removeprefix("inputs.")]
     return {"type": "lookup", "by": declared.description, "key": AS_GIVEN, "table": ""}
+
+
+def exact_row(calc: Calculation, step: Interpolated) -> Item | None:
+    """Return what is printed of a number between the rows of a table that is one of these rows; None where it lies between two."""
+    value, (_, taken) = float(calc[step.of][0, 0]), step.between.columns
+    if not (np.abs(step.between.x - value) <= SAME * abs(value)).any():
+        return None
+    by = calc.step_or_input(step.of)
+    key = f"{by.symbol} = {printed(calc, step.of)}"
+    return {
+        "type": "lookup",
+        "by": by.description,
+        "key": key,
+        "table": step.table.title,
+        "column": taken.name,
+        **_tables(step.table),
+    }
 
 
 def once(before: list[Item], new: list[Item]) -> list[Item]:

@@ -11,6 +11,7 @@ from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.numerics import extrema, roots_integrals
 from diecut_report.engine.steps.feasibility import refuse
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import DIGITS, number_text, with_unit
 from diecut_report.quantities.units import unit
 
@@ -82,9 +83,16 @@ def _said(calc: Calculation, step: Interpolated, value: float) -> str:
     first, last = (with_unit(number_text(end, MOST_DIGITS), own.unit) for end in (own.values[0], own.values[-1]))
     shown = f"{declared.symbol} = {with_unit(_beyond(value / unit(own.unit).factor, own.values), own.unit)}"
     is_input = step.of not in calc.steps and not step.key
-    return (
-        f"{'is' if is_input else 'leads to'} {shown}, outside of the table “{step.table.title}” "
-        f"for {step.description} ({step.symbol}), which goes from {first} to {last}"
+    return Phrase(
+        "{text} {shown}, outside of the table “{title}” for {description} ({symbol}), which goes from "
+        "{first} to {last}",
+        text=phrase("is") if is_input else phrase("leads to"),
+        shown=shown,
+        title=step.table.title,
+        description=step.description,
+        symbol=step.symbol,
+        first=first,
+        last=last,
     )
 
 

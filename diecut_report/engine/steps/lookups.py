@@ -75,7 +75,7 @@ def _said(calc: Calculation, step: Lookup, value: float) -> Phrase:
     filling = {
         "symbol": declared.symbol,
         "value": with_unit(number_text(value / unit(own.unit).factor), own.unit),
-        "table": phrase(step.table.title),
+        "table": phrase(getattr(step.table, "title", "")),
         "description": phrase(step.description),
         "taken": step.symbol,
         "rows": _nearest(own, value / unit(own.unit).factor),

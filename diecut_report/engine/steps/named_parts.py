@@ -9,6 +9,7 @@ from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.result_names import part_result, result_names
 from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation, Impossible
+from diecut_report.languages.phrases import Phrase
 
 
 def name_row(calc: Calculation, step: Step) -> None:
@@ -41,6 +42,10 @@ def names_of(calc: Calculation, step: Step) -> tuple[str, ...] | None:
     for index, name in enumerate(names or ()):
         called = part_result(name, step)
         if called in calc.steps or called in calc.inputs:
-            words = f"is {name}, with which its result {called} would be called as another one; take another name"
+            words = Phrase(
+                "is {name}, with which its result {called} would be called as another one; take another name",
+                name=name,
+                called=called,
+            )
             raise Impossible([(f"{home}.{index}.{key}", words)])
     return names

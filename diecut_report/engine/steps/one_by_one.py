@@ -15,6 +15,7 @@ from diecut_report.engine.mechanism_handle import MechanismHandle
 from diecut_report.engine.steps.feasibility import refuse
 from diecut_report.engine.steps.soundness import possible
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 
 
 def prepared(calc: Calculation, step: Prepared, known: Mapping[str, Any]) -> Machines:
@@ -55,4 +56,4 @@ def _without_broken(calc: Calculation, known: Mapping[str, Any]) -> None:
         for each in value if isinstance(value, tuple) else (value,):
             if isinstance(each, MechanismHandle):
                 for row in each.calculation.flaws:
-                    refuse(calc, row, key, f"is {each.name}, which cannot be")
+                    refuse(calc, row, key, Phrase("is {name}, which cannot be", name=each.name))

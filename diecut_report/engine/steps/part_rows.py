@@ -11,6 +11,7 @@ from diecut_report.contract.part_steps import Neighbour, Part, Pick, Running, To
 from diecut_report.engine.calculation import Calculation, Impossible
 from diecut_report.engine.steps.lookups import given_of
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
 from diecut_report.standards import StandardSeries
@@ -43,8 +44,18 @@ def part(calc: Calculation, step: Part) -> None:
     """Take the value of one part; a machine whose list is shorter is impossible."""
     count = calc[step.of].shape[1]
     if not -count <= step.index < count:
-        which = f"part {step.index + 1}" if step.index >= 0 else f"part {-step.index} from the last"
-        words = f"has {count} {'entry' if count == 1 else 'entries'}, but {step.description} ({step.id}) takes {which}; add what is missing"
+        which = (
+            Phrase("part {number}", number=step.index + 1)
+            if step.index >= 0
+            else Phrase("part {number} from the last", number=-step.index)
+        )
+        words = Phrase(
+            "has {count}, but {description} ({id}) takes {which}; add what is missing",
+            count=Counted(count, "{n} entry", "{n} entries"),
+            description=step.description,
+            id=step.id,
+            which=which,
+        )
         raise Impossible([(calc.axis[step.of], words)])
     calc.values[step.id] = calc[step.of][:, [step.index]]
 
@@ -82,12 +93,19 @@ def _within(calc: Calculation, step: Pick, sought: Array, series: Array) -> None
     for variant in np.flatnonzero((over | under).any(axis=1)):
         part = int(np.argmax(over[variant] | under[variant]))
         end = (
-            f"the greatest value is {told(series[-1], step.unit)}"
+            Phrase("the greatest value is {value}", value=told(series[-1], step.unit))
             if over[variant, part]
-            else f"the least value is {told(series[0], step.unit)}"
+            else Phrase("the least value is {value}", value=told(series[0], step.unit))
         )
-        title = getattr(series_of(calc, step)[2], "title", "the series")
-        words = f"{step.description} ({step.id}): {_sought(calc, step, float(sought[variant, part]))} is beyond {title}, of which {end}"
+        title = getattr(series_of(calc, step)[2], "title", phrase("the series"))
+        words = Phrase(
+            "{description} ({id}): {sought} is beyond {title}, of which {end}",
+            description=step.description,
+            id=step.id,
+            sought=_sought(calc, step, float(sought[variant, part])),
+            title=title,
+            end=end,
+        )
         key = step.key or step.of.removeprefix("inputs.")
         if calc.count == 1:
             raise Impossible([(key if step.key or key in calc.inputs else "", words)])

@@ -15,13 +15,14 @@ from diecut_report.contract.steps import Clash, Computed, Step, Words
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.steps import named_parts
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 
 
 def part_names(calc: Calculation, step: PartNames) -> None:
     """Name the parts that rows run over."""
     found = step.function(*(calc[name] for name in step.takes))
     if not found or not all(isinstance(each, str) for each in found):
-        raise _told(step, step.function, reprlib.repr(found), "a list of texts")
+        raise _told(step, step.function, reprlib.repr(found), phrase("a list of texts"))
     calc.part_names[step.id] = tuple(found)
 
 
@@ -50,15 +51,25 @@ def number(step: Computed, found: Any, count: int) -> Array:
     """Return what a function gives as an array of shape (variants, 1); Misdeclared where it is none."""
     given = _numbers(step, step.function, found, "a number")
     if given.shape not in ((), (1,), (1, 1), (count, 1)):
-        raise _told(step, step.function, f"an array of shape {given.shape}", f"a number, shape ({count}, 1)")
+        raise _told(
+            step,
+            step.function,
+            Phrase("an array of shape {shape}", shape=given.shape),
+            Phrase("a number, shape ({count}, 1)", count=count),
+        )
     return np.broadcast_to(given, (count, 1))
 
 
 def row(step: Computed, found: Any, count: int) -> Array:
     """Return what a function gives for the parts of a list, shape (variants, parts); Misdeclared where it is no such row."""
-    given = _numbers(step, step.function, found, "an array of numbers, one for each part")
+    given = _numbers(step, step.function, found, phrase("an array of numbers, one for each part"))
     if given.ndim > 2:
-        raise _told(step, step.function, f"an array of shape {given.shape}", "a row of numbers for each machine")
+        raise _told(
+            step,
+            step.function,
+            Phrase("an array of shape {shape}", shape=given.shape),
+            phrase("a row of numbers for each machine"),
+        )
     return np.broadcast_to(np.atleast_2d(given), (count, given.shape[-1])).astype(float)
 
 
@@ -69,9 +80,14 @@ def texts(step: Computed, found: Any) -> Array:
 
 def partners(step: Clash, found: Any, shape: tuple[int, ...]) -> Array:
     """Return which part each part clashes with, of the shape of the rows that it takes; Misdeclared where it is none."""
-    given = _numbers(step, step.function, found, "an array of indices")
+    given = _numbers(step, step.function, found, phrase("an array of indices"))
     if given.shape != shape:
-        raise _told(step, step.function, f"an array of shape {given.shape}", f"an index for each part, shape {shape}")
+        raise _told(
+            step,
+            step.function,
+            Phrase("an array of shape {shape}", shape=given.shape),
+            Phrase("an index for each part, shape {shape}", shape=shape),
+        )
     return given
 
 
@@ -79,7 +95,7 @@ def text(step: Words | Computed, found: Any, part: int = 0) -> str:
     """Return the text that a function gives, of one for each part that of a part; Misdeclared where it is none."""
     if isinstance(step, Words) and step.each_part:
         if not (isinstance(found, tuple) and all(isinstance(each, str) for each in found)):
-            raise _told(step, step.function, reprlib.repr(found), "a tuple of texts, one for each part")
+            raise _told(step, step.function, reprlib.repr(found), phrase("a tuple of texts, one for each part"))
         return str(found[part])
     if not isinstance(found, str):
         raise _told(step, step.function, reprlib.repr(found), 'a text, f"…"')
@@ -100,4 +116,13 @@ def _numbers(step: Step, function: Callable[..., Any], found: Any, wanted: str) 
 
 def _told(step: Step, function: Callable[..., Any], given: str, wanted: str) -> Misdeclared:
     name = getattr(function, "__name__", repr(function))
-    return Misdeclared(f"step {step.id}: its function {name} gives {given}; it must return {wanted}", step.at)
+    return Misdeclared(
+        Phrase(
+            "step {id}: its function {name} gives {given}; it must return {wanted}",
+            id=step.id,
+            name=name,
+            given=given,
+            wanted=wanted,
+        ),
+        step.at,
+    )

@@ -56,10 +56,11 @@ from diecut_report.engine.steps import (
 from diecut_report.engine.steps.again import Again
 from diecut_report.engine.steps.soundness import finite, mark, possible, prove, whole
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import pretty, unit
 
-EMPTY = "is empty; give at least one"
+EMPTY = phrase("is empty; give at least one")
 
 
 def calculate(
@@ -128,9 +129,8 @@ def _root(calc: Calculation, step: Root) -> None:
             told(float(calc.apply(end)[np.flatnonzero(lost)[0], 0]), step.unit) for end in (step.low, step.high)
         )
         where = f"{step.description} ({step.id}, {Path(step.at).name})"
-        between = f"the equation does not change its sign between low = {low} and high = {high}"
-        words = f"{where}: {between}; let the bracket hold the root, or require what it needs to exist"
-        mark(calc, step, lost, words)
+        words = "{where}: the equation does not change its sign between low = {low} and high = {high}; let the bracket hold the root, or require what it needs to exist"  # noqa: E501
+        mark(calc, step, lost, Phrase(words, where=where, low=low, high=high))
         residual = np.where(lost[:, None], 0.0, residual)
     prove(calc, step, residual, step.tolerance)
 
@@ -146,7 +146,8 @@ def _above_zero(calc: Calculation, step: Step, length: Array) -> None:
     """A length that curves are laid over must be there."""
     empty = ~(length > 0)[:, 0] & possible(calc)
     if empty.any():
-        mark(calc, step, empty, f"{step.description} ({step.id}) has no length to run over with these inputs")
+        words = "{description} ({id}) has no length to run over with these inputs"
+        mark(calc, step, empty, Phrase(words, description=step.description, id=step.id))
 
 
 def _breakpoints(calc: Calculation, step: Breakpoints) -> None:
@@ -254,10 +255,13 @@ def _laid_out(calc: Calculation, step: FromCurve, shares: Array) -> Array:
 def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
     curve = calc.inputs[step.given]
     if isinstance(curve, SampledCurve):
-        raise Impossible([(step.given, f"is a list of values, which tells no period; {step.otherwise}")])
+        words = "is a list of values, which tells no period; {otherwise}"
+        raise Impossible([(step.given, Phrase(words, otherwise=step.otherwise))])
     declared = curve.abscissa
     if unit(declared.unit).kind != unit(step.unit).kind:
-        raise Impossible([(step.given, f"runs over {declared.id}, in {pretty(declared.unit)}; {step.otherwise}")])
+        words = "runs over {id}, in {unit}; {otherwise}"
+        named = {"id": declared.id, "unit": pretty(declared.unit), "otherwise": step.otherwise}
+        raise Impossible([(step.given, Phrase(words, named))])
     calc.values[step.id] = np.broadcast_to(curve.domain.period, (calc.count, 1))
 
 

@@ -10,6 +10,7 @@ from diecut_report.engine.numerics import switches
 from diecut_report.engine.numerics.decisions import Decision
 from diecut_report.engine.numerics.switching import JumpFault
 from diecut_report.expressions import Node, substitute, written
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import told
 
 
@@ -29,15 +30,26 @@ def _words(calc: Calculation, found: JumpFault) -> str:
     assert curve is not None
     place = f"{axis.symbol} = {told(found.place, axis.unit)}"
     where = f"{curve.description} ({curve.id}, {Path(curve.at).name})"
-    fix = f"declare that place among the breakpoints of {axis.id}, above what asks for the curve"
+    fix = Phrase("declare that place among the breakpoints of {id}, above what asks for the curve", id=axis.id)
     if found.decision is None:
-        return (f"{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at {place}: "
-                f"it would be that of the middle of the piece; {fix}, or take per_piece away")  # fmt: skip
+        return (Phrase("{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at "
+"{place}: it would be that of the middle of the piece; {fix}, or take per_piece away", where=where, place=place, fix=fix))  # fmt: skip
     step, link = found.decision.step, found.decision.link
-    name = f"the formula {link.formula.__name__}" if isinstance(step, Value) else "the choice"
+    name = Phrase("the formula {name}", name=link.formula.__name__) if isinstance(step, Value) else phrase("the choice")
     decided = written(_in_symbols(calc, found.decision))
-    of = "its formula" if step.id == curve.id else f"{name} of {step.id} ({Path(step.at).name})"
-    return f"{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}"
+    of = (
+        phrase("its formula")
+        if step.id == curve.id
+        else Phrase("{name} of {id} ({place})", name=name, id=step.id, place=Path(step.at).name)
+    )
+    return Phrase(
+        "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}",
+        where=where,
+        place=place,
+        decided=decided,
+        of=of,
+        fix=fix,
+    )
 
 
 def _in_symbols(calc: Calculation, decision: Decision) -> Node:

@@ -10,6 +10,7 @@ import numpy as np
 from diecut_report.contract.steps import Crossings, Step
 from diecut_report.engine.calculation import Calculation, Unproven
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit
 
 WHOLE = 1e-9  # by which a count may be off a whole number, for rounding
@@ -34,7 +35,12 @@ def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> N
             calc,
             step,
             unproved,
-            f"{step.description}: the proof leaves {np.max(residual[unproved]):.1e}, not {tolerance:.0e}",
+            Phrase(
+                "{description}: the proof leaves {residual}, not {tolerance}",
+                description=step.description,
+                residual=format(np.max(residual[unproved]), ".1e"),
+                tolerance=format(tolerance, ".0e"),
+            ),
         )
 
 
@@ -57,7 +63,12 @@ def finite(calc: Calculation, step: Step) -> None:
         return
     bad = ~is_finite.all(axis=1) & possible(calc)
     if bad.any():
-        mark(calc, step, bad, f"{step.description} ({step.id}) has no value with these inputs")
+        mark(
+            calc,
+            step,
+            bad,
+            Phrase("{description} ({id}) has no value with these inputs", description=step.description, id=step.id),
+        )
 
 
 def whole(calc: Calculation, step: Step) -> None:
@@ -69,7 +80,11 @@ def whole(calc: Calculation, step: Step) -> None:
     bad = (np.abs(numbers - np.round(numbers)) > WHOLE * np.maximum(np.abs(numbers), 1)).any(axis=1) & possible(calc)
     if bad.any():
         given = f"{numbers[np.flatnonzero(bad)[0]].ravel()[0]:.6g}"
-        words = (
-            f"{step.description} ({step.id}, {Path(step.at).name}) is {given}, but is marked as a count (whole=True)"
+        words = Phrase(
+            "{description} ({id}, {name}) is {given}, but is marked as a count (whole=True)",
+            description=step.description,
+            id=step.id,
+            name=Path(step.at).name,
+            given=given,
         )
-        mark(calc, step, bad, f"{words}; round it in its formula, or take whole=True away")
+        mark(calc, step, bad, Phrase("{words}; round it in its formula, or take whole=True away", words=words))

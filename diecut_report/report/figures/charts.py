@@ -57,7 +57,7 @@ def _sheet(panels: list[PanelData], words: Catalogue, size: Size) -> Figure:
     height = min(HEIGHTS[size if size in HEIGHTS else Size.LOW][min(len(panels), MANY)], room)
     width = WIDTHS[size]
     wide = width - LEFT - RIGHT
-    drawn = [Diagram(panel, wide, height) for panel in panels]
+    drawn = _named_once([Diagram(panel, wide, height) for panel in panels])
     for diagram in drawn[1:]:
         diagram.follow(drawn[0])
     named = [foot == NAMED_FOOT for foot in feet]
@@ -70,6 +70,16 @@ def _sheet(panels: list[PanelData], words: Catalogue, size: Size) -> Figure:
         diagram.draw(axes, words, named=below)
         bottom -= foot
     return sheet
+
+
+def _named_once(drawn: list[Diagram]) -> list[Diagram]:
+    """Name a vertical line that goes through several diagrams in one of them alone, where its name covers nothing."""
+    places: dict[tuple[float, str], list[int]] = {}
+    for index, diagram in enumerate(drawn):
+        for note in diagram.panel.verticals:
+            places.setdefault((note.x, note.text), []).append(index)
+    kept = {key: next((i for i in found if drawn[i].names.is_clear(key[1])), found[0]) for key, found in places.items()}
+    return [diagram.naming(lambda note, i=i: kept[note.x, note.text] == i) for i, diagram in enumerate(drawn)]
 
 
 def _of_curves(panel: Data, curves: Data, over: Data, words: Catalogue) -> PanelData:

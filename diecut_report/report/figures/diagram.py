@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+from collections.abc import Callable
+from dataclasses import replace
 from typing import Any, NamedTuple
 
 import numpy as np
@@ -12,7 +14,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 
 from diecut_report.quantities.units import pretty
 from diecut_report.report.figures.label_layout import SIZE, LabelLayout
-from diecut_report.report.figures.panel_data import Across, Frame, PanelData, framed, pieces
+from diecut_report.report.figures.panel_data import Across, Frame, Note, PanelData, framed, pieces
 from diecut_report.report.figures.shapes import hatching
 from diecut_report.report.figures.sizes import WIDTHS, Size
 from diecut_report.report.figures.style import (
@@ -44,7 +46,7 @@ STROKES: tuple[tuple[str, Any, float], ...] = (  # more lines than there are her
 )
 LEVELS: tuple[Any, ...] = ((0, (8, 3)), (0, (2, 2)), (0, (8, 2, 1.5, 2)))
 UPRIGHT = (0, (4, 2.5))
-MARKS = "os^Dv"
+MARKS = "os^Dv<>pPX"
 HEAD, TITLE, ROW = 20.0, 17.0, 12.6  # points above a diagram: its head, in it the title, each row of a legend above it
 HANDLE, BESIDE, BETWEEN = (
     2.6,
@@ -71,7 +73,9 @@ class Diagram:
         self.names = LabelLayout(panel, self.frame)
         self.tags = self.names.tags if len(panel.lines) > 1 else []
         areas = [marked(panel.fills[index].label) for index in self.names.outside]
-        self.told = [tag for tag in self.tags if tag] + areas
+        notes = [panel.marks[index].text for index in self.names.told_marks]
+        notes += [panel.levels[index].text for index in self.names.told_levels]
+        self.told = [tag for tag in self.tags if tag] + areas + notes
         self.title = wrapped(self._title(), width)
         self.legend = legend(self.told, width, text_size(self.title)[0])
         self.across = wrapped(titled(*panel.across[:3]), width)
@@ -83,6 +87,13 @@ class Diagram:
             HEAD + further(self.title) + (0.0 if self.legend is None or self.legend.beside else self.legend.rows * ROW)
         )
 
+    def naming(self, is_named: Callable[[Note], bool]) -> Diagram:
+        """Return the diagram with names of those vertical lines alone."""
+        kept = [note if is_named(note) else note._replace(text="") for note in self.panel.verticals]
+        if kept == self.panel.verticals:
+            return self
+        return Diagram(replace(self.panel, verticals=kept), self.frame.width, self.frame.height)
+
     def follow(self, first: Diagram) -> None:
         """Leave a legend in rows away that the first diagram has already."""
         if self.told == first.told and self.legend and not self.legend.beside:
@@ -92,8 +103,7 @@ class Diagram:
         """Draw into axes; ``named`` puts numbers and a title below."""
         axes.set_xlim(self.frame.across)
         axes.set_ylim(self.frame.upwards)
-        handles = [*self._lines(axes), *self._areas(axes)]
-        self._notes(axes)
+        handles = [*self._lines(axes), *self._areas(axes), *self._notes(axes)]
         _ticks(axes, self.panel.across, self.frame, words)
         axes.tick_params(labelbottom=named)
         if named:
@@ -163,19 +173,26 @@ class Diagram:
                   label=marked(self.panel.fills[index].label)) for index in self.names.outside
         ]  # fmt: skip
 
-    def _notes(self, axes: Axes) -> None:
-        """The zero line, levels, vertical lines, marked points and ranges, without their texts."""
-        panel = self.panel
+    def _notes(self, axes: Axes) -> list[Line2D]:
+        """The zero line, levels, vertical lines, marked points and ranges, without their texts; those that the legend names."""
+        panel, marks, levels = self.panel, [], []
         axes.axhline(0, color=INK, linewidth=0.6, zorder=1)
         for index, level in enumerate(panel.levels):
-            axes.axhline(level.y, color=INK, linewidth=0.7, linestyle=LEVELS[index % len(LEVELS)], zorder=2)
+            levels.append(
+                axes.axhline(level.y, color=INK, linewidth=0.7, linestyle=LEVELS[index % len(LEVELS)], zorder=2)
+            )
         for upright in panel.verticals:
             axes.axvline(upright.x, color=INK, linewidth=0.6, linestyle=UPRIGHT, zorder=2)
         for index, mark in enumerate(panel.marks):
-            axes.plot([mark.x], [mark.y], MARKS[index % len(MARKS)], markersize=4.5, markerfacecolor="white",
-                      markeredgecolor=INK, zorder=5, clip_on=False)  # fmt: skip
+            marks += axes.plot([mark.x], [mark.y], MARKS[index % len(MARKS)], markersize=4.5, markerfacecolor="white",
+                               markeredgecolor=INK, zorder=5, clip_on=False)  # fmt: skip
         for span in panel.spans:
             axes.axvspan(span.start, span.end, color=PALE, linewidth=0, zorder=0)
+        told = [(marks[index], panel.marks[index]) for index in self.names.told_marks]
+        told += [(levels[index], panel.levels[index]) for index in self.names.told_levels]
+        for handle, note in told:
+            handle.set_label(note.text)
+        return [handle for handle, _ in told]
 
 
 def legend(told: list[str], width: float, title: float) -> Legend | None:

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from itertools import chain
 from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.report.figures.label_places import around, beside_level, beside_vertical, within
+from diecut_report.report.figures.label_places import anywhere, around, beside_level, beside_vertical, within
 from diecut_report.report.figures.panel_data import Frame, Line, PanelData, pieces
 from diecut_report.report.figures.style import Box, Labels, marked, overlap, plain, sampled, text_size
 
@@ -16,8 +17,13 @@ Array = NDArray[Any]
 SIZE = 8.0
 AWAY = 14.0  # from a mark to its name, for which a thin line leads there, points
 DASHES_DIFFER = 4  # so many lines are told apart by their dashes alone; more are named at the lines
+OVER_CURVE, OVER_NOTE = (
+    8.0,
+    3.0,
+)  # how much each point counts that a text covers: of a curve, of what is noted beside it
 AIR = 1.0
 WIDE_ENOUGH = 4.0  # between a line's name and the other lines, points
+IN_THE_WAY = 24.0  # what a text would cover: three points of a line; it stands in the legend then
 MARGIN = 8.0  # between a line's name and the frame
 
 
@@ -41,11 +47,19 @@ class LabelLayout:
         self.texts: list[LabelText] = []
         self.lines = [sampled(frame.points(line.x, line.y)) for line in panel.lines]
         self.notes = self._noted()
-        self.labels = Labels(np.concatenate([*self.lines, self.notes]), (2, 2, frame.width - 2, frame.height - 2))
+        curves = np.concatenate([np.empty((0, 2)), *self.lines])
+        weights = np.repeat([OVER_CURVE, OVER_NOTE], [len(curves), len(self.notes)])
+        self.labels = Labels(np.concatenate([curves, self.notes]), (2, 2, frame.width - 2, frame.height - 2), weights)
         self._spans()
         self.tags = self._tags()
         self.outside = [index for index, area in enumerate(panel.fills) if area.label and not self._inside(area)]
+        self.told_marks: list[int] = []  # marks and levels that have no room, and stand in the legend
+        self.told_levels: list[int] = []
         self._notes()
+
+    def is_clear(self, text: str) -> bool:
+        """Return whether a text covers nothing."""
+        return not any(each.solid for each in self.texts if each.text == text)
 
     def _noted(self) -> Array:
         """Points of levels, vertical lines, marks and edges of areas."""
@@ -58,12 +72,20 @@ class LabelLayout:
         edges = [frame.points(area.x, area.y) for area in panel.fills]
         return np.concatenate([np.empty((0, 2)), *map(sampled, [*levels, *uprights, *marks, *edges])])
 
-    def _write(self, text: str, places: Iterator[tuple[float, float]], of: tuple[float, float] | None = None) -> None:
-        """Writes a text at the best of the places; over lines, where all are, so that they do not run through it."""
+    def _write(
+        self, text: str, places: Iterator[tuple[float, float]], of: tuple[float, float] | None = None, most: float = np.inf,
+    ) -> bool:  # fmt: skip
+        """Write a text at the best of the places; not where it would cover more than ``most``: whether it stands there.
+
+        Over lines, where all places are, nothing shows through it.
+        """
         size = text_size(text, SIZE)
         (x, y), cost = self.labels.best(size, places)
+        if cost > most:
+            return False
         self.labels.take((x, y), size)
         self.texts.append(LabelText(x, y, text, solid=cost > 0, leader=_leader((x, y), size, of) if of else None))
+        return True
 
     def _spans(self) -> None:
         """The names of ranges, at the edge and the place along it that is clear of the lines."""
@@ -78,14 +100,17 @@ class LabelLayout:
     def _notes(self) -> None:
         """Marks, levels and vertical lines."""
         frame, panel = self.frame, self.panel
-        for note in panel.marks:
-            if note.text:
-                x, y = map(float, frame.points(note.x, note.y))
-                self._write(note.text, around(x, y), (x, y))
-        for note in panel.levels:
-            if note.text:
-                height = float(frame.points(0, note.y)[1])
-                self._write(note.text, beside_level(height, frame.width, text_size(note.text, SIZE)))
+        for index, note in enumerate(panel.marks):
+            x, y = map(float, frame.points(note.x, note.y))
+            size, room = text_size(note.text, SIZE), (frame.width, frame.height)
+            places = chain(around(x, y), anywhere(x, y, room, size))
+            if note.text and not self._write(note.text, places, (x, y), IN_THE_WAY):
+                self.told_marks.append(index)
+        for index, note in enumerate(panel.levels):
+            height = float(frame.points(0, note.y)[1])
+            places = beside_level(height, frame.width, text_size(note.text, SIZE))
+            if note.text and not self._write(note.text, places, most=IN_THE_WAY):
+                self.told_levels.append(index)
         for note in panel.verticals:
             if note.text:
                 place = float(frame.points(note.x, 0)[0])

@@ -99,6 +99,17 @@ def around(x: float, y: float) -> Iterator[Place]:
             yield from ((x + aside, y + away), (x + aside, y - away))
 
 
+def anywhere(x: float, y: float, within: Size, size: Size) -> Iterator[Place]:
+    """All over a diagram, those near a marked point first; for a text that a thin line leads to."""
+    half = size[0] / 2 + CLEAR, size[1] / 2 + CLEAR
+    columns, rows = (
+        np.linspace(least, max(room - least, least), count)
+        for least, room, count in zip(half, within, (13, 5), strict=True)
+    )
+    places = [(float(column), float(row)) for column in columns for row in rows]
+    yield from sorted(places, key=lambda place: abs(place[0] - x) + abs(place[1] - y))
+
+
 def reach(size: Size, direction: Array) -> float:
     """How far a text's box reaches from its middle in a direction."""
     return float(0.5 * (abs(direction[0]) * size[0] + abs(direction[1]) * size[1]))

@@ -7,7 +7,6 @@ from typing import Any
 
 from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty
-from diecut_report.quantities.units import unit as unit_of
 from diecut_report.report.context import Material
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import significant
@@ -132,7 +131,12 @@ def _results(results: Data, words: Catalogue) -> WorkSheet:
 def _place(row: Data) -> list[Cell]:
     """Return where an extreme lies, and the unit with the symbol of that."""
     at = row.get("at")
-    return [printed(at["text"]), f"{pretty(at['unit'])} ({at['symbol']})"] if at else [None, ""]
+    if not at:
+        return [None, ""]
+    value = (
+        CellNumber(converted(at["value"], at["unit"]), form_of(at["text"])) if "value" in at else printed(at["text"])
+    )
+    return [value, f"{pretty(at['unit'])} ({at['symbol']})"]
 
 
 def _checks(results: Data, words: Catalogue) -> WorkSheet:
@@ -161,7 +165,7 @@ def _check(name: str, check: Data, words: Catalogue) -> list[Cell]:
     sides = {side: check[f"{side}_display"] for side in ("demand", "limit", "margin")}
     unit = next((display["unit"] for display in sides.values() if display), "1")
     demand, limit = (_side(check[side], sides[side], unit) for side in ("demand", "limit"))
-    margin = _margin(sides["margin"], unit)
+    margin = _margin(demand, limit, sides["margin"], unit)
     share = check["utilisation"]
     return [
         name, check["id"], check["title"], words[f"class_{check['class']}"] if check.get("class") else "", words[check["status"]],
@@ -177,11 +181,12 @@ def _side(value: float | None, display: Data | None, unit: str) -> Cell:
     return shown(value, display) if display["unit"] == unit else CellNumber(converted(value, unit))
 
 
-def _margin(display: Data | None, unit: str) -> Cell:
-    """Return what is left to the limit, which the results hold as a text alone, in the unit of the check."""
-    if display is None or display["unit"] == unit:
-        return printed(display["text"]) if display else None
-    return CellNumber(converted(unit_of(display["unit"]).to_si(float(display["text"])), unit))
+def _margin(demand: Cell, limit: Cell, display: Data | None, unit: str) -> Cell:
+    """Return what is left to the limit, in the unit of the check, with the digits that the report prints."""
+    if display is None or not isinstance(demand, CellNumber) or not isinstance(limit, CellNumber):
+        return None
+    form = form_of(display["text"]) if display["unit"] == unit else "General"
+    return CellNumber(float(f"{limit.value - demand.value:.15g}"), form)
 
 
 def _phases(results: Data, words: Catalogue) -> WorkSheet:
@@ -190,8 +195,11 @@ def _phases(results: Data, words: Catalogue) -> WorkSheet:
     for name, data in parts(results):
         for key, phase in _of(data, "phases"):
             display = phase["display"]
-            for interval in display["intervals"]:
-                ends = [printed(interval[each]) for each in ("from", "to", "length")]
+            for (start, end), interval in zip(phase["intervals"], display["intervals"], strict=True):
+                ends = [
+                    CellNumber(converted(value, display["unit"]), form_of(interval[each]))
+                    for each, value in (("from", start), ("to", end), ("length", end - start))
+                ]
                 time = printed(interval["time"]) if "time" in interval else None
                 rows.append(
                     [

@@ -102,7 +102,7 @@ def set_page(made: Document, document: ReportDocument) -> None:
     numbered = [
         f"{words[name]} {project[of] or '–'}"
         for name, of in (("document", "document_number"), ("revision", "revision"))
-    ]
+    ] + ([project["date"]] if project["date"] else [])
     right = "   ".join([*numbered, words["across"] if document.block.is_held else document.block.status])
     _replace(section.header._element, small(left) + _tab() + small(right))
     sheet = (

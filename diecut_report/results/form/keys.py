@@ -45,6 +45,7 @@ class PlaceKeys(ClosedKeys):
     symbol: str = always("The symbol of the abscissa.")
     text: str = always("The place, in the unit.")
     unit: str = always("The unit of the text.")
+    value: float = sometimes("Of a result's extreme the place as it is calculated, SI.")
 
 
 class PartOfListKeys(ClosedKeys):

@@ -90,11 +90,11 @@ class ReductionItemKeys(ResultingKeys):
 
 
 class LookupItemKeys(ResultingKeys):
-    """A number taken from a table by a text."""
+    """A number taken from a row of a table, by the row's name or by a number that it has, or as it is given."""
 
     type: Literal["lookup"] = always("`lookup`.")
-    by: str = always("What the text is.")
-    key: str = always("The text.")
+    by: str = always("What the row is taken by.")
+    key: str = always("The row's name, or symbol and number; `as given` where the number is given.")
     table: str = always("The title of the table.")
     column: str = sometimes("The column of the table.")
 
@@ -195,7 +195,9 @@ class DrawingKeys(ShowingKeys):
     unit: str = always("The unit of its dimensions; `1` where it is not to scale.")
     shapes: list[dict[str, Any]] = always("What is drawn, back to front: shape, role, places (SI).")
     schematic: bool = sometimes("true: it is not drawn to scale.")
-    moving: dict[str, Any] = sometimes("What moves in it: over which abscissa, at which places, the shapes at each.")
+    moving: dict[str, Any] = sometimes(
+        "What moves in it: over which abscissa, at which places, the shapes; those that move with their numbers at each (`moves`)."
+    )
 
 
 class FailedFigureKeys(FigureKeys):

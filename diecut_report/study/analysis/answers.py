@@ -12,6 +12,8 @@ from itertools import islice
 from typing import Any
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import say
 from diecut_report.quantities.units import unit
 from diecut_report.study.analysis.question import Question, Row
 from diecut_report.study.analysis.stored_variants import FIXED, Stored, StoredColumn
@@ -35,9 +37,17 @@ class Notation:
     def __post_init__(self) -> None:
         for given, allowed in ((self.units, UNITS), (self.separator, SEPARATORS), (self.decimal, DECIMALS)):
             if given not in allowed:
-                raise UserError(Problem(f"{given!r} is not known here; allowed: {', '.join(allowed)}."))
+                raise UserError(
+                    Problem(
+                        Phrase(
+                            "{given} is not known here; allowed: {allowed}.",
+                            given=repr(given),
+                            allowed=", ".join(allowed),
+                        )
+                    )
+                )
         if self.separator == self.decimal == "comma":
-            words = "A comma cannot part both values and decimals; add --separator semicolon, or tab."
+            words = phrase("A comma cannot part both values and decimals; add --separator semicolon, or tab.")
             raise UserError(Problem(words))
 
     def unit_of(self, column: StoredColumn) -> str:
@@ -121,9 +131,14 @@ def as_workbook(stored: Stored, question: Question, notation: Notation) -> bytes
     """Return a workbook with a row for each variant; UserError where a sheet cannot hold them."""
     rows = [[_finite(value) for value in row] for row in islice(written(stored, question, notation), SHEET_ROWS)]
     if len(rows) == SHEET_ROWS or len(question.columns) > SHEET_COLUMNS:
-        words = f"A sheet holds {SHEET_ROWS - 1} variants and {SHEET_COLUMNS} columns; ask for fewer (--where, --top, --columns), or for csv."
+        words = Phrase(
+            "A sheet holds {sheet_rows} variants and {sheet_columns} columns; ask for fewer (--where, "
+            "--top, --columns), or for csv.",
+            sheet_rows=SHEET_ROWS - 1,
+            sheet_columns=SHEET_COLUMNS,
+        )
         raise UserError(Problem(words))
-    return workbook({"variants": [[notation.head(column) for column in question.columns], *rows]})
+    return workbook({say("variants"): [[notation.head(column) for column in question.columns], *rows]})
 
 
 def side_by_side(stored: Stored, question: Question, notation: Notation) -> tuple[list[Any], list[list[Any]]]:
@@ -133,8 +148,9 @@ def side_by_side(stored: Stored, question: Question, notation: Notation) -> tupl
     """
     rows: list[Row] = list(islice(question.rows(stored), MOST_COMPARED + 1))
     if len(rows) > MOST_COMPARED:
-        words = (
-            f"More than {MOST_COMPARED} variants cannot stand side by side; choose some with --pick, --where or --top."
+        words = Phrase(
+            "More than {most_compared} variants cannot stand side by side; choose some with --pick, --where or --top.",
+            most_compared=MOST_COMPARED,
         )
         raise UserError(Problem(words))
     lines = [

@@ -7,9 +7,11 @@ from collections.abc import Iterable, Iterator, Mapping
 from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.source_hashes import plugin_hash, program_hash
 from diecut_report.errors import PluginError
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.study.storage.description import code_told
 
 SHORT = 12  # of a hash, as in a report
-ABSENT = "none"
+ABSENT = ""
 
 
 def other_code(sources: Mapping[str, str], kinds: Iterable[str], discovery: Discovery) -> list[str]:
@@ -20,8 +22,13 @@ def other_code(sources: Mapping[str, str], kinds: Iterable[str], discovery: Disc
     gone = [name for name in sources if name.startswith("extension ") and name not in now]
     pairs = [(name, sources.get(name, ABSENT), now.get(name, ABSENT)) for name in (*now, *gone)]
     return [
-        f"The source of the {name} is not what the study was calculated by (SHA-256 {old[:SHORT]} then, {new[:SHORT]} now): "
-        "the numbers of this variant may differ from those that are stored."
+        Phrase(
+            "The source of the {name} is not what the study was calculated by (SHA-256 {old} then, {new} "
+            "now): the numbers of this variant may differ from those that are stored.",
+            name=code_told(name),
+            old=old[:SHORT] or phrase("none"),
+            new=new[:SHORT] or phrase("none"),
+        )
         for name, old, new in pairs
         if old != new and name.isprintable()  # a name of study.json may be by anybody
     ]

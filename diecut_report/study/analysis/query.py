@@ -8,12 +8,15 @@ from collections.abc import Generator, Iterator, Sequence
 from pathlib import Path
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.speech import decimal_sign, said, say, say_counted
 from diecut_report.report.number_format import number
 from diecut_report.study.analysis.answers import SI, Notation, as_csv, as_json, as_workbook, csv_text, side_by_side
 from diecut_report.study.analysis.question import Question, Request, question
 from diecut_report.study.analysis.stored_variants import Stored, opened
 from diecut_report.study.storage.spreadsheets import workbook
 from diecut_report.study.storage.state import read_state
+from diecut_report.study.storage.state_form import continuing
 
 FORMATS = ("table", "csv", "json")
 
@@ -49,10 +52,18 @@ def answer(
     A table that compares variants leaves out what is the same for all, and says how much that is, unless the columns are named.
     """
     if format not in FORMATS:
-        raise UserError(Problem(f"{format!r} is not a format of variants; known: {', '.join(FORMATS)}."))
+        raise UserError(
+            Problem(
+                Phrase(
+                    "{format} is not a format of variants; known: {formats}.",
+                    format=repr(format),
+                    formats=", ".join(FORMATS),
+                )
+            )
+        )
     if transposed and format == "json":
         raise UserError(
-            Problem("JSON names each value, so that it has no rows to transpose; ask for table, csv or xlsx.")
+            Problem(phrase("JSON names each value, so that it has no rows to transpose; ask for table, csv or xlsx."))
         )
     with opened(directory) as stored:
         found = question(stored, asked, is_table=format == "table" and not transposed)
@@ -72,8 +83,8 @@ def answer_workbook(directory: Path, asked: Request, notation: Notation = SI, *,
         found = question(stored, asked, is_table=False)
         if not transposed:
             return as_workbook(stored, found, notation)
-        head, lines = side_by_side(stored, found, notation)
-        return workbook({"variants": [head, *lines]})
+        (_, _, *numbers), lines = side_by_side(stored, found, notation)
+        return workbook({say("variants"): [[say("quantity"), say("unit"), *numbers], *lines]})
 
 
 def unfinished(directory: Path) -> Iterator[str]:
@@ -82,8 +93,12 @@ def unfinished(directory: Path) -> Iterator[str]:
     if state.get("state") != "complete":
         parts, rows, chunk = len(list((directory / "variants").glob("part-*.parquet"))), state["rows"], state["chunk"]
         yield (
-            f"This study is not finished: {parts} of {-(-rows // chunk)} parts are calculated. Go on with: "
-            f"diecut-report batch --resume {directory}"
+            Phrase(
+                "This study is not finished: {parts} of {all} parts are calculated. Go on with: {continued}",
+                parts=parts,
+                all=-(-rows // chunk),
+                continued=continuing(directory, state["columns"]),
+            )
         )
 
 
@@ -100,7 +115,8 @@ def _table(stored: Stored, asked: Question, width: int | None) -> Iterator[str]:
     found, without = table_text(asked.columns, rows, width or _terminal())
     yield f"{found}\n{_counted(stored, asked, len(rows))}\n"
     if without:
-        yield f"No room on a line for: {', '.join(column.name for column in without)} (--columns names some, --format csv has them all).\n"
+        words = "No room on a line for: {columns} (--columns names some, --format csv has them all)."
+        yield say(words, columns=", ".join(column.name for column in without)) + "\n"
 
 
 def _compared(stored: Stored, found: Question, asked: Request, width: int | None) -> str:
@@ -108,8 +124,14 @@ def _compared(stored: Stored, found: Question, asked: Request, width: int | None
 
     rows = list(found.rows(stored))
     text, equal = compared_text(found.columns, rows, width or _terminal(), keep_equal=asked.columns is not None)
-    left_out = f"; {equal} quantities that are the same for all are left out (--columns, --format csv)" if equal else ""
-    return f"{text}\n{len(rows)} variants{left_out}.\n"
+    words = say_counted(len(rows), "{n} variant", "{n} variants")
+    if equal:
+        words += say_counted(
+            equal,
+            "; {n} quantity that is the same for all is left out (--columns, --format csv)",
+            "; {n} quantities that are the same for all are left out (--columns, --format csv)",
+        )
+    return f"{text}\n{words}.\n"
 
 
 def _terminal() -> int | None:
@@ -120,9 +142,17 @@ def _terminal() -> int | None:
 def _counted(stored: Stored, asked: Question, given: int) -> str:
     sql = f"SELECT count(*) FILTER ({asked.where}), count(*) FROM v"
     found, total = stored.rows(sql, asked.condition.parameters)[0]
-    of_all = f"{number(str(found))} of {number(str(total))} variants"
-    words = of_all if asked.condition.sql == "true" else f"Fulfilling the condition: {of_all}"
-    return words + (f"; {given} are shown (--top, --format csv)." if given < found else ".")
+    sign = decimal_sign()
+    of_all = Counted(
+        total,
+        "{found} of {n} variant",
+        "{found} of {n} variants",
+        found=number(str(found), sign),
+        n=number(str(total), sign),
+    )
+    words = of_all if asked.condition.sql == "true" else Phrase("Fulfilling the condition: {count}", count=of_all)
+    shown = Phrase("{words}; {given} are shown (--top, --format csv).", words=words, given=given)
+    return said(shown if given < found else Phrase("{words}.", words=words))
 
 
 __all__ = ["FORMATS", "answer", "answer_workbook", "unfinished", "variants"]

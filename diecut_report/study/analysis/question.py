@@ -7,6 +7,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
 from diecut_report.study.conditions.where import Condition, column_named, condition
 
@@ -64,7 +65,7 @@ def question(stored: Stored, asked: Request, *, is_table: bool) -> Question:
     A table for people shows the varied quantities and what the question names, of at most 20 variants; other answers hold all.
     """
     if asked.top is not None and asked.top < 1:
-        raise UserError(Problem(f"--top is {asked.top}; a number of variants from 1 on is needed."))
+        raise UserError(Problem(Phrase("--top is {top}; a number of variants from 1 on is needed.", top=asked.top)))
     _refuse_strange(stored, asked.picked)
     where = asked.where if asked.where and asked.where.strip() else None
     found = condition(where, stored.columns) if where else Condition("true", [])
@@ -80,7 +81,12 @@ def _refuse_strange(stored: Stored, picked: Sequence[int]) -> None:
     found = {number for (number,) in stored.rows(f"SELECT variant FROM v WHERE variant IN ({_listed(picked)})")}
     if missing := [number for number in picked if number not in found]:
         first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
-        words = f"There is no variant {_listed(missing)} here. The stored ones are within {first} … {last}."
+        words = Phrase(
+            "There is no variant {listed} here. The stored ones are within {first} … {last}.",
+            listed=_listed(missing),
+            first=first,
+            last=last,
+        )
         raise UserError(Problem(words, str(stored.folder)))
 
 

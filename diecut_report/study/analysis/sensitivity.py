@@ -7,8 +7,9 @@ from dataclasses import dataclass
 import numpy as np
 
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import phrase
 
-SOURCE = (
+SOURCE = phrase(
     "first order: Saltelli et al. 2010, Computer Physics Communications 181, 259–270, table 2 (b); "
     "total: Jansen 1999, Computer Physics Communications 117, 35–43 (table 2 (f) there)"
 )

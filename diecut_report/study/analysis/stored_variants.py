@@ -11,10 +11,15 @@ from functools import cached_property
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
+from diecut_report.config import yaml_tree
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE
+from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.speech import know_plugins, spoken_language
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.study.analysis.titles import UTILISATION, VERDICT_OF, titles
 from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind
+from diecut_report.study.storage.state_form import continuing
 from diecut_report.study.storage.store import Store
 
 if TYPE_CHECKING:
@@ -121,7 +126,10 @@ def opened(folder: Path) -> Iterator[Stored]:
     store = Store.open(folder)
     paths = store.whole_parts()
     if not paths:
-        words = "No variants are stored here yet. Continue the run with `batch --resume`."
+        columns = dict.fromkeys(column.name for column in store.description.columns)
+        words = Phrase(
+            "No variants are stored here yet. Continue the run with: {continued}", continued=continuing(folder, columns)
+        )
         raise UserError(Problem(words, str(folder)))
     description = store.description
     config: dict[str, str | bool | int | float | list[str]] = {
@@ -138,7 +146,10 @@ def opened(folder: Path) -> Iterator[Stored]:
         except (
             duckdb.Error
         ) as error:  # the parts are as they were written: what is asked gives no answer, or there is no room
-            words = f"The stored variants give no answer to this ({_first(error)}). Ask for something else, or for less at a time."
+            words = Phrase(
+                "The stored variants give no answer to this ({first}). Ask for something else, or for less at a time.",
+                first=_first(error),
+            )
             raise UserError(Problem(words, str(folder))) from error
 
 
@@ -158,12 +169,22 @@ def _view(connection: DuckDBPyConnection, paths: Sequence[Path]) -> None:
 
 def columns_of(description: Description) -> dict[str, StoredColumn]:
     """Return the columns of the part files by name; curves, which are lists, are not quantities to compare."""
-    known = titles(description.all_columns)
+    known = titles(description.all_columns, _kinds(description))
     return {
         column.name: StoredColumn(column.name, column.kind, column.unit, _display(column.display, column.unit), column.symbol, known[column.name])
         for column in description.all_columns
         if column.kind != "curve"
     }  # fmt: skip
+
+
+def _kinds(description: Description) -> Mapping[str, str]:
+    """The kinds of the mechanisms by name, so that their columns are told in the words of their plugins; none in English."""
+    content = description.base.content
+    if spoken_language() == SOURCE_LANGUAGE:
+        return {}
+    know_plugins(description.plugins)  # also where the base is not kept any more
+    given = yaml_tree.parse(content.decode("utf-8-sig"), description.base.file).data if content else {}
+    return {name: str(block.get("kind")) for name, block in (given.get("mechanisms") or {}).items()}
 
 
 def _display(wanted: str, si: str) -> str:

@@ -14,6 +14,7 @@ from diecut_report.config.own_tables import KEY as TABLES
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.config.yaml_values import Scalar, with_values
 from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import as_typed
 from diecut_report.study.analysis.other_code import other_code
 from diecut_report.study.analysis.stored_variants import Stored, StoredColumn, opened
@@ -138,7 +139,11 @@ def _named(base: Tree, variant: int, study: str) -> Iterator[tuple[KeyPath, str]
 def _refuse_error(stored: Stored, variant: int) -> None:
     for status, reason in stored.rows("SELECT status, error FROM v WHERE variant = ?", [variant]):
         if status == "error":
-            words = f"Variant {variant} cannot be calculated: {reason or 'no reason was stored'}"
+            words = Phrase(
+                "Variant {variant} cannot be calculated: {reason}",
+                variant=variant,
+                reason=reason or phrase("no reason was stored"),
+            )
             raise UserError(Problem(words, str(stored.folder)))
 
 
@@ -153,9 +158,15 @@ def _row(stored: Stored, variant: int) -> list[tuple[StoredColumn, Any]]:
     if not rows:
         first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
         is_whole = stored.study.get("state") == "complete"
-        words = (
-            f"There is no variant {variant} here. The stored ones are within {first} … {last}; a number in between that is missing "
-            + ("was dropped by a constraint." if is_whole else "was dropped by a constraint or is not calculated yet.")
+        words = Phrase(
+            "There is no variant {variant} here. The stored ones are within {first} … {last}; a number in "
+            "between that is missing {why}",
+            variant=variant,
+            first=first,
+            last=last,
+            why=phrase("was dropped by a constraint.")
+            if is_whole
+            else phrase("was dropped by a constraint or is not calculated yet."),
         )
         raise UserError(Problem(words, str(stored.folder)))
     return [(column, value) for column, value in zip(stored.varied, rows[0], strict=False) if value is not None]

@@ -7,6 +7,7 @@ import re
 from collections.abc import Sequence
 from typing import TYPE_CHECKING, Any, Literal
 
+from diecut_report.languages.speech import decimal_sign, say
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.number_format import number
@@ -39,8 +40,10 @@ def compared_text(
     from rich.text import Text
 
     table = _empty_table()
-    for head in ("quantity", "unit", *(str(row[0]) for row in rows)):
-        table.add_column(Text(head), justify="left" if head in ("quantity", "unit") else "right", overflow="fold")
+    for head in (say("quantity"), say("unit")):
+        table.add_column(Text(head), justify="left", overflow="fold")
+    for row in rows:
+        table.add_column(Text(str(row[0])), justify="right", overflow="fold")
     lines = [(column, [row[index] for row in rows]) for index, column in enumerate(columns) if column.name != "variant"]
     kept = [(column, values) for column, values in lines if keep_equal or any(value != values[0] for value in values)]
     for column, values in kept:
@@ -111,7 +114,7 @@ def shown(value: Any, column: StoredColumn) -> str:
     if value is None:
         return "–"
     if isinstance(value, bool):
-        return "yes" if value else "no"
+        return say("yes") if value else say("no")
     if isinstance(value, float):
-        return number(number_text(unit(column.display).from_si(value), 5)) if value else "0"
+        return number(number_text(unit(column.display).from_si(value), 5), decimal_sign()) if value else "0"
     return number(str(value)) if isinstance(value, int) and column.name != "variant" else str(value)

@@ -101,8 +101,11 @@ def parse(text: str, find: Find, known: Collection[str] = ()) -> Constraint:
 
     def name(path: str) -> Name:
         if "." not in path and path not in known:
-            advice = "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and texts in quotes"
-            raise ConditionError(f"“{path}” is not a path of an input; {advice}.")
+            advice = phrase(
+                "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and "
+                "texts in quotes"
+            )
+            raise ConditionError(Phrase("“{path}” is not a path of an input; {advice}.", path=path, advice=advice))
         term = find(path)
         found[path] = term.node
         if term.is_output:
@@ -113,6 +116,8 @@ def parse(text: str, find: Find, known: Collection[str] = ()) -> Constraint:
 
     made = Constraint(text, read(text, known, name, EXAMPLE), found, tuple(dict.fromkeys(outputs)))
     if not made.paths:
-        words = f"“{text}” names no varied path, so it would keep all variants or none; name one of vary."
+        words = Phrase(
+            "“{text}” names no varied path, so it would keep all variants or none; name one of vary.", text=text
+        )
         raise ConditionError(words)
     return made

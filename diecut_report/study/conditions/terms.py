@@ -12,6 +12,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Target
 from diecut_report.contract.inputs import Quantity
 from diecut_report.expressions import Formula, Node, transform
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.conditions.constraints import Term
 from diecut_report.study.definition.base_inputs import (
     MECHANISMS,
@@ -49,8 +50,12 @@ def _display(asked: Input) -> str:
 def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: Target) -> Term:
     if target.result is not None or target.is_broken:
         raise ConditionError(
-            f"“{asked.path}” refers to ${{{target.path}}}, which is known only after calculating; "
-            f"in a constraint an output is named by itself, as in NAME.OUTPUT."
+            Phrase(
+                "“{path}” refers to ${{target}}, which is known only after calculating; in a constraint an "
+                "output is named by itself, as in NAME.OUTPUT.",
+                path=asked.path,
+                target=target.path,
+            )
         )
     head = PRESS if target.instance == PRESS else f"{MECHANISMS}.{target.instance}"
     found = term(base, varied, ".".join([head, *map(str, target.key)]))
@@ -73,5 +78,5 @@ def _fixed(base: Config, asked: Input) -> float | str:
     name = ".".join(part for part in asked.key if isinstance(part, str))
     value = instance.value(asked.key) if name in instance.given else None
     if value is None:
-        raise ConditionError(f"“{asked.path}” has no value in the base; give it there, or vary it.")
+        raise ConditionError(Phrase("“{path}” has no value in the base; give it there, or vary it.", path=asked.path))
     return str(value).lower() if isinstance(value, bool) else value if isinstance(value, str) else float(value)

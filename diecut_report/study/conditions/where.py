@@ -11,6 +11,7 @@ from diecut_report.conditions.reading import read
 from diecut_report.conditions.tree import names
 from diecut_report.conditions.words import ConditionError
 from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.conditions.sql_emitter import written
 
@@ -32,9 +33,11 @@ def condition(given: str, columns: Mapping[str, StoredColumn]) -> Condition:
     try:
         tree = read(given, columns, lambda name: _name(name, columns), EXAMPLE)
     except ConditionError as fault:
-        where = "" if fault.place is None else f", at character {fault.place + 1}"
+        where = "" if fault.place is None else Phrase(", at character {place}", place=fault.place + 1)
         shown = given if len(given) <= SHOWN else given[:SHOWN] + "…"
-        raise UserError(Problem(f"The condition “{shown}”{where}: {fault.words}")) from None
+        raise UserError(
+            Problem(Phrase("The condition “{shown}”{where}: {words}", shown=shown, where=where, words=fault.words))
+        ) from None
     sql = written(tree, columns)
     return Condition(sql.text, list(sql.given), list(names(tree)))
 
@@ -42,14 +45,22 @@ def condition(given: str, columns: Mapping[str, StoredColumn]) -> Condition:
 def column_named(name: str, columns: Mapping[str, StoredColumn]) -> StoredColumn:
     """Return the column of a name; UserError with the nearest where there is none."""
     if name not in columns:
-        raise UserError(Problem(f"{name!r} is not a column of these variants{nearest(name, columns)}."))
+        raise UserError(
+            Problem(
+                Phrase(
+                    "{name} is not a column of these variants{nearest}.",
+                    name=repr(name),
+                    nearest=nearest(name, columns),
+                )
+            )
+        )
     return columns[name]
 
 
 def _name(name: str, columns: Mapping[str, StoredColumn]) -> Name:
     if name not in columns:
-        near = nearest(name, columns) or "; put texts in quotes"
-        raise ConditionError(f"{name!r} is not a column of these variants{near}.")
+        near = nearest(name, columns) or phrase("; put texts in quotes")
+        raise ConditionError(Phrase("{name} is not a column of these variants{near}.", name=repr(name), near=near))
     column = columns[name]
     if column.is_number:
         return Name(name, "number", column.unit, column.display)

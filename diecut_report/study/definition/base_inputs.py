@@ -142,7 +142,10 @@ def _no_input(base: Config, instance: Instance, keys: list[str]) -> Phrase:
         words = "is an output of {home}; only inputs can be varied{near}."
         return Phrase(words, home=instance.name, near=nearest(name, known))
     words = "{name} is not an input of {home}{near}. Known: {names}."
-    return Phrase(words, name=repr(name), home=instance.name, near=nearest(name, known), names=", ".join(known))
+    listed = ", ".join(_known(instance, each_part=True))
+    place = next((part for part in keys if part.isdigit()), "0")  # of the part that is meant
+    near = nearest(name, [key.replace(".0.", f".{place}.") for key in known])
+    return Phrase(words, name=repr(name), home=instance.name, near=near, names=listed)
 
 
 def known_paths(base: Config, name: str) -> list[str]:
@@ -152,9 +155,15 @@ def known_paths(base: Config, name: str) -> list[str]:
     return [f"{prefix}.{key}" for key in _known(instance)] if instance else []
 
 
-def _known(instance: Instance) -> list[str]:
+def _known(instance: Instance, *, each_part: bool = False) -> list[str]:
+    """The inputs of a mechanism; of lists those of the first part, or with ``each_part`` how the parts are numbered."""
     lists = list_inputs(instance.model)
-    return [f"{lists[name]}.0{name.removeprefix(lists[name])}" if name in lists else name
+
+    def first(home: str) -> str:
+        count = len(instance.data.get(home) or ()) if each_part else 1
+        return f"{home}.0…{count - 1}" if count > 1 else f"{home}.0"
+
+    return [f"{first(lists[name])}{name.removeprefix(lists[name])}" if name in lists else name
             for name, meta in fields(instance.model) if not isinstance(meta, Referred)]  # fmt: skip
 
 

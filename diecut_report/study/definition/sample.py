@@ -12,6 +12,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.validation import ConfigPlace
 from diecut_report.contract.inputs import Pending
 from diecut_report.errors import Problem
+from diecut_report.languages.phrases import Phrase, named, phrase
 from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, with_values
 from diecut_report.study.definition.form import DRAWN, SampleForm
 from diecut_report.study.definition.tables import TableReader
@@ -103,8 +104,12 @@ class SampleReader:
                 yield path, find_input(self.base, path)
             except UnknownPath as fault:
                 round_ = re.fullmatch(r"([\w.-]+)\s*\(([^()]*)\)", path)
-                unit = f" A unit stands in square brackets: {round_[1]} [{round_[2]}]." if round_ else ""
-                self.problems.append(column.problem(f"the column's name {fault}{unit}"))
+                unit = (
+                    Phrase(" A unit stands in square brackets: {path} [{unit}].", path=round_[1], unit=round_[2])
+                    if round_
+                    else ""
+                )
+                self.problems.append(column.problem(Phrase("the column's name {fault}{unit}", fault=fault, unit=unit)))
 
     # --- the base with stand-ins -------------------------------------------------------------------------------------
 
@@ -119,7 +124,9 @@ class SampleReader:
         return [config for config, _ in made]
 
     def _in_base(self, problem: Problem) -> Problem:
-        words = f"with these paths varied, the base is wrong: {problem.path}: {problem.message}"
+        words = Phrase(
+            "with these paths varied, the base is wrong: {path}: {message}", path=problem.path, message=problem.message
+        )
         return self.place.problem(("vary",), words, at_key=True)
 
 
@@ -131,15 +138,23 @@ def misused(form: SampleForm, has_vary: bool, place: ConfigPlace) -> Iterator[Pr
     used = {"count": DRAWN, "seed": DRAWN, "indices": ("sobol",), "file": ("table",)}
     for key, users in used.items():
         if getattr(form, key) not in (None, False) and form.method not in users:
-            words = f"has no use with method {form.method}; remove it, or choose {' or '.join(users)}."
+            words = Phrase(
+                "has no use with method {method}; remove it, or choose {users}.",
+                method=form.method,
+                users=named(users, " or "),
+            )
             yield place.problem(("sample", key), words, at_key=True)
     if form.method in DRAWN and form.count is None:
-        yield place.absent(("sample", "count"), f"is missing; {form.method} needs the number of variants.")
+        yield place.absent(
+            ("sample", "count"), Phrase("is missing; {method} needs the number of variants.", method=form.method)
+        )
     if form.method == "table" and form.file is None:
-        words = "is missing; give a CSV, Parquet or XLSX file whose columns are paths."
+        words = phrase("is missing; give a CSV, Parquet or XLSX file whose columns are paths.")
         yield place.absent(("sample", "file"), words)
     if form.method == "table" and has_vary:
-        words = "has no use with method table, where the columns of the file say what varies; remove it, or choose zip."
+        words = phrase(
+            "has no use with method table, where the columns of the file say what varies; remove it, or choose zip."
+        )
         yield place.problem(("vary",), words, at_key=True)
     elif form.method != "table" and not has_vary:
         yield place.absent(("vary",), "is missing or empty; vary at least one path.")

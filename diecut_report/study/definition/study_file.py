@@ -16,7 +16,7 @@ from diecut_report.config.validation import ConfigPlace, validate
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.expressions import Node
-from diecut_report.languages.phrases import phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.conditions.constraints import Constraint, Term, parse
 from diecut_report.study.conditions.terms import term
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
@@ -191,13 +191,18 @@ class _StudyReader:
             return self.given
         path = self._find(self.data["base"])
         if not path.exists():
-            words = f"there is no file {path}. The base is sought from the study's folder; check its name."
+            words = Phrase(
+                "there is no file {path}. The base is sought from the study's folder; check its name.", path=path
+            )
             self.problems.append(self.place.problem(("base",), words))
             return None
         try:
             base = load_config(path, self.discovery, find=lambda name: self._find(self._beside_base(name)))
         except UserError as error:
-            words = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
+            words = phrase(
+                "the base has problems, which are reported with its own name; what is varied in it is judged "
+                "when they are fixed."
+            )
             self.problems += [self.place.problem(("base",), words), *error.problems]
             return None
         if base.broken:  # no variant can be calculated: the author of the plugin must act, not that of the study
@@ -235,7 +240,11 @@ def _output(path: str, results: ResultReader) -> Term | None:
     if column is None and path.partition(".")[0] in results.bases[0].instances:
         near = nearest(path, results.known)
         raise ConditionError(
-            f"“{path}” is not an output{near}; an input is named by its whole path, as in mechanisms.{path}."
+            Phrase(
+                "“{path}” is not an output{near}; an input is named by its whole path, as in mechanisms.{path}.",
+                path=path,
+                near=near,
+            )
         )
     if column is None:
         return None

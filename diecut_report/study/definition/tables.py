@@ -12,6 +12,7 @@ from diecut_report.config.validation import ConfigPlace, validate
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import SI, Quantity
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.form import value_form
 from diecut_report.study.sampling.variables import Values
@@ -40,7 +41,9 @@ class TableReader:
         path = self.find(name)
         try:
             if not os.path.exists(path):  # false also for a name that can be none
-                words = f"there is no file {path}. The table is sought from the study's folder; check its name."
+                words = Phrase(
+                    "there is no file {path}. The table is sought from the study's folder; check its name.", path=path
+                )
                 raise UserError(self.place.problem(key, words))
             found = read_table(path)
             self.hashes[name] = found.sha256
@@ -81,7 +84,12 @@ class TableReader:
             if found := validate(form, {"value": text}, self.place)[1]:
                 wrong[text] = found[0].message
             if len(wrong) > DIFFERENT:
-                words = f"more than {DIFFERENT} different texts are none that {asked.path} takes: {wrong[text]}"
+                words = Phrase(
+                    "more than {different} different texts are none that {path} takes: {wrong}",
+                    different=DIFFERENT,
+                    path=asked.path,
+                    wrong=wrong[text],
+                )
                 return iter([column.problem(words, column.cells.row(texts.index(text)))])
         places = (place for place, text in enumerate(texts) if text in wrong)
         return column.faulty(Faults.of(places, lambda place: wrong[texts[place]]))

@@ -8,6 +8,7 @@ from diecut_report.config.loader import as_typed
 from diecut_report.config.validation import ConfigPlace, told, validate
 from diecut_report.contract.inputs import Block
 from diecut_report.errors import Problem, nearest
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.form import DISTRIBUTIONS, TableForm, distribution_form, range_form, value_form
 from diecut_report.study.definition.tables import TableReader
@@ -21,11 +22,11 @@ from diecut_report.study.sampling.variables import (
     Variable,
 )
 
-NEEDED = (
-    "a list of values, a range {from: …, to: …, count: …}, a distribution {distribution: normal, mean: …, sd: …} "
-    "or {table: FILE, column: …} is needed"
+NEEDED = phrase(
+    "a list of values, a range {from: …, to: …, count: …}, a distribution {distribution: normal, "
+    "mean: …, sd: …} or {table: FILE, column: …} is needed"
 )
-TEXTS = "is a text or a choice; give a list of values"
+TEXTS = phrase("is a text or a choice; give a list of values")
 
 
 class ValueReader:
@@ -49,18 +50,18 @@ class ValueReader:
         if isinstance(given, list):
             return self._listed(asked, given)
         if not isinstance(given, dict):
-            self._report(asked, f"is {told(given)}; {NEEDED}.")
+            self._report(asked, Phrase("is {given}; {needed}.", given=told(given), needed=NEEDED))
             return None
         if "table" in given:
             return self._from_table(asked, given)
         if asked.unit is None:
-            self._report(asked, f"{TEXTS}, as in [{self._example(asked)}].")
+            self._report(asked, Phrase("{texts}, as in [{example}].", texts=TEXTS, example=self._example(asked)))
             return None
         return self._distributed(asked, given) if "distribution" in given else self._range(asked, given)
 
     def _example(self, asked: Input) -> str:
         options = getattr(asked.meta, "options", ())
-        return ", ".join(list(options)[:2]) or "first, second"
+        return ", ".join(list(options)[:2]) or phrase("first, second")
 
     # --- forms -------------------------------------------------------------------------------------------------------
 
@@ -73,11 +74,11 @@ class ValueReader:
         place = ConfigPlace(self.place.tree, (*self.place.root, asked.path), {("value",): (index,)})
         if given is None or (isinstance(given, str) and "${" in given):
             words = (
-                "has no value; write one, or remove the entry"
+                phrase("has no value; write one, or remove the entry")
                 if given is None
-                else f"is {told(given)}; a reference does not vary"
+                else Phrase("is {given}; a reference does not vary", given=told(given))
             )
-            self.problems.append(place.problem(("value",), f"{words}."))
+            self.problems.append(place.problem(("value",), Phrase("{words}.", words=words)))
             return None
         block = self._validated(form, {"value": given}, place)
         return stored(block.value) if block else None  # type: ignore[attr-defined]
@@ -93,7 +94,9 @@ class ValueReader:
         name = given["distribution"]
         if name not in DISTRIBUTIONS:
             near = nearest(name, DISTRIBUTIONS) if isinstance(name, str) else ""
-            words = f"is {told(name)}{near}; allowed: {', '.join(DISTRIBUTIONS)}"
+            words = Phrase(
+                "is {name}{near}; allowed: {names}", name=told(name), near=near, names=", ".join(DISTRIBUTIONS)
+            )
             self.problems.append(self._place(asked).problem(("distribution",), words))
             return None
         block: Any = self._validated(distribution_form(asked, name), given, self._place(asked))

@@ -12,7 +12,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.validation import ConfigPlace, told
 from diecut_report.errors import Problem, nearest
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
 from diecut_report.study.execution.result_columns import columns_of
 from diecut_report.study.storage.description import ResultColumn
@@ -51,8 +51,15 @@ class _Known:
     def nearest(self, name: str, among: frozenset[str]) -> str:
         near = nearest(name, sorted(among))
         names = sorted(among)
-        listed = ", ".join(names[:SHOWN]) + (f" and {len(names) - SHOWN} more" if len(names) > SHOWN else "")
-        return f"{near}." if near else f". Known: {listed or 'none'}."
+        if near or not names:
+            return Phrase("{near}.", near=near) if near else phrase(". Known: none.")
+        more = len(names) - SHOWN
+        listed = ", ".join(names[:SHOWN])
+        return (
+            Counted(more, ". Known: {names} and {n} more.", ". Known: {names} and {n} more.", names=listed)
+            if more > 0
+            else Phrase(". Known: {names}.", names=listed)
+        )
 
 
 class ResultReader:
@@ -98,17 +105,25 @@ class ResultReader:
             case ["best", number] if re.fullmatch(r"[1-9]\d{0,8}", number):
                 if not has_objectives:
                     self._report(
-                        ("reports",), "best needs objectives, such as objectives: [{minimise: cylinder.mass}]."
+                        ("reports",), phrase("best needs objectives, such as objectives: [{minimise: cylinder.mass}].")
                     )
                 return Reports("best", int(number))
-        words = f"is {told(given)}{nearest(str(given), ('none', 'failed', 'all'))}; allowed: none, failed, best N (best 10), all, or a list"
-        self._report(("reports",), f"{words} of variants' numbers, as in [0, 17].")
+        words = Phrase(
+            "is {given}{nearest}; allowed: none, failed, best N (best 10), all, or a list of variants' "
+            "numbers, as in [0, 17].",
+            given=told(given),
+            nearest=nearest(str(given), ("none", "failed", "all")),
+        )
+        self._report(("reports",), words)
         return Reports()
 
     def _listed(self, given: list[Any], count: int | None) -> Iterator[int]:
         for index, number in enumerate(given):
             if not isinstance(number, int) or isinstance(number, bool):
-                self._report(("reports", index), f"is {told(number)}; a variant has a whole number, as in [0, 17].")
+                self._report(
+                    ("reports", index),
+                    Phrase("is {number}; a variant has a whole number, as in [0, 17].", number=told(number)),
+                )
             elif number < 0 or (count is not None and number >= count):
                 self._report(("reports", index), _no_variant(number, count))
             else:
@@ -120,7 +135,13 @@ class ResultReader:
         given = {name: value for name, value in entry.items() if value is not None}
         if len(given) != 1:
             self._report(
-                key, f"names {len(given) or 'no'} outputs; give minimise or maximise with one, and an entry for each."
+                key,
+                Phrase(
+                    "names {count} outputs; give minimise or maximise with one, and an entry for each.",
+                    count=len(given),
+                )
+                if given
+                else phrase("names no outputs; give minimise or maximise with one, and an entry for each."),
             )
             return None
         (way, name), = given.items()  # fmt: skip
@@ -137,7 +158,9 @@ class ResultReader:
         if inner in known.utilisations:
             return True
         if inner in known.others:
-            self._report(key, f"{name} is a text or a yes/no, which is neither small nor great; name a number.")
+            self._report(
+                key, Phrase("{name} is a text or a yes/no, which is neither small nor great; name a number.", name=name)
+            )
             return False
         return self._is_output(key, name, known, inner)
 
@@ -160,7 +183,7 @@ class ResultReader:
             return False
         known, inner = found
         if inner in known.checks:
-            self._report(key, f"{name}: checks are kept in any case; remove it.")
+            self._report(key, Phrase("{name}: checks are kept in any case; remove it.", name=name))
             return False
         return inner in known.others or self._is_output(key, name, known, inner)
 
@@ -168,11 +191,11 @@ class ResultReader:
         if inner in known.numbers:
             return True
         among = known.utilisations if inner.startswith("checks.") else known.numbers | known.others
-        words = f"{name} is not an output{known.nearest(inner, among)}"
+        words = Phrase("{name} is not an output{nearest}", name=name, nearest=known.nearest(inner, among))
         if inner in known.rows:
-            words = f"{name} has a value for each part of a list; name one, as in {name}.0."
+            words = Phrase("{name} has a value for each part of a list; name one, as in {name}.0.", name=name)
         elif inner in known.curves:
-            words = f"{name} is a curve; only single values are kept here, curves by the key curves."
+            words = Phrase("{name} is a curve; only single values are kept here, curves by the key curves.", name=name)
         self._report(key, words)
         return False
 
@@ -184,11 +207,11 @@ class ResultReader:
         if inner not in known.curves:
             is_single = inner in known.numbers | known.others | known.rows
             words = (
-                " is a single value; name it in outputs."
+                Phrase("{name} is a single value; name it in outputs.", name=name)
                 if is_single
-                else f" is not a curve{known.nearest(inner, known.curves)}"
+                else Phrase("{name} is not a curve{nearest}", name=name, nearest=known.nearest(inner, known.curves))
             )
-            self._report(key, f"{name}{words}")
+            self._report(key, words)
         return inner in known.curves
 
     def _split(self, key: tuple[str | int, ...], name: str) -> tuple[_Known, str] | None:
@@ -199,11 +222,23 @@ class ResultReader:
             return self._all[first], inner
         if first in names:
             example = next(iter(sorted(self._all[first].numbers)), "output")
-            words = f"{name} names no output; add one, as in {first}.{example}."
+            words = Phrase(
+                "{name} names no output; add one, as in {first}.{example}.", name=name, first=first, example=example
+            )
         elif first == "mechanisms":
-            words = f"{name}: outputs are named without mechanisms., as in {inner or 'drive.crank_torque_peak'}."
+            words = Phrase(
+                "{name}: outputs are named without mechanisms., as in {inner}.",
+                name=name,
+                inner=inner or "drive.crank_torque_peak",
+            )
         else:
-            words = f"{name}: there is no mechanism {first!r}{nearest(first, names)}. Known: {', '.join(names)}."
+            words = Phrase(
+                "{name}: there is no mechanism {first}{nearest}. Known: {names}.",
+                name=name,
+                first=repr(first),
+                nearest=nearest(first, names),
+                names=", ".join(names),
+            )
         self._report(key, words)
         return None
 
@@ -238,5 +273,7 @@ class ResultReader:
 
 
 def _no_variant(number: int, count: int | None) -> str:
-    last = "" if count is None else f" to {count - 1}"
-    return f"there is no variant {number}; variants are numbered from 0{last}."
+    if count is None:
+        return Phrase("there is no variant {number}; variants are numbered from 0.", number=number)
+    words = "there is no variant {number}; variants are numbered from 0 to {last}."
+    return Phrase(words, number=number, last=count - 1)

@@ -14,11 +14,12 @@ from distributed.comm.addressing import get_address_host_port
 
 from diecut_report import __version__
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.execution.in_flight import Chunk, Function, Warm, forget, make_known, work
 
 AHEAD = 2  # chunks for each thread of a worker
 PATIENCE = 10  # seconds to reach the scheduler and to find a worker
-KEPT = "What was finished is kept: continue with --resume."
+KEPT = phrase("What was finished is kept: continue with --resume.")
 
 
 class Dask:
@@ -59,12 +60,17 @@ class Dask:
         try:
             self._client.wait_for_workers(1, timeout=PATIENCE)
         except TimeoutError as error:
-            words = f"The Dask scheduler has no workers. Start some: PYTHONSAFEPATH=1 dask worker {self._address}"
+            words = Phrase(
+                "The Dask scheduler has no workers. Start some: PYTHONSAFEPATH=1 dask worker {address}",
+                address=self._address,
+            )
             raise UserError(Problem(words)) from error
         try:
             self._client.register_plugin(_Study(self._warm), name=self._warm.key)
         except ModuleNotFoundError as error:
-            words = f"A worker of the Dask cluster has no module {error.name}: install the program there too."
+            words = Phrase(
+                "A worker of the Dask cluster has no module {name}: install the program there too.", name=error.name
+            )
             raise UserError(Problem(words)) from error
 
     @property
@@ -94,7 +100,15 @@ class Dask:
             raise self._gone()
 
     def _gone(self) -> UserError:
-        return UserError(Problem(f"The Dask scheduler at {self._address} cannot be reached any more. {KEPT}"))
+        return UserError(
+            Problem(
+                Phrase(
+                    "The Dask scheduler at {address} cannot be reached any more. {kept}",
+                    address=self._address,
+                    kept=KEPT,
+                )
+            )
+        )
 
 
 class _Study(WorkerPlugin):
@@ -114,7 +128,11 @@ class _Study(WorkerPlugin):
 
 def _work(version: str, key: str, function: Function, chunk: Chunk) -> Any:
     if version != __version__:
-        words = f"A worker of the Dask cluster has version {__version__} of the program, this is {version}. Install the same."
+        words = Phrase(
+            "A worker of the Dask cluster has version {theirs} of the program, this is {own}. Install the same.",
+            theirs=__version__,
+            own=version,
+        )
         raise UserError(Problem(words))
     return work(key, function, chunk)
 
@@ -127,8 +145,17 @@ def _connected(address: str) -> Any:
         client: Any = Client
         return client(address, timeout=PATIENCE, set_as_default=False)
     except ValueError as error:
-        words = f"{address!r} is not an address of a Dask scheduler ({error}). Give it as tcp://HOST:PORT."
+        words = Phrase(
+            "{address} is not an address of a Dask scheduler ({error}). Give it as tcp://HOST:PORT.",
+            address=repr(address),
+            error=error,
+        )
         raise UserError(Problem(words)) from error
     except OSError as error:
-        words = f"The Dask scheduler at {address} cannot be reached ({error}). Start it with `dask scheduler`, or correct the address."
+        words = Phrase(
+            "The Dask scheduler at {address} cannot be reached ({error}). Start it with `dask scheduler`, "
+            "or correct the address.",
+            address=address,
+            error=error,
+        )
         raise UserError(Problem(words)) from error

@@ -14,12 +14,15 @@ from dataclasses import dataclass
 import numpy as np
 
 from diecut_report.contract.inputs import Quantity
+from diecut_report.languages.phrases import phrase
 from diecut_report.quantities.units import to_display
 from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.optimise import Free
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.dropped_variants import judged_rows
 from diecut_report.study.execution.study_run import SMALL, described
 from diecut_report.study.execution.worker import Chunk, Done, Values, calculate, judged
+from diecut_report.study.sampling.variables import RangeVariable
 from diecut_report.study.storage.description import Description
 from diecut_report.study.storage.part_files import part_content, schema_of, table_of
 
@@ -113,6 +116,9 @@ def dry_run(study: Study) -> DryRun:
         by.update({each.text: int(np.sum(~each.holds(given))) for each in study.constraints if not each.outputs})
         for path, values in given.items():
             columns[path].see(values)
+    searched = study.optimise.variables if study.optimise and not study.is_sampled else ()
+    for variable in searched:  # through all of its range, of which the first generation takes some
+        columns[variable.path].see(_ends(variable))
     first = _first(study)
     row = study.sample.rows(first, first + 1)
     varied = tuple(extent.column(path, row[path]) for path, extent in columns.items())
@@ -123,6 +129,14 @@ def dry_run(study: Study) -> DryRun:
     return DryRun(
         study, study.sample.count, looked_at, dropped, by, varied, quantities, checks, known.parts, first, measured
     )
+
+
+def _ends(variable: Free) -> Values:
+    """Least and greatest value of a range, or all of a list."""
+    if isinstance(variable, RangeVariable):
+        return np.array([variable.low, variable.high])
+    texts = [value for value in variable.values if isinstance(value, str)]
+    return texts or np.array(variable.values)
 
 
 def _windows(count: int) -> Iterator[tuple[int, int]]:
@@ -140,7 +154,7 @@ def _first(study: Study) -> int:
         if found.holds.any():
             return start + int(np.argmax(found.holds))
         start += len(found.holds)
-    raise ValueError("the constraints leave no variant")
+    raise ValueError(phrase("the constraints leave no variant"))
 
 
 class _Extent:

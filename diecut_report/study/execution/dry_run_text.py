@@ -7,6 +7,7 @@ from typing import Any
 
 from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import localised, say, say_counted
+from diecut_report.study.definition.optimise import Optimise
 from diecut_report.study.execution.dry_run import DryRun, Measured, VariedColumn
 
 VERDICTS = {
@@ -26,7 +27,10 @@ SIZES = ((1e9, "GB"), (1e6, "MB"), (1e3, "kB"), (1, "B"))
 
 
 def lines(found: DryRun) -> Iterator[str]:
-    """Yield what is known of a study, a line each."""
+    """Yield what is known of a study, a line each; of one that only searches, what is searched for."""
+    if found.study.optimise is not None and not found.study.is_sampled:
+        yield from search_lines(found, found.study.optimise)
+        return
     yield f"{found.study.file}: {_variants(found)}"
     yield from (f"  {line}" for line in _dropped(found))
     yield from (f"  {line}" for line in _varied(found))
@@ -39,6 +43,41 @@ def lines(found: DryRun) -> Iterator[str]:
     words = "of each variant: {quantities} quantities, {checks} checks, {curves} curves; part files: {parts}"
     yield "  " + say(words, **told)
     yield from (f"  {line}" for line in _taken(found, found.measured))
+
+
+def search_lines(found: DryRun, asked: Optimise) -> Iterator[str]:
+    """Yield what is known of a search: how far it goes, for what, through what, and how long it takes."""
+    words = "a search through {n} machines, {population} in a generation"
+    yield f"{found.study.file}: {say(words, n=asked.evaluations, population=asked.population)}"
+    goals = [
+        say("least {quantity}" if each.minimise else "greatest {quantity}", quantity=each.output)
+        for each in asked.objectives
+    ]
+    yield "  " + say("searched for: {goals}", goals=", ".join(goals))
+    if asked.is_passing:
+        yield "  " + say("allowed are machines of which no check fails")
+    else:
+        yield "  " + say("allowed are also machines of which checks fail")
+    yield from (f"  {line}" for line in _dropped(found))
+    rows = [(each.path, _with_unit(localised(each.values), each)) for each in found.varied]
+    width = max(len(path) for path, _ in rows)
+    yield from (f"  {path:{width}}  {values}" for path, values in rows)
+    told = {"quantities": found.quantities, "checks": found.checks, "curves": len(found.study.curves)}
+    yield "  " + say("of each machine: {quantities} quantities, {checks} checks, {curves} curves", **told)
+    yield f"  {_calculated(found.measured)}"
+    words = "time: {each} a machine, about {whole} on one processor, without page and reports"
+    seconds = found.measured.seconds
+    yield "  " + say(words, each=_duration(seconds), whole=_duration(asked.evaluations * seconds))
+
+
+def search_data(asked: Optimise) -> dict[str, Any]:
+    """Return what is searched for as plain data."""
+    return {
+        "evaluations": asked.evaluations,
+        "population": asked.population,
+        "objectives": [{"minimise" if each.minimise else "maximise": each.output} for each in asked.objectives],
+        "passing": asked.is_passing,
+    }
 
 
 def _variants(found: DryRun) -> str:
@@ -79,12 +118,7 @@ def _with_unit(text: str, each: VariedColumn) -> str:
 
 
 def _taken(found: DryRun, measured: Measured) -> Iterator[str]:
-    counts = [
-        say(words, n=measured.statuses[status]) for status, words in VERDICTS.items() if measured.statuses.get(status)
-    ]
-    if measured.dropped:
-        counts.append(say("{n} dropped by their results", n=measured.dropped))
-    yield say("calculated {n} to measure: {counts}", n=measured.variants, counts=", ".join(counts))
+    yield _calculated(measured)
     one = "time: {each} a variant, about {whole} in {n} process, without summary and reports"
     many = "time: {each} a variant, about {whole} in {n} processes, without summary and reports"
     yield say_counted(found.processes, one, many, each=_duration(measured.seconds), whole=_duration(found.seconds))
@@ -95,6 +129,15 @@ def _taken(found: DryRun, measured: Measured) -> Iterator[str]:
         yield say(words, n=tried, whole=_duration(tried * measured.seconds))
     if measured.slow:
         yield say("calculated variant by variant, which is slow: {kinds}", kinds=", ".join(measured.slow))
+
+
+def _calculated(measured: Measured) -> str:
+    counts = [
+        say(words, n=measured.statuses[status]) for status, words in VERDICTS.items() if measured.statuses.get(status)
+    ]
+    if measured.dropped:
+        counts.append(say("{n} dropped by their results", n=measured.dropped))
+    return say("calculated {n} to measure: {counts}", n=measured.variants, counts=", ".join(counts))
 
 
 def _duration(seconds: float) -> str:
@@ -135,5 +178,5 @@ def data(found: DryRun) -> dict[str, Any]:
         "seconds": found.seconds, "bytes": round(found.bytes_),
     }  # fmt: skip
     if found.study.optimise is not None:
-        told["optimise"] = {"evaluations": found.study.optimise.evaluations}
+        told["optimise"] = search_data(found.study.optimise)
     return told | {"measured": taken}

@@ -6,6 +6,7 @@ One interface, `results`; the same function on the same chunks gives the same re
 from __future__ import annotations
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import phrase
 from diecut_report.study.execution.in_flight import ChunkFailed, Engine, InProcess, Warm, results
 from diecut_report.study.execution.process_pool import Pool
 
@@ -19,6 +20,8 @@ def dask_cluster(address: str, warm: Warm) -> Engine:
     except ModuleNotFoundError as error:
         if error.name not in ("dask", "distributed"):
             raise
-        words = "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
+        words = phrase(
+            "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
+        )
         raise UserError(Problem(words)) from error
     return Dask(address, warm)

@@ -10,6 +10,7 @@ from dataclasses import dataclass, field
 from typing import Any, Protocol, Self
 
 from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.languages.phrases import Phrase
 
 Chunk = Any
 Function = Callable[[Any, Chunk], Any]  # (what the worker has loaded, chunk) -> result
@@ -163,10 +164,12 @@ class _InFlightChunks:
 
 
 def _gave_up(chunk: Chunk) -> UserError:
-    words = (
-        f"The process that calculates {chunk} ended by itself {TRIES} times or more; most often memory ran "
-        "out, or a plugin computed far longer than --chunk-limit allows. "
-        "What was finished is kept: continue with --resume, and with fewer --jobs or workers with more memory."
+    words = Phrase(
+        "The process that calculates {chunk} ended by itself {tries} times or more; most often memory "
+        "ran out, or a plugin computed far longer than --chunk-limit allows. What was finished is kept: "
+        "continue with --resume, and with fewer --jobs or workers with more memory.",
+        chunk=chunk,
+        tries=TRIES,
     )
     return UserError(Problem(words))
 

@@ -22,8 +22,9 @@ from diecut_report.engine import Calculation, Impossible, ImpossibleTogether, Un
 from diecut_report.engine.phases import PhaseHandle
 from diecut_report.errors import PluginError, Problem
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.plausible import without_rounding
-from diecut_report.results.press_run import Run
+from diecut_report.results.press_run import Run, Tell
 from diecut_report.results.taken_over import Absent, number, output, require_facts
 from diecut_report.study.definition.base_inputs import Input, with_values
 
@@ -76,8 +77,14 @@ class CalculatedVariants:
             calculation.release()
 
 
-def calculated(base: Config, values: Values, count: int) -> CalculatedVariants:
+def untold(_name: str) -> None:
+    """Tell nobody which mechanism comes next."""
+
+
+def calculated(base: Config, values: Values, count: int, tell: Tell = untold) -> CalculatedVariants:
     """Calculate all mechanisms of the base for so many variants: numbers as arrays of shape (count,), SI; texts the same for all.
+
+    ``tell`` is called with the name of each mechanism before it is calculated; what it raises ends the calculation.
 
     Raises ``NotOnArrays`` where a plugin cannot take arrays, ``Mixed`` where not all variants are calculated in the same way.
     """
@@ -87,7 +94,7 @@ def calculated(base: Config, values: Values, count: int) -> CalculatedVariants:
     if problems:
         variants.reasons = dict.fromkeys(range(count), _words(problems[0]))
         return variants
-    run = _Rows(config, variants)
+    run = _Rows(config, variants, tell)
     variants.calculations = run.calculations
     return variants
 
@@ -97,9 +104,9 @@ class _Rows(Run):
 
     _number = staticmethod(np.asarray)
 
-    def __init__(self, config: Config, variants: CalculatedVariants) -> None:
+    def __init__(self, config: Config, variants: CalculatedVariants, tell: Tell) -> None:
         self.variants = variants
-        super().__init__(config, lambda _: None)
+        super().__init__(config, tell)
         self._all_wrong(self.problems)
 
     def _comparisons(self) -> None:
@@ -118,18 +125,18 @@ class _Rows(Run):
             return self._phase(calculation, name, target)
         column = number(calculation, name)
         if column is None:
-            raise Absent("does not exist for these variants.")
+            raise Absent(phrase("does not exist for these variants."))
         if column.dtype == object:
             if self.variants.count == 1:
                 return column[0]
-            raise NotOnArrays(calculation.mechanism.kind, f"its text {name} is referred to")
+            raise NotOnArrays(calculation.mechanism.kind, Phrase("its text {name} is referred to", name=name))
         return SI(without_rounding(column.astype(float), str(target.unit)), str(target.unit), target.path)
 
     def _phase(self, calculation: Calculation, name: str, target: Target) -> PhaseHandle:
         """A phase of all variants; where it is absent that is the variant's reason."""
         handle = PhaseHandle(calculation, name.removeprefix(PREFIX), f"${{{target.path}}}")
         without = [row for row in range(self.variants.count) if not handle.intervals(row)]
-        self._reason(without, f"${{{target.path}}} does not apply to this machine.")
+        self._reason(without, Phrase("${{path}} does not apply to this machine.", path=target.path))
         return handle
 
     def _with_values(self, instance: Instance, own: dict[Node, Target]) -> dict[str, Any]:
@@ -171,7 +178,7 @@ class _Rows(Run):
             return value if not isinstance(value.value, np.ndarray) else SI(value.value[()], value.unit, value.told)
         if not isinstance(meta, Quantity):  # one value of a curve given as a list
             if value.value.size > 1:
-                words = f"a curve given as a list refers to {value.told}, which varies"
+                words = Phrase("a curve given as a list refers to {told}, which varies", told=value.told)
                 raise NotOnArrays(self.config.kinds[instance.name], words)
             return SI(value.value.item(), value.unit, value.told)
         column = np.broadcast_to(value.value, (self.variants.count,)).astype(float)
@@ -197,11 +204,14 @@ class _Rows(Run):
         assert instance.mechanism is not None
         if len(self.variants.reasons) == self.variants.count:
             return
+        self.tell(name)
         try:
             with of_plugin(instance.mechanism.kind):
                 found = calculate(instance.mechanism, flatten(block), self.variants.count)
         except ImpossibleTogether as fault:
-            raise NotOnArrays(instance.mechanism.kind, f"it refuses some of many: {fault.reasons[0][1]}") from fault
+            raise NotOnArrays(
+                instance.mechanism.kind, Phrase("it refuses some of many: {reasons}", reasons=fault.reasons[0][1])
+            ) from fault
         except (Impossible, Unproven) as fault:
             self._alone(name, instance, fault)
             return
@@ -224,7 +234,11 @@ def _told(instance: Instance, path: str, message: str) -> str:
 
 def _valueless(value: SI) -> str:
     """What is told of a number that is missing: of what an expression gives, why."""
-    return f"“{value.told}” has no value: {WITHOUT_VALUE}" if "${" in value.told else "has no value"
+    return (
+        Phrase("“{told}” has no value: {without_value}", told=value.told, without_value=WITHOUT_VALUE)
+        if "${" in value.told
+        else "has no value"
+    )
 
 
 def _words(problem: Problem) -> str:

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.errors import Problem, UserError
-from diecut_report.languages.phrases import phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.conditions.constraints import why_dropped
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.dropped_variants import judged_rows, without_value
@@ -22,8 +22,10 @@ def refuse_huge(study: Study, agreed: bool) -> None:
     """Require a yes to a sample that is larger than one would calculate by mistake."""
     count = study.sample.count
     if count > LARGEST and not agreed:
-        words = (
-            f"the sample has {count:,} variants, more than {LARGEST:,}. Vary less, or give --yes to calculate them all."
+        words = Phrase(
+            "the sample has {count} variants, more than {largest}. Vary less, or give --yes to calculate them all.",
+            count=format(count, ","),
+            largest=format(LARGEST, ","),
         )
         raise UserError(Problem(words, str(study.file), path="sample"))
 
@@ -33,5 +35,9 @@ def refuse_empty(study: Study) -> None:
     if not study.constraints or any(found.holds.any() for found in judged_rows(study)):
         return
     why = why_dropped({"without_value": without_value(study)})
-    words = f"the constraints drop all {study.sample.count:,} variants of the sample{why}. Loosen one of them, or vary other values."
+    words = Phrase(
+        "the constraints drop all {count} variants of the sample{why}. Loosen one of them, or vary other values.",
+        count=format(study.sample.count, ","),
+        why=why,
+    )
     raise UserError(Problem(words, str(study.file), path="constraints"))

@@ -85,8 +85,13 @@ class StudyOutcome:
 
     @property
     def is_failed(self) -> bool:
-        """Return whether a variant fails a check; variants that cannot exist do not count."""
-        return self.counts.get("fail", 0) > 0
+        """Return whether a variant fails a check, or there is none that can exist; single ones that cannot do not count."""
+        return self.counts.get("fail", 0) > 0 or self.has_none
+
+    @property
+    def has_none(self) -> bool:
+        """Return whether all variants are in error: nothing was calculated of what was asked for."""
+        return 0 < self.counts.get("variants", 0) == self.counts.get("error", 0)
 
     @property
     def is_broken(self) -> bool:

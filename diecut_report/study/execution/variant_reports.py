@@ -19,6 +19,7 @@ from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution.engines import Engine, InProcess, Pool, Warm, results
 from diecut_report.study.execution.study_run import Where
+from diecut_report.study.storage.state_form import continuing
 from diecut_report.study.storage.store import Store
 
 FOLDER = "reports"
@@ -78,9 +79,13 @@ def write_chosen(
     if len(missing) > MANY and not agreed:
         words = (
             "{count} variants are to get a full report, each of which takes some seconds; none was made. "
-            "Make them all with: batch --resume {folder} --yes; or one: report {folder}#{first}"
+            "Make them all with: {continuing} --yes; or one: report {folder}#{first}"
         )
-        return (*chosen.notes, Phrase(words, count=f"{len(missing):,}", folder=store.directory, first=missing[0])), {}
+        told = continuing(store.directory, store.state["columns"])
+        return (
+            *chosen.notes,
+            Phrase(words, count=f"{len(missing):,}", continuing=told, folder=store.directory, first=missing[0]),
+        ), {}
     broken: dict[str, str] = {}
     if missing:
         with _engine(store, where, len(missing)) as engine:

@@ -11,10 +11,11 @@ import numpy as np
 from diecut_report.config.loader import Config
 from diecut_report.contract.inputs import POINTS
 from diecut_report.expressions import Array
+from diecut_report.results.press_run import Tell
 from diecut_report.results.unchecked import NOT_CHECKED
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution import result_columns
-from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated
+from diecut_report.study.execution.press_batch import CalculatedVariants, Mixed, NotOnArrays, calculated, untold
 
 TOGETHER = 1024  # variants that are calculated at a time: fewer cost more per variant, more take more memory
 Given = Mapping[Input, Array | list[str]]
@@ -30,6 +31,7 @@ class Rows:
     count: int
     curves: Sequence[str] = ()
     further: Further | None = None
+    tell: Tell = untold
     columns: dict[str, Array] = field(default_factory=dict)
     status: Array = field(init=False)
     governing: Array = field(init=False)
@@ -44,17 +46,22 @@ class Rows:
 
 
 def calculate_rows(
-    base: Config, given: Given, count: int, curves: Sequence[str] = (), further: Further | None = None
+    base: Config,
+    given: Given,
+    count: int,
+    curves: Sequence[str] = (),
+    further: Further | None = None,
+    tell: Tell = untold,
 ) -> Rows:
     """Calculate all outputs and checks of the base, and these curves, with other values: arrays of shape (count,), SI, or texts.
 
-    ``further`` gives more columns of variants that are calculated.
+    ``further`` gives more columns of variants that are calculated; ``tell`` is as in ``calculated``.
 
     A variant that cannot exist has the status ``error`` and its reason. Variants with unlike texts are calculated in groups;
     a plugin that cannot take arrays makes its variants be calculated one by one, which ``slow`` reports. One that breaks for
     a variant alone leaves it in error, and is in ``broken``.
     """
-    rows = Rows(count, curves, further)
+    rows = Rows(count, curves, further, tell)
     if not count:  # of a chunk that constraints have emptied
         return rows
     for alike, texts in _groups(given, count):
@@ -81,7 +88,7 @@ def _is_common(asked: Input) -> bool:
 
 def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, Any], rows: Rows, chosen: Array) -> None:
     try:
-        variants = calculated(base, {**numbers, **texts}, len(chosen))
+        variants = calculated(base, {**numbers, **texts}, len(chosen), rows.tell)
         _kept(variants, rows, chosen)
         variants.release()
     except Mixed as mixed:

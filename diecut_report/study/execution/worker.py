@@ -16,11 +16,13 @@ from diecut_report.conditions.numpy_emitter import JudgedRows
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.conditions.constraints import Constraint
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.process_settings import settle
 from diecut_report.study.execution.time_limit import Overran, blamed, limited
 from diecut_report.study.execution.variant_rows import Given, Rows, calculate_rows
+from diecut_report.study.storage.description import code_told
 
 Values = Array | list[str]
 
@@ -70,10 +72,12 @@ def load(study: bytes, files: Mapping[str, bytes], plugins: Sequence[str], sourc
 def _refuse_other_code(begun: Mapping[str, str], here: Mapping[str, str]) -> None:
     other = [name for name in sorted(begun.keys() | here.keys()) if begun.get(name) != here.get(name)]
     if other:
-        words = (
-            f"The source of the {other[0]} is not the one that this run was begun with: it was changed meanwhile, or another "
-            "machine of the cluster has another version. What is calculated is kept; put the source back and continue with "
-            "--resume, or calculate all variants anew in another folder."
+        words = Phrase(
+            "The source of the {name} is not the one that this run was begun with: it was changed "
+            "meanwhile, or another machine of the cluster has another version. What is calculated is kept; "
+            "put the source back and continue with --resume, or calculate all variants anew in another "
+            "folder.",
+            name=code_told(other[0]),
         )
         raise UserError(Problem(words))
 

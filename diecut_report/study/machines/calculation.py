@@ -14,6 +14,7 @@ from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.execution.engines import Engine, InProcess, Pool, Warm, results
 from diecut_report.study.execution.process_settings import settle
 
@@ -39,34 +40,58 @@ class CheckedMachine:
         return found
 
 
-def configurations(given: Sequence[Path]) -> list[Path]:
-    """Return the files to calculate: those named, and of folders all configurations, by name; UserError where there are none.
+@dataclass
+class FoundFiles:
+    """Hold the files to calculate, and those of folders that are passed over, each with why."""
 
-    Studies and other YAML files of a folder are left out.
-    """
-    found: list[Path] = []
+    files: list[Path] = field(default_factory=list)
+    passed_over: dict[Path, str] = field(default_factory=dict)
+
+    def look_into(self, folder: Path) -> None:
+        """Take all configurations of a folder, by name; studies and other YAML files are passed over."""
+        for path in sorted(path for path in folder.rglob("*") if path.suffix in ENDINGS and path.is_file()):
+            why = _why_no_configuration(path)
+            if why:
+                self.passed_over[path] = why
+            else:
+                self.files.append(path)
+
+
+def configurations(given: Sequence[Path]) -> FoundFiles:
+    """Return the files to calculate: those named, and of folders all configurations; UserError where there are none."""
+    made = FoundFiles()
     for path in given:
-        found += _of_folder(path) if path.is_dir() else [path]
+        if path.is_dir():
+            made.look_into(path)
+        else:
+            made.files.append(path)
+    found = made.files = list(dict.fromkeys(made.files))
     if not found:
-        words = f"There is no configuration in {', '.join(map(str, given))}. Name files, or folders with .yaml files."
-        raise UserError(Problem(words))
+        words = Phrase(
+            "There is no configuration in {given}. Name files, or folders with .yaml files.",
+            given=", ".join(map(str, given)),
+        )
+        others = [Problem(Phrase("passed over: {why}", why=why), str(path)) for path, why in made.passed_over.items()]
+        raise UserError([Problem(words), *others])
     if len(found) > MOST:
-        raise UserError(Problem(f"These are {len(found)} configurations; at most {MOST} are checked at once."))
-    return list(dict.fromkeys(found))
+        words = Phrase(
+            "These are {count} configurations; at most {most} are checked at once.", count=len(found), most=MOST
+        )
+        raise UserError(Problem(words))
+    return made
 
 
-def _of_folder(folder: Path) -> list[Path]:
-    files = sorted(path for path in folder.rglob("*") if path.suffix in ENDINGS and path.is_file())
-    return [path for path in files if _is_configuration(path)]
-
-
-def _is_configuration(path: Path) -> bool:
-    """Whether a file of a folder is meant; one that cannot be read is, so that its fault is told."""
+def _why_no_configuration(path: Path) -> str:
+    """Why a file of a folder is not meant, empty where it is: also one that cannot be read, so that its fault is told."""
     try:
-        data = yaml_tree.load(path).data
+        tree = yaml_tree.load(path)
     except UserError:
-        return True
-    return isinstance(data, dict) and "mechanisms" in data
+        return ""
+    if isinstance(tree.data, dict) and "mechanisms" in tree.data:
+        return ""
+    if is_study(tree):
+        return phrase("it is a study, which batch calculates")
+    return phrase("it has no key mechanisms, and so is not a configuration")
 
 
 def is_study(tree: Tree) -> bool:

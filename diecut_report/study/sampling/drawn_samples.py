@@ -12,6 +12,7 @@ from functools import lru_cache
 import numpy as np
 
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.sampling.listed_samples import Varied
 from diecut_report.study.sampling.saltelli import Saltelli
 from diecut_report.study.sampling.variables import SampleError, Values
@@ -31,9 +32,9 @@ class _Drawn(Varied):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.points < 1:
-            raise SampleError("the sample is empty; give count: 1 or more")
+            raise SampleError(phrase("the sample is empty; give count: 1 or more"))
         if self.seed < 0:
-            raise SampleError("seed must be 0 or more")
+            raise SampleError(phrase("seed must be 0 or more"))
 
     @property
     def count(self) -> int:
@@ -47,7 +48,10 @@ class LatinHypercube(_Drawn):
     @property
     def note(self) -> str | None:
         held = 8 * self.points * len(self.variables)
-        words = f"The Latin hypercube holds {held / 2**20:.0f} MB in each process; method: sobol holds nothing."
+        words = Phrase(
+            "The Latin hypercube holds {held} MB in each process; method: sobol holds nothing.",
+            held=format(held / 2**20, ".0f"),
+        )
         return words if held >= LARGE else None
 
     def _rows(self, start: int, stop: int) -> dict[str, Values]:
@@ -75,9 +79,19 @@ class Sobol(_Drawn):
     def __post_init__(self) -> None:
         super().__post_init__()
         if self.points > SOBOL_POINTS:
-            raise SampleError(f"sample: sobol has at most {SOBOL_POINTS} different points; give a smaller count")
+            raise SampleError(
+                Phrase(
+                    "sample: sobol has at most {sobol_points} different points; give a smaller count",
+                    sobol_points=SOBOL_POINTS,
+                )
+            )
         if self._dimensions > SOBOL_DIMENSIONS:
-            raise SampleError(f"sample: sobol serves at most {SOBOL_DIMENSIONS} dimensions; vary fewer paths")
+            raise SampleError(
+                Phrase(
+                    "sample: sobol serves at most {sobol_dimensions} dimensions; vary fewer paths",
+                    sobol_dimensions=SOBOL_DIMENSIONS,
+                )
+            )
 
     @property
     def _dimensions(self) -> int:
@@ -86,8 +100,15 @@ class Sobol(_Drawn):
     @property
     def note(self) -> str | None:
         below = 2 ** (self.points.bit_length() - 1)
-        words = f"Sobol points are balanced where their count is a power of two: {below} or {2 * below}"
-        return None if below == self.points else f"{words} serve better than {self.points}."
+        if below == self.points:
+            return None
+        return Phrase(
+            "Sobol points are balanced where their count is a power of two: {below} or {above} serve better "
+            "than {points}.",
+            below=below,
+            above=2 * below,
+            points=self.points,
+        )
 
     def _rows(self, start: int, stop: int) -> dict[str, Values]:
         shares = _sobol(self._dimensions, self.seed, start, stop).T

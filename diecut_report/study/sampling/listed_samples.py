@@ -16,6 +16,7 @@ from functools import cached_property
 import numpy as np
 
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, joined, phrase
 from diecut_report.study.sampling.saltelli import Saltelli
 from diecut_report.study.sampling.variables import ChoiceVariable, RangeVariable, SampleError, Values, Variable
 
@@ -61,10 +62,10 @@ class Varied(Sample):
 
     def __post_init__(self) -> None:
         if not self.variables:
-            raise SampleError("nothing is varied; give at least one path under vary")
+            raise SampleError(phrase("nothing is varied; give at least one path under vary"))
         for path, times in Counter(self.paths).items():
             if times > 1:
-                raise SampleError("is varied more than once; keep one of them", path)
+                raise SampleError(phrase("is varied more than once; keep one of them"), path)
 
     @property
     def paths(self) -> tuple[str, ...]:
@@ -82,12 +83,15 @@ class _Listed(Varied):
         super().__post_init__()
         for variable in self.variables:
             if not isinstance(variable, ChoiceVariable | RangeVariable):
-                words = f"a distribution has no list of values for sample: {self.method}"
+                words = Phrase("a distribution has no list of values for sample: {method}", method=self.method)
                 raise SampleError(
-                    f"{words}; give a list or a range, or sample: latin_hypercube or sobol", variable.path
+                    Phrase("{words}; give a list or a range, or sample: latin_hypercube or sobol", words=words),
+                    variable.path,
                 )
             if variable.count is None:
-                raise SampleError(f"count is missing; sample: {self.method} needs it", variable.path)
+                raise SampleError(
+                    Phrase("count is missing; sample: {method} needs it", method=self.method), variable.path
+                )
 
     @cached_property
     def counts(self) -> tuple[int, ...]:
@@ -125,8 +129,19 @@ class Zip(_Listed):
     def __post_init__(self) -> None:
         super().__post_init__()
         if len(set(self.counts)) > 1:
-            lengths = ", ".join(f"{path} has {count}" for path, count in zip(self.paths, self.counts, strict=True))
-            raise SampleError(f"sample: zip needs as many values of each path: {lengths}. Fill up, or use sample: grid")
+            lengths = joined(
+                (
+                    Phrase("{path} has {count}", path=path, count=count)
+                    for path, count in zip(self.paths, self.counts, strict=True)
+                ),
+                ", ",
+            )
+            raise SampleError(
+                Phrase(
+                    "sample: zip needs as many values of each path: {lengths}. Fill up, or use sample: grid",
+                    lengths=lengths,
+                )
+            )
 
     @property
     def count(self) -> int:
@@ -145,12 +160,12 @@ class TableSample(Sample):
     def __post_init__(self) -> None:
         lengths = {path: len(column) for path, column in self.columns.items()}
         if not lengths:
-            raise SampleError("the table has no columns; give at least one, headed by a path")
+            raise SampleError(phrase("the table has no columns; give at least one, headed by a path"))
         if len(set(lengths.values())) > 1:
-            told = ", ".join(f"{path} has {length}" for path, length in lengths.items())
-            raise SampleError(f"the columns of the table are of unlike lengths: {told}")
+            told = joined((Phrase("{path} has {count}", path=path, count=n) for path, n in lengths.items()), ", ")
+            raise SampleError(Phrase("the columns of the table are of unlike lengths: {lengths}", lengths=told))
         if 0 in lengths.values():
-            raise SampleError("the table has no rows below its header; give at least one")
+            raise SampleError(phrase("the table has no rows below its header; give at least one"))
 
     @property
     def count(self) -> int:

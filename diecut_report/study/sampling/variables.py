@@ -16,6 +16,7 @@ from functools import cached_property
 import numpy as np
 
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 
 Values = Array | list[str]
 
@@ -41,7 +42,7 @@ class _Variable:
 
     def _finite(self, **numbers: float | None) -> None:
         for name, number in numbers.items():
-            self._demand(number is None or math.isfinite(number), f"{name} must be a finite number")
+            self._demand(number is None or math.isfinite(number), Phrase("{name} must be a finite number", name=name))
 
 
 @dataclass(frozen=True)
@@ -51,11 +52,11 @@ class ChoiceVariable(_Variable):
     values: tuple[float, ...] | tuple[str, ...]
 
     def __post_init__(self) -> None:
-        self._demand(len(self.values) > 0, "the list is empty; give at least one value")
+        self._demand(len(self.values) > 0, phrase("the list is empty; give at least one value"))
         texts = {isinstance(value, str) for value in self.values}
-        self._demand(len(texts) == 1, "the list mixes numbers and texts; give one or the other")
+        self._demand(len(texts) == 1, phrase("the list mixes numbers and texts; give one or the other"))
         finite = texts == {True} or bool(np.isfinite(np.asarray(self.values, dtype=float)).all())
-        self._demand(finite, "the list holds a value that is not a finite number")
+        self._demand(finite, phrase("the list holds a value that is not a finite number"))
 
     @property
     def count(self) -> int:
@@ -90,31 +91,38 @@ class RangeVariable(_Variable):
 
     def __post_init__(self) -> None:
         self._finite(**{"from": self.low, "to": self.high})
-        self._demand(not self.log or min(self.low, self.high) > 0, "spacing: log needs from and to above zero")
+        self._demand(not self.log or min(self.low, self.high) > 0, phrase("spacing: log needs from and to above zero"))
         if self.integer:
             _whole(self, **{"from": self.low, "to": self.high})
         if self.count is not None:
             self._judge_count(self.count)
 
     def _judge_count(self, count: int) -> None:
-        self._demand(count >= 1, "count must be 1 or more")
-        self._demand(count > 1 or self.low == self.high, "count: 1 gives one value, but from and to differ")
+        self._demand(count >= 1, phrase("count must be 1 or more"))
+        self._demand(count > 1 or self.low == self.high, phrase("count: 1 gives one value, but from and to differ"))
         if self.integer and self.low != self.high:
             self._judge_whole(count, int(abs(self.high - self.low)) + 1)
 
     def _judge_whole(self, count: int, there: int) -> None:
-        self._demand(count <= there, f"from … to holds {there} whole numbers, count: {count} is more")
+        self._demand(
+            count <= there,
+            Phrase("from … to holds {there} whole numbers, count: {count} is more", there=there, count=count),
+        )
         if self.log:
             different = len(np.unique(self.at(np.arange(count))))
-            words = (
-                f"count: {count} with spacing: log gives only {different} different whole numbers; write them as a list"
+            words = Phrase(
+                "count: {count} with spacing: log gives only {different} different whole numbers; write them as a list",
+                count=count,
+                different=different,
             )
             self._demand(different == count, words)
 
     def at(self, number: Array) -> Array:
         """Return the values with these numbers, counted from 0, of the `count` values."""
         if self.count is None:
-            raise SampleError("count is missing; a grid or zip needs to know how many values the range has", self.path)
+            raise SampleError(
+                phrase("count is missing; a grid or zip needs to know how many values the range has"), self.path
+            )
         steps = max(self.count - 1, 1)
         if self.integer and not self.log:
             doubled = 2 * number * round(self.high - self.low) + steps
@@ -160,7 +168,7 @@ class Uniform(_Distribution):
 
     def __post_init__(self) -> None:
         self._finite(low=self.low, high=self.high)
-        self._demand(self.low < self.high, "low must be below high")
+        self._demand(self.low < self.high, phrase("low must be below high"))
         if self.integer:
             _whole(self, low=self.low, high=self.high)
 
@@ -182,11 +190,13 @@ class Normal(_Distribution):
 
     def __post_init__(self) -> None:
         self._finite(mean=self.mean, sd=self.sd, low=self.low, high=self.high)
-        self._demand(self.sd > 0, "sd (standard deviation) must be above zero")
+        self._demand(self.sd > 0, phrase("sd (standard deviation) must be above zero"))
         low, high = self._limits()
-        self._demand(low < high, "low must be below high")
+        self._demand(low < high, phrase("low must be below high"))
         near = (low - self.mean) / self.sd < 8 and (high - self.mean) / self.sd > -8
-        self._demand(near, "the mean lies more than 8 standard deviations outside low … high; change one of them")
+        self._demand(
+            near, phrase("the mean lies more than 8 standard deviations outside low … high; change one of them")
+        )
         if self.integer:
             _whole(self, low=self.low, high=self.high)
 
@@ -220,8 +230,8 @@ class Triangular(_Distribution):
 
     def __post_init__(self) -> None:
         self._finite(low=self.low, mode=self.mode, high=self.high)
-        self._demand(self.low < self.high, "low must be below high")
-        self._demand(self.low <= self.mode <= self.high, "mode must lie between low and high")
+        self._demand(self.low < self.high, phrase("low must be below high"))
+        self._demand(self.low <= self.mode <= self.high, phrase("mode must lie between low and high"))
         if self.integer:
             _whole(self, low=self.low, high=self.high)
 
@@ -246,4 +256,6 @@ def _cell(share: Array, count: int) -> Array:
 def _whole(variable: Variable, **limits: float | None) -> None:
     for name, limit in limits.items():
         if limit is not None and limit != math.floor(limit):
-            raise SampleError(f"{name} must be a whole number, as {variable.path} is one", variable.path)
+            raise SampleError(
+                Phrase("{name} must be a whole number, as {path} is one", name=name, path=variable.path), variable.path
+            )

@@ -11,6 +11,7 @@ from typing import Any, Literal
 
 from diecut_report import __version__
 from diecut_report.errors import Problem
+from diecut_report.languages.phrases import Phrase, joined, phrase
 
 SCHEMA_VERSION = 1
 CHUNK = 8192  # variants a part file
@@ -130,16 +131,28 @@ def from_data(data: Data) -> Description:
 
 def changes(before: Description, now: Description) -> Iterator[Problem]:
     """Yield what of a study has changed since its results were begun; the parts' size may differ and is not a change."""
-    yield from _changed("study file", before.study, now.study)
-    yield from _changed("base configuration", before.base, now.base)
+    yield from _changed(phrase("study file"), before.study, now.study)
+    yield from _changed(phrase("base configuration"), before.base, now.base)
     yield from _other_tables(before, now)
     if before.program != now.program:
-        words = f"The results were begun with version {before.program} of the program; this is {now.program}."
+        words = Phrase(
+            "The results were begun with version {old} of the program; this is {new}.",
+            old=before.program,
+            new=now.program,
+        )
         yield Problem(words, now.study.file)
     for kind in sorted(before.plugins.keys() | now.plugins.keys()):
-        old, new = (versions.get(kind, "absent") for versions in (before.plugins, now.plugins))
+        old, new = (versions.get(kind, phrase("absent")) for versions in (before.plugins, now.plugins))
         if old != new:
-            yield Problem(f"The plugin {kind!r} was {old} when the results were begun; it is {new}.", now.study.file)
+            yield Problem(
+                Phrase(
+                    "The plugin {kind} was {old} when the results were begun; it is {new}.",
+                    kind=repr(kind),
+                    old=old,
+                    new=new,
+                ),
+                now.study.file,
+            )
     yield from _other_code(before, now)
     yield from _other_rows(before, now)
 
@@ -147,36 +160,62 @@ def changes(before: Description, now: Description) -> Iterator[Problem]:
 def _other_code(before: Description, now: Description) -> Iterator[Problem]:
     """Tell what calculates by other code than before, though its version may be the same."""
     for name in sorted(before.sources.keys() | now.sources.keys()):
-        old, new = (code.get(name, "none")[:SHORT] for code in (before.sources, now.sources))
+        old, new = (_short(code.get(name, "")) for code in (before.sources, now.sources))
         if before.sources.get(name) != now.sources.get(name):
-            words = (
-                f"The source of the {name} has changed since the results were begun (SHA-256 {old} then, {new} now): "
-                "variants of both would be mixed. Put it back as it was, or calculate all variants anew in another folder."
+            words = Phrase(
+                "The source of the {name} has changed since the results were begun (SHA-256 {old} then, {new} "
+                "now): variants of both would be mixed. Put it back as it was, or calculate all variants anew "
+                "in another folder.",
+                name=code_told(name),
+                old=old,
+                new=new,
             )
             yield Problem(words, now.study.file)
+
+
+def code_told(name: str) -> str:
+    """Return what people call a source that has a hash: the program, a plugin, an extension."""
+    of, _, own = name.partition(" ")
+    if of == "plugin":
+        return Phrase("plugin {kind}", kind=own)
+    return Phrase("extension {name}", name=own) if of == "extension" else phrase(name)
+
+
+def _short(digest: str) -> str:
+    return digest[:SHORT] or phrase("none")
 
 
 def _other_tables(before: Description, now: Description) -> Iterator[Problem]:
     old, new = ({table.file: table.sha256 for table in d.tables} for d in (before, now))
     for name in (name for name in (old | new) if old.get(name) != new.get(name)):
-        words = "has changed since the results were begun" if name in old else "is new in the study"
-        yield Problem(f"This table {words if name in new else 'is no longer in the study'}.", name)
+        words = phrase("has changed since the results were begun") if name in old else phrase("is new in the study")
+        yield Problem(
+            Phrase("This table {words}.", words=words if name in new else phrase("is no longer in the study")), name
+        )
 
 
 def _other_rows(before: Description, now: Description) -> Iterator[Problem]:
     if before.rows != now.rows:
-        yield Problem(f"The sample had {before.rows} rows, now it has {now.rows}.", now.study.file)
+        yield Problem(
+            Phrase("The sample had {old} rows, now it has {new}.", old=before.rows, new=now.rows), now.study.file
+        )
     if before.columns != now.columns:
         old, new = ({column.name: column for column in d.columns} for d in (before, now))
-        names = [name for name in (old | new) if old.get(name) != new.get(name)] or ["their order"]
-        words = f"The columns of the results differ: {', '.join(names[:LINES])}{' …' * (len(names) > LINES)}."
+        names = [name for name in (old | new) if old.get(name) != new.get(name)] or [phrase("their order")]
+        words = Phrase(
+            "The columns of the results differ: {names}{more}.",
+            names=joined(names[:LINES], ", "),
+            more=" …" * (len(names) > LINES),
+        )
         yield Problem(words, now.study.file)
 
 
 def _changed(role: str, before: StudySource, now: StudySource) -> Iterator[Problem]:
     if before.sha256 != now.sha256:
         lines = "".join(f"\n    {line}" for line in _lines(before, now))
-        yield Problem(f"The {role} has changed since the results were begun.{lines}", now.file)
+        yield Problem(
+            Phrase("The {role} has changed since the results were begun.{lines}", role=role, lines=lines), now.file
+        )
 
 
 def _lines(before: StudySource, now: StudySource) -> list[str]:

@@ -11,6 +11,7 @@ from typing import Any, NamedTuple
 import numpy as np
 import pyarrow as pa
 
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.storage.description import VARIANT, VERDICT, Description
 from diecut_report.study.storage.part_files import DAMAGED, FOREIGN, columns_of_part, readable, schema_of
 from diecut_report.study.storage.state_form import STATUSES
@@ -69,5 +70,10 @@ class PartChecks:
         if len(numbers) != entry["variants"] or not set(counts) <= set(STATUSES):
             return Judged(DAMAGED, {})
         inside = (numbers >= rows.start).all() and (numbers < rows.stop).all() and (np.diff(numbers) > 0).all()
-        other = f"{DAMAGED} It may hold the variants {rows.start} to {rows.stop - 1}, each once, in their order."
+        other = Phrase(
+            "{damaged} It may hold the variants {start} to {stop}, each once, in their order.",
+            damaged=DAMAGED,
+            start=rows.start,
+            stop=rows.stop - 1,
+        )
         return Judged("" if inside else other, counts)

@@ -13,6 +13,7 @@ import pyarrow.parquet as pq
 from numpy.typing import NDArray
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.storage.description import SCHEMA_VERSION, VARIANT, VERDICT, Description, Kind, ResultColumn
 
 Values = NDArray[Any] | Sequence[Any]
@@ -24,9 +25,9 @@ TYPES: dict[Kind, Any] = {
     "curve": pa.list_(pa.field("element", pa.float64())),  # the name that Parquet gives
 }
 COMPRESSION = "zstd"
-DAMAGED = "This part of the results is damaged or not of this study. Calculate it again with --resume."
-FOREIGN = "No run of this study has written this part. Move it to another folder, or let --resume remove it."
-MISSING = "This part of the results is missing. Calculate it again with --resume."
+DAMAGED = phrase("This part of the results is damaged or not of this study. Calculate it again with --resume.")
+FOREIGN = phrase("No run of this study has written this part. Move it to another folder, or let --resume remove it.")
+MISSING = phrase("This part of the results is missing. Calculate it again with --resume.")
 
 
 def schema_of(description: Description) -> pa.Schema:
@@ -125,7 +126,7 @@ def readable(path: Path) -> Iterator[None]:
         raise UserError(Problem(DAMAGED, str(path))) from error
     except OSError as error:
         words = (
-            f"This part cannot be read: {error.strerror}." if error.errno else DAMAGED
+            Phrase("This part cannot be read: {strerror}.", strerror=error.strerror) if error.errno else DAMAGED
         )  # Parquet's own has no number
         raise UserError(Problem(words, str(path))) from error
 

@@ -11,6 +11,7 @@ from typing import TYPE_CHECKING, Any
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.files import replaced, room
+from diecut_report.languages.phrases import Phrase, named
 from diecut_report.study.storage.store import PARTS, Store
 
 if TYPE_CHECKING:
@@ -24,8 +25,11 @@ def export(store: Store, formats: Iterable[str]) -> tuple[str, ...]:
     """Write the variants stored so far as DIR/variants.csv or .xlsx, a row each; says what is to be known of the files."""
     wanted = list(dict.fromkeys(formats))
     if strange := [name for name in wanted if name not in WRITERS]:
-        words = (
-            f"{strange[0]!r} is not a format of a table{nearest(strange[0], WRITERS)}. Allowed: {', '.join(WRITERS)}."
+        words = Phrase(
+            "{strange} is not a format of a table{nearest}. Allowed: {writers}.",
+            strange=repr(strange[0]),
+            nearest=nearest(strange[0], WRITERS),
+            writers=", ".join(WRITERS),
         )
         raise UserError(Problem(words))
     for name in wanted:
@@ -39,10 +43,20 @@ def _told(store: Store, formats: list[str]) -> Iterator[str]:
     """What of the results stands elsewhere than one would look for it."""
     curves = [column.name for column in store.description.columns if column.kind == "curve"]
     if curves and formats:
-        names = " and ".join(f"{NAME}.{name}" for name in formats)
-        yield f"{names}: without the curves {', '.join(curves)}, which only the Parquet files in {store.directory / PARTS} hold."
+        yield Phrase(
+            "{files}: without the curves {curves}, which only the Parquet files in {folder} hold.",
+            files=named([f"{NAME}.{name}" for name in formats], " and "),
+            curves=", ".join(curves),
+            folder=store.directory / PARTS,
+        )
     if "xlsx" in formats and _sheets(store) > 1:
-        yield f"{NAME}.xlsx: {store.count()} variants in {_sheets(store)} sheets, as a sheet holds {SHEET_ROWS} rows."
+        yield Phrase(
+            "{file}: {count} variants in {sheets} sheets, as a sheet holds {rows} rows.",
+            file=f"{NAME}.xlsx",
+            count=store.count(),
+            sheets=_sheets(store),
+            rows=SHEET_ROWS,
+        )
 
 
 def _sheets(store: Store) -> int:
@@ -77,7 +91,11 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
 
     names = heads(store)
     if len(names) > SHEET_COLUMNS:
-        words = f"The results have {len(names)} columns; a sheet holds {SHEET_COLUMNS}. Use CSV."
+        words = Phrase(
+            "The results have {count} columns; a sheet holds {sheet_columns}. Use CSV.",
+            count=len(names),
+            sheet_columns=SHEET_COLUMNS,
+        )
         raise UserError(Problem(words, str(path)))
     book = Workbook(write_only=True)
     rows = _rows(store, list(names))

@@ -17,6 +17,7 @@ from filelock import FileLock, Timeout
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import in_words, write
 from diecut_report.given_files import content, refuse_unreadable_name
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.storage.description import (
     Data,
     Description,
@@ -26,7 +27,7 @@ from diecut_report.study.storage.description import (
     from_data,
     libraries,
 )
-from diecut_report.study.storage.state_form import MEND, check_form
+from diecut_report.study.storage.state_form import MEND, check_form, continuing
 
 STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
 MAX_STATE = 100_000_000  # bytes of study.json; ten thousand columns take some two million
@@ -43,28 +44,36 @@ def read_state(folder: Path, *, sealed: bool = True) -> Data:
     path = folder / STATE
     refuse_unreadable_name(folder)
     if not os.path.lexists(path):
-        words = "There are no results of a study here: study.json is missing. Give a folder that batch wrote, or begin one with -o."
+        words = phrase(
+            "There are no results of a study here: study.json is missing. Give a folder that batch wrote, "
+            "or begin one with -o."
+        )
         raise UserError(Problem(words, str(folder)))
     try:
         found = json.loads(
-            content(path, MAX_STATE, "the file that batch wrote").decode("utf-8"), parse_constant=_no_number
+            content(path, MAX_STATE, phrase("the file that batch wrote")).decode("utf-8"), parse_constant=_no_number
         )
     except RecursionError:
-        raise UserError(Problem(f"The state of the study is nested too deep. {MEND}", str(path))) from None
+        raise UserError(
+            Problem(Phrase("The state of the study is nested too deep. {mend}", mend=MEND), str(path))
+        ) from None
     except ValueError as error:
-        raise UserError(Problem(f"The state of the study cannot be read: {error}. {MEND}", str(path))) from error
+        raise UserError(
+            Problem(Phrase("The state of the study cannot be read: {error}. {mend}", error=error, mend=MEND), str(path))
+        ) from error
     check_form(found, path, is_final=sealed)
     if sealed and not is_sealed(found):
-        words = (
-            "This file has been changed since the program wrote it, so that what it says of the results may be wrong. Put it "
-            f"back as it was, or let the program write it anew: diecut-report batch --resume {folder}"
+        words = Phrase(
+            "This file has been changed since the program wrote it, so that what it says of the results may "
+            "be wrong. Put it back as it was, or let the program write it anew: {continued}",
+            continued=continuing(folder, found["columns"]),
         )
         raise UserError(Problem(words, str(path)))
     return dict(found)
 
 
 def _no_number(name: str) -> None:
-    raise ValueError(f"{name} is not a number of JSON")
+    raise ValueError(Phrase("{name} is not a number of JSON", name=name))
 
 
 def write_state(folder: Path, state: Mapping[str, Any]) -> None:
@@ -108,8 +117,12 @@ def kept(folder: Path) -> dict[str, Path]:
     found = copies(folder, description)
     for path, source in found.items():
         if source.content is None:
-            continued = f"diecut-report batch STUDY --resume {folder}"
-            words = f"This copy of {source.file} is missing or has changed. Continue with the study itself: {continued}"
+            columns = dict.fromkeys(column.name for column in description.columns)
+            words = Phrase(
+                "This copy of {file} is missing or has changed. Continue with the study itself: {continued}",
+                file=source.file,
+                continued=continuing(folder, columns, "STUDY "),
+            )
             raise UserError(Problem(words, str(path)))
     return {source.file: path for path, source in found.items() if source is not description.study}
 
@@ -118,7 +131,11 @@ def _with_copy(source: StudySource, path: Path) -> StudySource:
     try:
         content = path.read_bytes() if path.is_file() else b""
     except OSError as error:
-        words = f"This copy of {source.file} cannot be read: {error.strerror or error}. Check its permissions."
+        words = Phrase(
+            "This copy of {file} cannot be read: {strerror}. Check its permissions.",
+            file=source.file,
+            strerror=error.strerror or error,
+        )
         raise UserError(Problem(words, str(path))) from error
     return replace(source, content=content) if sha256(content).hexdigest() == source.sha256 else source
 
@@ -143,10 +160,15 @@ def refuse_used(folder: Path) -> None:
     """Refuse a folder that holds anything."""
     others = sorted(path.name for path in folder.iterdir() if path.name not in (LOCK, HOLDER))
     if STATE in others:
-        words = "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
+        words = phrase(
+            "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
+        )
         raise UserError(Problem(words, str(folder)))
     if others:
-        words = f"This folder is not empty ({others[0]} is in it). Choose a new one with -o, so that nothing is lost."
+        words = Phrase(
+            "This folder is not empty ({others} is in it). Choose a new one with -o, so that nothing is lost.",
+            others=others[0],
+        )
         raise UserError(Problem(words, str(folder)))
 
 
@@ -160,7 +182,7 @@ def with_libraries(state: Data) -> Data:
 def same_study(folder: Path, before: Description, now: Description) -> None:
     """Refuse to continue the results with another study."""
     if found := list(changes(before, now)):
-        words = "These results belong to another study; put it back as it was, or choose a new folder with -o."
+        words = phrase("These results belong to another study; put it back as it was, or choose a new folder with -o.")
         raise UserError([Problem(words, str(folder)), *found])
 
 
@@ -171,7 +193,9 @@ def held(lock: FileLock, folder: Path) -> Iterator[None]:
         try:
             lock.acquire(timeout=0)
         except Timeout:
-            raise UserError(Problem(f"Another run uses this folder{_holder(folder)}.", str(folder))) from None
+            raise UserError(
+                Problem(Phrase("Another run uses this folder{holder}.", holder=_holder(folder)), str(folder))
+            ) from None
     try:
         write(folder / HOLDER, json.dumps({"process": os.getpid(), "host": socket.gethostname()}).encode())
         yield
@@ -184,6 +208,10 @@ def _holder(folder: Path) -> str:
     """Who holds it, as far as that is known: the run may just be writing or removing its name."""
     try:
         found = json.loads((folder / HOLDER).read_text("utf-8"))
-        return f": process {found['process']} on {found['host']}. Wait for its end, or choose another folder with -o"
+        return Phrase(
+            ": process {process} on {host}. Wait for its end, or choose another folder with -o",
+            process=found["process"],
+            host=found["host"],
+        )
     except (OSError, ValueError, KeyError, TypeError):
-        return ", and has not given its name. Wait for its end, or choose another folder with -o"
+        return phrase(", and has not given its name. Wait for its end, or choose another folder with -o")

@@ -10,13 +10,14 @@ from typing import Annotated, Any, Literal
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.languages.phrases import Phrase, joined, phrase
 from diecut_report.study.storage.description import VARIANT, VERDICT, Kind
 
 MOST = 5  # faults that are told
 EARLIER = ("source_sha256", "part_files", "seal")  # what an earlier version of the program did not write
-MEND = (
-    "Only batch writes this file: put it back as it was, or calculate the study anew in another folder with "
-    "`diecut-report batch STUDY -o DIR`."
+MEND = phrase(
+    "Only batch writes this file: put it back as it was, or calculate the study anew in another "
+    "folder with `diecut-report batch STUDY -o DIR`."
 )
 Digest = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 Count = Annotated[int, Field(ge=0, le=10**15)]
@@ -94,15 +95,24 @@ class StateForm(_Form):
     counts: NotedCounts | None = None
 
 
+SEARCHED = "violation"  # the column that only the machines of a search have
+
+
+def continuing(folder: object, columns: object, study: str = "") -> str:
+    """Return the command that goes on with the run of a folder whose results have these columns by name, of a study or of a search."""
+    is_search = isinstance(columns, Mapping) and SEARCHED in columns
+    return f"diecut-report {'optimise' if is_search else 'batch'} {study}--resume {folder}"
+
+
 def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
     """Refuse what is no study.json: UserError with the file, the key, what was given and what is allowed.
 
     Without ``is_final`` the keys that a run writes at its end need not agree: it is to be continued.
     """
     if isinstance(data, dict) and not any(key in data for key in EARLIER) and "columns" in data:
-        words = (
-            "An earlier version of diecut-report wrote these results, without the hashes that prove them unchanged. "
-            "Calculate the study anew in another folder with `diecut-report batch STUDY -o DIR`."
+        words = phrase(
+            "An earlier version of diecut-report wrote these results, without the hashes that prove them "
+            "unchanged. Calculate the study anew in another folder with `diecut-report batch STUDY -o DIR`."
         )
         raise UserError(Problem(words, str(file)))
     try:
@@ -112,31 +122,37 @@ def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
     if disagreeing := list(_disagreeing(found)):
         raise _told(disagreeing, file)
     if is_final and found.state == "complete" and (faults := list(_incomplete(found))):
-        raise _told(faults, file, f"Let the program mend it: diecut-report batch --resume {file.parent}")
+        raise _told(
+            faults,
+            file,
+            Phrase("Let the program mend it: {continued}", continued=continuing(file.parent, found.columns)),
+        )
 
 
 def _told(faults: list[tuple[str, str]], file: Path, mend: str = MEND) -> UserError:
-    shown = [Problem(f"{words} {mend}", str(file), path=_short(key)) for key, words in faults[:MOST]]
+    shown = [Problem(joined((words, mend), " "), str(file), path=_short(key)) for key, words in faults[:MOST]]
     more = len(faults) - len(shown)
-    return UserError([*shown, *([Problem(f"{more} more keys are wrong.", str(file))] if more else [])])
+    return UserError(
+        [*shown, *([Problem(Phrase("{more} more keys are wrong.", more=more), str(file))] if more else [])]
+    )
 
 
 # --- each key by itself ----------------------------------------------------------------------------------------------
 
 NEEDED = {
-    "string_type": "a text is needed",
-    "int_type": "a whole number is needed",
-    "int_from_float": "a whole number is needed",
-    "float_type": "a number is needed",
-    "dict_type": "a block of keys is needed",
-    "model_type": "a block of keys is needed",
-    "list_type": "a list is needed",
-    "too_short": "at least one entry is needed",
-    "finite_number": "a finite number is needed",
-    "string_pattern_mismatch": "a SHA-256 is needed, 64 of the digits 0-9 and a-f",
-    "greater_than_equal": "at least {ge} is needed",
-    "less_than_equal": "at most {le} is allowed",
-    "literal_error": "allowed is {expected}",
+    "string_type": phrase("a text is needed"),
+    "int_type": phrase("a whole number is needed"),
+    "int_from_float": phrase("a whole number is needed"),
+    "float_type": phrase("a number is needed"),
+    "dict_type": phrase("a block of keys is needed"),
+    "model_type": phrase("a block of keys is needed"),
+    "list_type": phrase("a list is needed"),
+    "too_short": phrase("at least one entry is needed"),
+    "finite_number": phrase("a finite number is needed"),
+    "string_pattern_mismatch": phrase("a SHA-256 is needed, 64 of the digits 0-9 and a-f"),
+    "greater_than_equal": phrase("at least {ge} is needed"),
+    "less_than_equal": phrase("at most {le} is allowed"),
+    "literal_error": phrase("allowed is {expected}"),
 }
 
 
@@ -144,12 +160,12 @@ def _of_pydantic(found: Mapping[str, Any]) -> tuple[str, str]:
     key = ".".join(str(part) for part in found["loc"] if part != "[key]")
     kind, given = found["type"], _given(found["input"])
     if kind == "missing":
-        return key, "This key is missing."
+        return key, phrase("This key is missing.")
     if kind == "extra_forbidden":
         known = [field.alias or name for name, field in StateForm.model_fields.items()]
-        return key, f"This key is unknown{nearest(key, known)}."
-    needed = NEEDED.get(kind, found["msg"]).format_map({"ge": "", "le": "", "expected": "", **found.get("ctx", {})})
-    return key, f"{given} is given; {needed}."
+        return key, Phrase("This key is unknown{nearest}.", nearest=nearest(key, known))
+    needed = Phrase(NEEDED.get(kind, found["msg"]), {"ge": "", "le": "", "expected": "", **found.get("ctx", {})})
+    return key, Phrase("{given} is given; {needed}.", given=given, needed=needed)
 
 
 def _given(value: Any) -> str:
@@ -157,7 +173,7 @@ def _given(value: Any) -> str:
     if value is None or isinstance(value, bool):
         return "null" if value is None else str(value).lower()
     if isinstance(value, dict | list):
-        return "a block of keys" if isinstance(value, dict) else "a list"
+        return phrase("a block of keys") if isinstance(value, dict) else phrase("a list")
     return reprlib.repr(value)
 
 
@@ -173,11 +189,24 @@ def _disagreeing(form: StateForm) -> Iterator[tuple[str, str]]:
     """Return the keys that contradict others."""
     names = list(form.columns)
     if names[:1] != [VARIANT.name] or names[-len(VERDICT) :] != [column.name for column in VERDICT]:
-        yield "columns", f"They begin with variant and end with {', '.join(column.name for column in VERDICT)}."
+        yield (
+            "columns",
+            Phrase(
+                "They begin with variant and end with {verdict}.",
+                verdict=", ".join(column.name for column in VERDICT),
+            ),
+        )
     sources = {"study", "base", *(f"table {number}" for number in range(1, len(form.tables) + 1))}
     yield from _other_keys("sha256", form.sha256, sources)
     for name in (name for name in form.varied or () if name not in form.columns):
-        yield "varied", f"{_given(name)} is given; the name of a column is needed{nearest(name, names)}."
+        yield (
+            "varied",
+            Phrase(
+                "{given} is given; the name of a column is needed{nearest}.",
+                given=_given(name),
+                nearest=nearest(name, names),
+            ),
+        )
 
 
 def part_name(index: int) -> str:
@@ -191,9 +220,18 @@ def _incomplete(form: StateForm) -> Iterator[tuple[str, str]]:
     first = range(min(whole, len(form.part_files) + 1))  # one that is missing is enough
     yield from _other_keys("part_files", form.part_files, {part_name(index) for index in first})
     if form.parts != whole:
-        yield "parts", f"{_given(form.parts)} is given; {form.rows} rows in parts of {form.chunk} make {whole}."
+        yield (
+            "parts",
+            Phrase(
+                "{given} is given; {rows} rows in parts of {chunk} make {whole}.",
+                given=_given(form.parts),
+                rows=form.rows,
+                chunk=form.chunk,
+                whole=whole,
+            ),
+        )
     if form.counts is None:
-        yield "counts", "This key is missing."
+        yield "counts", phrase("This key is missing.")
         return
     stored = sum(part.variants for part in form.part_files.values())
     statuses = form.counts.passing + form.counts.warn + form.counts.fail + form.counts.error
@@ -204,11 +242,11 @@ def _incomplete(form: StateForm) -> Iterator[tuple[str, str]]:
         (", ".join(STATUSES), statuses, stored),
     ):
         if given != true:
-            yield f"counts.{name}", f"{given} is given; the other keys make {true}."
+            yield f"counts.{name}", Phrase("{given} is given; the other keys make {true}.", given=given, true=true)
 
 
 def _other_keys(name: str, given: Mapping[str, Any], needed: set[str]) -> Iterator[tuple[str, str]]:
     for key in sorted(needed - given.keys()):
-        yield f"{name}.{key}", "This key is missing."
+        yield f"{name}.{key}", phrase("This key is missing.")
     for key in sorted(given.keys() - needed):
-        yield f"{name}.{key}", f"This key is unknown{nearest(key, needed)}."
+        yield f"{name}.{key}", Phrase("This key is unknown{nearest}.", nearest=nearest(key, needed))

@@ -24,6 +24,7 @@ from filelock import FileLock
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import in_words, remove_stale, write
 from diecut_report.given_files import refuse_special, refuse_unreadable_name
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.storage import state
 from diecut_report.study.storage.description import VARIANT, Description, as_data
 from diecut_report.study.storage.part_checks import Judged, PartChecks
@@ -32,8 +33,8 @@ from diecut_report.study.storage.state_form import part_name
 
 PARTS = "variants"
 FOLDERS = (PARTS, state.TABLES, "reports")
-OWN_FOLDER = "Results are written into folders of their own; put a folder in its place."
-NO_PART = "It is not a part of the results. Move it to another folder."
+OWN_FOLDER = phrase("Results are written into folders of their own; put a folder in its place.")
+NO_PART = phrase("It is not a part of the results. Move it to another folder.")
 NAME = re.compile(r"part-(\d+)\.parquet")
 BATCH = 4096  # rows read at a time
 TOLD = 5  # parts that are told to be wrong, each by itself
@@ -141,7 +142,9 @@ class Store:
         for path in found:
             match = NAME.fullmatch(path.name)
             if not match or path != self.part(int(match[1])):
-                raise UserError(Problem("This is not a part of the results. Move it to another folder.", str(path)))
+                raise UserError(
+                    Problem(phrase("This is not a part of the results. Move it to another folder."), str(path))
+                )
         refuse_special(found, NO_PART)
         return {int(path.stem.partition("-")[2]): path for path in found}
 
@@ -174,13 +177,19 @@ class Store:
         for index in sorted(wrong)[:TOLD]:
             yield Problem(wrong[index], str(self.part(index)))
         if len(wrong) > TOLD:
-            yield Problem(f"{len(wrong) - TOLD} more parts are wrong or missing.", str(self._folder))
+            yield Problem(
+                Phrase("{count} more parts are wrong or missing.", count=len(wrong) - TOLD), str(self._folder)
+            )
 
     def _check_counts(self, told: Mapping[str, int], judged: Mapping[int, Judged]) -> None:
         stored = sum((Counter(each.counts) for each in judged.values()), Counter[str]())
         for status, count in stored.items():
             if told.get(status, 0) != count:
-                words = f"{told.get(status, 0)} is given; the parts hold {count}. Let --resume count them again."
+                words = Phrase(
+                    "{given} is given; the parts hold {count}. Let --resume count them again.",
+                    given=told.get(status, 0),
+                    count=count,
+                )
                 raise UserError(Problem(words, str(self.directory / state.STATE), path=f"counts.{status}"))
 
     def read(self, columns: Sequence[str] | None = None) -> pyarrow.dataset.Dataset:
@@ -228,7 +237,9 @@ class Store:
         """
         missing = set(range(self.description.parts)) - self.parts().keys()
         if missing:
-            raise RuntimeError(f"{len(missing)} parts are missing, such as {min(missing)}")
+            raise RuntimeError(
+                Phrase("{count} parts are missing, such as {missing}", count=len(missing), missing=min(missing))
+            )
         counts = self.counts()
         counts["dropped"] = counts["sample"] - counts["variants"]
         counts |= {"without_value": without_value} if without_value else {}

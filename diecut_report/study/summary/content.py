@@ -47,6 +47,7 @@ class Summary:
     passing: list[passing_values.PassingValues]
     utilisations: list[Utilisation]
     unmade: list[str]
+    unchecked: int
     idle: int
     matrices: list[matrix.Matrix]
     is_whole: bool
@@ -85,10 +86,10 @@ class Summary:
 
     @property
     def status(self) -> str:
-        """Return what the whole looks like: pass where some variant passes, by formulas without faults."""
+        """Return what the whole looks like: pass where some variant passes all checks, by formulas without faults."""
         return (
             "incomplete"
-            if self.doubtful and self.statuses["pass"]
+            if (self.doubtful or self.unchecked) and self.statuses["pass"]
             else "pass"
             if self.statuses["pass"]
             else "warn"
@@ -134,6 +135,7 @@ def content(stored: Stored) -> Summary:
         total=total, statuses=states, facts=_facts(stored, total), asked=questions.asked(stored),
         failures=failures, governing=governing, passing=passing_values.values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
+        unchecked=len(verdict_counts.unchecked(stored)),
         idle=len(made) - len(matrix.telling(made)),
         matrices=list(matrix.matrices(stored, groups, [row.check for row in matrix.telling(made)])),
         is_whole=total <= matrix.ALL,

@@ -102,18 +102,13 @@ def prepare(stored: Stored) -> None:
 
     And with the number of checks that fail.
     """
-    own = " ".join(f"WHEN {_quoted(check)} THEN {value.sql}" for check, (value, _) in stored.checks.items())
+    own = " ".join(f"WHEN {text(check)} THEN {value.sql}" for check, (value, _) in stored.checks.items())
     worst = f"CASE governing {own} END" if own else "NULL"
     lost = (f"CASE WHEN {status.sql} = 'fail' THEN 1 ELSE 0 END" for _, status in stored.checks.values())
     failing = " + ".join(lost) or "0"
     stored.connection.execute(
         f"CREATE VIEW w AS SELECT *, CAST({worst} AS DOUBLE) AS {WORST.sql}, {failing} AS {FAILING} FROM v"
     )
-
-
-def _quoted(name: str) -> str:
-    """A name as a text of SQL."""
-    return "'" + name.replace("'", "''") + "'"
 
 
 def statuses(stored: Stored) -> dict[str, int]:

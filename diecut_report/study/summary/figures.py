@@ -8,7 +8,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from diecut_report.languages.phrases import phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import localised, said, say, say_counted
 from diecut_report.report.figures.style import Svg
 from diecut_report.report.number_format import number
@@ -136,7 +136,9 @@ class Figures:
             )
         caption = say(words, target=named(found.target))
         told = say("Influence on {target}: {told}", target=named(found.target), told=told)
-        return SummaryFigure(charts.influence(found, f"{told}.", f"influence of {found.target.name}"), caption, told)
+        return SummaryFigure(
+            charts.influence(found, f"{told}.", Phrase("influence of {name}", name=found.target.name)), caption, told
+        )
 
     def parallel(self) -> SummaryFigure | None:
         """Return parallel coordinates of inputs and of what matters."""

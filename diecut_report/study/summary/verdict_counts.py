@@ -61,6 +61,16 @@ def _alone(stored: Stored, checks: list[str]) -> dict[str, int]:
     return found
 
 
+def unchecked(stored: Stored) -> list[str]:
+    """Return the checks that are not made in some variant, as a limit or another key is not given."""
+    found: list[str] = []
+    for part in chunks(list(stored.checks)):
+        asked = (f"count(*) FILTER ({stored.checks[check][1].sql} = 'not_checked')" for check in part)
+        row = stored.rows(f"SELECT {', '.join(asked)} FROM v")[0]
+        found += [check for check, count in zip(part, row, strict=True) if count]
+    return found
+
+
 def governing(stored: Stored, still: Collection[str] = ()) -> list[Governing]:
     """Return what governs the variants that pass, the most frequent first; checks whose utilisation stands ``still`` come last."""
     sql = (

@@ -10,6 +10,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import (
     UnitError,
     number_and_unit,
@@ -17,7 +18,7 @@ from diecut_report.quantities.units import (
     unit,
 )
 
-EMPTY = "the cell is empty (or a formula without a stored value); every row needs a value"
+EMPTY = phrase("the cell is empty (or a formula without a stored value); every row needs a value")
 
 TOLD = 5  # faulty cells of a column that are told one by one
 KNOWN = 65_536  # different cells that are remembered while a column is read
@@ -128,13 +129,13 @@ def _to_si(values: Array, unit_text: str) -> Array:
 
 
 def _not_finite(value: float) -> str:
-    return EMPTY if np.isnan(value) else "the number is infinite; a finite one is needed"
+    return EMPTY if np.isnan(value) else phrase("the number is infinite; a finite one is needed")
 
 
 def _one_by_one(cells: Cells, unit_text: str, own: bool) -> tuple[Array, Faults]:
     values, faults = np.full(len(cells), np.nan), Faults()
     known: dict[Any, tuple[float, str] | str] = {}
-    agreed = (unit(unit_text).text, "the header") if own else None
+    agreed = (unit(unit_text).text, phrase("the header")) if own else None
     for place, item in enumerate(cells.items()):
         key = (type(item), item)
         read = known.get(key)
@@ -147,7 +148,7 @@ def _one_by_one(cells: Cells, unit_text: str, own: bool) -> tuple[Array, Faults]
             continue
         values[place], given = read
         if agreed is None:
-            agreed = (given, f"row {cells.row(place)}")
+            agreed = (given, Phrase("row {row}", row=cells.row(place)))
         elif given != agreed[0] and not (own and not given):
             faults.add(place, _said(_unlike(given, *agreed)))
     return values, faults
@@ -158,8 +159,8 @@ def _said(words: str) -> Callable[[int], str]:
 
 
 def _unlike(given: str, agreed: str, where: str) -> str:
-    mine, other = (f"is in {text}" if text else "has no unit" for text in (given, agreed))
-    return f"the cell {mine}, but {where} {other}; a column has one unit"
+    mine, other = (Phrase("is in {unit}", unit=text) if text else phrase("has no unit") for text in (given, agreed))
+    return Phrase("the cell {mine}, but {where} {other}; a column has one unit", mine=mine, where=where, other=other)
 
 
 def _read(item: Any, unit_text: str) -> tuple[float, str] | str:
@@ -167,9 +168,13 @@ def _read(item: Any, unit_text: str) -> tuple[float, str] | str:
     if item is None or (isinstance(item, str) and not item.strip()):
         return EMPTY
     if isinstance(item, str) and item.strip().lower() in ("nan", "null", "na", "n/a", "#n/a"):
-        return f"{item.strip()!r} is not a value; every row needs a number"
+        return Phrase("{text} is not a value; every row needs a number", text=repr(item.strip()))
     if not isinstance(item, str | int | float):
-        return f"{item} is not a number (the cell holds a {type(item).__name__}); format the cell as a number"
+        return Phrase(
+            "{item} is not a number (the cell holds a {name}); format the cell as a number",
+            item=item,
+            name=type(item).__name__,
+        )
     try:
         value = parse_quantity(item, unit_text)
         own = number_and_unit(item)[1] if isinstance(item, str) else ""

@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
 from diecut_report.given_files import opened
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.tables import parquet_files, workbooks
 from diecut_report.study.tables.cells import Cells
 from diecut_report.study.tables.limits import MAX_BYTES, MAX_COLUMNS, UnreadableTable, judge_size
 
 DELIMITERS = ",;\t"
-NO_ROWS = "the table has no rows below its header; give at least one"
-NOT_UTF8 = "is not in UTF-8; save it as “CSV UTF-8”"
+NO_ROWS = phrase("the table has no rows below its header; give at least one")
+NOT_UTF8 = phrase("is not in UTF-8; save it as “CSV UTF-8”")
 LINE = 1_000_000  # bytes of a row at most
 KEPT = 100  # rows of another length that are told one by one
 CHUNK = 1 << 20
@@ -41,16 +42,22 @@ def read_cells(path: Path, sheet: str | None) -> Read:
     kind = path.suffix.lower()
     if kind not in MAX_BYTES:
         known = ", ".join(MAX_BYTES)
-        raise UnreadableTable(f"the ending {path.suffix or '(none)'} is not known; save the table as {known}")
+        raise UnreadableTable(
+            Phrase(
+                "the ending {suffix} is not known; save the table as {known}",
+                suffix=path.suffix or phrase("(none)"),
+                known=known,
+            )
+        )
     if sheet is not None and kind != ".xlsx":
-        raise UnreadableTable("sheet is given, but only a workbook (.xlsx) has sheets; remove it")
-    with opened(path, MAX_BYTES[kind], f"a table ({kind})") as file:
+        raise UnreadableTable(phrase("sheet is given, but only a workbook (.xlsx) has sheets; remove it"))
+    with opened(path, MAX_BYTES[kind], Phrase("a table ({kind})", kind=kind)) as file:
         try:
             digest = hashlib.file_digest(file, "sha256").hexdigest()
             file.seek(0)
             return Read(*_read(kind, file, sheet), digest)
         except OSError as error:
-            raise UnreadableTable(f"cannot be read: {error.strerror or error}") from error
+            raise UnreadableTable(Phrase("cannot be read: {strerror}", strerror=error.strerror or error)) from error
 
 
 def _read(kind: str, file: BinaryIO, sheet: str | None) -> tuple[list[Header], list[Cells]]:
@@ -74,7 +81,7 @@ def _csv(file: BinaryIO) -> tuple[list[Header], list[Cells]]:
             arrow_csv.ConvertOptions(column_types={str(i): pyarrow.string() for i in range(len(names))}),
         )
     except pyarrow.ArrowMemoryError as error:
-        raise UnreadableTable("needs more memory than there is. Give fewer rows or columns") from error
+        raise UnreadableTable(phrase("needs more memory than there is. Give fewer rows or columns")) from error
     except pyarrow.ArrowException as error:
         raise UnreadableTable(_csv_fault(str(error))) from error
     other.refuse()
@@ -91,7 +98,12 @@ class _OtherRows:
 
     def __call__(self, row: Any) -> str:
         """Note a row; Arrow leaves it out."""
-        words = f"row {row.number} has {row.actual_columns} cells, the header {row.expected_columns}; fill up or quote"
+        words = Phrase(
+            "row {number} has {actual_columns} cells, the header {expected_columns}; fill up or quote",
+            number=row.number,
+            actual_columns=row.actual_columns,
+            expected_columns=row.expected_columns,
+        )
         if len(self.faults) < KEPT:
             self.faults.append((words, row.number))
         else:
@@ -101,7 +113,11 @@ class _OtherRows:
     def refuse(self) -> None:
         """UnreadableTable where there are any."""
         if self.faults:
-            told = [(f"{self.more} more rows have not as many cells as the header", None)] if self.more else []
+            told = (
+                [(Phrase("{more} more rows have not as many cells as the header", more=self.more), None)]
+                if self.more
+                else []
+            )
             raise UnreadableTable([*self.faults, *told])
 
 
@@ -109,20 +125,22 @@ def _csv_header(file: BinaryIO) -> tuple[list[str], str]:
     """The cells of the first row, and what separates them: the comma, or what the first row has more of."""
     line = re.split(rb"[\r\n]", file.readline(LINE), maxsplit=1)[0]
     if len(line) == LINE:
-        raise UnreadableTable([("row 1 is too long; it must hold the names of the columns", 1)])
+        raise UnreadableTable([(phrase("row 1 is too long; it must hold the names of the columns"), 1)])
     try:
         first = line.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         raise UnreadableTable(NOT_UTF8) from error
     if not first.strip():
-        raise UnreadableTable([("row 1 is empty; it must hold the names of the columns", 1)])
+        raise UnreadableTable([(phrase("row 1 is empty; it must hold the names of the columns"), 1)])
     delimiter = max(DELIMITERS, key=first.count)
     if first.count(delimiter) >= 2 * MAX_COLUMNS:  # before it is parted; some may stand in quotes
         judge_size(".csv", 0, first.count(delimiter) + 1)
     try:
         return next(csv.reader([first], delimiter=delimiter)), delimiter
     except csv.Error as error:
-        raise UnreadableTable([(f"row 1 cannot be read: {error}; it must hold the names of the columns", 1)]) from error
+        raise UnreadableTable(
+            [(Phrase("row 1 cannot be read: {error}; it must hold the names of the columns", error=error), 1)]
+        ) from error
 
 
 def _lines(file: BinaryIO) -> int:
@@ -140,7 +158,10 @@ def _lines(file: BinaryIO) -> int:
         raise UnreadableTable(NOT_UTF8) from error
     if quotes % 2:  # Arrow takes what follows the last one, whatever it is, for one cell
         raise UnreadableTable(
-            f"has {quotes} quotation marks, so that one is not closed; within a quoted cell it is doubled"
+            Phrase(
+                "has {quotes} quotation marks, so that one is not closed; within a quoted cell it is doubled",
+                quotes=quotes,
+            )
         )
     file.seek(0)
     return max(feeds, returns)
@@ -148,10 +169,14 @@ def _lines(file: BinaryIO) -> int:
 
 def _csv_fault(message: str) -> str:
     if "straddling" in message or "out of sync" in message:
-        return (
+        return phrase(
             "has a row that ends in another line, or is longer than 1 MB; look for a quotation mark that is not closed"
         )
-    return NO_ROWS if "Empty" in message or "Could not skip" in message else f"is not a CSV file: {message}"
+    return (
+        NO_ROWS
+        if "Empty" in message or "Could not skip" in message
+        else Phrase("is not a CSV file: {message}", message=message)
+    )
 
 
 def _without_blank_rows(table: Any) -> tuple[Any, tuple[int, ...]]:

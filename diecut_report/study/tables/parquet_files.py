@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from typing import Any, BinaryIO
 
+from diecut_report.languages.phrases import Phrase
 from diecut_report.study.tables.cells import Cells
 from diecut_report.study.tables.limits import (
     MAX_COLUMNS,
@@ -29,12 +30,12 @@ def read(file: BinaryIO) -> tuple[list[Header], list[Cells]]:
         units = [((field.metadata or {}).get(b"unit") or b"").decode() or None for field in table.schema]
         columns = [Cells(column.combine_chunks(), 1) for column in table.columns]
     except pyarrow.ArrowMemoryError as error:
-        raise UnreadableTable(f"needs more memory than there is. {SMALLER}") from error
+        raise UnreadableTable(Phrase("needs more memory than there is. {smaller}", smaller=SMALLER)) from error
     except (pyarrow.ArrowException, OSError, ValueError, OverflowError) as error:  # Parquet says OSError of damage too
         if getattr(error, "errno", None):
             raise
         told = " ".join(str(error).split())
-        raise UnreadableTable(f"is not a Parquet file, or a damaged one: {told}") from error
+        raise UnreadableTable(Phrase("is not a Parquet file, or a damaged one: {told}", told=told)) from error
     return list(zip(table.column_names, units, strict=True)), columns
 
 
@@ -70,8 +71,8 @@ def _judge(metadata: Any) -> None:
 def _refuse_kinds(schema: Any) -> None:
     wrong = [field for field in schema if not _is_plain(field.type)]
     if wrong:
-        words = "column {0.name} holds {0.type}; numbers or texts are needed"
-        raise UnreadableTable((words.format(field), None) for field in wrong)
+        words = "column {name} holds {type}; numbers or texts are needed"
+        raise UnreadableTable((Phrase(words, name=field.name, type=field.type), None) for field in wrong)
 
 
 def _is_plain(kind: Any) -> bool:

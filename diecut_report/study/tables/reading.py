@@ -15,6 +15,7 @@ from pathlib import Path
 from diecut_report.config.hidden_letters import hidden
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.expressions import Array
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.study.tables.cells import EMPTY, TOLD, Cells, Faults, si_numbers
 from diecut_report.study.tables.file_formats import NO_ROWS, read_cells
@@ -35,7 +36,7 @@ class ReadColumn:
 
     def problem(self, message: str, row: int | None = None) -> Problem:
         """Return a problem of this column, or of its cell in a row of the file."""
-        where = f"row {row}: " if row is not None else ""
+        where = Phrase("row {row}: ", row=row) if row is not None else ""
         return Problem(where + message, self.file, row or 1, self.number, self.name)
 
     def si(self, display: str) -> Array:
@@ -50,13 +51,21 @@ class ReadColumn:
     def texts(self) -> list[str]:
         """Return the column's texts, without blanks around them; UserError with the cells that are empty."""
         if self.unit is not None:
-            words = f"the header has the unit [{self.unit}], but {self.name} is a text; remove the unit"
+            words = Phrase(
+                "the header has the unit [{unit}], but {name} is a text; remove the unit",
+                unit=self.unit,
+                name=self.name,
+            )
             raise UserError(self.problem(words))
         found = self.cells.texts()
         self._refuse(Faults.of((place for place, text in enumerate(found) if not text), lambda _: EMPTY))
         held = {text: letter for text in set(found) if (letter := hidden(text))}
         places = (place for place, text in enumerate(found) if text in held)
-        self._refuse(Faults.of(places, lambda place: f"the text holds the control character {held[found[place]]}"))
+        self._refuse(
+            Faults.of(
+                places, lambda place: Phrase("the text holds the control character {held}", held=held[found[place]])
+            )
+        )
         return found
 
     def _unit(self, display: str) -> str:
@@ -65,9 +74,13 @@ class ReadColumn:
         try:
             given, wanted = unit(self.unit), unit(display)
         except UnitError as error:
-            raise UserError(self.problem(f"the header's unit: {error}")) from None
+            raise UserError(self.problem(Phrase("the header's unit: {error}", error=error))) from None
         if given.kind != wanted.kind:
-            words = f"the header's unit [{self.unit}] is of another kind; give one such as [{wanted.text}]"
+            words = Phrase(
+                "the header's unit [{unit}] is of another kind; give one such as [{text}]",
+                unit=self.unit,
+                text=wanted.text,
+            )
             raise UserError(self.problem(words))
         return self.unit
 
@@ -76,7 +89,7 @@ class ReadColumn:
         for place, message in faults.told[:TOLD]:
             yield self.problem(message, self.cells.row(place))
         if faults.count > TOLD:
-            more = f"{faults.count - TOLD} more cells of this column are wrong"
+            more = Phrase("{count} more cells of this column are wrong", count=faults.count - TOLD)
             yield self.problem(more, self.cells.row(faults.told[TOLD][0]))
 
     def _refuse(self, faults: Faults) -> None:
@@ -102,7 +115,14 @@ class TableFile:
     def _missing(self, name: str) -> Problem:
         there = ", ".join(self.columns)
         return Problem(
-            f"the table has no column {name}{nearest(name, self.columns)}. Its columns: {there}", self.file, 1
+            Phrase(
+                "the table has no column {name}{nearest}. Its columns: {there}",
+                name=name,
+                nearest=nearest(name, self.columns),
+                there=there,
+            ),
+            self.file,
+            1,
         )
 
 
@@ -137,8 +157,14 @@ def _wrong_headers(columns: list[ReadColumn]) -> Iterator[Problem]:
     seen: dict[str, int] = {}
     for column in columns:
         if not column.name:
-            yield column.problem(f"column {column.number} has no name in the header; give it a path, or remove it")
+            yield column.problem(
+                Phrase("column {number} has no name in the header; give it a path, or remove it", number=column.number)
+            )
         elif column.name in seen:
-            words = f"columns {seen[column.name]} and {column.number} have the same name; keep one of them"
+            words = Phrase(
+                "columns {seen} and {number} have the same name; keep one of them",
+                seen=seen[column.name],
+                number=column.number,
+            )
             yield column.problem(words)
         seen.setdefault(column.name, column.number)

@@ -10,6 +10,7 @@ from typing import Any, BinaryIO
 from xml.parsers import expat
 from zipfile import ZipFile
 
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.study.tables.cells import Cells
 from diecut_report.study.tables.limits import (
     MAX_CELLS,
@@ -21,7 +22,7 @@ from diecut_report.study.tables.limits import (
 )
 
 KIND = ".xlsx"
-DAMAGED = "is not an XLSX workbook, or a damaged one; save it again as .xlsx"
+DAMAGED = phrase("is not an XLSX workbook, or a damaged one; save it again as .xlsx")
 MAX_MEMBERS = 10_000
 MAX_ELEMENTS = 4 * MAX_CELLS[KIND]  # a cell has up to three
 MAX_OTHERS = 200_000  # that are no part of a cell or a text: styles, widths, merged cells
@@ -32,8 +33,13 @@ ENCODINGS = {"", "utf-8", "us-ascii", "iso-8859-1"}  # in which "<" is the byte 
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 COMMENTS = ((b"<!--", b"-->"), (b"<?", b"?>"))
 CHUNK = 1 << 20
-LONG = "holds a text of more than a million letters; a cell has some dozens. Save it again"
-MANY = f"has more than {MAX_CELLS[KIND]:,} cells, or as many other parts. {SMALLER}, or {OTHER_FORM}"
+LONG = phrase("holds a text of more than a million letters; a cell has some dozens. Save it again")
+MANY = Phrase(
+    "has more than {max_cells} cells, or as many other parts. {smaller}, or {other_form}",
+    max_cells=format(MAX_CELLS[KIND], ","),
+    smaller=SMALLER,
+    other_form=OTHER_FORM,
+)
 
 Header = tuple[str, str | None]
 Rows = list[list[Any]]
@@ -62,7 +68,7 @@ def _damaged() -> Iterator[None]:
     except (UnreadableTable, OSError):
         raise
     except MemoryError as error:
-        raise UnreadableTable(f"needs more memory than there is. {SMALLER}") from error
+        raise UnreadableTable(Phrase("needs more memory than there is. {smaller}", smaller=SMALLER)) from error
     except Exception as error:
         raise UnreadableTable(DAMAGED) from error
 
@@ -75,7 +81,9 @@ def _judge_archive(file: BinaryIO) -> None:
     with ZipFile(file) as archive:
         members = archive.infolist()
         if len(members) > MAX_MEMBERS:
-            raise UnreadableTable(f"has {len(members)} files within; a workbook has some dozens. Save it again")
+            raise UnreadableTable(
+                Phrase("has {count} files within; a workbook has some dozens. Save it again", count=len(members))
+            )
         judge_unpacked(KIND, sum(member.file_size for member in members))
         seen = _Seen()
         for member in members:
@@ -129,7 +137,11 @@ def _refuse(*_: Any) -> None:
 
 def _rows(book: Any, sheet: str | None) -> Rows:
     if sheet is not None and sheet not in book.sheetnames:
-        raise UnreadableTable(f"has no sheet “{sheet}”; its sheets: {', '.join(book.sheetnames)}")
+        raise UnreadableTable(
+            Phrase(
+                "has no sheet “{sheet}”; its sheets: {sheetnames}", sheet=sheet, sheetnames=", ".join(book.sheetnames)
+            )
+        )
     worksheet = book[sheet] if sheet is not None else book.worksheets[0]
     worksheet.reset_dimensions()  # the stored size may be wrong
     return list(_bounded(worksheet.iter_rows(values_only=True)))
@@ -154,7 +166,7 @@ def _from_rows(rows: Rows) -> tuple[list[Header], list[Cells]]:
     while rows and not rows[-1]:
         rows.pop()
     if not rows or not rows[0]:
-        raise UnreadableTable([("row 1 is empty; it must hold the names of the columns", 1)])
+        raise UnreadableTable([(phrase("row 1 is empty; it must hold the names of the columns"), 1)])
     width = max(len(row) for row in rows)
     blank = {place for place, row in enumerate(rows, 1) if width > 1 and not row}
     judge_size(KIND, len(rows) - len(blank), width)
@@ -168,4 +180,4 @@ def _from_rows(rows: Rows) -> tuple[list[Header], list[Cells]]:
 
 
 def _far(row: int) -> UnreadableTable:
-    return UnreadableTable(f"has a cell far from the others, in row {row}; delete what stands there")
+    return UnreadableTable(Phrase("has a cell far from the others, in row {row}; delete what stands there", row=row))

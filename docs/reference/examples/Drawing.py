@@ -25,6 +25,7 @@ from diecut_report.api import (
     polyline,
     radius_dimension,
     region,
+    rigid,
 )  # fmt: skip
 
 
@@ -53,6 +54,7 @@ def pose(view: View, angle: float) -> list[Shape]:
         polyline([(0.0, 0.0), pin, slider], "link"),
         point((0.0, 0.0), "pivot"),
         point(pin, "joint"),
+        rigid([polyline([(-0.01, -0.01), (0.01, -0.01), (0.01, 0.01), (-0.01, 0.01)], "outline", closed=True)], slider),
         point(slider, "joint"),
     ]
 

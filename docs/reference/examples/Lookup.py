@@ -43,11 +43,18 @@ class Drive(Inputs):
     bearing: Annotated[Literal["6204", "6205"], Text("Bearing")]
     chain: Annotated[Literal["08B", "10B"], Text("Chain")]
     teeth: Annotated[float, Quantity("z", "1", "Teeth of the pinion", gt=0)]
+    load: Annotated[float, Quantity("C_n", "kN", "Rating that the second bearing needs", gt=0)]
 
 
 tables = Chapter("Tables")
 tables.lookup("bore", "d", "mm", "Bore", BEARINGS, by="bearing", column="bore")
 tables.lookup("pitch", "p", "mm", "Pitch", PITCHES, by="chain")
+tables.pick(
+    "second_rating", "C_2", "kN", "Rating of the second bearing", "above", of="load", series=BEARINGS.series("C")
+)
+tables.lookup(  # the row that has exactly this number, in the column C
+    "second_bore", "d_2", "mm", "Bore of the second bearing", BEARINGS, by="second_rating", sought_in="C", column="bore"
+)
 tables.interpolated("form_factor", "Y", "1", "Form factor", FACTORS, of="teeth")
 
 MECHANISM = Mechanism(
@@ -56,6 +63,6 @@ MECHANISM = Mechanism(
 
 PRESS = """
 mechanisms:
-  drive: {kind: tabled_drive, bearing: "6205", chain: 10B, teeth: 18}
+  drive: {kind: tabled_drive, bearing: "6205", chain: 10B, teeth: 18, load: 14 kN}
 """
-GIVES = {"drive.bore": "25 mm", "drive.pitch": "15.875 mm", "drive.form_factor": "0.308"}
+GIVES = {"drive.bore": "25 mm", "drive.pitch": "15.875 mm", "drive.form_factor": "0.308", "drive.second_bore": "25 mm"}

@@ -29,10 +29,11 @@ class Cylinder(Inputs):
     travel: Annotated[float, Quantity("s", "mm", "Travel that is needed", gt=0)]
     belt: Annotated[float, Quantity("L", "mm", "Length of the belt that is needed", gt=0)]
     section: Annotated[Literal["SPZ", "SPA"], Text("Section of the belt")]
+    rating_given: Annotated[float | None, Quantity("P_g", "kW", "Rating, where it is not picked", gt=0)] = None
 
 
 sizes = Chapter("Sizes")
-sizes.pick("rating", "P_n", "kW", "Rating of the motor", "above", of="power", series=RATINGS)
+sizes.pick("rating", "P_n", "kW", "Rating of the motor", "above", of="power", series=RATINGS, given="rating_given")
 sizes.pick("stroke", "s_n", "mm", "Stroke of the cylinder", "above", of="travel", series=STROKES)
 sizes.pick("length", "L_n", "mm", "Length of the belt", "nearest", of="belt", series=LENGTHS, by="section")
 

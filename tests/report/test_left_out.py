@@ -1,0 +1,23 @@
+"""Steps that do not apply to a machine: told once for all that follow each other."""
+
+from __future__ import annotations
+
+from typing import Any
+
+from diecut_report.report.left_out import gathered_notes
+
+
+def _note(name: str, said: str = "does not apply to this machine.") -> dict[str, Any]:
+    return {"type": "note", "id": name, "description": name, "text": f"{name}: {said}"}
+
+
+def test_what_does_not_apply_stands_in_one_sentence() -> None:
+    formula = {"type": "formula", "description": "Root of it"}
+    found = gathered_notes([_note("Step"), _note("Root"), formula, _note("Share")])
+    assert found[0] == {"type": "note", "text": "Does not apply to this machine: Step; Root."}
+    assert found[1:] == [None, formula, _note("Share")]  # each step keeps its place, by which figures stand
+
+
+def test_notes_of_another_kind_stay_as_they_are() -> None:
+    notes = [_note("Angle", "there is none."), _note("Step"), {"type": "note", "text": "A remark."}, None]
+    assert gathered_notes(notes) == notes

@@ -1,0 +1,35 @@
+"""Where a line may break in what was typed, and which letters of a sentence are symbols."""
+
+from __future__ import annotations
+
+import re
+
+import pytest
+
+from diecut_report.report.symbols import pieces, prose
+
+
+@pytest.mark.parametrize(
+    ("typed", "whole"),
+    [
+        ("${cylinder.cutting_arc_fraction}", ["${cylinder.", "cutting_arc_fraction}"]),
+        ("2 * ${drive.energy} / 1.5", ["2", "*", "${drive.", "energy}", "/", "1.5"]),
+        ("60 1/h", ["60", "1/h"]),
+    ],
+)
+def test_a_path_breaks_behind_its_dots_and_nowhere_else(typed: str, whole: list[str]) -> None:
+    assert re.findall(r"<span class=whole>(.*?)</span>", pieces(typed)) == whole
+    assert re.sub(r"<.*?>", "", pieces(typed)) == typed  # what is copied is what was typed
+
+
+@pytest.mark.parametrize(
+    ("sentence", "symbols"),
+    [
+        ("where z = 60 1/h = 0.01667 1/s", ["z"]),
+        ("where L_10h = 752 356 h = 2.7e9 s", ["L"]),
+        ("where n_crit = 40 568 r/min = 4248 rad/s", ["n"]),
+        ("set n_points or crank_speed, at least 3 h", []),
+    ],
+)
+def test_a_unit_is_not_a_symbol_and_a_long_subscript_is_one(sentence: str, symbols: list[str]) -> None:
+    assert re.findall(r"<i class=sy>(.*?)</i>", prose(sentence)) == symbols

@@ -1,0 +1,19 @@
+"""What stands on the page of the verdict: sentences, and what is assumed by the check that it moves."""
+
+from __future__ import annotations
+
+from diecut_report.report.advice import followed_line
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.number_format import sentence
+
+
+def test_the_counts_begin_a_sentence() -> None:
+    assert sentence("не виконано 6 перевірок з 135") == "Не виконано 6 перевірок з 135"
+    assert sentence("6 of 135 checks fail") == "6 of 135 checks fail"
+
+
+def test_advice_has_the_numbers_of_the_language() -> None:
+    changes = [{"path": "cylinder.radius", "value": "105.2 mm"}, {"path": "clutch.single_position", "value": "true"}]
+    results = {"summary": {"advice": {"changes": changes, "failing": [], "error": None}}}
+    (line,) = followed_line(results, Catalogue("uk"))
+    assert "cylinder.radius 105,2 mm, clutch.single_position true" in line
