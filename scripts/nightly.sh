@@ -8,7 +8,7 @@ cd "$(dirname -- "$0")/.."
 python=$PWD/.venv/bin/python
 
 HYPOTHESIS_PROFILE=nightly "$python" -m pytest -n auto --maxprocesses 4 --dist worksteal -m "" "$@"
-for benchmark in calc report batch_kernel; do
+for benchmark in calc report batch_kernel warm; do
     "$python" "benchmarks/$benchmark.py" 1
 done
 scripts/site.sh
