@@ -5,6 +5,7 @@ from contextlib import contextmanager
 from typing import Any
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.report.quick_engine import hasten
 from diecut_report.report.surroundings import no_compiler
 
 with no_compiler():
@@ -26,6 +27,7 @@ __all__ = [
     "String",
     "URLFetcher",
     "fetching_refused",
+    "put_back",
 ]
 
 
@@ -51,3 +53,4 @@ def _references(pdf: Any) -> tuple[bytes, ...]:
 
 
 PDF.page_references = property(_references)
+put_back = hasten()
