@@ -1,50 +1,108 @@
-"""How long ``diecut-report report`` takes for HTML and PDF, against the practical route; ratios of one run.
+"""What ``diecut-report report`` takes: processor time, peak memory and sheets of one press, as ratios of one run.
 
-    python benchmarks/report.py [ROUNDS]
+    python benchmarks/report.py [ROUNDS] [PYTHON CONFIG]
 
-The practical route sets the same content as PDF alone: as many pages, formulas and figures, each formula an SVG of mathra
-and each figure an SVG of matplotlib, both as ``<img>``, and leaves WeasyPrint as it is. It starts from calculated results, so
-that it has less to do. Both run alternately, each in a fresh process; the least times are compared. The aim: at most 1.
+PYTHON is the interpreter of an environment in which an earlier version of the program is installed, CONFIG a press that both versions
+can read (that of the earlier one). All commands run in turns, each in a fresh process; the least times are compared, of the
+processor, as they hardly depend on what else the machine does. The aims: a ``brief`` PDF at most 2.5 × the calculation and what an
+empty page takes together, HTML at most 0.2 × the PDF, less than 350 MB, and ``standard`` HTML and PDF at most 0.45 × those of version 8c8da44.
 """
 
 from __future__ import annotations
 
+import os
 import subprocess
 import sys
 import tempfile
 from importlib import import_module
 from pathlib import Path
+from typing import NamedTuple
 
-from calc import seconds
+import pikepdf
 
-CONFIG = Path(import_module("diecut_report.configs").__path__[0]) / "flat_cylinder_press.yaml"
-PRACTICAL = Path(__file__).with_name("practical_route.py")
+FULL = Path(import_module("diecut_report.configs").__path__[0]) / "flat_cylinder_press.yaml"
+EMPTY = "from diecut_report.report.page_engine import HTML; HTML(string='<html lang=en><title>x</title>').write_pdf()"
+BOTH, MB = "html,pdf", 1024  # kilobytes
+REPORTS = {
+    "brief pdf": ("brief", "pdf"), "standard html": ("standard", "html"), "standard pdf": ("standard", "pdf"),
+    "standard both": ("standard", BOTH), "full both": ("full", BOTH),
+}  # fmt: skip
 
 
-def main(rounds: int) -> None:
-    """Run both in turns and print the least times and their ratio."""
+class Taken(NamedTuple):
+    """Processor time, s, and peak memory, MB, of a command."""
+
+    seconds: float
+    memory: float
+
+
+def taken(command: list[str]) -> Taken:
+    """Run a command and return what it took."""
+    process = subprocess.Popen(command, stdout=subprocess.DEVNULL)
+    _, status, usage = os.wait4(process.pid, 0)
+    if os.waitstatus_to_exitcode(status) not in (0, 1):  # 1: a check of the press fails, as it should
+        raise SystemExit(f"{command} ended with {status}")
+    return Taken(usage.ru_utime + usage.ru_stime, usage.ru_maxrss / MB)
+
+
+def commands(config: Path, folder: Path, landed: str | None) -> dict[str, list[str]]:
+    """Return the commands that are compared; each report lies in a folder of its own."""
+    program = [sys.executable, "-m", "diecut_report"]
+    found = {
+        "calc": [*program, "calc", "--quiet", "-o", os.devnull, str(config)],
+        "empty page": [sys.executable, "-c", EMPTY],
+    }
+    for name, (detail, formats) in REPORTS.items():
+        asked = ["--format", formats, "--detail", detail]
+        found[name] = [*program, "report", "--quiet", str(config), "-o", str(_made(folder, name)), *asked]
+    if landed:
+        asked = ["-o", str(_made(folder, "landed both")), "--format", BOTH]
+        found["landed both"] = [landed, "-m", "diecut_report", "report", "--quiet", str(config), *asked]
+    return found
+
+
+def _made(folder: Path, name: str) -> Path:
+    made = folder / name.replace(" ", "_")
+    made.mkdir(exist_ok=True)
+    return made
+
+
+def main(rounds: int, landed: str | None, config: Path) -> None:
+    """Run all in turns; print the least times, the memory, the sheets, and the ratios."""
     with tempfile.TemporaryDirectory() as name:
-        folder = Path(name)
-        program = [sys.executable, "-m", "diecut_report"]
-        subprocess.run([*program, "report", "--quiet", str(CONFIG), "-o", name, "--format", "json"], check=False)
-        results = folder / f"{CONFIG.stem}.json"
-        commands = {
-            "practical": [sys.executable, str(PRACTICAL), str(results), str(folder / "practical.pdf")],
-            "report": [*program, "report", "--quiet", str(CONFIG), "-o", name, "--format", "html,pdf"],
-        }
-        for command in commands.values():
-            seconds(command)  # the first run fills the file cache
-        least = {
-            key: min(times) for key, times in zip(commands, zip(*_turns(commands, rounds), strict=True), strict=True)
-        }
-    for key, value in least.items():
-        print(f"{key:10} {value:.2f} s")
-    print(f"ratio      {least['report'] / least['practical']:.2f}")
+        folder, least = Path(name), dict[str, Taken]()
+        every = commands(config, folder, landed)
+        for _ in range(rounds):
+            for each, command in every.items():
+                now = taken(command)
+                least[each] = min(least.get(each, now), now)
+        for each, (seconds, memory) in least.items():
+            print(f"{each:14} {seconds:7.2f} s {memory:6.0f} MB {_sheets(folder, each)}")
+    for told, above, below, aim in _ratios(bool(landed)):
+        ratio = sum(least[each].seconds for each in above) / sum(least[each].seconds for each in below)
+        print(f"{told:44} {ratio:5.2f} (aim {aim})")
 
 
-def _turns(commands: dict[str, list[str]], rounds: int) -> list[list[float]]:
-    return [[seconds(command) for command in commands.values()] for _ in range(rounds)]
+def _sheets(folder: Path, name: str) -> str:
+    for file in _made(folder, name).glob("*.pdf"):
+        with pikepdf.open(file) as opened:
+            return f"{len(opened.pages):4} sheets"
+    return ""
+
+
+def _ratios(has_landed: bool) -> list[tuple[str, list[str], list[str], float]]:
+    """Return what is compared: words, what is above and below the line, and the aim."""
+    found = [
+        ("brief pdf / (calc + empty page)", ["brief pdf"], ["calc", "empty page"], 2.5),
+        ("standard html / standard pdf", ["standard html"], ["standard pdf"], 0.2),
+    ]
+    if has_landed:
+        found.append(("standard html and pdf / the same, landed", ["standard both"], ["landed both"], 0.45))
+    return found
 
 
 if __name__ == "__main__":
-    main(int(sys.argv[1]) if len(sys.argv) > 1 else 5)
+    given = sys.argv[1:]
+    main(
+        int(given[0]) if given else 3, given[1] if len(given) > 2 else None, Path(given[2]) if len(given) > 2 else FULL
+    )

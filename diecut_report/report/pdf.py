@@ -30,6 +30,7 @@ NARROW_WIDTH, ROOMY_LETTERS = (
     22.0,
     100,
 )  # em of a formula beside which a description has more room, and its letters then
+VARIANT = "pdf/a-3a"
 SMALLER = 0.85  # of the letters of a source
 BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, which WeasyPrint finds in its cache
 
@@ -113,11 +114,15 @@ def sheets(material: Material) -> bytes:
         fetching_refused(material.house.folder if material.house else ""),
         warnings.catch_warnings(action="ignore", category=ResourceWarning),
     ):  # WeasyPrint's own file
-        content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
-            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False,
+        page = read_page(source, fetcher, is_own=material.house is None)
+        document = page.render(pdf_variant=VARIANT, cache=cache, presentational_hints=False)
+        del page, source
+        gc.collect()  # the tree that the sheets were laid out from goes before they are written
+        content: bytes = document.write_pdf(
+            pdf_variant=VARIANT,
             finisher=Archive(material.words, paper.letters, paper.formulas),
             attachments=[_attached(file, fetcher) for file in material.carried],
-        )  # fmt: skip
+        )
     return content
 
 

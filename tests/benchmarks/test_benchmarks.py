@@ -1,25 +1,28 @@
-"""The benchmarks run: what they compare with must not rot."""
+"""The benchmark of reports runs: its commands are those of the program as it is."""
 
 from __future__ import annotations
 
-import json
 import subprocess
 import sys
 from pathlib import Path
 
 import pytest
 
-from tests.configs import saved
+from tests.configs import EXAMPLE
 
-BENCHMARKS = Path(__file__).parents[2] / "benchmarks"
+BENCHMARK = Path(__file__).parents[2] / "benchmarks" / "report.py"
 
 
 @pytest.mark.nightly
-def test_the_practical_route_sets_a_report(small_report: Path, tmp_path: Path) -> None:
-    whole = json.loads((small_report / "small.json").read_text("utf-8"))
-    clutch = whole["mechanisms"]["clutch"]  # its first section and figure
-    clutch |= {"sections": clutch["sections"][:1], "figures": clutch["figures"][:1]}
-    results, target = saved(tmp_path, json.dumps(whole), "small.json"), tmp_path / "practical.pdf"
-    command = [sys.executable, str(BENCHMARKS / "practical_route.py"), str(results), str(target)]
-    subprocess.run(command, check=True, capture_output=True)
-    assert target.read_bytes().startswith(b"%PDF")
+def test_the_benchmark_of_reports_tells_times_memory_sheets_and_ratios() -> None:
+    small = str(EXAMPLE.with_name("circular_knife.yaml"))
+    command = [sys.executable, str(BENCHMARK), "1", sys.executable, small]
+    told = subprocess.run(command, check=True, capture_output=True, text=True).stdout.splitlines()
+    assert [line.split(" ")[0] for line in told[:8]] == [
+        "calc", "empty", "brief", "standard", "standard", "standard", "full", "landed",
+    ]  # fmt: skip
+    assert all(
+        line.endswith("sheets") == ("html" not in line and "calc" not in line and "page" not in line)
+        for line in told[:8]
+    )
+    assert [line.rsplit("(aim ", 1)[1] for line in told[8:]] == ["2.5)", "0.2)", "0.45)"]

@@ -23,7 +23,7 @@ from diecut_report.report.figures.by_type import build
 from diecut_report.report.figures.label_layout import AWAY, LabelLayout
 from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, framed
 from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import load_fonts
+from diecut_report.report.figures.style import load_fonts, text_size
 from diecut_report.report.figures.style import style as style_of
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.translated import translated
