@@ -73,8 +73,8 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "uvicorn": r"diecut_report\.live\.server",
     "watchfiles": r"diecut_report\.live\.application",
     "pymoo": r"diecut_report\.optimisation\.(search|progress)",
-    "weasyprint": r"diecut_report\.report\.(page_engine|quick_engine|quick_texts)",
-    "pydyf": r"diecut_report\.report\.(page_engine|quick_engine)",
+    "weasyprint": r"diecut_report\.report\.page_engine",
+    "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
     "jinja2": r"diecut_report\.report\.(html|document|house_style)",
     "scipy.stats": r"diecut_report\.(study|design)\..*",  # slow to import, and needed by studies and tolerances alone

@@ -6,7 +6,6 @@ from typing import Any
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase
-from diecut_report.report.quick_engine import hasten
 from diecut_report.report.surroundings import no_compiler
 
 with no_compiler():
@@ -28,7 +27,6 @@ __all__ = [
     "String",
     "URLFetcher",
     "fetching_refused",
-    "put_back",
 ]
 
 
@@ -56,4 +54,3 @@ def _references(pdf: Any) -> tuple[bytes, ...]:
 
 
 PDF.page_references = property(_references)
-put_back = hasten()

@@ -26,11 +26,8 @@ from diecut_report.report.sheet_frames import SheetBlocks, sheet_blocks
 
 BESIDE_WIDTH = 33.0  # em of a formula that stands beside its description
 BESIDE_LETTERS = 60  # of a description of two lines beside a formula
-NARROW_WIDTH, ROOMY_LETTERS = (
-    22.0,
-    100,
-)  # em of a formula beside which a description has more room, and its letters then
-VARIANT = "pdf/a-3a"
+NARROW_WIDTH = 22.0  # em of a formula beside which a description has more room
+ROOMY_LETTERS = 100  # of such a description
 SMALLER = 0.85  # of the letters of a source
 BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, which WeasyPrint finds in its cache
 
@@ -114,15 +111,11 @@ def sheets(material: Material) -> bytes:
         fetching_refused(material.house.folder if material.house else ""),
         warnings.catch_warnings(action="ignore", category=ResourceWarning),
     ):  # WeasyPrint's own file
-        page = read_page(source, fetcher, is_own=material.house is None)
-        document = page.render(pdf_variant=VARIANT, cache=cache, presentational_hints=False)
-        del page, source
-        gc.collect()  # the tree that the sheets were laid out from goes before they are written
-        content: bytes = document.write_pdf(
-            pdf_variant=VARIANT,
+        content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
+            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False,
             finisher=Archive(material.words, paper.letters, paper.formulas),
             attachments=[_attached(file, fetcher) for file in material.carried],
-        )
+        )  # fmt: skip
     return content
 
 
