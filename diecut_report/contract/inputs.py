@@ -139,7 +139,8 @@ class Quantity:
     def _within(self, shown: Any) -> Any:
         """Whether numbers in the display unit keep the bounds."""
         held = within(shown, (self.gt, self.ge, self.lt, self.le))
-        return held & np.isin(np.round(shown, 9), self.listed) if self.listed else held
+        with np.errstate(over="ignore"):  # the rounding of what is beyond all sizes
+            return held & np.isin(np.round(shown, 9), self.listed) if self.listed else held
 
     @cached_property
     def sizes(self) -> Plausible:

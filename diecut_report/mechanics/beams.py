@@ -103,8 +103,20 @@ class Bent:
 
     def at(self, places: Array) -> tuple[Array, Array]:
         """Return deflection and slope (places, variants, cases) at places (places, variants) that are among the points."""
-        index = np.argmin(np.abs(self.x[None] - places[:, None]), axis=1)[:, :, None]
+        index = nearest(self.x, places)[:, :, None]
         return tuple(np.take_along_axis(each, index, axis=0) for each in (self.deflection, self.slope))  # type: ignore[return-value]
+
+
+def nearest(x: Array, places: Array) -> Array:
+    """Return which of points x (points, variants; ascending) each place (places, variants) is nearest to, by halving: (places, variants)."""
+    low, high = np.zeros(places.shape, int), np.full(places.shape, len(x) - 1)
+    for _ in range(len(x).bit_length()):
+        middle = (low + high) // 2
+        below = np.take_along_axis(x, middle, axis=0) < places
+        low, high = np.where(below & (low < high), middle + 1, low), np.where(below, high, middle)
+    before = np.maximum(low - 1, 0)
+    to_before, to_behind = (np.abs(np.take_along_axis(x, each, axis=0) - places) for each in (before, low))
+    return np.where(to_before <= to_behind, before, low)
 
 
 def bent(x: Array, stiffness: Array, loading: Loading, supports: Supports) -> Bent:

@@ -44,7 +44,7 @@ for g, teeth in TEETH.items():
                    left=bind(lambda theta, virtual_teeth, offset: virtual_teeth * as_number(theta + offset) * np.cos(theta),
                              theta=f"root_angle_{g}", offset=f"tangent_offset_{g}", virtual_teeth=f"virtual_teeth_{g}"),
                    right=bind(lambda theta, center_height: 2 * center_height * np.sin(theta), theta=f"root_angle_{g}",
-                              center_height=f"rounding_height_{g}"), source=FORM, output=False, digits=6, tolerance=1e-12)
+                              center_height=f"rounding_height_{g}"), source=FORM, output=False, digits=6, tolerance=1e-9)
     root_form.value(f"chord_{g}", f"s_n{g}", "1", f"Chord of the root {g}, in modules", bind(f.root_chord, **own), source=FORM, output=False,
                     digits=6)
     root_form.value(f"fillet_{g}", f"r_n{g}", "1", f"Radius of the root {g} there, in modules", bind(f.fillet_radius, **own), source=FORM,

@@ -50,7 +50,7 @@ REST = [
     (LEVER, "$ME schema 2>&- >/dev/full", UNWRITABLE),
     (LEVER, "$ME check $CONFIG $OWN 2>&-", PASSED),
     (LEVER, "$ME check $CONFIG $OWN 2>/dev/full", PASSED),
-    (LEVER, "$ME check $CONFIG $OWN >&- 2>&- <&-", PASSED),
+    (LEVER, "$ME check $CONFIG $OWN >&- 2>&- <&-", UNWRITABLE),
     (WRONG, "$ME check $CONFIG $OWN 2>&-", BAD),
     (LEVER, "$ME check --nonsense 2>&-", BAD),
     (LEVER, "$ME check --nonsense 2>/dev/full", BAD),
@@ -105,7 +105,7 @@ sys.meta_path.insert(0, Interrupts())
 runpy.run_module("diecut_report", run_name="__main__", alter_sys=True)
 """
 MODULES = ["click", "numpy", "weasyprint"]
-MORE = ["diecut_report.cli", "yaml", "diecut_report.cli.main", "pydantic", "diecut_report.config.loader", "numpy.linalg", "scipy.optimize",
+MORE = ["diecut_report.cli", "yaml", "diecut_report.cli.main", "pydantic", "diecut_report.config.loader", "numpy.linalg", "jinja2",
         "diecut_report.results.document", "diecut_report.report"]  # fmt: skip
 
 

@@ -147,3 +147,14 @@ def test_area_and_second_moment_of_a_hollow_circle_are_those_of_its_rings() -> N
     radius, area = (edges[1:] + edges[:-1]) / 2, np.pi * np.diff(edges**2)
     assert beams.circle_area(0.1, 0.06) == pytest.approx(area.sum(), rel=1e-12)
     assert beams.second_moment(0.1, 0.06) == pytest.approx((area * radius**2 / 2).sum(), rel=1e-6)
+
+def test_the_nearest_point_is_the_one_that_a_search_of_all_finds() -> None:
+    """Also where points coincide, and where a place is as far from two of them."""
+    rng = np.random.default_rng(1)
+    for _ in range(300):
+        points, variants, count = rng.integers(1, 30), rng.integers(1, 4), rng.integers(1, 20)
+        x = np.sort(np.round(rng.random((points, variants)), 2), axis=0)
+        places = np.round(rng.random((count, variants)), int(rng.integers(1, 4)))
+        least = np.abs(x[None] - places[:, None]).min(axis=1)
+        found = np.take_along_axis(x, beams.nearest(x, places), axis=0)
+        assert np.allclose(np.abs(found - places), least, atol=1e-15)

@@ -122,10 +122,13 @@ def _to_si(values: Array, unit_text: str) -> Array:
     given = unit(unit_text)
     if given.factor == 1:
         return values
-    different, places = np.unique(values, return_inverse=True)
-    finite = np.isfinite(different)
-    different[finite] = [given.to_si(value) for value in different[finite].tolist()]
-    return np.asarray(different[places])
+    read = np.empty(len(values))
+    for start in range(0, len(values), SLICE):  # all at once would take several times what the numbers themselves do
+        different, places = np.unique(values[start : start + SLICE], return_inverse=True)
+        finite = np.isfinite(different)
+        different[finite] = [given.to_si(value) for value in different[finite].tolist()]
+        read[start : start + SLICE] = different[places]
+    return read
 
 
 def _not_finite(value: float) -> str:
