@@ -277,11 +277,9 @@ class _Fault:
         if known:
             return known
         meta = declared(self.model, self.key) if self.key else None
-        return (
-            Phrase("another value ({description})", description=phrase(meta.description))
-            if isinstance(meta, Text)
-            else phrase("another value")
-        )
+        if isinstance(meta, Text):
+            return Phrase("another value ({description})", description=phrase(meta.description))
+        return phrase("another value")
 
 
 def told(given: Any) -> str:

@@ -148,6 +148,7 @@ def test_area_and_second_moment_of_a_hollow_circle_are_those_of_its_rings() -> N
     assert beams.circle_area(0.1, 0.06) == pytest.approx(area.sum(), rel=1e-12)
     assert beams.second_moment(0.1, 0.06) == pytest.approx((area * radius**2 / 2).sum(), rel=1e-6)
 
+
 def test_the_nearest_point_is_the_one_that_a_search_of_all_finds() -> None:
     """Also where points coincide, and where a place is as far from two of them."""
     rng = np.random.default_rng(1)
