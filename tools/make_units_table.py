@@ -28,7 +28,7 @@ FAMILIES: list[tuple[str, str, float, str]] = [
     ("a line force or stiffness", "N/m", 30000.0, "N/m N/mm N/cm kN/m kN/mm MN/m N/um"),
     ("a moment", "N*m", 100.0, "N*m kN*m N*mm N*cm kN*mm MN*m mN*m kgf*m"),
     ("an energy", "J", 100.0, "J kJ MJ mJ kWh W*h W*s"),
-    ("a pressure or stress", "Pa", 3e5, "Pa kPa MPa GPa hPa bar mbar psi N/mm**2 kN/mm**2 N/m**2 N/cm**2 kN/m**2"),
+    ("a pressure or stress", "Pa", 3e5, "Pa kPa MPa GPa hPa bar mbar psi kpsi N/mm**2 kN/mm**2 N/m**2 N/cm**2 kN/m**2"),
     ("an angular stiffness", "N*m/rad", 5000.0, "N*m/rad kN*m/rad N*mm/rad N*m/deg"),
     ("an angular damping", "N*m*s/rad", 2.0, "N*m*s/rad"),
     ("a damping", "N*s/m", 200.0, "N*s/m kN*s/m N*s/mm"),

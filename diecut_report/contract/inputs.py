@@ -139,8 +139,7 @@ class Quantity:
     def _within(self, shown: Any) -> Any:
         """Whether numbers in the display unit keep the bounds."""
         held = within(shown, (self.gt, self.ge, self.lt, self.le))
-        with np.errstate(over="ignore"):  # the rounding of what is beyond all sizes
-            return held & np.isin(np.round(shown, 9), self.listed) if self.listed else held
+        return held & np.isin(np.round(np.clip(shown, -1e99, 1e99), 9), self.listed) if self.listed else held
 
     @cached_property
     def sizes(self) -> Plausible:

@@ -35,7 +35,7 @@ def lines(found: Mended) -> Iterator[str]:
 
 
 def _change(change: InputChange, width: int) -> Phrase:
-    share = "" if change.share is None else f"  ({100 * change.share:+.2g} %)"
+    share = "" if change.share is None else f"  ({100 * change.share:{'+.2g' if abs(change.share) < 1 else '+.0f'}} %)"
     before = change.before or phrase("not given")
     return Phrase(
         "  {name}  {before} → {after}{share}",

@@ -139,7 +139,7 @@ def _commands(name: str, option: str, *, as_package: bool) -> str:
     """What one does with it, in the order in which one does."""
     shown = [
         *(["pip install --editable ."] if as_package else []),
-        f"diecut-report check-plugin {name}{option} -o build/{name}.html",
+        f"diecut-report check-plugin {name}{option} -o build/chapter.html",
         "python -m pytest tests",
         f"diecut-report report examples/{name}.yaml{option} -o build",
         f"diecut-report batch examples/{name}_study.yaml{option} -o build/study",

@@ -6,6 +6,10 @@ from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, Te
 from diecut_report.mechanics.motion_laws import LAWS
 
 TURNS = ("0.01 deg", "3600 deg")
+DWELL = (
+    "1 deg",
+    "360 deg",
+)  # of less the return would be nearly a turn, within which curves are too narrow to be proved
 
 
 def _arm_angle(number: str) -> Quantity:
@@ -23,7 +27,7 @@ class CamGearTransport(Inputs):
 
     dwell_angle: Annotated[
         float,
-        Quantity("φ_22", "deg", "Dwell of the gear, in angle of the disc (phase II)", gt=0, lt=360, plausible=TURNS),
+        Quantity("φ_22", "deg", "Dwell of the gear, in angle of the disc (phase II)", gt=0, lt=360, plausible=DWELL),
     ]
     sector_dwell_sweep: Annotated[
         float, Quantity("γ_32", "deg", "Sweep of the sector during the dwell (phase II)", gt=0, plausible=TURNS)
@@ -62,7 +66,9 @@ class CamGearTransport(Inputs):
         ),
     ] = None
     chain_pitch: Annotated[float | None, Quantity("p", "mm", "Pitch of the conveyor's chain", gt=0)] = None
-    sprocket_ratio: Annotated[float, Quantity("u", "1", "Turns of the sprocket for each turn of the gear", gt=0)] = 1
+    sprocket_ratio: Annotated[
+        float, Quantity("u", "1", "Turns of the sprocket for each turn of the gear", gt=0, plausible=("0.001", "1000"))
+    ] = 1
     allowable_sheet_acceleration: Annotated[
         float | None, Quantity("[a_s]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
     ] = None

@@ -97,7 +97,7 @@ def test_checks_stand_in_the_order_of_their_importance(tmp_path: Path) -> None:
         judged = [{"id": f"c{number}", "title": "C", "class": "strength", "message": "", "status": pair[side][0], "utilisation": pair[side][1]}
                   for number, pair in enumerate(CHECKED)]  # fmt: skip
         mechanism = whole["mechanisms"]["a"] | {"checks": judged[:: 1 if side else -1]}
-        sides.append(whole | {"mechanisms": {"a": mechanism}})
+        sides.append(whole | {"mechanisms": {"a": mechanism}, "governing": {"mechanism": "a", "check": "c0"}})
     found = changes(*sides)["checks"]
     assert [row["id"] for row in found] == [f"c{number}" for number in range(len(CHECKED))]
 

@@ -16,6 +16,7 @@ from scipy.integrate import quad
 from diecut_report.api import formula
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.engine.figure_views import MachineView
+from diecut_report.engine.moving_shapes import laid_out
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
 from diecut_report.plugins.cam_gear_transport import drawing, figures
 from diecut_report.plugins.cam_gear_transport.advice import leaves_return
@@ -458,7 +459,7 @@ def test_laws_that_leave_no_return_are_left_out_of_the_comparison() -> None:
 
 def test_the_drawn_sector_touches_the_gear_and_the_drawn_cams_are_closed() -> None:
     view = MachineView(stepper(**LOADED))
-    bodies = [shape for shape in drawing.rolling(view) if shape["shape"] == "polyline" and shape["closed"]]
+    bodies = [shape for shape in laid_out(drawing.rolling(view)) if shape["shape"] == "polyline" and shape["closed"]]
     assert len(bodies) == 2
     for body in bodies:
         rim = np.hypot(*np.array(body["points"][1:]).T)

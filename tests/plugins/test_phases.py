@@ -233,7 +233,7 @@ def test_the_results_hold_intervals_in_si_and_as_they_are_printed() -> None:
     )
     assert phase["intervals"][0] == pytest.approx(np.radians([55.8619, 157.0511]), abs=1e-6)
     told = phase["display"]["intervals"][0]
-    assert told == {"from": "55.8619", "to": "157.051", "length": "101.189", "time": "337.3"}
+    assert told == {"from": "55.86", "to": "157.05", "length": "101.19", "time": "337.3"}
 
 
 # --- the other kinds -----------------------------------------------------------------------------------------------------

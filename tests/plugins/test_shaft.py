@@ -225,7 +225,7 @@ def test_of_two_notches_at_one_place_the_greater_factors_hold() -> None:
 def test_a_press_fit_has_the_factors_of_din_743() -> None:
     calculation = shaft(CRANKSHAFT, notches=[{"position": 130, "type": "press_fit"}])
     k_f = 2.7 * 0.9**0.43
-    found = [row(calculation, name)["notch 1 (press_fit)"] for name in ("k_f", "k_fs")]
+    found = [row(calculation, name)["notch 1 (press fit)"] for name in ("k_f", "k_fs")]
     assert found == pytest.approx([k_f, 0.65 * k_f], rel=1e-12)
 
 

@@ -129,7 +129,7 @@ def test_series_is_named_once_where_a_note_tells_its_sources(plain: Data) -> Non
 def test_last_of_a_row_and_running_integral(chapters: dict[str, PrintedChapter]) -> None:
     last, energy = (_items(chapters)[name].equation for name in ("Speed of the last shaft", "Energy"))
     assert last is not None and last.text == "n = last ω_k = 49.32 r/min"
-    assert energy is not None and energy.text == "A = ∫_0^φ M dφ = −6.804 J at φ = 45°"
+    assert energy is not None and energy.text == "A = ∫ M dφ from 0 to φ = −6.804 J at φ = 45°"
 
 
 # comparisons

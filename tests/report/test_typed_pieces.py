@@ -18,7 +18,7 @@ from diecut_report.report.symbols import cited, pieces, prose
     ],
 )
 def test_a_path_breaks_behind_its_dots_and_nowhere_else(typed: str, whole: list[str]) -> None:
-    assert re.findall(r"<span class=whole>(.*?)</span>", pieces(typed)) == whole
+    assert re.findall(r"<span class=\"whole\">(.*?)</span>", pieces(typed)) == whole
     assert re.sub(r"<.*?>", "", pieces(typed)) == typed  # what is copied is what was typed
 
 

@@ -6,12 +6,13 @@ import dataclasses
 import inspect
 import re
 from collections.abc import Iterator
+from pathlib import PurePath
 from typing import Any
 
 from tools.site.markup import code, fenced, plain
 
 WIDEST = 100
-HIDDEN = ("self", "at", "cls")
+HIDDEN = ("self", "cls")
 
 
 def signature(name: str, thing: Any) -> str:
@@ -24,7 +25,7 @@ def signature(name: str, thing: Any) -> str:
         )
     except (TypeError, ValueError):
         return ""
-    taken = [each for each in found.parameters.values() if each.name not in HIDDEN]
+    taken = [each for each in found.parameters.values() if each.name not in HIDDEN and not _is_place(each)]
     parts: list[str] = []
     is_keyed = False
     for each in taken:
@@ -41,6 +42,11 @@ def signature(name: str, thing: Any) -> str:
     return whole if len(whole) <= WIDEST else f"{name}(\n    " + ",\n    ".join(parts) + f",\n){gives}"
 
 
+def _is_place(each: inspect.Parameter) -> bool:
+    """Whether it is where a declaration stands, which the program finds by itself."""
+    return each.name == "at" and each.default is not each.empty
+
+
 def _parameter(each: inspect.Parameter) -> str:
     stars = "*" if each.kind is each.VAR_POSITIONAL else "**" if each.kind is each.VAR_KEYWORD else ""
     kind = "" if each.annotation is each.empty else f": {_type(each.annotation)}"
@@ -55,7 +61,7 @@ def _type(annotation: Any) -> str:
 
 def _default(value: Any) -> str:
     text = repr(value)
-    return "..." if text.startswith("<") or "0x" in text else text
+    return "..." if text.startswith("<") or "0x" in text or isinstance(value, PurePath) else text
 
 
 def _is_protocol(thing: Any) -> bool:

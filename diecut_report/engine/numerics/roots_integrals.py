@@ -40,7 +40,7 @@ def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
     low, high = (calc.apply(end)[:, 0] for end in (step.low, step.high))
     calc.values[step.id] = bracketed_roots.root(residual, low, high)[:, None]
     left, right = calc.apply(step.left), calc.apply(step.right)
-    return calc.values[step.id], np.abs(left - right) / np.maximum(np.abs(left), np.abs(right))
+    return calc.values[step.id], np.abs(left - right) / np.maximum(np.maximum(np.abs(left), np.abs(right)), SMALLEST)
 
 
 def integral(calc: Calculation, curve: str, power: int) -> tuple[Array, Array]:
