@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from diecut_report.design.advice import InputChange, Mended
 from diecut_report.design.conflicts import CheckConflict
 from diecut_report.languages.phrases import Counted, Phrase, phrase
-from diecut_report.quantities.formatting import with_unit
+from diecut_report.quantities.formatting import number_text, with_unit
 from diecut_report.quantities.units import UnitError, number_and_unit
 
 
@@ -29,13 +29,18 @@ def lines(found: Mended) -> Iterator[str]:
     width = max(len(each.name) for each in found.changes)
     yield from (_change(each, width) for each in found.changes)
     words = "sum of the changes: {size} % of today's values; governing: {check}"
-    yield Phrase(words, size=f"{100 * found.size:.3g}", check=found.machine.governing or phrase("none"))
+    yield Phrase(words, size=number_text(100 * found.size, 3), check=found.machine.governing or phrase("none"))
     if warned := [name for name, _ in found.machine.checks("warn")]:
         yield Phrase("with a warning: {checks}", checks=", ".join(warned))
 
 
+def share_told(share: float) -> str:
+    """Return a change as a share of today's value, in percent with a sign."""
+    return f"{'+' * (share > 0)}{number_text(100 * share, 2)} %"
+
+
 def _change(change: InputChange, width: int) -> Phrase:
-    share = "" if change.share is None else f"  ({100 * change.share:{'+.2g' if abs(change.share) < 1 else '+.0f'}} %)"
+    share = "" if change.share is None else f"  ({share_told(change.share)})"
     before = change.before or phrase("not given")
     return Phrase(
         "  {name}  {before} → {after}{share}",

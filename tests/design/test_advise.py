@@ -13,6 +13,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.design.advice import mended
+from diecut_report.design.advice_text import share_told
 from diecut_report.design.design_inputs import design_input
 from diecut_report.design.varied_machines import varied
 from diecut_report.results.advised_changes import AdvisedChange, advised_changes
@@ -132,3 +133,11 @@ def test_advice_is_read_where_it_names_a_key_and_a_value(message: str, changes: 
 def test_the_published_press_is_mended_by_advice_alone(config: Path) -> None:
     made = mended(load_config(config, Discovery([])), Discovery([]), tell=lambda _: None)
     assert made.machine is not None and made.machine.checks("fail") == [] and len(made.changes) <= 20
+
+
+@pytest.mark.parametrize(
+    ("share", "told"),
+    [(2.579, "+258 %"), (0.9994, "+100 %"), (-0.167, "-17 %"), (0.003142, "+0.31 %"), (12.0, "+1200 %")],
+)
+def test_a_share_of_any_size_is_told_without_a_power_of_ten(share: float, told: str) -> None:
+    assert share_told(share) == told

@@ -13,7 +13,7 @@ from diecut_report.contract.steps import Root
 from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
 from diecut_report.mechanics import common
 from diecut_report.results.mechanism import mechanism_results
-from tests.engine.toy import MECHANISM, ROOTED, cube, doubled, plus_one, same, zero
+from tests.engine.toy import MECHANISM, ROOTED, cube, cubed, doubled, plus_one, same, zero
 from tests.machines import inputs, number
 
 STEP = np.radians(120)
@@ -144,6 +144,13 @@ def test_a_root_that_its_relation_does_not_confirm_is_refused() -> None:
     wrong = replace(root_step(), right=plus_one)
     with pytest.raises(Unproven, match="Cube root"):
         calculate(replace(ROOTED, chapters=(Chapter("Root", steps=(wrong,)),)), inputs(ROOTED, {}))
+
+
+def test_a_relation_that_is_zero_on_both_sides_is_proved() -> None:
+    """Both sides may become nothing for a sensible machine, such as one without a gap."""
+    nothing = replace(root_step(), low=zero, equation=cubed, left=zero, right=zero)
+    calc = calculate(replace(ROOTED, chapters=(Chapter("Root", steps=(nothing,)),)), inputs(ROOTED, {}))
+    assert (number(calc, "x"), calc.proof["x"]) == (0.0, 0.0)
 
 
 def test_a_bracket_without_a_root_is_no_silent_nan() -> None:

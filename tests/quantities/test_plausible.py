@@ -84,6 +84,12 @@ def test_the_sizes_of_a_key_hold_for_their_kind_of_quantity_alone() -> None:
     assert turned.validate("3 m") == 3
 
 
+@pytest.mark.parametrize("given", ["1e300 %", -1e300, 12.0])
+def test_what_is_beyond_all_sizes_is_no_number_of_a_list(given: float | str) -> None:
+    with pytest.raises(ValueError, match="out of range; allowed: 50, 90 %"):
+        Quantity("R", "%", "Reliability", listed=(50, 90)).validate(given)
+
+
 def test_columns_are_judged_as_single_values_are() -> None:
     values = np.array([0, 1e-6, 9e-7, -9e-7, 100, 101, np.inf, np.nan, 1e-6 * (1 - 1e-16), 0.1 + 0.2])
     assert LENGTH.holds(values).tolist() == [True, True, False, False, True, False, False, False, True, True]

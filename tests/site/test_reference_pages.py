@@ -23,6 +23,7 @@ from diecut_report.testing import check_mechanism
 from tools import make_form_page
 from tools.site import drawing_page, functions_page
 from tools.site.api_groups import GROUPS, TOLD
+from tools.site.signatures import signature
 
 ROOT = Path(__file__).parents[2]
 UNITS = (ROOT / "docs" / "reference" / "units.md").read_text(encoding="utf-8")
@@ -208,6 +209,15 @@ def test_the_page_of_the_authors_form_is_made_of_what_there_is() -> None:
         told = set(re.findall(r"^### `(?:chapter\.)?(\w+)`", text, re.MULTILINE))
         called = {name for name in dir(api.Steps) if inspect.isfunction(getattr(api.Steps, name)) and name[0] != "_"}
         assert called <= told and make_form_page.MEANINGS.keys() == Options.__annotations__.keys()
+
+
+def test_a_signature_leaves_out_nothing_that_must_be_given() -> None:
+    for name in ("rigid", "point", "label"):
+        needed = [
+            each for each in inspect.signature(getattr(api, name)).parameters.values() if each.default is each.empty
+        ]
+        assert needed and all(re.search(rf"\b{each.name}:", signature(name, getattr(api, name))) for each in needed)
+    assert "/" not in signature("standard_series", api.standard_series)  # no folder of the machine that made the page
 
 
 def test_each_name_stands_on_one_page_of_the_reference() -> None:

@@ -18,7 +18,7 @@ from hypothesis import strategies as st
 
 from diecut_report.errors import UserError
 from diecut_report.quantities.units import parse_quantity
-from diecut_report.study.tables.cells import Cells, si_numbers
+from diecut_report.study.tables.cells import SLICE, Cells, si_numbers
 from diecut_report.study.tables.reading import read_table
 
 HEADERS = ["drive.crank_speed [rpm]", "cylinder.bore_radius", "drive.motion_law", "train.teeth"]
@@ -127,6 +127,13 @@ def test_columns_are_converted_as_single_values_are(values: list[float], unit_te
     with_units, none_either = si_numbers(Cells(typed), unit_text, own=False)
     assert no_faults.count == none_either.count == 0
     assert list(plain) == list(with_units) == expected
+
+
+def test_a_column_longer_than_is_read_at_once_is_converted_as_a_short_one() -> None:
+    values = [0.1 * (i % 997) for i in range(SLICE + 5)]
+    found, faults = si_numbers(Cells(values), "mm", own=False)
+    assert faults.count == 0 and list(found[-9:]) == [parse_quantity(value, "mm") for value in values[-9:]]
+    assert list(found[:997]) == list(found[997:1994]) and len(found) == len(values)
 
 
 def test_millimetres_are_rounded_once_as_in_a_config(tmp_path: Path) -> None:
