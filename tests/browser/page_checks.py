@@ -193,6 +193,14 @@ def test_light_and_dark_follow_the_system_and_the_switch(browser: Browser, repor
     assert page.evaluate(ground) == light, "the choice is kept"
 
 
+def test_the_sign_of_a_verdict_has_the_colour_of_its_words(browser: Browser, report: Path) -> None:
+    colours = Opened(browser, report).page.evaluate(
+        """() => Array.from(document.querySelectorAll(".badge > .mk"),
+            sign => [getComputedStyle(sign).color, getComputedStyle(sign.parentElement).color])"""
+    )
+    assert colours and all(sign == words for sign, words in colours)
+
+
 def test_the_contents_say_where_the_reader_is(browser: Browser, report: Path) -> None:
     page = Opened(browser, report).page
     for head in page.locator("main h2[id]").all()[1:3]:
