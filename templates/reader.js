@@ -314,7 +314,13 @@
 
   /* ---- curves read at the cursor ---- */
   var groups = [];
-  data.turns.forEach(function (turn) { groups.push({ place: null, members: [], turn: turn, moving: data.moving.filter(function (each) { return each.group === groups.length; }) }); });
+  /* Where the cursor of a group begins: where the last of its diagrams and drawings does, as all of them have a value there. */
+  function beginning(group) {
+    var panels = Object.keys(data.figures).reduce(function (found, number) { return found.concat(data.figures[number].panels); }, []);
+    return Math.max.apply(null, panels.concat(data.moving).filter(function (each) { return each.group === group; })
+      .map(function (each) { return each.across.range[0]; }));
+  }
+  data.turns.forEach(function (turn, index) { groups.push({ place: beginning(index), members: [], turn: turn, moving: data.moving.filter(function (each) { return each.group === groups.length; }) }); });
   var LOOKS = [["accent", [], 1.9], ["ink", [7, 3], 1.5], ["soft", [8, 2, 2, 2], 1.5], ["ink", [2, 2], 1.5], ["ink", [], 0.9], ["accent", [13, 3], 1.8], ["soft", [8, 2, 2, 2, 2, 2], 1.5], ["accent", [4, 2], 1.9]];
 
   function colour(name) { return getComputedStyle(root).getPropertyValue("--r-" + name).trim(); }
@@ -581,7 +587,7 @@
     mover(moving, box);
     slider(moving, box);
     player(group, moving.across.range, box);
-    move(group, group.place === null ? moving.across.range[0] : group.place);
+    move(group, group.place);
   }
 
   function readable(number) {
@@ -602,8 +608,7 @@
       figure.classList.add("read");
     }
     panels.forEach(function (panel) {
-      var group = groups[panel.group];
-      move(group, group.place === null ? panel.across.range[0] : group.place);
+      move(groups[panel.group], groups[panel.group].place);
     });
   }
 
