@@ -86,16 +86,27 @@ _FACTOR = r"\(*(?:[^\W\d]\w*|%)(?:\*\*-?\d\d?)?\)*"
 _GRAMMAR = re.compile(rf"(?:1/)?{_FACTOR}(?:[*/]{_FACTOR})*")
 
 
-@lru_cache(maxsize=2048)
 def unit(text: str) -> Unit:
     """The unit that a text names, in any usual spelling: "kg*m**2", "kg·m²", "kg m^2", "Nm", "°", "m/s2".
 
     Raises UnitError, with a suggestion where one is near, for what is not a unit or has no fixed zero (degC).
     """
+    found = _unit_or_fault(text)
+    if isinstance(found, UnitError):
+        raise UnitError(*found.args)
+    return found
+
+
+@lru_cache(maxsize=2048)
+def _unit_or_fault(text: str) -> Unit | UnitError:
+    """A fault is remembered too: to seek what is near takes as long as a thousand units, and a table may hold ten million."""
     canonical = _canonical(text)
     known = _table()["units"].get(canonical)
     if known is None:
-        return _read_with_pint(canonical, text)
+        try:
+            return _read_with_pint(canonical, text)
+        except UnitError as error:
+            return error.with_traceback(None)
     factor, family = known
     entry = _table()["families"][family]
     return Unit(canonical, factor, entry["si"], tuple(entry["kind"]))
@@ -269,6 +280,7 @@ def kind_name(of: Unit) -> str:
     return str(family["name"]) if family else Phrase("a quantity in {si}", si=of.si)
 
 
+@lru_cache
 def _needed(wanted: Unit | None) -> str:
     if wanted is None:
         return phrase("a number with a unit is needed, for example 90 mm")

@@ -90,6 +90,10 @@ class WarmPress:
         """
         return require_possible(WarmRun(config, self, tell))
 
+    def printed(self, config: Config, tell: Tell = lambda _: None) -> WarmRun:
+        """Calculate a configuration and print it as the ordinary way does, for ``results.document``; else as ``calculate``."""
+        return require_possible(_PrintedRun(config, self, tell))
+
     def remembered(
         self, name: str, mechanism: Mechanism, taken: Mapping[str, Any], chosen: ChosenUnits, tell: Tell
     ) -> Remembered:
@@ -197,7 +201,7 @@ class WarmRun(Run):
 
     def document(self) -> Data:
         """Return all results, comparisons too; printed is what has not been asked for yet. UserError as of any calculation."""
-        return document(require_possible(_PrintedRun(self.config, self.press, self._tell)))
+        return document(self.press.printed(self.config, self._tell))
 
 
 class _PrintedRun(WarmRun):

@@ -32,6 +32,7 @@ from diecut_report.report import Rendering
 from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
+from diecut_report.results.warm_press import WarmPress
 from diecut_report.study.execution.time_limit import Overran, limited
 from diecut_report.testing import wide_machines
 from diecut_report.testing.extreme_inputs import (
@@ -192,19 +193,19 @@ class ContractTest:
         numbers, lists = list(extremes_of(*of_it)), list(empty_lists(*of_it))
         some = numbers if len(numbers) <= EXTREMES else random.Random(SEED).sample(numbers, EXTREMES)
         cases, chosen = [*lists, *numbers], [*lists, *some]
-        faults, ends = list[str](), time.process_time() + BUDGET
+        press, faults, ends = WarmPress(), list[str](), time.process_time() + BUDGET
         for tried, (path, value) in enumerate(chosen):
             if time.process_time() > ends:
                 chosen = chosen[:tried]
                 break
-            faults += self._extreme(data, path, value)
+            faults += self._extreme(press, data, path, value)
         told = Phrase("{count} of {all} single extreme values", count=len(chosen), all=len(cases))
         return rule("hostile", told, faults)
 
-    def _extreme(self, data: Mapping[str, Any], path: KeyPath, value: Extreme) -> Iterator[str]:
+    def _extreme(self, press: WarmPress, data: Mapping[str, Any], path: KeyPath, value: Extreme) -> Iterator[str]:
         assert self.config is not None
         folder = Path(self.config.tree.file).parent
-        fault = fault_of(with_value(data, path, value), self.discovery, lambda name: folder / name)
+        fault = fault_of(with_value(data, path, value), self.discovery, press, lambda name: folder / name)
         if fault:
             given = str(value) if isinstance(value, list) else f"{value:g}"
             words = Phrase("with {value}: {fault}", value=given, fault=fault)

@@ -17,8 +17,8 @@ from diecut_report.contract.unit_variants import in_unit
 from diecut_report.errors import UserError
 from diecut_report.languages.phrases import Phrase
 from diecut_report.results.document import document
-from diecut_report.results.press_run import compute
 from diecut_report.results.results_file import results_text
+from diecut_report.results.warm_press import WarmPress
 
 NOT_A_NUMBER = re.compile(r"(?<![\w.])[-+−]?(?:nan|inf|infinity)(?![\w])", re.IGNORECASE)
 BEYOND = (1e-300, 1e-12, 1e12, 1e300)
@@ -104,10 +104,13 @@ def with_value(config: Mapping[str, Any], key: KeyPath, value: Any) -> str:
     return json.dumps(changed)
 
 
-def fault_of(text: str, discovery: Discovery, find: Find | None = None) -> str | None:
-    """Return what is wrong with the outcome of a configuration, None where it is numbers, or is refused in words."""
+def fault_of(text: str, discovery: Discovery, press: WarmPress, find: Find | None = None) -> str | None:
+    """Return what is wrong with the outcome of a configuration, None where it is numbers, or is refused in words.
+
+    ``press`` remembers what the configurations that are tried one after another have in common.
+    """
     try:
-        run = compute(load_config(yaml_tree.parse(text, "press.yaml"), discovery, find=find), lambda _: None)
+        run = press.printed(load_config(yaml_tree.parse(text, "press.yaml"), discovery, find=find))
         results = results_text(document(run))
     except UserError as refusal:
         odd = next((str(problem) for problem in refusal.problems if _odd(str(problem.message))), None)

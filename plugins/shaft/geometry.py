@@ -148,7 +148,7 @@ endurance.choice("reliability_factor", "k_e", "1", "Reliability factor",
                  case(lambda: 0.753, "99.9 %", lambda reliability: reliability < 0.9995),
                  case(lambda: 0.702, "99.99 %"), source="Shigley table 6-5")
 endurance.computed("size_share", "d_e/d", "1", "Effective diameter to the diameter",
-                   lambda rotation, length: np.full_like(length, 0.37 if rotation == "none" or isinstance(rotation, np.ndarray) else 1.0),
+                   lambda rotation, length: np.full_like(length, 0.37 if isinstance(rotation, np.ndarray) or rotation == "none" else 1.0),
                    ("rotation", "length"), "1 of a shaft that turns or swings, 0.37 of one that stands (Shigley 6-24)", output=False)
 endurance.value("size_factor", "k_b", "1", "Size factor", bind(formulas.size_factor, diameter="place_diameter"), source="Shigley 6-20",
                 output=False)

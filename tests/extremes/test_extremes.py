@@ -8,9 +8,8 @@ import pytest
 
 from diecut_report.contract.inputs import Quantity
 from diecut_report.quantities.plausible import Plausible
-from tests.extremes.examples import example_extremes, example_fault
+from tests.extremes.examples import HOMES, example_extremes, example_fault, new_extremes
 from tests.extremes.harness import ALONE, extremes, fault, values
-from tests.plugins.cases import CONFIGS
 
 SAMPLE = 6  # of a kind
 FEW = {
@@ -37,15 +36,15 @@ def test_every_single_extreme_is_numbers_or_words(kind: str) -> None:
 
 def test_a_sample_of_extremes_of_what_holds_a_press_together_is_numbers_or_words() -> None:
     homes = ("timing", "consistency")
-    cases = [case for case in example_extremes("flat_cylinder_press_mended") if case.key[1] in homes]
+    cases = [case for home in homes for case in example_extremes("flat_cylinder_press_mended", home)]
     chosen = random.Random(1).sample(cases, 3)
     assert [f"{case.name}: {found}" for case in chosen if (found := example_fault(case))] == []
 
 
 @pytest.mark.nightly
-@pytest.mark.parametrize("stem", CONFIGS)
-def test_every_single_extreme_of_an_example_is_numbers_or_words(stem: str) -> None:
-    cases = example_extremes(stem)
+@pytest.mark.parametrize(("stem", "home"), HOMES)
+def test_every_single_extreme_of_an_example_is_numbers_or_words(stem: str, home: str) -> None:
+    cases = new_extremes(stem, home)
     assert [f"{case.name}: {found}" for case in cases if (found := example_fault(case))] == []
 
 

@@ -133,6 +133,14 @@ def test_power_in_less_all_losses_is_power_out(
     assert powers[0] - number(calc, "losses_total") == pytest.approx(powers[-1], rel=1e-12, abs=1e-9)
 
 
+@pytest.mark.parametrize("efficiency", [1e-6, 0.5])
+def test_the_balance_bears_the_rounding_of_the_greatest_of_its_powers(efficiency: float) -> None:
+    gears = [{"driver_teeth": 20, "driven_teeth": 57, "efficiency": efficiency}]
+    calc = train(gears=gears, output_speed=150, torque_curve=[100, 730, 410, 260], torque_peak=1500)
+    assert check(calc, "power_balance")["status"] == "pass"
+    assert number(calc, "power_rounding") < 1e-11 * number(calc, "shaft_1_power")
+
+
 def test_without_backflow_each_shaft_passes_on_what_its_efficiency_leaves() -> None:
     calc = train(gears=PAIRS)
     powers = [number(calc, "shaft_1_power"), number(calc, "shaft_2_power"), *calc["gear_shaft_power"][0]]

@@ -54,6 +54,11 @@ def with_sizes(sections: list[dict[str, Any]], sizes: list[float]) -> list[dict[
     return [section | {"diameter": size} for section, size in zip(sections, sizes, strict=True)]
 
 
+def test_a_shaft_whose_angle_is_a_constant_is_sized_as_one_that_stands() -> None:
+    swung, standing = (shaft(CRANKSHAFT, sections=without(1, of=PLAIN), rotation=each) for each in (1e-7, "none"))
+    assert diameters(swung) == diameters(standing)
+
+
 @pytest.mark.nightly  # each calculates dozens of shafts
 @pytest.mark.parametrize(
     "changes", [{}, {"required_fatigue_safety": 1.2}, {"allowable_deflection": 0.08}, {"speed": 20_000}]

@@ -185,6 +185,19 @@ def test_mixed_and_wrong_units_are_told_with_their_row(cells: str, words: str, t
     assert words in fault(lambda: table.column("a").si("mm"))
 
 
+def test_what_an_unknown_unit_may_have_meant_is_sought_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    sought = list[str]()
+
+    def suggestion(text: str) -> str:
+        sought.append(text)
+        return ""
+
+    monkeypatch.setattr("diecut_report.quantities.units._suggestion", suggestion)
+    table = read_table(csv_of(tmp_path, "a\n" + "".join(f"{number} furlogns\n" for number in range(300))))
+    told = faults(lambda: table.column("a").si("mm"))
+    assert "295 more cells of this column are wrong" in told[-1] and len(sought) == 1
+
+
 def test_a_cell_may_repeat_the_unit_of_its_header_but_no_other(tmp_path: Path) -> None:
     table = read_table(csv_of(tmp_path, "a [cm],b [cm]\n1 cm,1\n2,2 mm\n"))
     assert list(table.column("a").si("mm")) == [0.01, 0.02]
