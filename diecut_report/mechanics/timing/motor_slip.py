@@ -81,12 +81,21 @@ def _periodic_starts(load: PieceRows, gains: Array, decay: Array) -> Array:
     place = np.arange(len(gains)) - (np.cumsum(number) - number)[load.machine]
     gain, left = np.zeros((load.count, number.max())), np.ones((load.count, number.max()))
     gain[load.machine, place], left[load.machine, place] = gains, decay
-    begins = np.zeros((load.count, number.max() + 1))
-    for column in range(number.max()):
-        begins[:, column + 1] = gain[:, column] + left[:, column] * begins[:, column]
-    kept = np.cumprod(left, axis=1)
-    first = begins[:, -1] / (1 - kept[:, -1])
-    begins[:, 1:] += first[:, None] * kept
-    begins[:, 0] = first
+    gain, left = _run_through(gain, left)
+    first = gain[:, -1:] / (1 - left[:, -1:])
+    begins = np.concatenate([first, gain + left * first], axis=1)
     found: Array = begins[load.machine, place]
     return found
+
+
+def _run_through(gain: Array, left: Array) -> tuple[Array, Array]:
+    """What the pieces up to each one make of a torque together, pieces along the last axis: they add the first, and keep the second of it.
+
+    Doubled spans of pieces are joined: a short lag has tens of thousands of pieces, too many to go through one by one.
+    """
+    span = 1
+    while span < gain.shape[1]:
+        joined = gain[:, span:] + left[:, span:] * gain[:, :-span], left[:, span:] * left[:, :-span]
+        gain, left = (np.concatenate([of[:, :span], new], axis=1) for of, new in zip((gain, left), joined, strict=True))
+        span *= 2
+    return gain, left

@@ -164,3 +164,15 @@ def test_many_motors_at_once_are_each_alone() -> None:
         assert [found.rms[index], found.largest[index], found.least[index]] == pytest.approx(
             [alone.rms[0], alone.largest[0], alone.least[0]], rel=1e-12
         )
+
+
+def test_pieces_joined_by_doubling_are_those_gone_through_one_by_one() -> None:
+    random = np.random.default_rng(1)
+    gain, left = random.normal(size=(3, 1001)), random.uniform(size=(3, 1001))
+    added, kept = motor_slip._run_through(gain, left)
+    torque = start = random.normal(size=3)
+    for piece in range(1001):
+        torque = gain[:, piece] + left[:, piece] * torque
+        assert added[:, piece] + kept[:, piece] * start == pytest.approx(torque, rel=1e-12, abs=1e-12)
+    alone = motor_slip._run_through(gain[:1, :77], left[:1, :77])
+    assert np.array_equal(alone[0], added[:1, :77])  # a machine is the same among others, which may have more pieces
