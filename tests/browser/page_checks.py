@@ -293,7 +293,8 @@ DRAWN_TEXTS = """() => { window.outside = []; const draw = CanvasRenderingContex
         if (at < -1 || at + wide > this.canvas.width + 1) { window.outside.push(text); }
         draw.call(this, text, x, y); }; }"""
 POSES = """figure => Array.from(document.getElementById(figure).querySelectorAll(".moving")).map(s => Array.from(s.children).map(e =>
-    e.tagName === "g" ? e.getAttribute("transform") : e.getAttribute("points") || e.getAttribute("d") || [e.getAttribute("cx"), e.getAttribute("cy")].join(" ")))"""
+    e.tagName === "g" ? e.getAttribute("transform") :
+    e.getAttribute("points") || e.getAttribute("d") || [e.getAttribute("cx"), e.getAttribute("cy")].join(" ")))"""
 
 
 def _moving(report: Path) -> Iterator[tuple[str, dict[str, Any]]]:

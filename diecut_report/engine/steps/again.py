@@ -62,7 +62,7 @@ class Again:
         faults.judge(self.mechanism, self.step, changed, len(rows), names)
         found = {name: np.full(len(rows), np.nan) for name in names}
         for trials, texts in _alike(changed, len(rows)):
-            numbers = {name: np.asarray(value)[trials] for name, value in changed.items() if name not in texts}
+            numbers = {name: _of_trials(value, trials) for name, value in changed.items() if name not in texts}
             for name, values in self._made(numbers | texts, np.asarray(rows)[trials], names).items():
                 found[name][trials] = values
         return found
@@ -71,6 +71,10 @@ class Again:
         """The quantities of machines of the same texts."""
         inputs = {name: _of(value, rows, self.count) for name, value in self.inputs.items()} | dict(changed)
         only = needed(self.mechanism, frozenset(inputs) | texts_given(inputs), names)
+        if not only:  # none of these machines has what is asked
+            return {}
+        if self.step.id in only:
+            raise faults.endless(self.step)
         try:
             made = self.calculate(self.mechanism, inputs, len(rows), only)
         except (Impossible, Unproven):
@@ -79,6 +83,12 @@ class Again:
         possible[list(made.flaws)] = False
         there = [name for name in names if name in made.values or name in made.inputs]
         return {name: np.where(possible, made[name].reshape(len(rows), -1)[:, 0], np.nan) for name in there}
+
+
+def _of_trials(value: Any, trials: Array) -> Array:
+    """The numbers of these trials; one alone is that of all."""
+    found = np.asarray(value, dtype=float)
+    return found[trials] if found.ndim else np.full(len(trials), found)
 
 
 def _alike(changed: Mapping[str, Any], count: int) -> Iterator[tuple[Array, dict[str, Any]]]:

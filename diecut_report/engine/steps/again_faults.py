@@ -16,7 +16,7 @@ from diecut_report.contract.result_names import named
 from diecut_report.contract.steps import Step
 from diecut_report.declaration.world import Key, world
 from diecut_report.errors import nearest
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import pretty
 
 
@@ -29,7 +29,17 @@ def judge(mechanism: Mechanism, step: Step, changed: Mapping[str, Any], count: i
     """Raise Misdeclared with the first thing that cannot be calculated so."""
     wrong = next(chain(_inputs(mechanism, changed, count), _asked(mechanism, names)), None)
     if wrong:
-        raise Misdeclared(Phrase('step {id}: known["again"] {wrong}', id=step.id, wrong=wrong), step.at)
+        raise _told(step, wrong)
+
+
+def endless(step: Step) -> Misdeclared:
+    """Return what is told where the machines that are tried would be sought themselves."""
+    words = "tries machines that seek again: let the step lack the input that is tried (lacks=…), and try nothing without it"
+    return _told(step, phrase(words))
+
+
+def _told(step: Step, wrong: str) -> Misdeclared:
+    return Misdeclared(Phrase("step {id}: {call} {wrong}", id=step.id, call='known["again"]', wrong=wrong), step.at)
 
 
 @cache
