@@ -128,11 +128,12 @@ def checked(
         found.error = error.message if isinstance(error, PluginError) else str(error)
         yield found
         return
-    config, name = (named_machine(configs, kind, known) if configs else machine_beside(origin, known)) or (None, "")
-    if configs and config is None:
+    machine, refused = (named_machine(configs, kind, known), []) if configs else machine_beside(origin, known)
+    if configs and machine is None:
         words = Phrase("There is no mechanism of the kind {kind} in it.", kind=repr(kind))
         raise UserError(Problem(words, str(configs[0])))
-    test = ContractTest(found.mechanism, known, config, name, language)
+    config, name = machine or (None, "")
+    test = ContractTest(found.mechanism, known, config, name, language, refused)
     if write_po:
         found.changed = write_missing(test, origin)
     for rule in test.tried():

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import time
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -17,7 +17,7 @@ from diecut_report.contract.inputs import flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration import faults, faults_at_load
 from diecut_report.engine import Impossible, Unproven, calculate
-from diecut_report.errors import UserError
+from diecut_report.errors import Problem, UserError
 from diecut_report.formula_checks import forms, printing, quantities
 from diecut_report.formula_checks.fault_places import at_place, by_id
 from diecut_report.formula_checks.idle import idle_inputs
@@ -45,7 +45,8 @@ DECLARED = ("declaration", "dimensions", "printed", "inputs")
 class ContractTest:
     """Try the rules of the contract on a mechanism and, where there is one, on a machine of a configuration.
 
-    ``page`` is the mechanism's chapter as HTML, once ``figures`` was tried; ``language`` that of the page.
+    ``page`` is the mechanism's chapter as HTML, once ``figures`` was tried; ``language`` that of the page. ``refused`` tells why there is no
+    machine, where there are configurations with one that are not sound.
     """
 
     mechanism: Mechanism
@@ -53,6 +54,7 @@ class ContractTest:
     config: Config | None = None
     name: str = ""
     language: str = SOURCE_LANGUAGE
+    refused: Sequence[Problem] = ()
     page: str = field(default="", init=False)
 
     def tried(self) -> Iterator[TriedRule]:
@@ -126,6 +128,8 @@ class ContractTest:
 
     def example(self) -> TriedRule:
         """Try whether there is a machine, which calculates and prints; its self-tests hold, and nothing breaks."""
+        if self.refused:
+            return rule("example", phrase("its configuration is refused"), map(str, self.refused))
         if self.config is None:
             words = (
                 "there is no machine of this kind to try the rest on; give a configuration that has one with --config"

@@ -342,3 +342,15 @@ def test_a_list_without_parts_is_refused_in_words(tmp_path: Path, capfd: Capture
     example.write_text(text.replace(parts, "    springs: []\n"), "utf-8")
     assert main(["calc", str(example), "--plugins", str(home / "plugins"), "--quiet"]) == 2
     assert "toggle.yaml:17:14: mechanisms.toggle.springs: is empty; give at least one" in capfd.readouterr().err
+
+
+def test_why_the_example_is_refused_is_told_as_validate_tells_it(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path)
+    example = home / "examples" / "toggle.yaml"
+    example.write_text(example.read_text("utf-8").replace("    travel: 10 mm\n", "    trvel: 10 mm\n"), "utf-8")
+    assert main(["validate", str(example), "--plugins", str(home / "plugins")]) == 2
+    told = [line for line in capfd.readouterr().err.splitlines() if "toggle.yaml:" in line]
+    assert any("trvel" in line for line in told)
+    assert main(["check-plugin", str(home)]) == 1
+    out = capfd.readouterr().out
+    assert "fails  Example machine: its configuration is refused" in out and all(line.strip() in out for line in told)
