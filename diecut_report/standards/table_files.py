@@ -150,7 +150,7 @@ def _headed(cell: str) -> tuple[str, str]:
 def _from_csv(text: str) -> tuple[dict[str, Any], list[int], dict[str, int]]:
     """What a file holds, and the line of each of its rows and of what is said above them."""
     lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
-    spoken = [(number, *found.groups()) for number, line in lines if (found := SAID.match(line))]
+    spoken = [(number, found[1], found[2]) for number, line in lines if (found := SAID.match(line))]
     keys = _judged(spoken)
     written = [(number, line) for number, line in lines if not line.startswith("#")]
     reader = csv.reader((line for _, line in written), skipinitialspace=True)
@@ -162,7 +162,7 @@ def _from_csv(text: str) -> tuple[dict[str, Any], list[int], dict[str, int]]:
     heads = heads[1:] if named else heads
     if len(dict(heads)) < len(heads):
         raise csv.Error(phrase("two of its columns have one name"))
-    data = {
+    data: dict[str, Any] = {
         **{key: value for _, key, value in spoken if key != "source"},
         "sources": [value for _, key, value in spoken if key == "source"],
         "columns": dict(heads),
