@@ -86,6 +86,15 @@ def test_the_row_of_a_text_that_a_choice_gives_is_taken() -> None:
     assert run(mechanism)["bore"].item() == 0.02 and run(mechanism, factor=14)["bore"].item() == 0.025
 
 
+def test_what_is_sought_in_the_place_of_an_input_is_marked_as_chosen() -> None:
+    def sought(chapter: Chapter) -> None:
+        chapter.computed("size", "s", "1", "Size", lambda load: load / 1e3, ("load",), "tried", lacks=("given",))
+        chapter.computed("other", "o", "1", "Other", lambda load: load / 2e3, ("load",), "halved")
+
+    items = [item for section in section_items(run(made(sought))) for item in section["items"]]
+    assert [item.get("chosen") for item in items] == [True, None]
+
+
 def test_names_that_are_no_rows_are_told() -> None:
     (fault,) = faults(made(chosen("smal"), looked_up))
     assert str(fault).endswith("step bore: has no row in the table for bearing=smal; the rows are small, big")
