@@ -517,7 +517,19 @@
     return node;
   }
 
+  /* The frame: a line, and short strokes below it as in the drawing on paper. */
+  function grounded(points, dot) {
+    var way = "", at, k;
+    for (at = 0; at + 3 < points.length; at += 2) {
+      var x = points[at], y = -points[at + 1], across = points[at + 2] - x, down = -points[at + 3] - y, count = Math.floor(Math.hypot(across, down) / (2.8 * dot));
+      way += "M" + x + " " + y + "l" + across + " " + down;
+      for (k = 1; k < count; k += 1) { way += "M" + (x + across * k / count) + " " + (y + down * k / count) + "l" + -2 * dot + " " + 2 * dot; }
+    }
+    return way;
+  }
+
   function placed(shape, node, now, dot) {
+    if (shape.role === "ground" && shape.shape === "polyline") { node.setAttribute("d", grounded(now, dot)); return; }
     if (shape.shape === "rigid") { node.setAttribute("transform", "translate(" + now[0] + " " + -now[1] + ") rotate(" + -now[2] + ")"); return; }
     if (shape.shape === "polyline") { node.setAttribute("points", now.map(function (value, at) { return at % 2 ? -value : value; }).join(" ")); return; }
     node.setAttribute("cx", now[0]); node.setAttribute("cy", -now[1]); node.setAttribute("r", shape.shape === "circle" ? now[2] : dot);
@@ -526,7 +538,7 @@
   /* The nodes of shapes, drawn where they stand still; those that move are told to ``moves``. */
   function drawn(shapes, sheet, dot, moves) {
     shapes.forEach(function (shape) {
-      var name = shape.shape === "rigid" ? "g" : shape.shape === "polyline" ? (shape.closed ? "polygon" : "polyline") : "circle";
+      var name = shape.shape === "rigid" ? "g" : shape.role === "ground" && shape.shape === "polyline" ? "path" : shape.shape === "polyline" ? (shape.closed ? "polygon" : "polyline") : "circle";
       var node = svg(name, shape.role ? { "class": "m-" + shape.role } : {});
       sheet.append(node);
       if (shape.shapes) { drawn(shape.shapes, node, dot, moves); }

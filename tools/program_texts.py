@@ -22,6 +22,7 @@ from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.quantities.units import _table
 from diecut_report.report.i18n import COUNTED, ENGLISH, one
 from diecut_report.results import document, mechanism, reference_origins, unchecked
+from diecut_report.standards import standard_ids, standard_series, standard_series_by
 
 ROOT = Path(__file__).parents[1]
 CONSTANTS = (*methods.METHODS.values(), methods.EQUAL_TERMS, "True", "False", *tables.SERIES_WORDS.values(), tables.AS_GIVEN, tables.AMONG,
@@ -73,6 +74,7 @@ def program_texts() -> Iterator[ProgramText]:
                 *(law.title for law in LAWS.values()),
             ),
         ),
+        *_standards(),
         *_counted(),
         *_templates(),
         *_sources(),
@@ -89,6 +91,14 @@ def _words() -> Iterator[ProgramText]:
 
 def _sources() -> Iterator[ProgramText]:
     yield from (ProgramText(text, context=CITATION) for text in SOURCES)
+
+
+def _standards() -> Iterator[ProgramText]:
+    """The titles of the standard series and tables."""
+    for form in ("values", "from", "table"):
+        yield from (ProgramText(standard_series(id).title, note=f"standard series {id}") for id in standard_ids(form))
+    for id in standard_ids("by"):
+        yield from (ProgramText(each.title, note=f"standard series {id}") for each in standard_series_by(id).values())
 
 
 def _press() -> Iterator[str]:

@@ -23,7 +23,7 @@ from diecut_report.cli.output import (
     tell_written,
     without_output,
 )
-from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
 from diecut_report.languages.speech import said, say, spoken_language
 
 if TYPE_CHECKING:
@@ -73,7 +73,11 @@ def new_plugin(
               help="A configuration with a machine to try it on (default: one that lies beside the plugin).")  # fmt: skip
 @click.option("--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json.")
 @click.option("-o", "page", metavar="FILE", type=path_of, help="The rendered chapter (default: NAME.html, here).")
-@click.option("--write-po", is_flag=True, help="Write the texts that its catalogues lack into them, to be translated.")
+@click.option(
+    "--write-po",
+    is_flag=True,
+    help="Write the texts that its catalogues lack into them, to be translated, and mark those that nothing says any more.",
+)
 @click.option("--open", "is_shown", is_flag=True, help="Show the rendered chapter in the browser.")
 @common
 def check_plugin(
@@ -99,7 +103,7 @@ def check_plugin(
     else:
         emit("".join(f"{line}\n" for each in found for line in _lines(each)))
     for each in found:
-        _tell_added(each, quiet)
+        _tell_changed(each, quiet)
         _write_page(each, page or Path(f"{each.kind}.html"), configs, quiet, is_shown)
     states = {each.status for each in found}
     return PLUGIN_BROKE if "broke" in states else CHECK_FAILED if "fail" in states else PASSED
@@ -117,11 +121,14 @@ def _lines(found: CheckedPlugin) -> Iterator[str]:
         yield from (f"      {said(fault)}" for fault in rule.short_list)
 
 
-def _tell_added(found: CheckedPlugin, quiet: bool) -> None:
-    """Which texts wait for their translation."""
-    for file, count in found.added.items() if not quiet else ():
-        told = Counted(count, "{n} text to be translated", "{n} texts to be translated")
-        tell([Phrase("written: {file}: {told}", file=file, told=told)])
+def _tell_changed(found: CheckedPlugin, quiet: bool) -> None:
+    """Which texts wait for their translation, and how many are obsolete."""
+    for file, made in found.changed.items() if not quiet else ():
+        told = [
+            *([Counted(made.added, "{n} text to be translated", "{n} texts to be translated")] if made.added else []),
+            *([Counted(made.obsolete, "{n} text is obsolete", "{n} texts are obsolete")] if made.obsolete else []),
+        ]
+        tell([Phrase("written: {file}: {told}", file=file, told=joined(told, ", "))])
 
 
 def _write_page(found: CheckedPlugin, page: Path, configs: tuple[Path, ...], quiet: bool, is_shown: bool) -> None:

@@ -50,10 +50,11 @@ class Part(Step):
 class Lookup(Step):
     """Declare a number from a row of a table: the one that a text input names, or the one that has the number ``by``.
 
-    ``by`` is a text input for a table whose rows have names, and any number for one whose rows go by numbers, as one that was picked
-    from it; with ``sought_in``, a column, the number is sought there. It is a row where ``by`` is one of repeated parts. ``column`` is
-    the column that is taken, where a table has several. A number that the table does not have makes the machine impossible:
-    ``key`` is then the input to change, else ``by``. ``given`` is an optional input: where it is given the step has its value.
+    ``by`` is a text for a table whose rows have names, of an input or one that was found (``choice``, ``computed`` with ``is_text``); for one
+    whose rows go by numbers it is any number, as one that was picked from it; with ``sought_in``, a column, the number is sought there. It
+    is a row where ``by`` is one of repeated parts. ``column`` is the column that is taken, where a table has several. A number that the
+    table does not have makes the machine impossible: ``key`` is then the input to change, else ``by``.
+    ``given`` is an optional input: where it is given the step has its value.
     """
 
     by: str

@@ -14,7 +14,7 @@ from diecut_report.contract.unit_variants import in_unit
 from diecut_report.expressions import Formula
 
 NAMING = ("formula", "cases", "of", "among", "takes", "given", "by", "points", "period", "abscissa", "places", "every", "start", "lasts", "speed",
-          "spans", "shown_at", "parts", "columns", "equation", "low", "high", "left", "right", "condition", "exists")  # fmt: skip
+          "spans", "shown_at", "taken", "parts", "columns", "equation", "low", "high", "left", "right", "condition", "exists")  # fmt: skip
 """Fields of steps that name quantities."""
 
 Rename = Callable[[str | float], str | float]

@@ -10,7 +10,7 @@ from diecut_report.contract.binding import Binding, Bound, ByText, bound
 from diecut_report.contract.code_steps import ComputedCurve, PartCurves
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Pick
-from diecut_report.contract.steps import Case, Choice, Prepared, Root, Step
+from diecut_report.contract.steps import Case, Choice, Prepared, Root, Step, Words
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import when_asked
 from diecut_report.declaration.tables import rows_of
@@ -86,6 +86,7 @@ def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
     match step:
         case Lookup(by=by) if not step.is_by_number:
             yield from _complete(names, by, rows_of(step), when_asked(step, when), "row in the table")
+            yield from _of_steps(names, by, rows_of(step))
         case Pick(by=by, series=Mapping() as series):
             yield from _complete(names, by, series, when, "series")
         case Root(unknown=unknown):
@@ -123,6 +124,17 @@ def _signature(function: Callable[..., object], given: int, called: str = "") ->
         asked = [p for p in parameters.parameters.values() if p.default is p.empty and p.kind is not p.VAR_POSITIONAL]
         named = called or f"takes names {given}: each is given by its position"
         yield f"its function takes {len(asked)}, and {named}"
+
+
+def _of_steps(names: DeclaredNames, by: str, rows: Mapping[str, Any]) -> Iterator[str]:
+    """What is wrong with a row that is taken by a text of a step: one that a message makes, or a text of a choice without a row."""
+    for step in (giver.step for giver in names.givers(by)):
+        if isinstance(step, Words):
+            yield f"by is {by}, words that are made where a message asks for them; let choice or computed(…, is_text=True) give the row's name"
+        elif isinstance(step, Choice):
+            missing = [case.value for case in step.cases if isinstance(case.value, str) and case.value not in rows]
+            if missing:
+                yield f"has no row in the table for {by}={', '.join(map(str, missing))}; the rows are {', '.join(rows)}"
 
 
 def _complete(names: DeclaredNames, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:

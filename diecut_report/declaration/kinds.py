@@ -45,7 +45,7 @@ NUMBER, ROW, CURVE = (
     frozenset({"number", "row", "curve", "abscissa"}),
 )
 CURVE_INPUT = frozenset({"curve input"})
-BY_NAME = "a text input, as the table's rows have names; for a number name the column that it is sought in, sought_in"
+BY_NAME = "a text, as the table's rows have names; for a number name the column that it is sought in, sought_in"
 PARTS = frozenset({"list of parts", "block"})
 PLAIN = ROW | {"text", "curve input", "phase", "mechanism", "prepared", "crossings", "varying"}
 SAID = {

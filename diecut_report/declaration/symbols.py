@@ -7,23 +7,28 @@ from itertools import chain, combinations
 from typing import NamedTuple
 
 from diecut_report.contract.binding import bound
-from diecut_report.contract.inputs import Quantity
+from diecut_report.contract.inputs import POINTS, Quantity
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.part_steps import Lookup, Pick
 from diecut_report.contract.result_names import has_own_names, names_ahead, numbered_symbol
 from diecut_report.contract.steps import SILENT, Choice, FromCurve, Step, Value
+from diecut_report.declaration.input_places import of_input
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short
 from diecut_report.declaration.world import When
 
 
 class Printed(NamedTuple):
-    """Hold what has a symbol: a quantity's name, its place, when it is there, and the step that gives it, if none an input."""
+    """Hold what has a symbol: a quantity's name, its place, when it is there, and the step that gives it, if none an input.
+
+    ``is_points`` is the number of samples, whose symbol no author chose: it is the other one that gets another.
+    """
 
     name: str
     at: str
     when: When
     step: Step | None = None
+    is_points: bool = False
 
     @property
     def giver(self) -> str:
@@ -42,15 +47,23 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
             pair = one.giver, other.giver
             if one.name != other.name and pair not in told and _clash(names, one, other):
                 told.add(pair)  # of two rows with many parts the first that are alike
-                text = f"has the symbol {symbol} of {one.name} (at {short(one.at)}): both would be printed as one quantity; give it another"
-                yield Fault(other.at, f"{'step' if other.step else 'input'} {other.name}", text)
+                yield _alike(mechanism, symbol, *((other, one) if other.is_points else (one, other)))
+
+
+def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> Fault:
+    """The fault of the other; inputs stand where they are declared, their quantity may be one of the program."""
+    at, there = (each.at if each.step else of_input(mechanism.inputs, each.name, each.at) for each in (other, one))
+    whose = f"{one.name} ({'POINTS, ' * one.is_points}at {short(there)})"
+    text = f"has the symbol {symbol} of {whose}: both would be printed as one quantity; give it another"
+    return Fault(at, f"{'step' if other.step else 'input'} {other.name}", text)
 
 
 def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
     """Yield the symbols that are declared."""
     for key in names.world.keys.values():
         if isinstance(key.meta, Quantity) and key.meta.symbol:
-            yield key.meta.symbol, Printed(key.path, key.meta.at, names.known[key.path][0].when)
+            when, is_points = names.known[key.path][0].when, key.meta is POINTS
+            yield key.meta.symbol, Printed(key.path, key.meta.at, when, is_points=is_points)
     for number, (_, step) in enumerate(mechanism.steps):
         if step.symbol and not isinstance(step, SILENT) and names.kinds(step.id) != {"text"}:
             yield step.symbol, Printed(step.id, step.at, names.when(number), step)

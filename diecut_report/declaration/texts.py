@@ -11,7 +11,7 @@ from diecut_report.contract.inputs import Block, meta_of, nested
 from diecut_report.contract.mechanism import Comparison, Mechanism
 from diecut_report.contract.spectra import Spectrum
 from diecut_report.contract.steps import Case
-from diecut_report.languages.phrases import PLACE
+from diecut_report.languages.phrases import PLACE, Phrase
 from diecut_report.languages.tokens import worded
 from diecut_report.standards import StandardSeries, StandardTable
 
@@ -76,8 +76,7 @@ def _of_declared(declared: Any, told: str) -> Iterator[DeclaredText]:
     if isinstance(declared, Comparison):
         yield from texts(declared.mechanism)
     elif isinstance(declared, StandardTable | StandardSeries):
-        yield DeclaredText(declared.title, "table")
-        yield DeclaredText(declared.only_source, "why a table has one source only")
+        yield from _of_table(declared)
     elif isinstance(declared, Mapping):
         for part in declared.values():
             yield from _of_declared(part, told)
@@ -86,6 +85,16 @@ def _of_declared(declared: Any, told: str) -> Iterator[DeclaredText]:
             yield from _of_declared(part, told)
     else:
         yield from _of_fields(declared, f"{_kind(declared)} {getattr(declared, 'id', '')}".strip() or told)
+
+
+def _of_table(declared: StandardTable | StandardSeries) -> Iterator[DeclaredText]:
+    """What a table of the plugin's own is; those of the program it translates itself."""
+    if not declared.is_of_the_program:
+        title = declared.title  # of the series that a column is: both, each by itself
+        parts = title.values if isinstance(title, Phrase) else {}
+        yield DeclaredText(parts.get("title", title), "table")
+        yield DeclaredText(parts.get("column", ""), "column of a table")
+        yield DeclaredText(declared.only_source, "why a table has one source only")
 
 
 def _kind(declared: Any) -> str:

@@ -5,14 +5,18 @@ from __future__ import annotations
 import math
 from typing import Any
 
-from diecut_report.contract.listings import Cell, Listing
+import numpy as np
+
+from diecut_report.contract.listings import Cell, ListedColumn, Listing
 from diecut_report.contract.place import Misdeclared
 from diecut_report.engine.calculation import Calculation
-from diecut_report.languages.phrases import Phrase
-from diecut_report.quantities.formatting import listed_text
+from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.quantities.formatting import listed_text, number_text
 from diecut_report.quantities.units import unit
 
 Data = dict[str, Any]
+SAME = 1e-9  # relative difference within which a number is that of a row
+TAKEN, MARK = phrase("taken"), "→"
 
 
 def rows(calc: Calculation, step: Listing) -> list[list[Cell]]:
@@ -43,19 +47,42 @@ def results(calc: Calculation) -> Data:
             columns = [
                 {"id": each.id, "description": each.description, "unit": unit(each.unit).si} for each in step.heads
             ]
-            found[step.id] = {"description": step.description, "columns": columns, "rows": rows(calc, step)}
+            lines = rows(calc, step)
+            marked = {"taken": taken} if (taken := _taken(calc, step, lines)) else {}
+            found[step.id] = {"description": step.description, "columns": columns, "rows": lines} | marked
     return {"listings": found} if found else {}
 
 
+def _taken(calc: Calculation, step: Listing, lines: list[list[Cell]]) -> list[int]:
+    """The rows that begin with what was taken."""
+    name = step.taken.removeprefix("inputs.")
+    if not name or (name not in calc.values and name not in calc.inputs):
+        return []
+    own: Any = calc[name]
+    value = own[0, 0] if isinstance(own, np.ndarray) else own
+    return [number for number, row in enumerate(lines) if _is_same(row[0], value)]
+
+
+def _is_same(cell: Cell, value: Any) -> bool:
+    if isinstance(cell, float) and not isinstance(value, str):
+        return math.isclose(cell, value, rel_tol=SAME)
+    return bool(cell == value)
+
+
 def printed(calc: Calculation, step: Listing) -> list[Data]:
-    """Return a listing as a table of the calculation; none where it has no rows."""
+    """Return a listing as a table of the calculation, the rows that were taken marked in a column of their own; none where it has no rows."""
     columns = [{"title": each.description, "symbol": each.symbol, "unit": each.unit} for each in step.heads]
-    units = [each.unit for each in step.heads]
-    lines = [[_text(cell, display) for cell, display in zip(row, units, strict=True)] for row in rows(calc, step)]
+    found = rows(calc, step)
+    lines = [[_text(cell, head) for cell, head in zip(row, step.heads, strict=True)] for row in found]
+    if taken := _taken(calc, step, found):
+        columns = [{"title": TAKEN, "symbol": "", "unit": "1"}, *columns]
+        lines = [[MARK if number in taken else "", *line] for number, line in enumerate(lines)]
     return [{"type": "table", "title": step.description, "columns": columns, "rows": lines}] if lines else []
 
 
-def _text(cell: Cell, display: str) -> str:
+def _text(cell: Cell, head: ListedColumn) -> str:
     if cell is None:
         return "–"
-    return cell if isinstance(cell, str) else listed_text(cell, display)
+    if isinstance(cell, str):
+        return cell
+    return number_text(cell / unit(head.unit).factor, head.digits) if head.digits else listed_text(cell, head.unit)

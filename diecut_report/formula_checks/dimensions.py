@@ -29,6 +29,7 @@ from diecut_report.formula_checks.kinds import (
     Found,
     KindError,
     alike,
+    angle_hint,
     kind_given,
     kind_text,
     times,
@@ -92,7 +93,7 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
                 name=link.formula.__name__,
                 given=kind_text(given),
                 wanted=wanted,
-            )
+            ) + angle_hint(given, unit(wanted).kind)
 
 
 def curve_units(mechanism: Mechanism) -> Iterator[str]:

@@ -50,6 +50,18 @@ def kind_text(kind: Found) -> str:
     return "zero" if kind is None else "a pure number" if kind == NUMBER else si_text(kind)
 
 
+def angle_hint(found: Found, wanted: Found, part: str = "…") -> str:
+    """Return what to write where two kinds differ by the angle alone: in words that follow what is wrong; empty where they do not."""
+    if found is None or wanted is None or found == wanted or _turned(found, 0) != _turned(wanted, 0):
+        return ""
+    match wanted[ANGLE_AT]:
+        case 1:
+            return Phrase("; if that counts radians, write {call}", call=f"as_angle({part})")
+        case 0:
+            return Phrase("; if the number of radians is meant, write {call}", call=f"as_number({part})")
+    return ""
+
+
 def kind_given(formula: Formula, taken: Mapping[str, Found | float]) -> Found:
     """Return the kind of what a formula gives for the kinds (or plain numbers) that its parameters take; KindError where it has none."""
     numbers = {name: _plain(value) for name, value in taken.items() if isinstance(value, float)}
@@ -164,6 +176,7 @@ class _Walk:
                     kind=kind_text(found),
                     wanted=kind_text(kind),
                 )
+                + angle_hint(found, kind, _shortened(argument))
             )
         return kind
 
@@ -183,6 +196,7 @@ class _Walk:
                         other_kind=kind_text(found),
                         other=_shortened(part),
                     )
+                    + (angle_hint(found, common, _shortened(part)) or angle_hint(common, found, _shortened(first)))
                 )
             common = found if common is None else common if found in (ANY, common) else _turned(common, 0)
         return common

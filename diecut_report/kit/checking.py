@@ -14,6 +14,7 @@ from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.kit.example_machines import machine_beside, named_machine
 from diecut_report.kit.missing_words import refuse_own, write_missing
 from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.po_files import ChangedCatalogue
 from diecut_report.languages.speech import said
 from diecut_report.testing.contract import ContractTest
 from diecut_report.testing.tried_rules import TITLES, TriedRule
@@ -51,7 +52,7 @@ class CheckedPlugin:
     rules: list[TriedRule] = field(default_factory=list)
     page: str = ""
     error: str = ""
-    added: dict[Path, int] = field(default_factory=dict)
+    changed: dict[Path, ChangedCatalogue] = field(default_factory=dict)
 
     @property
     def status(self) -> str:
@@ -114,7 +115,7 @@ def checked(
 ) -> Iterator[TriedRule | CheckedPlugin]:
     """Yield each rule when it was tried, and at last the whole; UserError where a configuration cannot be used.
 
-    With ``write_po`` the texts that the plugin's catalogues lack are written into them before its words are tried.
+    With ``write_po`` the plugin's catalogues get the texts that they lack, and what nothing says is marked, before its words are tried.
     """
     origin = known.origins[kind][0]
     found = CheckedPlugin(kind, origin.told)
@@ -127,13 +128,14 @@ def checked(
         found.error = error.message if isinstance(error, PluginError) else str(error)
         yield found
         return
-    config, name = (named_machine(configs, kind, known) if configs else machine_beside(origin, known)) or (None, "")
-    if configs and config is None:
+    machine, refused = (named_machine(configs, kind, known), []) if configs else machine_beside(origin, known)
+    if configs and machine is None:
         words = Phrase("There is no mechanism of the kind {kind} in it.", kind=repr(kind))
         raise UserError(Problem(words, str(configs[0])))
-    test = ContractTest(found.mechanism, known, config, name, language)
+    config, name = machine or (None, "")
+    test = ContractTest(found.mechanism, known, config, name, language, refused)
     if write_po:
-        found.added = write_missing(test, origin)
+        found.changed = write_missing(test, origin)
     for rule in test.tried():
         found.rules.append(rule)
         yield rule

@@ -9,7 +9,7 @@ from pathlib import Path
 
 from diecut_report.config.discovery import Discovery, Origin
 from diecut_report.config.loader import Config, load_config
-from diecut_report.errors import UserError
+from diecut_report.errors import Problem, UserError
 
 FOLDERS = (".", "examples", "configs")
 LEVELS = 3  # folders above a plugin in which its examples are sought
@@ -27,16 +27,18 @@ def named_machine(files: Iterable[Path], kind: str, discovery: Discovery) -> tup
     return None
 
 
-def machine_beside(origin: Origin, discovery: Discovery) -> tuple[Config, str] | None:
-    """Return the first machine of a kind in a configuration beside its plugin that is sound, with its name; None where there is none."""
+def machine_beside(origin: Origin, discovery: Discovery) -> tuple[tuple[Config, str] | None, list[Problem]]:
+    """Return the first machine of a kind in a sound configuration beside its plugin with its name; where there is none, why others are not."""
+    refused: list[Problem] = []
     for file in _files(origin):
         try:
             found = named_machine([file], origin.kind, discovery)
-        except UserError:
-            continue  # a configuration of something else, which its user knows
+        except UserError as error:  # of something else, which its user knows, if there is a sound one
+            refused += error.problems
+            continue
         if found:
-            return found
-    return None
+            return found, []
+    return None, refused
 
 
 def _files(origin: Origin) -> Iterator[Path]:

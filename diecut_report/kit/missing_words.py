@@ -1,4 +1,4 @@
-"""Writes into a plugin's catalogues the texts that they lack, to be translated; what stands there already is left as it is."""
+"""Writes into a plugin's catalogues the texts that they lack, to be translated, and marks those that nothing says any more."""
 
 from __future__ import annotations
 
@@ -11,7 +11,7 @@ from diecut_report.files import write_all
 from diecut_report.given_files import content
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, file_beside, languages
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.languages.po_files import added
+from diecut_report.languages.po_files import ChangedCatalogue, changed
 from diecut_report.testing.contract import ContractTest
 
 LARGEST = 10_000_000  # bytes of a catalogue
@@ -24,17 +24,21 @@ def refuse_own(origin: Origin) -> None:
         raise UserError(Problem(Phrase(words, kind=origin.kind)))
 
 
-def write_missing(test: ContractTest, origin: Origin) -> dict[Path, int]:
-    """Write the entries that a plugin's catalogues lack; how many, by the file."""
-    found = {file: (text, count) for file, text, count in _added(test, origin.file()) if count}
-    write_all({file: text for file, (text, _) in found.items()}, keep=None)
-    return {file: count for file, (_, count) in found.items()}
+def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatalogue]:
+    """Write the entries that a plugin's catalogues lack, and mark those as obsolete that nothing says; what was changed, by the file."""
+    found = {file: made for file, made in _changed(test, origin.file()) if made.added or made.obsolete}
+    write_all({file: made.content for file, made in found.items()}, keep=None)
+    return found
 
 
-def _added(test: ContractTest, code: Path) -> Iterator[tuple[Path, bytes, int]]:
-    """Each catalogue with what it lacks, and how much that is."""
+def _changed(test: ContractTest, code: Path) -> Iterator[tuple[Path, ChangedCatalogue]]:
+    """Each catalogue as it is to be."""
     for language in languages():
         if language != SOURCE_LANGUAGE:
             file = file_beside(code, language)
             there = content(file, LARGEST, phrase("a catalogue of texts")) if file.is_file() else None
-            yield file, *added(there, language, test.mechanism.kind, test.untranslated(language))
+            words = test.words
+            yield (
+                file,
+                changed(there, language, test.mechanism.kind, words.untranslated(language), words.unused(language)),
+            )

@@ -59,6 +59,11 @@ class TextCatalogue:
         found = self._texts.get((context, english))
         return found[0] if found else None
 
+    @cached_property
+    def english(self) -> frozenset[str]:
+        """The English forms of all its texts, translated or not."""
+        return frozenset(self.missing) | {english for _, english in self._texts}
+
     def of_context(self, context: str) -> dict[str, str]:
         """Return all texts of a context, by their English form."""
         return {english: said[0] for (own, english), said in self._texts.items() if own == context}

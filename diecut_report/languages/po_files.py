@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from io import BytesIO
 from pathlib import Path
+from typing import NamedTuple
 
 from babel.messages.catalog import Catalog
 from babel.messages.pofile import read_po, write_po
@@ -60,18 +61,55 @@ def written(catalogue: Catalog) -> bytes:
     return b"".join(line for line in lines if not line.startswith(UNSAID))
 
 
-def added(there: bytes | None, language: str, project: str, texts: Iterable[tuple[str, str]]) -> tuple[bytes, int]:
-    """Return a catalogue's file with untranslated messages of these texts, each with what it is of, and how many there are.
+class ChangedCatalogue(NamedTuple):
+    """Hold a catalogue's file, how many texts of it wait to be translated since, and how many are obsolete since."""
 
-    What it has already is left out and stays as it is; where it is not there yet (None) it begins with its head.
+    content: bytes
+    added: int = 0
+    obsolete: int = 0
+
+
+def changed(
+    there: bytes | None, language: str, project: str, texts: Iterable[tuple[str, str]], unused: Iterable[str] = ()
+) -> ChangedCatalogue:
+    """Return a catalogue's file with untranslated messages of these texts, each with what it is of; unused ones are marked as obsolete.
+
+    What it has already is left out and stays as it is; where it is not there yet (None) it begins with its head. A text that was obsolete
+    has its translation again.
     """
     found = empty(language, project, holder=f"the authors of {project}")
-    known = () if there is None else read_po(BytesIO(there), locale=language, charset="utf-8", abort_invalid=True)
-    for text, of in texts:
-        if text not in known:
-            found.add(text, auto_comments=[of])
     if there is None:
-        return written(found), len(found)
+        _add(found, texts)
+        return ChangedCatalogue(written(found), len(found))
+    known = read_po(BytesIO(there), locale=language, charset="utf-8", abort_invalid=True)
+    lacking, idle = [(text, of) for text, of in texts if text not in known], list(unused)
+    if idle or any(text in known.obsolete for text, _ in lacking):
+        return _made_anew(there, known, lacking, idle)
+    _add(found, lacking)
     stream = BytesIO()
     write_po(stream, found, width=WIDTH, omit_header=True)
-    return there.rstrip(b"\n") + b"\n\n" + stream.getvalue(), len(found)
+    return ChangedCatalogue(there.rstrip(b"\n") + b"\n\n" + stream.getvalue(), len(found))
+
+
+def _add(catalogue: Catalog, texts: Iterable[tuple[str, str]]) -> None:
+    for text, of in texts:
+        catalogue.add(text, auto_comments=[of])
+
+
+def _made_anew(there: bytes, known: Catalog, lacking: list[tuple[str, str]], idle: list[str]) -> ChangedCatalogue:
+    """A catalogue as gettext writes it: what is obsolete stands at its end behind #~, what was never translated is dropped."""
+    waiting = len(lacking)
+    for text, of in lacking:
+        before = known.obsolete.pop(text, None)
+        waiting -= before is not None
+        known.add(text, before.string if before else None, auto_comments=[of], flags=before.flags if before else ())
+    for text in idle:
+        message = known.get(text)
+        if message is not None:
+            known.delete(text)
+            known.obsolete |= {text: message} if message.string else {}
+    stream = BytesIO()
+    write_po(stream, known, width=WIDTH)
+    lines = stream.getvalue().splitlines(keepends=True)
+    kept = (line for line in lines if not line.startswith(UNSAID) or line in there)
+    return ChangedCatalogue(b"".join(kept), waiting, len(idle))

@@ -12,6 +12,7 @@ LONG = 10  # rows of a table
 WIDE = 10  # columns of a table
 LONG_NAME, FEW = 18, 7  # letters of a line's name, and columns beside which it has room
 DASH = "–"
+MARKS = {"", "→"}  # of rows: which was taken
 
 
 @dataclass(frozen=True)
@@ -25,11 +26,13 @@ class PrintedTable:
 
     @property
     def kinds(self) -> list[str]:
-        """What stands in each column: ``nth`` numbers of lines, ``named`` what the first one names, ``words`` other texts; else numbers."""
+        """What stands in each column: ``nth`` numbers or marks of lines, ``named`` what the first one names, ``words`` texts; else numbers."""
         return [self._kind(index) for index in range(len(self.columns))]
 
     def _kind(self, index: int) -> str:
         texts = [row[index] for row in self.rows]
+        if set(texts) <= MARKS:
+            return "nth"
         if any(decimals(text) is None and not is_power(text) and text not in (DASH, "") for text in texts):
             return "named" if index in self._first else "words"
         _, letter, unit = self.columns[index]

@@ -126,7 +126,7 @@ class PrintedSteps:
             yield self._looked_up(item)
         if item.get("series") and not item.get("note", "").startswith(item["series"]):
             yield f"{self.words['series']}: {item['series']}"
-        if self.told is None or _is_picked(item):  # why this value and no other is never told elsewhere
+        if self.told is None or _is_chosen(item):  # why this value and no other is never told elsewhere
             yield from self._proof(item, notes)
         yield from self.said.conversions(item)
         if note := self._new_note(item, notes):
@@ -150,9 +150,9 @@ class PrintedSteps:
         return f"{item['by']}: {worded(item['key'])}"
 
 
-def _is_picked(item: Data) -> bool:
-    """Return whether a value was taken from a series."""
-    return bool(item["type"] == "reduction" and item["operation"] == "pick")
+def _is_chosen(item: Data) -> bool:
+    """Return whether a value was taken from a series, or sought in the place of one that may be given."""
+    return bool(item.get("chosen") or (item["type"] == "reduction" and item["operation"] == "pick"))
 
 
 def _is_bare(item: Data) -> bool:

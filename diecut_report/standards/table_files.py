@@ -10,6 +10,7 @@ from typing import Any
 import yaml
 from pydantic import BaseModel, ConfigDict, ValidationError
 
+from diecut_report.errors import nearest
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.standards.own_tables import own_table
 from diecut_report.standards.tables import StandardFault, StandardTable
@@ -17,6 +18,17 @@ from diecut_report.standards.tables import StandardFault, StandardTable
 HEADED = re.compile(r"(.*?)\s*\[(.*)\]")  # a column of a CSV file: name [unit]
 DECIMAL = re.compile(r"[-+]?(?:\d+\.?\d*|\.\d+)(?:[eE][-+]?\d+)?")
 SAID = re.compile(r"#\s*(\w+):\s*(.*)")  # a line above the columns of a CSV file: # title: …
+
+OF_CSV = ("title", "source", "only_source", "left_out")  # what these lines say
+WANTED = {
+    "title": phrase("write what the table is, a text"),
+    "sources": phrase("write a list of texts, what was published where"),
+    "rows": phrase("write values by the names of the rows, or a list of rows of numbers"),
+    "unit": phrase("write one unit, a text"),
+    "columns": phrase("write the unit of each column by its name"),
+    "left_out": phrase("write what is not in the table, a text"),
+    "only_source": phrase("write why there is one source only, a text"),
+}
 
 
 class _Written(BaseModel):
@@ -42,18 +54,47 @@ def table_beside(plugin: str, name: str) -> StandardTable:
     file = Path(plugin).with_name(name)
     try:
         text = file.read_text(encoding="utf-8")
-        data, lines = _from_csv(text) if file.suffix == ".csv" else _from_yaml(text)
+        data, lines, keys = _from_csv(text) if file.suffix == ".csv" else _from_yaml(text)
         written = _Written.model_validate(data)
         made = own_table(**written.model_dump())
     except (OSError, UnicodeDecodeError, yaml.YAMLError, csv.Error) as error:
         raise _of_file(Phrase("The table {file} cannot be read: {error}.", file=file, error=error)) from error
     except ValidationError as error:
-        told = "; ".join(f"{'.'.join(map(str, each['loc']))}: {each['msg']}" for each in error.errors())
-        raise _of_file(Phrase("The table {file} is not written as a table: {told}.", file=file, told=told)) from error
+        wrong = error.errors()[0]
+        key = str(wrong["loc"][0]) if wrong["loc"] else ""
+        place = f"{file.name}:{keys[key]}" if key in keys else file.name
+        told = _told(key, wrong["type"], is_csv=file.suffix == ".csv")
+        raise _of_file(Phrase("{place}: {fault}", place=place, fault=told)) from error
+    except _OddLine as odd:
+        raise _of_file(Phrase("{place}: {fault}", place=f"{file.name}:{odd.line}", fault=odd.words)) from None
     except StandardFault as fault:
         place = file.name if fault.row is None else f"{file.name}:{lines[fault.row]}"
         raise _of_file(Phrase("{place}: {fault}", place=place, fault=phrase(str(fault)))) from fault
     return StandardTable(**{**vars(made), "id": file.stem, "file": str(file)})
+
+
+class _OddLine(Exception):
+    """A line that says nothing that is known."""
+
+    def __init__(self, line: int, words: str) -> None:
+        self.line, self.words = line, words
+
+
+def _told(key: str, kind: str, *, is_csv: bool) -> str:
+    """What is wrong with a key of a table, and what it must be."""
+    if not key:
+        return phrase("it is not written as a table: title, sources and rows are needed")
+    if kind == "missing":
+        line = Phrase("write a line # {key}: … above the columns", key=key) if is_csv else WANTED[key]
+        return Phrase("{key} is missing; {wanted}", key=key, wanted=line)
+    if key not in WANTED:
+        return Phrase(
+            "{key} is not a key of a table{near}; known: {known}",
+            key=key,
+            near=nearest(key, WANTED),
+            known=", ".join(WANTED),
+        )
+    return Phrase("{key} is something else than it must be; {wanted}", key=key, wanted=WANTED[key])
 
 
 def _of_file(words: str) -> StandardFault:
@@ -63,23 +104,28 @@ def _of_file(words: str) -> StandardFault:
     return found
 
 
-def _from_yaml(text: str) -> tuple[Any, list[int]]:
-    """What a file holds, and the line of each of its rows."""
+def _from_yaml(text: str) -> tuple[Any, list[int], dict[str, int]]:
+    """What a file holds, and the line of each of its rows and keys."""
     node = yaml.compose(text, yaml.SafeLoader)
-    rows = [own for key, own in node.value if key.value == "rows"] if isinstance(node, yaml.MappingNode) else []
+    pairs = node.value if isinstance(node, yaml.MappingNode) else []
+    rows = [own for key, own in pairs if key.value == "rows"]
+    keys = {str(key.value): key.start_mark.line + 1 for key, _ in pairs}
     first = [
         each[0] if isinstance(each, tuple) else each for own in rows for each in own.value if not isinstance(each, str)
     ]
-    return _once(node), [each.start_mark.line + 1 for each in first]
+    return _once(node), [each.start_mark.line + 1 for each in first], keys
 
 
 def _once(node: yaml.Node | None) -> Any:
     """Return a file's data; a key that stands twice is a fault, where YAML alone would take the last."""
     if isinstance(node, yaml.MappingNode):
-        keys = [key.value for key, _ in node.value]
-        twice = next((key for key in keys if keys.count(key) > 1), None)
-        if twice is not None:
-            raise yaml.YAMLError(Phrase("{twice} stands twice in it", twice=repr(twice)))
+        seen: dict[str, int] = {}
+        for key, _ in node.value:
+            line = key.start_mark.line + 1
+            if key.value in seen:
+                words = "{twice} stands twice, in line {line} already; write it once"
+                raise _OddLine(line, Phrase(words, twice=repr(key.value), line=seen[key.value]))
+            seen[key.value] = line
         return {key.value: _once(value) for key, value in node.value}
     if isinstance(node, yaml.SequenceNode):
         return [_once(each) for each in node.value]
@@ -101,10 +147,11 @@ def _headed(cell: str) -> tuple[str, str]:
     return (found[1], found[2]) if found else (cell, "")
 
 
-def _from_csv(text: str) -> tuple[dict[str, Any], list[int]]:
-    """What a file holds, and the line of each of its rows."""
+def _from_csv(text: str) -> tuple[dict[str, Any], list[int], dict[str, int]]:
+    """What a file holds, and the line of each of its rows and of what is said above them."""
     lines = [(number, line) for number, line in enumerate(text.splitlines(), 1) if line.strip()]
-    said = [found.groups() for _, line in lines if (found := SAID.match(line))]
+    spoken = [(number, found[1], found[2]) for number, line in lines if (found := SAID.match(line))]
+    keys = _judged(spoken)
     written = [(number, line) for number, line in lines if not line.startswith("#")]
     reader = csv.reader((line for _, line in written), skipinitialspace=True)
     table = [(written[reader.line_num - 1][0], row) for row in reader]
@@ -115,10 +162,26 @@ def _from_csv(text: str) -> tuple[dict[str, Any], list[int]]:
     heads = heads[1:] if named else heads
     if len(dict(heads)) < len(heads):
         raise csv.Error(phrase("two of its columns have one name"))
-    data = {
-        **{key: value for key, value in said if key != "source"},
-        "sources": [value for key, value in said if key == "source"],
+    data: dict[str, Any] = {
+        **{key: value for _, key, value in spoken if key != "source"},
+        "sources": [value for _, key, value in spoken if key == "source"],
         "columns": dict(heads),
         "rows": [[*row[:named], *map(_number_or_text, row[named:])] for _, row in table[1:]],
     }
-    return data, [number for number, _ in table[1:]]
+    return data, [number for number, _ in table[1:]], keys
+
+
+def _judged(spoken: list[tuple[int, str, str]]) -> dict[str, int]:
+    """The line of each word above the columns; a word that says nothing, or that stands twice, is a fault."""
+    lines: dict[str, int] = {}
+    for number, word, _ in spoken:
+        if word not in OF_CSV:
+            words = "“# {word}:” says nothing here{near}; known: {known}; in a comment no colon follows the first word"
+            known = ", ".join(f"# {each}:" for each in OF_CSV)
+            raise _OddLine(number, Phrase(words, word=word, near=nearest(word, OF_CSV), known=known))
+        if word in lines and word != "source":
+            raise _OddLine(
+                number, Phrase("“# {word}:” stands in line {line} already; write it once", word=word, line=lines[word])
+            )
+        lines[word] = number
+    return lines

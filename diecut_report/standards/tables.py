@@ -32,6 +32,11 @@ class StandardSeries:
     only_source: str = ""
     file: str = ""
 
+    @property
+    def is_of_the_program(self) -> bool:
+        """Return whether it is one of the program's standard series, not one that a plugin brings."""
+        return bool(self.id) and not self.file
+
 
 @dataclass(frozen=True)
 class Column:
@@ -58,6 +63,11 @@ class StandardTable:
     names: tuple[str, ...] = ()
     only_source: str = ""
     file: str = ""
+
+    @property
+    def is_of_the_program(self) -> bool:
+        """Return whether it is one of the program's standard tables, not one that a plugin brings."""
+        return bool(self.id) and not self.file
 
     @property
     def of_values(self) -> tuple[Column, ...]:
@@ -99,7 +109,9 @@ class StandardTable:
         """Return the different values of a column in ascending order, as a standard series."""
         own = self.column(column)
         values = tuple(sorted(set(own.values)))
-        title = f"{self.title}: {own.name}" if own.name else self.title
+        title = (
+            Phrase("{title}: {column}", title=phrase(self.title), column=phrase(own.name)) if own.name else self.title
+        )
         return StandardSeries(
             self.id, title, own.unit, values, self.sources, self.left_out, self.only_source, self.file
         )

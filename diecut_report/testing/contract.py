@@ -2,10 +2,9 @@
 
 from __future__ import annotations
 
-import random
 import time
 import warnings
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from functools import cached_property
 from pathlib import Path
@@ -14,42 +13,29 @@ from typing import Any
 from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.discovery import Discovery, said
 from diecut_report.config.loader import Config
-from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration import faults, faults_at_load
-from diecut_report.declaration.code_texts import code_texts
-from diecut_report.declaration.sources import own_files
-from diecut_report.declaration.texts import texts
 from diecut_report.engine import Impossible, Unproven, calculate
-from diecut_report.errors import UserError
+from diecut_report.errors import Problem, UserError
 from diecut_report.formula_checks import forms, printing, quantities
 from diecut_report.formula_checks.fault_places import at_place, by_id
 from diecut_report.formula_checks.idle import idle_inputs
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, built_in, languages
-from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
 from diecut_report.report import Rendering
 from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
-from diecut_report.results.warm_press import WarmPress
 from diecut_report.study.execution.time_limit import Overran, limited
 from diecut_report.testing import wide_machines
-from diecut_report.testing.extreme_inputs import (
-    Extreme,
-    alone_with_its_needs,
-    empty_lists,
-    extremes_of,
-    fault_of,
-    input_of,
-    with_value,
-)
+from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
 from diecut_report.testing.many_machines import MachineCase, one_of, unlike
+from diecut_report.testing.plugin_words import PluginWords
 from diecut_report.testing.single_machine import Keys, WithMechanism, configured
-from diecut_report.testing.tried_rules import TITLES, TriedRule, rule
+from diecut_report.testing.tried_rules import TITLES, TOLD, TriedRule, rule
 
 TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
-EXTREMES, BUDGET = 120, 60.0  # single extreme values that are tried at most, and the seconds for them
 TIMED, TIMED_ALONE = 1000, 5  # variants whose time is measured; where they are slow, so few
 LONGEST = 600.0  # seconds of a rule: a plugin may never come back
 DECLARED = ("declaration", "dimensions", "printed", "inputs")
@@ -59,7 +45,8 @@ DECLARED = ("declaration", "dimensions", "printed", "inputs")
 class ContractTest:
     """Try the rules of the contract on a mechanism and, where there is one, on a machine of a configuration.
 
-    ``page`` is the mechanism's chapter as HTML, once ``figures`` was tried; ``language`` that of the page.
+    ``page`` is the mechanism's chapter as HTML, once ``figures`` was tried; ``language`` that of the page. ``refused`` tells why there is no
+    machine, where there are configurations with one that are not sound.
     """
 
     mechanism: Mechanism
@@ -67,6 +54,7 @@ class ContractTest:
     config: Config | None = None
     name: str = ""
     language: str = SOURCE_LANGUAGE
+    refused: Sequence[Problem] = ()
     page: str = field(default="", init=False)
 
     def tried(self) -> Iterator[TriedRule]:
@@ -140,6 +128,8 @@ class ContractTest:
 
     def example(self) -> TriedRule:
         """Try whether there is a machine, which calculates and prints; its self-tests hold, and nothing breaks."""
+        if self.refused:
+            return rule("example", phrase("its configuration is refused"), map(str, self.refused))
         if self.config is None:
             words = (
                 "there is no machine of this kind to try the rest on; give a configuration that has one with --config"
@@ -188,28 +178,9 @@ class ContractTest:
     def hostile(self) -> TriedRule:
         """Try whether single extreme values give numbers, or are refused in words."""
         assert self.config is not None
-        data = alone_with_its_needs(self.config, self.name)
-        of_it = self.mechanism.inputs, data["mechanisms"][self.name], ("mechanisms", self.name)
-        numbers, lists = list(extremes_of(*of_it)), list(empty_lists(*of_it))
-        some = numbers if len(numbers) <= EXTREMES else random.Random(SEED).sample(numbers, EXTREMES)
-        cases, chosen = [*lists, *numbers], [*lists, *some]
-        press, faults, ends = WarmPress(), list[str](), time.process_time() + BUDGET
-        for tried, (path, value) in enumerate(chosen):
-            if time.process_time() > ends:
-                chosen = chosen[:tried]
-                break
-            faults += self._extreme(press, data, path, value)
-        told = Phrase("{count} of {all} single extreme values", count=len(chosen), all=len(cases))
-        return rule("hostile", told, faults)
-
-    def _extreme(self, press: WarmPress, data: Mapping[str, Any], path: KeyPath, value: Extreme) -> Iterator[str]:
-        assert self.config is not None
-        folder = Path(self.config.tree.file).parent
-        fault = fault_of(with_value(data, path, value), self.discovery, press, lambda name: folder / name)
-        if fault:
-            given = str(value) if isinstance(value, list) else f"{value:g}"
-            words = Phrase("with {value}: {fault}", value=given, fault=fault)
-            yield at_place(self.mechanism, input_of(path), words)
+        found = TriedExtremes(self.config, self.name, self.discovery)
+        faults = [at_place(self.mechanism, input_of(path), words) for path, words in found.faults()]
+        return rule("hostile", found.told, faults)
 
     def figures(self) -> TriedRule:
         """Try whether all figures are drawn, and set the chapter."""
@@ -243,20 +214,27 @@ class ContractTest:
         broken = [fault for language in others for fault in self._rendered(language)]
         if broken:
             return rule("languages", "", broken)
-        found = (
-            Phrase("{language}: “{text}” ({of}) is not translated", language=language, text=text, of=of)
-            for language in others
-            for text, of in self.untranslated(language)
-        )
-        return rule("languages", ", ".join([SOURCE_LANGUAGE, *others]), found, "note")
+        told = joined([", ".join([SOURCE_LANGUAGE, *others]), *map(self._as_given, others)], "")
+        return rule("languages", told, (fault for language in others for fault in self._words_of(language)), "note")
 
-    def untranslated(self, language: str) -> Iterator[tuple[str, str]]:
-        """Yield the plugin's texts that neither its catalogue nor the program's has in a language, each with what it is of."""
-        known = catalogues_for(language, [], self.discovery)
-        own = [found for file in own_files(self.mechanism) for found in code_texts(file)]
-        for text, of in dict.fromkeys([*texts(self.mechanism), *own]):
-            if not any(catalogue.text(text) for catalogue in known.ahead(self.mechanism.kind)):
-                yield text, of
+    @cached_property
+    def words(self) -> PluginWords:
+        """Return the plugin's words in other languages."""
+        return PluginWords(self.mechanism, self.discovery)
+
+    def _words_of(self, language: str) -> Iterator[str]:
+        for text, of in self.words.untranslated(language):
+            yield Phrase("{language}: “{text}” ({of}) is not translated", language=language, text=text, of=of)
+        for text in self.words.unused(language):
+            words = "{language}: “{text}” is in the catalogue, and nothing says it any more; --write-po marks it as obsolete"
+            yield Phrase(words, language=language, text=text)
+
+    def _as_given(self, language: str) -> str:
+        """Which sources a report in a language leaves as they are."""
+        found = self.words.sources_as_given(language)
+        named = "; ".join(f"“{text}”" for text in found[:TOLD])
+        more = Counted(len(found) - TOLD, " and {n} other", " and {n} others") if len(found) > TOLD else ""
+        return (found and Phrase("; sources that stay as they are given: {named}{more}", named=named, more=more)) or ""
 
     def speed(self) -> TriedRule:
         """Tell how long a thousand variants take, as far as the mechanism itself is concerned."""

@@ -3,9 +3,14 @@
 from __future__ import annotations
 
 import json
+import random
 import re
+import time
 from collections.abc import Iterator, Mapping
-from typing import Any
+from dataclasses import dataclass, field
+from functools import cached_property
+from pathlib import Path
+from typing import Any, NamedTuple
 
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
@@ -23,6 +28,7 @@ from diecut_report.results.warm_press import WarmPress
 NOT_A_NUMBER = re.compile(r"(?<![\w.])[-+−]?(?:nan|inf|infinity)(?![\w])", re.IGNORECASE)
 BEYOND = (1e-300, 1e-12, 1e12, 1e300)
 BESIDE = 1e-6  # how far inside its bounds a value stands, as a share of it
+EXTREMES, BUDGET, SEED = 120, 60.0, 3  # single extreme values that are tried at most, and the seconds for them
 
 
 Extreme = float | int | list[Any]
@@ -68,8 +74,8 @@ def extremes_of(model: type[Block], data: Mapping[str, Any], prefix: KeyPath) ->
 
 def empty_lists(model: type[Block], data: Mapping[str, Any], prefix: KeyPath) -> Iterator[tuple[KeyPath, list[Any]]]:
     """Yield each list that is given in a block, in the blocks of it and in the first ones of its lists, as an empty one."""
-    for name, field in model.model_fields.items():
-        block, given, key = nested(field.annotation), data.get(name), (*prefix, name)
+    for name, own in model.model_fields.items():
+        block, given, key = nested(own.annotation), data.get(name), (*prefix, name)
         if isinstance(given, list):
             yield key, []
         first, place = (given[0], (*key, 0)) if isinstance(given, list) and given else (given, key)
@@ -104,29 +110,78 @@ def with_value(config: Mapping[str, Any], key: KeyPath, value: Any) -> str:
     return json.dumps(changed)
 
 
-def fault_of(text: str, discovery: Discovery, press: WarmPress, find: Find | None = None) -> str | None:
-    """Return what is wrong with the outcome of a configuration, None where it is numbers, or is refused in words.
+class Outcome(NamedTuple):
+    """Hold what came of a configuration: what is wrong with it, None where it is numbers, or is refused in words."""
 
-    ``press`` remembers what the configurations that are tried one after another have in common.
-    """
+    fault: str | None
+    is_refused: bool = False
+
+
+def outcome_of(text: str, discovery: Discovery, press: WarmPress, find: Find | None = None) -> Outcome:
+    """Return what comes of a configuration; ``press`` remembers what those that are tried one after another have in common."""
     try:
         run = press.printed(load_config(yaml_tree.parse(text, "press.yaml"), discovery, find=find))
         results = results_text(document(run))
     except UserError as refusal:
         odd = next((str(problem) for problem in refusal.problems if _odd(str(problem.message))), None)
-        return odd and Phrase("refused without words: {problem}", problem=odd)
+        return Outcome(odd and Phrase("refused without words: {problem}", problem=odd), is_refused=True)
     except Exception as cause:
-        return f"{type(cause).__name__}: {cause}"
+        return Outcome(f"{type(cause).__name__}: {cause}")
     if broken := [*run.errors.values()]:
-        return Phrase("the plugin breaks: {error}", error=broken[0].message)
+        return Outcome(Phrase("the plugin breaks: {error}", error=broken[0].message))
     found = NOT_A_NUMBER.search(results)
     if found is None:
-        return None
-    return Phrase(
-        "{value} in the results: {text}",
-        value=repr(found[0]),
-        text=results[max(0, found.start() - 80) : found.end() + 40],
-    )
+        return Outcome(None)
+    around = results[max(0, found.start() - 80) : found.end() + 40]
+    return Outcome(Phrase("{value} in the results: {text}", value=repr(found[0]), text=around))
+
+
+@dataclass
+class TriedExtremes:
+    """Put single extreme values into a machine of a configuration, and tell what came of them."""
+
+    config: Config
+    name: str
+    discovery: Discovery
+    numbers: int = field(default=0, init=False)
+    refused: int = field(default=0, init=False)
+
+    @cached_property
+    def data(self) -> dict[str, Any]:
+        """Return the configuration of the machine alone, with what it refers to."""
+        return alone_with_its_needs(self.config, self.name)
+
+    @cached_property
+    def cases(self) -> tuple[list[tuple[KeyPath, Extreme]], int]:
+        """Return the values that are tried, each with its input, and how many there are."""
+        kind = self.config.kinds[self.name]
+        of_it = self.discovery.mechanism(kind).inputs, self.data["mechanisms"][self.name], ("mechanisms", self.name)
+        numbers, lists = list(extremes_of(*of_it)), list(empty_lists(*of_it))
+        some = numbers if len(numbers) <= EXTREMES else random.Random(SEED).sample(numbers, EXTREMES)
+        return [*lists, *some], len(lists) + len(numbers)
+
+    def faults(self) -> Iterator[tuple[KeyPath, str]]:
+        """Try the values, as many as there is time for; yield what is wrong with what comes of them."""
+        folder, press, ends = Path(self.config.tree.file).parent, WarmPress(), time.process_time() + BUDGET
+        for path, value in self.cases[0]:
+            if time.process_time() > ends:
+                return
+            found = outcome_of(with_value(self.data, path, value), self.discovery, press, lambda name: folder / name)
+            if found.fault:
+                given = str(value) if isinstance(value, list) else f"{value:g}"
+                yield path, Phrase("with {value}: {fault}", value=given, fault=found.fault)
+            elif found.is_refused:
+                self.refused += 1
+            else:
+                self.numbers += 1
+
+    @property
+    def told(self) -> str:
+        """Return what was tried, and what came of it where nothing is wrong."""
+        words = "an extreme value in the place of one input at a time: {numbers} gave numbers, {refused} were refused in words"
+        told = Phrase(words, numbers=self.numbers, refused=self.refused)
+        chosen, all = len(self.cases[0]), self.cases[1]
+        return told + Phrase("; they are a sample of {all}", all=all) if chosen < all else told
 
 
 def _odd(words: str) -> bool:

@@ -47,8 +47,11 @@ class TriedRule:
     def short_list(self) -> tuple[str, ...]:
         """Return the first faults, and how many more there are."""
         left = len(self.faults) - TOLD
-        more = (Counted(left, "{n} more fault", "{n} more faults"),) if left > 0 else ()
-        return (*self.faults[:TOLD], *more)
+        if left <= 0:
+            return self.faults
+        if self.status == "note":
+            return (*self.faults[:TOLD], Counted(left, "{n} more note", "{n} more notes"))
+        return (*self.faults[:TOLD], Counted(left, "{n} more fault", "{n} more faults"))
 
 
 def rule(id: str, told: str, faults: Iterable[str], otherwise: RuleStatus = "fail") -> TriedRule:

@@ -190,6 +190,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "no symbol": (made(value("x", description="")), "step x: has no symbol or no description"),
     "one symbol for two": (made(value("x", "M")), "step x: has the symbol M of moment"),
     "one symbol for an input and a step": (made(value("x", "F")), "step x: has the symbol F of force"),
+    "the symbol of the samples": (
+        made(value("x", "N")),
+        "step x: has the symbol N of n_points (POINTS, at test_faults.py:",
+    ),
     # tokens
     "a need that is not an input": (
         made(value("x", needs=("widht",))),

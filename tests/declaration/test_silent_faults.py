@@ -10,6 +10,7 @@ import numpy as np
 import pytest
 
 from diecut_report.api import (
+    POINTS,
     Block,
     Breakpoints,
     Case,
@@ -18,6 +19,7 @@ from diecut_report.api import (
     Constant,
     Crossings,
     Erratum,
+    Inputs,
     Mechanism,
     Neighbour,
     Part,
@@ -229,3 +231,20 @@ def unprintable(arm: Any) -> Any:
 def test_a_formula_that_cannot_be_printed_is_told_once() -> None:
     (fault,) = faults(made(value("x", formula=unprintable, output=True)))
     assert "the formula cannot be printed" in str(fault)
+
+
+class Sheets(Inputs):
+    sheets: Annotated[int, Quantity("N", "1", "Sheets of a stack", integer=True)]
+    n_points: Annotated[int, POINTS] = 36
+
+
+def test_an_input_with_the_symbol_of_the_samples_is_told_at_its_own_line() -> None:
+    chapter = Chapter("All")
+    chapter.value("pairs", "n_p", "1", "Pairs", lambda sheets: sheets / 2)
+    own = Mechanism(kind="sheets", version="1", title="Sheets", summary="", inputs=Sheets, chapters=(chapter,))
+    (fault,) = faults(own)
+    lines = Path(__file__).read_text("utf-8").splitlines()
+    at, points = (1 + lines.index(line) for line in lines if line.startswith(("    sheets: ", "    n_points: ")))
+    assert str(fault).startswith(
+        f"{Path(__file__).name}:{at}: input sheets: has the symbol N of n_points (POINTS, at {Path(__file__).name}:{points})"
+    )

@@ -11,8 +11,8 @@ from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.inputs import Quantity, meta_of
 from diecut_report.results.warm_press import WarmPress
 from diecut_report.testing.extreme_inputs import extreme_values as values
-from diecut_report.testing.extreme_inputs import fault_of, with_value
 from diecut_report.testing.extreme_inputs import numeric_inputs as quantities
+from diecut_report.testing.extreme_inputs import outcome_of, with_value
 from tests.plugins.cases import DISCOVERY, FULL, OF_KINDS
 
 ALONE = {
@@ -81,4 +81,4 @@ def from_press(kind: str) -> list[str]:
 
 def judged(text: str) -> str | None:
     """What is wrong with the outcome of a config's text."""
-    return fault_of(text, DISCOVERY, REMEMBERED)
+    return outcome_of(text, DISCOVERY, REMEMBERED).fault

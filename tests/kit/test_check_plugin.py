@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 
 import pytest
@@ -14,8 +15,8 @@ from diecut_report.kit.checking import meant
 from diecut_report.kit.missing_words import write_missing
 from diecut_report.kit.scaffold import contents
 from diecut_report.languages.catalogues import catalogue
-from diecut_report.languages.po_files import read
-from diecut_report.testing import ContractTest, check_contract
+from diecut_report.languages.po_files import changed, read
+from diecut_report.testing import ContractTest, check_contract, extreme_inputs
 from diecut_report.testing.tried_rules import TITLES, TriedRule
 from tests.configs import BROKEN, SMALL, saved
 
@@ -119,8 +120,10 @@ def test_warnings_of_numpy_are_not_told(tmp_path: Path) -> None:
 
 def test_each_list_is_tried_as_an_empty_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     tried = list[str]()
-    monkeypatch.setattr("diecut_report.testing.contract.EXTREMES", 2)
-    monkeypatch.setattr("diecut_report.testing.contract.fault_of", lambda text, *_: tried.append(text))
+    monkeypatch.setattr("diecut_report.testing.extreme_inputs.EXTREMES", 2)
+    monkeypatch.setattr(
+        extreme_inputs, "outcome_of", lambda text, *_: tried.append(text) or extreme_inputs.Outcome(None)
+    )
     found(contract(tmp_path), "hostile")
     assert [json.loads(text)["mechanisms"]["toggle"]["springs"] for text in tried].count([]) == 1 and len(tried) == 3
 
@@ -137,6 +140,9 @@ def test_a_text_that_a_lambda_makes_is_one_of_the_plugin(tmp_path: Path) -> None
 def test_the_texts_that_a_catalogue_lacks_are_written_into_it(tmp_path: Path, capfd: Capture) -> None:
     change = ('title="Springs of an ejector"', 'title="Springs that eject"')
     home = toggle(tmp_path, change)
+    (home / "plugins" / "_old.py").write_text(
+        'KEPT = "Springs of an ejector"\n', "utf-8"
+    )  # so that nothing is obsolete
     file, page = home / "plugins" / "toggle.uk.po", ("-o", str(tmp_path / "page.html"))
     before = file.read_text("utf-8")
     assert main(["check-plugin", str(home), "--write-po", *page]) == 0
@@ -193,7 +199,60 @@ def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pyt
 def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
     tried = found(contract(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"')), "languages")
     assert tried.status == "note"
-    assert list(tried.faults) == ["uk: “Springs that eject” (mechanism) is not translated"]
+    assert list(tried.faults) == [
+        "uk: “Springs that eject” (mechanism) is not translated",
+        "uk: “Springs of an ejector” is in the catalogue, and nothing says it any more; --write-po marks it as obsolete",
+    ]
+
+
+def test_a_text_that_nothing_says_any_more_becomes_obsolete_and_comes_back(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"'))
+    file, page = home / "plugins" / "toggle.uk.po", ("-o", str(tmp_path / "page.html"))
+    assert main(["check-plugin", str(home), "--write-po", *page]) == 0
+    assert f"written: {file}: 1 text to be translated, 1 text is obsolete" in capfd.readouterr().err
+    obsolete = '#~ msgid "Springs of an ejector"\n#~ msgstr "Пружини виштовхувача"\n'
+    assert file.read_text("utf-8").rstrip().endswith(obsolete.rstrip())
+    again = changed(file.read_bytes(), "uk", "toggle", [("Springs of an ejector", "mechanism")], ["Springs that eject"])
+    assert (again.added, again.obsolete) == (0, 1)
+    file.write_bytes(again.content)
+    known = read(file, "uk")
+    assert known["Springs of an ejector"].string == "Пружини виштовхувача" and not known.obsolete
+    assert "Springs that eject" not in known  # it was never translated
+
+
+def test_sources_in_words_that_no_catalogue_has_are_told(tmp_path: Path) -> None:
+    change = ("    source=EN_13906,\n)\nsprings.total", '    source="theory of beams",\n)\nsprings.total')
+    tried = found(contract(tmp_path, change), "languages")
+    assert tried.status == "pass"
+    assert tried.told == "en, uk; sources that stay as they are given: “theory of beams”"
+
+
+STANDARD = (
+    ("    line,\n", "    line,\n    standard_series,\n"),
+    (
+        "springs.total(",
+        'springs.pick("size", "d_n", "mm", "Active turns", "above", of="travel", series=standard_series("renard_r40_lengths"))\nsprings.total(',
+    ),
+)
+
+
+def test_titles_of_standard_series_are_translated_by_the_program(tmp_path: Path) -> None:
+    test = contract(tmp_path, *STANDARD)
+    assert list(test.words.untranslated("uk")) == []
+    title = test.words.catalogues("uk").program.text("Lengths and diameters by preferred numbers R40")
+    assert title == "Довжини і діаметри за рядом переважних чисел R40"
+
+
+def test_what_came_of_extreme_values_is_told_in_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    test = contract(tmp_path)
+    monkeypatch.setattr("diecut_report.testing.extreme_inputs.EXTREMES", 12)
+    told = found(test, "hostile").told
+    assert re.fullmatch(
+        r"an extreme value in the place of one input at a time: \d+ gave numbers, \d+ were refused in words; they are a sample of 142",
+        told,
+    )
+    numbers, refused = (int(each) for each in re.findall(r"\d+", told)[:2])
+    assert refused and numbers + refused == 13  # with the empty list
 
 
 def test_authors_may_assert_the_contract(tmp_path: Path) -> None:
@@ -283,3 +342,15 @@ def test_a_list_without_parts_is_refused_in_words(tmp_path: Path, capfd: Capture
     example.write_text(text.replace(parts, "    springs: []\n"), "utf-8")
     assert main(["calc", str(example), "--plugins", str(home / "plugins"), "--quiet"]) == 2
     assert "toggle.yaml:17:14: mechanisms.toggle.springs: is empty; give at least one" in capfd.readouterr().err
+
+
+def test_why_the_example_is_refused_is_told_as_validate_tells_it(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path)
+    example = home / "examples" / "toggle.yaml"
+    example.write_text(example.read_text("utf-8").replace("    travel: 10 mm\n", "    trvel: 10 mm\n"), "utf-8")
+    assert main(["validate", str(example), "--plugins", str(home / "plugins")]) == 2
+    told = [line for line in capfd.readouterr().err.splitlines() if "toggle.yaml:" in line]
+    assert any("trvel" in line for line in told)
+    assert main(["check-plugin", str(home)]) == 1
+    out = capfd.readouterr().out
+    assert "fails  Example machine: its configuration is refused" in out and all(line.strip() in out for line in told)

@@ -119,7 +119,7 @@ def test_a_package_runs_from_its_sources(tmp_path: Path, capfd: Capture, monkeyp
 def test_each_other_beginning_runs_as_it_is(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, options: tuple[str, ...], tests: int, variants: int
 ) -> None:
-    monkeypatch.setattr("diecut_report.testing.contract.EXTREMES", 6)  # all of them are tried at night
+    monkeypatch.setattr("diecut_report.testing.extreme_inputs.EXTREMES", 6)  # all of them are tried at night
     home = made(tmp_path, *options)
     plugins, config = ("--plugins", str(home / "plugins")), str(home / "examples" / "toggle.yaml")
     assert run_tests(home / "tests" / "test_toggle.py") == tests
@@ -148,7 +148,7 @@ def test_a_configuration_begins_with_its_example_and_calculates(tmp_path: Path, 
 @pytest.mark.parametrize("like", LIKE)
 def test_no_text_of_it_waits_for_its_words(tmp_path: Path, like: str) -> None:
     known = Discovery([made(tmp_path, "--like", like) / "plugins"])
-    assert list(ContractTest(known.mechanism("toggle"), known).untranslated("uk")) == []
+    assert list(ContractTest(known.mechanism("toggle"), known).words.untranslated("uk")) == []
 
 
 @pytest.mark.parametrize("like", LIKE)

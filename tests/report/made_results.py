@@ -127,6 +127,8 @@ def looked_up() -> list[Data]:
             series="Ratings of motors",
             method=method,
         ),
+        item("found", "m_n", "Module", "2 mm", relation=None, method="the least module that is enough", chosen=True),
+        item("found", "x_s", "Sum of shifts", "0.2 1", relation=None, method="the sum of all"),
     ]
 
 

@@ -91,6 +91,12 @@ def test_a_value_of_a_series_says_why_it_was_taken(pages: dict[str, str], detail
     assert "the next standard value at or above 0.93 kW; neighbours not taken" in _shown(_words(pages[detail]))
 
 
+def test_a_size_that_was_sought_says_how_what_else_is_computed_says_so_in_full_alone(pages: dict[str, str]) -> None:
+    words = {detail: _words(pages[detail]) for detail in ("standard", "full")}
+    assert all("Method: the least module that is enough" in text for text in words.values())
+    assert [detail for detail, text in words.items() if "Method: the sum of all" in text] == ["full"]
+
+
 def test_standard_has_each_check_of_a_chapter_once_and_full_has_all(pages: dict[str, str], plain: Data) -> None:
     title = plain["mechanisms"]["cylinder"]["checks"][0]["title"]
     of_a = {detail: page[page.index('id="m-A"') : page.index('id="m-B"')] for detail, page in pages.items()}

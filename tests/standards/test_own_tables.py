@@ -124,16 +124,41 @@ def test_a_series_of_ones_own_ascends() -> None:
 @pytest.mark.parametrize(
     ("name", "text", "told"),
     [
-        ("a.yaml", "title: Steels\nrows: {a: 1}\nsources: [One, Two]\nunits: mm", "units: Extra inputs"),
-        ("a.yaml", "title: Steels\nunit: mm\nsources: [One, Two]", "rows: Field required"),
-        ("a.yaml", YAML + "  S355: [360, 7850]", "'S355' stands twice"),
+        (
+            "a.yaml",
+            "title: Steels\nrows: {a: 1}\nsources: [One, Two]\nunits: mm",
+            r"a.yaml:4: units is not a key of a table \(did you mean 'unit'\?\); known: title,",
+        ),
+        (
+            "a.yaml",
+            "title: Steels\nunit: mm\nsources: [One, Two]",
+            "a.yaml: rows is missing; write values by the names of the rows",
+        ),
+        ("a.yaml", YAML + "  S355: [360, 7850]", "a.yaml:8: 'S355' stands twice, in line 7 already"),
         ("a.yaml", YAML.replace("235, 7850", "2:35, 7850"), "holds '2:35' in the row 'S235'"),
         ("a.yaml", "[", "cannot be read"),
         ("a.json", "", "is not written as a table"),
         ("a.csv", "# title: Steels", "no line with the names of its columns"),
         ("a.csv", CSV.replace("ρ [kg/m**3]", "R_e [MPa]"), "two of its columns have one name"),
         ("a.csv", CSV.replace("355, 7850", "355"), "has 1 values in the row 'S355'"),
-        ("a.csv", CSV.replace("# title: Steels", ""), "title: Field required"),
+        (
+            "a.yaml",
+            "title: Steels\nrows: {a: 1}\nsources: One\nunit: mm",
+            "a.yaml:3: sources is something else than it must be; write a list",
+        ),
+        (
+            "a.csv",
+            CSV + "# note: of 2024",
+            "a.csv:8: “# note:” says nothing here; known: # title:, # source:, # only_source:, # left_out:; in a comment",
+        ),
+        ("a.csv", CSV + "# tittle: Steels", r"a.csv:8: “# tittle:” says nothing here \(did you mean 'title'\?\)"),
+        ("a.csv", CSV + "# title: Others", "a.csv:8: “# title:” stands in line 1 already; write it once"),
+        ("a.csv", CSV + "# rows: 3", "a.csv:8: “# rows:” says nothing here"),
+        (
+            "a.csv",
+            CSV.replace("# title: Steels", ""),
+            "a.csv: title is missing; write a line # title: … above the columns",
+        ),
     ],
 )
 def test_a_file_that_is_no_table_is_told(tmp_path: Path, name: str, text: str, told: str) -> None:

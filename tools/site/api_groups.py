@@ -60,7 +60,8 @@ TOLD = {  # names without a docstring of their own
     "CONTRACT": "The number of the contract of this program; a module says by `CONTRACT = 1` for which it is written.",
     "Cell": "What stands in a cell of a listing: a number in SI, a text, or `None` where there is nothing.",
     "GRAVITY": "The standard acceleration of free fall, 9.80665 m/s², a `Constant`.",
-    "POINTS": "The input with which curves are sampled, for `n_points: Annotated[int, POINTS] = 720`: it says how densely they are listed, no more.",
+    "POINTS": "The input with which curves are sampled, for `n_points: Annotated[int, POINTS] = 720`: "
+    "it says how densely they are listed, no more. It has the symbol N: a quantity of yours needs another.",
     "Point": "A place in a drawing: across and upwards, in metres.",
     "Shape": "A shape of a drawing, or a panel of a chart, as plain data: made by the functions of this page.",
 }

@@ -266,7 +266,13 @@ def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -
         result: Item = {"text": calc[step.id][0, 0], "unit": "1"}
     else:
         result = step_shown(calc, step, value_at(calc, step.id, calc.axis.get(step.id)))
-    return _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
+    found = _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
+    return found | ({"chosen": True} if _is_chosen(step) else {})
+
+
+def _is_chosen(step: Step) -> bool:
+    """Whether plain code chose it in the place of an input that may be given."""
+    return isinstance(step, Computed) and bool(step.lacks)
 
 
 def _made(calc: Calculation, step: MadeCurve) -> Item:

@@ -12,7 +12,7 @@ from diecut_report.contract.steps import Crossings, Step
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
-from diecut_report.engine.steps.lookups import SAME, given_of
+from diecut_report.engine.steps.lookups import SAME, given_of, text_of
 from diecut_report.engine.steps.part_rows import series_of
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import DIGITS, given_shown, place_shown, shown, with_unit
@@ -100,7 +100,7 @@ def looked_up(calc: Calculation, step: Lookup) -> Item:
     if step.is_by_number:
         return table(calc, step, [step.by, step.id])
     found = table(calc, step, [step.id])
-    found["columns"].insert(1, {"title": calc.meta[step.by].description, "symbol": "", "unit": "1"})
+    found["columns"].insert(1, {"title": calc.step_or_input(step.by).description, "symbol": "", "unit": "1"})
     for line, text in zip(found["rows"], _texts(calc, step), strict=True):
         line.insert(1, str(text))
     return found
@@ -112,9 +112,16 @@ def _texts(calc: Calculation, step: Lookup) -> Sequence[str]:
     count = calc[step.id].shape[1]
     if isinstance(given, np.ndarray):
         return [AS_GIVEN] * count
-    texts: Sequence[str] = calc.inputs[step.by]
+    found = text_of(calc, step)
+    texts: Sequence[str] = found[0] if isinstance(found, np.ndarray) else found
     own = given or (None,) * count
     return [text if value is None else AS_GIVEN for text, value in zip(texts, own, strict=True)]
+
+
+def _text(calc: Calculation, step: Lookup) -> str:
+    """The name of the row that was taken."""
+    found = text_of(calc, step)
+    return str(found[0, 0] if isinstance(found, np.ndarray) else found)
 
 
 def _lookup(calc: Calculation, step: Lookup) -> Item:
@@ -124,7 +131,7 @@ def _lookup(calc: Calculation, step: Lookup) -> Item:
     return {
         "type": "lookup",
         "by": by.description,
-        "key": f"{by.symbol} = {printed(calc, step.by)}" if step.is_by_number else calc.inputs[step.by],
+        "key": f"{by.symbol} = {printed(calc, step.by)}" if step.is_by_number else _text(calc, step),
         "table": step.table.title if isinstance(step.table, StandardTable) else "",
         **({"column": step.column} if step.column else {}),
         **_tables(step.table),

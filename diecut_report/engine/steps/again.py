@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping, Sequence
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any
 
 import numpy as np
 
 from diecut_report.contract.inputs import texts_given
+from diecut_report.contract.steps import Step
 from diecut_report.contract.varying import Extremes
 from diecut_report.engine.calculation import Calculation, CurveHandle, Impossible, Unproven
+from diecut_report.engine.steps import again_faults as faults
 from diecut_report.engine.steps.needed import needed
 from diecut_report.expressions import Array
 
@@ -45,26 +47,60 @@ class RowsOf:
 
 
 class Again:
-    """Calculate machines that differ from those of a calculation in some inputs."""
+    """Calculate machines that differ from those of a calculation in some inputs; ``step`` asks for them."""
 
-    def __init__(self, calc: Calculation, calculate: Calculate) -> None:
-        self.mechanism, self.count, self.calculate = calc.mechanism, calc.count, calculate
+    def __init__(self, calc: Calculation, calculate: Calculate, step: Step) -> None:
+        self.mechanism, self.count, self.calculate, self.step = calc.mechanism, calc.count, calculate, step
         self.inputs = {name: value for name, value in calc.inputs.items() if name in calc.given}
 
     def __call__(self, changed: Mapping[str, Any], rows: Array, names: Sequence[str]) -> dict[str, Array]:
-        """Return quantities of the machines ``rows`` (variants of the calculation), each with the inputs ``changed`` (machines, parts).
+        """Return quantities of the machines ``rows`` (variants of the calculation), each with the inputs ``changed``.
 
-        NaN where a machine is impossible then, and where it does not have the quantity.
+        Numbers are arrays in SI (trials, or trials and parts); a text is one for all trials, or one for each. NaN where a machine is
+        impossible then, and where it does not have the quantity. Misdeclared says what of it cannot be.
         """
+        faults.judge(self.mechanism, self.step, changed, len(rows), names)
+        found = {name: np.full(len(rows), np.nan) for name in names}
+        for trials, texts in _alike(changed, len(rows)):
+            numbers = {name: _of_trials(value, trials) for name, value in changed.items() if name not in texts}
+            for name, values in self._made(numbers | texts, np.asarray(rows)[trials], names).items():
+                found[name][trials] = values
+        return found
+
+    def _made(self, changed: Mapping[str, Any], rows: Array, names: Sequence[str]) -> dict[str, Array]:
+        """The quantities of machines of the same texts."""
         inputs = {name: _of(value, rows, self.count) for name, value in self.inputs.items()} | dict(changed)
         only = needed(self.mechanism, frozenset(inputs) | texts_given(inputs), names)
+        if not only:  # none of these machines has what is asked
+            return {}
+        if self.step.id in only:
+            raise faults.endless(self.step)
         try:
             made = self.calculate(self.mechanism, inputs, len(rows), only)
         except (Impossible, Unproven):
-            return {name: np.full(len(rows), np.nan) for name in names}
+            return {}
         possible = np.ones(len(rows), dtype=bool)
         possible[list(made.flaws)] = False
-        return {name: np.where(possible, made[name][:, 0], np.nan) for name in names}
+        there = [name for name in names if name in made.values or name in made.inputs]
+        return {name: np.where(possible, made[name].reshape(len(rows), -1)[:, 0], np.nan) for name in there}
+
+
+def _of_trials(value: Any, trials: Array) -> Array:
+    """The numbers of these trials; one alone is that of all."""
+    found = np.asarray(value, dtype=float)
+    return found[trials] if found.ndim else np.full(len(trials), found)
+
+
+def _alike(changed: Mapping[str, Any], count: int) -> Iterator[tuple[Array, dict[str, Any]]]:
+    """The trials that have the same texts, with these."""
+    texts = {name: value for name, value in changed.items() if faults.is_text(value)}
+    each = list(
+        zip(*(np.broadcast_to(np.asarray(value, dtype=object), (count,)) for value in texts.values()), strict=True)
+    )
+    trials: dict[tuple[Any, ...], list[int]] = {}
+    for trial, said in enumerate(each or [()] * count):
+        trials.setdefault(said, []).append(trial)
+    yield from ((np.array(own), dict(zip(texts, said, strict=True))) for said, own in trials.items())
 
 
 def _of(value: Any, rows: Array, count: int) -> Any:

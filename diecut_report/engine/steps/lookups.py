@@ -7,8 +7,10 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.part_steps import Lookup, Pick
+from diecut_report.contract.place import Misdeclared
 from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.steps.feasibility import refuse
+from diecut_report.engine.steps.soundness import possible
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import number_text, with_unit
@@ -38,14 +40,33 @@ def given_of(calc: Calculation, step: Lookup | Pick) -> Any:
     return calc.inputs.get(step.given.removeprefix("inputs.")) if step.given else None
 
 
+def text_of(calc: Calculation, step: Lookup) -> Any:
+    """Return the text by which a row is taken: of an input (a tuple of those of parts), or what was calculated of many machines, an array."""
+    return calc.values[step.by] if step.by in calc.steps else calc.inputs[step.by]
+
+
 def _by_text(calc: Calculation, step: Lookup) -> Array:
     numbers, display = step.rows()
-    text = calc.inputs[step.by]
+    text = text_of(calc, step)
+    if isinstance(text, np.ndarray):
+        return _by_found(calc, step, text)
     found = [
         np.nan if key is None else numbers[key] * unit(display).factor
         for key in (text if isinstance(text, tuple) else (text,))
     ]
     return np.tile(np.asarray(found, dtype=float), (calc.count, 1))
+
+
+def _by_found(calc: Calculation, step: Lookup, texts: Array) -> Array:
+    """The numbers of rows whose names were calculated; Misdeclared where a machine that can be has another one."""
+    numbers, display = step.rows()
+    strange = next((text for text in texts[possible(calc)].flat if text not in numbers), None)
+    if strange is not None:
+        words = "step {id}: {by} is {text}, which is not a row of its table; the rows are {rows}"
+        filling = {"id": step.id, "by": step.by, "text": repr(strange), "rows": ", ".join(numbers)}
+        raise Misdeclared(Phrase(words, filling), calc.steps[step.by].at)
+    found = np.array([numbers.get(text, np.nan) for text in texts.flat], dtype=float)
+    return found.reshape(texts.shape) * unit(display).factor
 
 
 def _by_number(calc: Calculation, step: Lookup, given: Any) -> Array:

@@ -73,9 +73,14 @@ def row(step: Computed, found: Any, count: int) -> Array:
     return np.broadcast_to(np.atleast_2d(given), (count, given.shape[-1])).astype(float)
 
 
-def texts(step: Computed, found: Any) -> Array:
-    """Return the texts that a function gives for all variants, shape (variants, 1)."""
-    return np.array([text(step, each) for each in found], dtype=object)[:, None]
+def texts(step: Computed, found: Any, count: int) -> Array:
+    """Return the texts that a function gives for all variants, shape (variants, 1); Misdeclared where they are not so many texts."""
+    given = [found] if isinstance(found, str) else list(found.flat if isinstance(found, np.ndarray) else found)
+    if len(given) != count:
+        words = Phrase("{n} values", n=len(given)), Phrase("a text for each machine, {count}", count=count)
+        raise _told(step, step.function, *words)
+    plain = (str(each) if isinstance(each, np.str_) else each for each in given)
+    return np.array([text(step, each) for each in plain], dtype=object)[:, None]
 
 
 def partners(step: Clash, found: Any, shape: tuple[int, ...]) -> Array:

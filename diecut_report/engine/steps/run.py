@@ -213,7 +213,7 @@ def _from_curve(calc: Calculation, step: FromCurve) -> None:
 def _prepared(calc: Calculation, step: Prepared) -> None:
     known: dict[str, Any] = {n: calc[n] for n in step.holds if n in calc.values or n in calc.inputs}
     if step.again:
-        known["again"] = Again(calc, calculate)
+        known["again"] = Again(calc, calculate, step)
     alone = calc.count == 1 or step.for_many
     calc.inputs[step.id] = _called(calc, step, [known]) if alone else one_by_one.prepared(calc, step, known)
 
@@ -272,7 +272,7 @@ def _computed(calc: Calculation, step: Computed) -> None:
     if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):
         raise TypeError(f"{step.id} was given {calc.count} machines and has one value for all")
     if step.is_text:
-        calc.values[step.id] = plain_code.texts(step, found)
+        calc.values[step.id] = plain_code.texts(step, found, calc.count)
         return
     give = plain_code.row if step.over else plain_code.number
     calc.values[step.id] = calc.existing(step, give(step, found, calc.count))

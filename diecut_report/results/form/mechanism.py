@@ -220,6 +220,7 @@ class ListingKeys(ClosedKeys):
     description: str = always("What it is.")
     columns: list[ListingColumnKeys] = always("Its columns.")
     rows: list[list[float | str | None]] = always("Its rows: numbers (SI), texts, null where there is nothing.")
+    taken: list[int] = sometimes("Which of its rows were taken, counted from 0.")
 
 
 class MechanismKeys(ClosedKeys):

@@ -72,6 +72,7 @@ class FoundItemKeys(ResultingKeys):
     type: Literal["found"] = always("`found`.")
     relation: Tree | None = always("The equation that it satisfies; null where it was found in another way.")
     method: str = always("How it was found.")
+    chosen: Literal[True] = sometimes("It was chosen in the place of an input that may be given.")
     residual: ShownKeys = sometimes("How far from zero the equation is.")
 
 

@@ -12,7 +12,7 @@ from diecut_report.results.form.document import ResultsFileKeys
 
 Schema = dict[str, Any]
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
-VERSION = "1.0"
+VERSION = "1.1"
 """The first number is ``schema_version`` of the file: it rises when a key changes its name or meaning. The second rises with each addition."""
 SUFFIX = "Keys"  # of the classes
 

@@ -1,0 +1,184 @@
+"""A row of a table by a text that was found, tables that mark it, and texts that plain code tries again."""
+
+from __future__ import annotations
+
+from collections.abc import Callable
+from typing import Annotated, Any, Literal
+
+import numpy as np
+import pytest
+
+from diecut_report.api import Chapter, Inputs, ListedColumn, Mechanism, Quantity, Text, case, own_table
+from diecut_report.contract.inputs import flatten
+from diecut_report.contract.place import Misdeclared
+from diecut_report.declaration import faults
+from diecut_report.engine import Calculation, calculate, listings
+from diecut_report.engine.printing.items import section_items
+from diecut_report.testing import check_mechanism
+
+BEARINGS = own_table(
+    title="Bearings",
+    columns={"bore": "mm", "C": "kN"},
+    rows={"small": (20, 13.5), "big": (25, 14.875)},
+    sources=("One list", "Another list"),
+)
+NAMES = np.array(BEARINGS.names)
+RATINGS = np.array([13.5e3, 14.875e3])
+
+
+class Place(Inputs):
+    load: Annotated[float, Quantity("F", "kN", "Load", gt=0)] = 14
+    given: Annotated[Literal["small", "big"] | None, Text("Bearing")] = None
+    is_wet: Annotated[bool, Text("Wet")] = False
+    factor: Annotated[float, Quantity("f", "1", "Factor", gt=0)] = 1
+
+
+def found(load: Any) -> Any:
+    return NAMES[(load <= RATINGS).argmax(axis=1)]
+
+
+def made(*declare: Callable[[Chapter], None]) -> Mechanism:
+    chapter = Chapter("All")
+    for each in declare:
+        each(chapter)
+    return Mechanism(kind="place", version="1", title="Place", summary="A place.", inputs=Place, chapters=(chapter,))
+
+
+def looked_up(chapter: Chapter) -> None:
+    chapter.lookup("bore", "d", "mm", "Bore", BEARINGS, by="bearing", column="bore")
+
+
+def computed(function: Callable[..., Any] = found) -> Callable[[Chapter], None]:
+    return lambda chapter: chapter.computed(
+        "bearing", "B", "1", "Bearing that is taken", function, ("load",), "in words", is_text=True
+    )
+
+
+def chosen(light: str = "small") -> Callable[[Chapter], None]:
+    return lambda chapter: chapter.choice(
+        "bearing",
+        "B",
+        "1",
+        "Bearing that is taken",
+        case(light, "the load is light", lambda load, factor: load * factor < 13.9 * load),
+        case("big", "it is not"),
+    )
+
+
+def run(mechanism: Mechanism, **inputs: Any) -> Calculation:
+    return calculate(mechanism, flatten(Place(**inputs)))
+
+
+def test_the_row_of_a_text_that_was_computed_is_taken() -> None:
+    mechanism = made(computed(), looked_up)
+    check_mechanism(mechanism)
+    assert run(mechanism, load=13)["bore"].item() == 0.02
+    one = run(mechanism, load=14)
+    (item,) = (each for section in section_items(one) for each in section["items"] if each["type"] == "lookup")
+    assert one["bore"].item() == 0.025 and (item["by"], item["key"]) == ("Bearing that is taken", "big")
+    many = calculate(mechanism, {**flatten(Place()), "load": np.array([14e3, 13e3])}, 2)
+    assert many["bore"][:, 0].tolist() == [0.025, 0.02]
+
+
+def test_the_row_of_a_text_that_a_choice_gives_is_taken() -> None:
+    mechanism = made(chosen(), looked_up)
+    check_mechanism(mechanism)
+    assert run(mechanism)["bore"].item() == 0.02 and run(mechanism, factor=14)["bore"].item() == 0.025
+
+
+def test_what_is_sought_in_the_place_of_an_input_is_marked_as_chosen() -> None:
+    def sought(chapter: Chapter) -> None:
+        chapter.computed("size", "s", "1", "Size", lambda load: load / 1e3, ("load",), "tried", lacks=("given",))
+        chapter.computed("other", "o", "1", "Other", lambda load: load / 2e3, ("load",), "halved")
+
+    items = [item for section in section_items(run(made(sought))) for item in section["items"]]
+    assert [item.get("chosen") for item in items] == [True, None]
+
+
+def test_names_that_are_no_rows_are_told() -> None:
+    (fault,) = faults(made(chosen("smal"), looked_up))
+    assert str(fault).endswith("step bore: has no row in the table for bearing=smal; the rows are small, big")
+    with pytest.raises(
+        Misdeclared, match=r"test_found_rows.py:\d+: step bore: bearing is 'smal', which is not a row of its table"
+    ):
+        run(made(computed(lambda load: ["smal"]), looked_up))
+    with pytest.raises(Misdeclared, match="gives 2 values; it must return a text for each machine, 1"):
+        run(made(computed(lambda load: ["small", "big"]), looked_up))
+
+
+def test_words_of_messages_name_no_row() -> None:
+    told = faults(made(lambda chapter: chapter.words("bearing", lambda load: "small", takes=("load",)), looked_up))
+    assert any(
+        "by is bearing, words that are made where a message asks for them; let choice or" in str(fault)
+        for fault in told
+    )
+
+
+def listed(taken: str, rows: Any, digits: int = 0) -> Callable[[Chapter], None]:
+    columns = (ListedColumn("name", "Bearing"), ListedColumn("C", "Rating", "C", "kN", digits=digits))
+    return lambda chapter: chapter.listing("all", "All bearings", columns, lambda known: rows, ("load",), taken=taken)
+
+
+def test_the_row_that_was_taken_is_marked_and_a_column_has_its_digits() -> None:
+    rows = [("small", 13.5e3), ("big", 14.875e3)]
+    one = run(made(computed(), listed("bearing", rows, digits=3)))
+    (table,) = (each for section in section_items(one) for each in section["items"] if each["type"] == "table")
+    assert [column["title"] for column in table["columns"]] == ["taken", "Bearing", "Rating"]
+    assert table["rows"] == [["", "small", "13.5"], ["→", "big", "14.9"]]
+    assert listings.results(one)["listings"]["all"]["taken"] == [1]
+
+
+def test_a_row_of_a_number_is_marked_and_none_where_none_was_taken() -> None:
+    one = run(made(listed("load", [(14e3 * (1 + 1e-12), 1.0), (13e3, 2.0)])))
+    assert listings.results(one)["listings"]["all"]["taken"] == [0]
+    none = run(made(listed("given", [("small", 1.0)])))
+    assert "taken" not in listings.results(none)["listings"]["all"]
+    (fault,) = faults(made(listed("lod", [])))
+    assert "step all: takes lod, which nothing gives (did you mean 'load'?)" in str(fault)
+
+
+def again(*asked: Any) -> Callable[[Chapter], None]:
+    """A bearing for each of the texts, sought with the machine itself."""
+
+    def sought(known: Any) -> Any:
+        changed, names = asked
+        return known["again"](changed, np.zeros(2, dtype=int), names)
+
+    def declare(chapter: Chapter) -> None:
+        chapter.prepared("sought", sought, ("load",), for_many=True, again=True, lacks=("given",))
+        chapter.lookup("bore", "d", "mm", "Bore", BEARINGS, by="given", column="bore", needs=("given",))
+        chapter.value("twice", "d_2", "mm", "Twice the bore", lambda bore, factor: 2 * bore * factor, needs=("given",))
+        chapter.value("wet", "w", "1", "Wet factor", lambda factor: 3 * factor, needs=("is_wet=true",))
+
+    return declare
+
+
+def test_texts_are_tried_one_for_each_trial_or_one_for_all() -> None:
+    each = run(made(again({"given": ["big", "small"], "factor": np.array([1.0, 10.0])}, ("twice",)))).inputs["sought"]
+    assert each["twice"].tolist() == [0.05, 0.4]
+    all_ = run(made(again({"given": "big"}, ("twice", "bore")))).inputs["sought"]
+    assert (all_["twice"].tolist(), all_["bore"].tolist()) == ([0.05, 0.05], [0.025, 0.025])
+    wet = run(made(again({"is_wet": np.array([True, False]), "given": "big"}, ("wet",)))).inputs["sought"]["wet"]
+    assert wet[0] == 3 and np.isnan(wet[1])
+
+
+@pytest.mark.parametrize(
+    ("changed", "names", "words"),
+    [
+        ({"given": "bigg"}, ("twice",), "tries 'bigg' for given; allowed: small, big"),
+        ({"given": np.array([1.0, 2.0])}, ("twice",), "tries numbers for given, which is a text: small, big"),
+        ({"factor": "2"}, ("twice",), "tries '2' for factor, which is a number: give it in SI"),
+        (
+            {"load": ["14 kN", "15 kN"]},
+            ("twice",),
+            r"tries '14 kN' for load, which is a number: give it in SI, si\(…, 'kN'\)",
+        ),
+        ({"fctor": 2.0}, ("twice",), r"changes fctor, which is not an input \(did you mean 'factor'\?\)"),
+        ({"factor": 2.0}, ("load", "wet"), "tries machines that seek again: let the step lack the input that is tried"),
+        ({"factor": np.ones(3)}, ("twice",), "gets 3 values of factor for 2 trials; give one for each"),
+        ({"factor": 2.0}, ("twic",), r"asks for twic, which nothing gives \(did you mean 'twice'\?\)"),
+    ],
+)
+def test_what_cannot_be_tried_is_told_with_the_plugins_line(changed: Any, names: Any, words: str) -> None:
+    with pytest.raises(Misdeclared, match=rf'test_found_rows.py:\d+: step sought: known\["again"\] {words}'):
+        run(made(again(changed, names)))
