@@ -15,6 +15,7 @@ from diecut_report.contract.steps import SILENT, Choice, FromCurve, Step, Value
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short
 from diecut_report.declaration.world import When
+from diecut_report.languages.phrases import Phrase
 
 
 class Printed(NamedTuple):
@@ -42,8 +43,13 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
             pair = one.giver, other.giver
             if one.name != other.name and pair not in told and _clash(names, one, other):
                 told.add(pair)  # of two rows with many parts the first that are alike
-                text = f"has the symbol {symbol} of {one.name} (at {short(one.at)}): both would be printed as one quantity; give it another"
-                yield Fault(other.at, f"{'step' if other.step else 'input'} {other.name}", text)
+                text = Phrase(
+                    "has the symbol {symbol} of {name} (at {place}): both would be printed as one quantity; give it another",
+                    symbol=symbol,
+                    name=one.name,
+                    place=short(one.at),
+                )
+                yield Fault(other.at, Phrase("step {id}" if other.step else "input {id}", id=other.name), text)
 
 
 def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:

@@ -328,7 +328,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(figures=(plot(unit="mm"),)),
         "figure turn: draws torque, in N*m, on an axis in mm",
     ),
-    "a number as a curve": (made(figures=(plot("moment"),)), "draws moment, which is number; a curve is wanted there"),
+    "a number as a curve": (made(figures=(plot("moment"),)), "draws moment, which is a number; a curve is wanted there"),
     "an unknown curve": (
         made(figures=(plot("torqe"),)),
         "figure turn: draws torqe, which nothing gives (did you mean 'torque'?)",
