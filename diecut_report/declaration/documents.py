@@ -29,22 +29,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
                 Phrase("source {id}", id=second.id),
                 Phrase("has the id of another source (at {place}); give it another", place=short(first.at)),
             )
-    known = [source.id for source in mechanism.sources]
-    for erratum in mechanism.errata:
-        if erratum.source not in known:
-            text = Phrase(
-                "is of no listed source{nearest}; listed: {known}",
-                nearest=nearest(erratum.source, known),
-                known=", ".join(known),
-            )
-            yield Fault(erratum.at, Phrase("erratum of {source}", source=erratum.source), text)
-        for name in erratum.touches:
-            if not names.givers(name) and name not in _silent(mechanism):
-                yield Fault(
-                    erratum.at,
-                    Phrase("erratum of {source}", source=erratum.source),
-                    Phrase("touches {unknown}", unknown=unknown(name, names.known)),
-                )
+    yield from _errata(mechanism, names)
     for name in mechanism.key_results:
         text = _key_result(names, name)
         if text:
@@ -53,6 +38,20 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for comparison in mechanism.comparisons:
         for text in _comparison(mechanism, names, comparison):
             yield Fault(comparison.at, Phrase("comparison {kind}", kind=comparison.mechanism.kind), text)
+
+
+def _errata(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Errata of sources that are not listed, and those that touch what there is not."""
+    known = [source.id for source in mechanism.sources]
+    for erratum in mechanism.errata:
+        subject = Phrase("erratum of {source}", source=erratum.source)
+        if erratum.source not in known:
+            words = "is of no listed source{nearest}; listed: {known}"
+            listed = {"nearest": nearest(erratum.source, known), "known": ", ".join(known)}
+            yield Fault(erratum.at, subject, Phrase(words, listed))
+        for name in erratum.touches:
+            if not names.givers(name) and name not in _silent(mechanism):
+                yield Fault(erratum.at, subject, Phrase("touches {unknown}", unknown=unknown(name, names.known)))
 
 
 def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:

@@ -30,8 +30,9 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     if not NAME.fullmatch(example.name):
         text = phrase("is not a name of a mechanism: a letter, then letters, digits, _ and - are allowed")
         yield Fault(example.at, Phrase("example {name}", name=repr(example.name)), text)
-    for key, text in _wrong(mechanism.inputs, example.inputs, ""):
-        yield Fault(example.at, Phrase("example {name}", name=example.name), Phrase("{key} {text}", key=key, text=text))
+    subject = Phrase("example {name}", name=example.name)
+    for key, words in _wrong(mechanism.inputs, example.inputs, ""):
+        yield Fault(example.at, subject, Phrase("{key} {text}", key=key, text=words))
 
 
 def _wrong(model: type[Block], data: Mapping[str, Any], path: str) -> Iterator[tuple[str, str]]:

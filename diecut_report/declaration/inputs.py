@@ -66,7 +66,7 @@ def _form(place: str, subject: str, form: tuple[str, str], keys: dict[str, Key])
 
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
     for name, declared in model.model_fields.items():
-        inner, subject = nested(declared.annotation), Phrase("input {prefix}{name}", prefix=prefix, name=name)
+        inner, subject = nested(declared.annotation), Phrase("input {path}", path=f"{prefix}{name}")
         for text in (*_absent(declared), *(() if inner else _wrong(name, declared, meta_of(model, name)))):
             yield Fault(of_field(model, name, place), subject, text)
         if name in RESERVED and not prefix:

@@ -49,7 +49,11 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
                     name=one.name,
                     place=short(one.at),
                 )
-                yield Fault(other.at, Phrase("step {id}" if other.step else "input {id}", id=other.name), text)
+                yield Fault(
+                    other.at,
+                    Phrase("step {id}", id=other.name) if other.step else Phrase("input {path}", path=other.name),
+                    text,
+                )
 
 
 def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
