@@ -25,6 +25,10 @@ DRAWING = {
 }  # fmt: skip
 """Elements that draw, or say what is drawn: none that runs, embeds, repeats, or is set in letters of a font that may be missing."""
 _OUTSIDE = re.compile(r"@import|@font-face|url\(\s*['\"]?(?!#)", re.IGNORECASE)
+PIXELS = {"": 1.0, "px": 1.0, "pt": 96 / 72, "pc": 16.0, "mm": 96 / 25.4, "cm": 960 / 25.4, "in": 96.0}
+"""Of the units of CSS."""
+LONGEST = 1e6  # pixels of a side that has a meaning
+_PARTED = re.compile(r"\s*(\d+\.?\d*|\.\d+)(px|pt|pc|mm|cm|in|)\s*")
 _LENGTH = re.compile(r"\s*(?:\d+\.?\d*|\.\d+)(?:px|pt|pc|mm|cm|in)?\s*")
 
 
@@ -49,6 +53,37 @@ def media_type(content: bytes) -> str:
         raise PictureFault(phrase("is neither a PNG nor an SVG picture, whatever its name ends in"))
     _SvgJudge().judge(content)
     return SVG
+
+
+def natural_size(content: bytes) -> tuple[float, float]:
+    """Return width and height of a picture that was judged, in pixels; of an SVG without a size of its own those of its view."""
+    if content.startswith(SIGNATURE):
+        from PIL import Image
+
+        with Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
+            return float(picture.width), float(picture.height)
+    found: dict[str, str] = {}
+    parser = expat.ParserCreate()
+    parser.StartElementHandler = lambda _, given: found or found.update(given)
+    parser.Parse(content, True)
+    sides = [_pixels(found.get(key, "")) for key in ("width", "height")]
+    if None in sides:
+        sides = [_number(each) for each in found.get("viewBox", "").replace(",", " ").split()[2:]]
+    width, height = (side if side and 0 < side < LONGEST else 1.0 for side in (*sides, None, None)[:2])
+    return width, height
+
+
+def _pixels(length: str) -> float | None:
+    """A length of CSS; None where it is none."""
+    parts = _PARTED.fullmatch(length)
+    return float(parts[1]) * PIXELS[parts[2]] if parts else None
+
+
+def _number(text: str) -> float | None:
+    try:
+        return float(text)
+    except ValueError:
+        return None
 
 
 def _judge_png(content: bytes) -> None:

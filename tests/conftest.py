@@ -87,7 +87,7 @@ def example(tmp_path_factory: pytest.TempPathFactory) -> Example:
 @pytest.fixture
 def without_summary(monkeypatch: pytest.MonkeyPatch) -> None:
     """Studies are left without their summary, which takes seconds."""
-    monkeypatch.setattr("diecut_report.study.command.summarise", lambda _: None)
+    monkeypatch.setattr("diecut_report.study.command.summarise", lambda *_, **__: None)
 
 
 @pytest.fixture
@@ -96,4 +96,4 @@ def with_html_summary(monkeypatch: pytest.MonkeyPatch) -> None:
     from diecut_report.study import command
     from diecut_report.study.summary import summarise
 
-    monkeypatch.setattr(command, "summarise", lambda folder: summarise(folder, ["html"]))
+    monkeypatch.setattr(command, "summarise", lambda folder, discovery: summarise(folder, ["html"], discovery))

@@ -9,7 +9,7 @@ import zlib
 import pytest
 from PIL import Image
 
-from diecut_report.pictures import MOST, MOST_ELEMENTS, PictureFault, media_type
+from diecut_report.pictures import MOST, MOST_ELEMENTS, PictureFault, media_type, natural_size
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 4">'
 LINKED = HEAD.replace(" viewBox", ' xmlns:xlink="http://www.w3.org/1999/xlink" viewBox')
@@ -93,3 +93,20 @@ def test_what_does_more_than_to_draw_is_refused(content: bytes, words: str) -> N
     with pytest.raises(PictureFault) as caught:
         media_type(content)
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize(
+    ("given", "size"),
+    [
+        ('width="40mm" height="1in"', (40 * 96 / 25.4, 96)),
+        ('width="40" height="30px" viewBox="0 0 1 1"', (40, 30)),
+        ('viewBox="0 0 120, 40.5"', (120, 40.5)),
+        ('width="100%" height="5" viewBox="-1 -1 3 2"', (3, 2)),
+        ('viewBox="0 0 -4 0"', (1, 1)),
+        ('viewBox="0 0 1e99 nan"', (1, 1)),
+    ],
+)
+def test_an_svg_has_a_size(given: str, size: tuple[float, float]) -> None:
+    content = f'<svg xmlns="http://www.w3.org/2000/svg" {given}><g width="7"/></svg>'.encode()
+    assert media_type(content) == "image/svg+xml"
+    assert natural_size(content) == pytest.approx(size)

@@ -13,10 +13,13 @@ import click
 from diecut_report.cli.given import DASH
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell, without_output
-from diecut_report.config.catalogues import spoken_catalogues
+from diecut_report.config import yaml_tree
+from diecut_report.config.catalogues import catalogues_of
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.standard_input import SHOWN
+from diecut_report.config.study_files import refuse_study
 from diecut_report.errors import Problem, UserError
+from diecut_report.languages.catalogues import languages
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import say, speaking, spoken_language
 
@@ -45,22 +48,25 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     with without_output():  # a plugin that prints does not spoil the address
         session = LiveSession(config.absolute(), discovery)
 
+    follows, unopened = (  # said now: the page may have another language
+        say("The page follows the file; Ctrl-C ends it."),
+        say("No browser could be started; open the address by hand."),
+    )
+
     def ready(address: str) -> None:
         emit(f"{address}\n")
-        if not quiet:
-            tell([say("The page follows the file; Ctrl-C ends it.")])
-        if is_opened and not webbrowser.open(address):
-            tell([say("No browser could be started; open the address by hand.")])
+        tell([] if quiet else [follows])
+        tell([unopened] if is_opened and not webbrowser.open(address) else [])
 
-    words = speaking(spoken_language(), spoken_catalogues(discovery))
-    with words, suppress(KeyboardInterrupt):  # how one ends it
+    language = asked_language() or _of_project(session) or spoken_language()
+    with speaking(language, catalogues_of(language, discovery)), suppress(KeyboardInterrupt):  # how one ends it
         serve(LiveApplication(session, folders, asked_language()), port, ready)
     tell(_unwritten(session))
     return PASSED
 
 
 def _require_file(config: Path) -> None:
-    """Refuse what cannot be followed: standard input, a folder, a file that is not there."""
+    """Refuse what cannot be followed: standard input, a folder, a file that is not there, a study."""
     if config == DASH:
         words = phrase(
             "The page follows a file that is saved again and again; standard input is read once. Name a file."
@@ -76,6 +82,19 @@ def _require_file(config: Path) -> None:
         raise UserError(Problem(words, str(config)))
     if not config.is_file():
         raise UserError(Problem(phrase("There is no such file. Check the name and the folder."), str(config)))
+    try:
+        tree = yaml_tree.load(config)
+    except UserError:  # the page tells what is wrong with it, until it is mended
+        return
+    refuse_study(tree)
+
+
+def _of_project(session: LiveSession) -> str | None:
+    """The language that the file gives its project; None where it gives none that there is."""
+    data = session.tree.data if session.tree else None
+    project = data.get("project") if isinstance(data, dict) else None
+    given = project.get("language") if isinstance(project, dict) else None
+    return given if given in languages() else None
 
 
 def _unwritten(session: LiveSession) -> Iterator[str]:

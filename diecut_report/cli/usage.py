@@ -1,4 +1,10 @@
-"""What click says of wrong usage, in the language that is spoken: it has no catalogues of its own."""
+"""What click says of wrong usage, in the language that is spoken: it has no catalogues of its own.
+
+Its own way, ``gettext`` with the domain "messages", was looked at and is not taken. It reads compiled catalogues of the language
+that ``os.environ`` names, for the whole process: argparse and all processes that are started would follow, while a language here
+holds within ``speaking`` alone. It translates a sentence where it is raised, which may be before ``--language`` is read. And a
+sentence that another version of click words otherwise stays English there too; here `tests/cli/test_usage.py` tells of it.
+"""
 
 from __future__ import annotations
 

@@ -9,6 +9,7 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase
 
 PROJECT = "pyproject.toml"
+SOURCES = "src"
 
 
 def announced(folder: Path, group: str) -> dict[str, tuple[str, str]]:
@@ -30,7 +31,13 @@ def announced(folder: Path, group: str) -> dict[str, tuple[str, str]]:
     return {kind: (_source(folder, module), attribute) for kind, (module, _, attribute) in places.items()}
 
 
+def source_of(folder: Path, place: str) -> Path:
+    """Return the folder of a project in which its packages stand, of a kind's place in it."""
+    return folder / SOURCES if place.startswith(f"{SOURCES}/") else folder
+
+
 def _source(folder: Path, module: str) -> str:
     """Where a module of a package stands in its project."""
     name = module.replace(".", "/")
-    return f"src/{name}" if (folder / "src" / name).exists() or (folder / "src" / f"{name}.py").exists() else name
+    found = folder / SOURCES / name
+    return f"{SOURCES}/{name}" if found.exists() or found.with_name(f"{found.name}.py").exists() else name

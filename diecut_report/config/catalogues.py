@@ -30,9 +30,12 @@ def catalogues_for(language: str, kinds: Iterable[str], discovery: Discovery, fi
 
 def spoken_catalogues(discovery: Discovery | None = None) -> Catalogues:
     """Return the catalogues of the language that is spoken; what plugins of others do not have stays English."""
-    if discovery is None:
-        return Catalogues(spoken_language())
-    return Catalogues(spoken_language(), partial(_plugin, discovery), discovery.origins)
+    return Catalogues(spoken_language()) if discovery is None else catalogues_of(spoken_language(), discovery)
+
+
+def catalogues_of(language: str, discovery: Discovery) -> Catalogues:
+    """Return the catalogues of a language with those of all plugins; what plugins of others do not have stays English."""
+    return Catalogues(language, partial(_plugin, discovery), discovery.origins)
 
 
 def lacking(catalogues: Catalogues, kinds: Iterable[str]) -> list[str]:

@@ -12,23 +12,21 @@ before a configuration is read, to add to a registry (such as the motion laws).
 
 from __future__ import annotations
 
-import hashlib
-import re
 import sys
 import traceback
-from collections.abc import Callable, Iterable, Iterator
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from dataclasses import dataclass
 from functools import cached_property, partial
-from importlib import import_module, util
+from importlib import import_module
 from importlib.metadata import entry_points
 from pathlib import Path
-from types import ModuleType
 from typing import Any
 
 from diecut_report.config import yaml_tree
-from diecut_report.config.announced_kinds import announced
+from diecut_report.config.announced_kinds import announced, source_of
 from diecut_report.config.contract_version import other_program, refuse_other_contract
 from diecut_report.config.imports_beside import beside
+from diecut_report.config.local_modules import attribute_of, module_of_file, module_of_project
 from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.place import Misdeclared
@@ -221,7 +219,7 @@ def _installed_extensions() -> Iterator[Origin]:
 
 def _extensions(folder: Path) -> Iterator[Origin]:
     for file in sorted(folder.glob(f"{EXTENSION}*.py")):
-        yield Origin(file.stem, str(file), partial(_module_of, file), partial(Path, file))
+        yield Origin(file.stem, str(file), partial(module_of_file, file), partial(Path, file))
 
 
 def in_folder(folder: Path) -> Iterator[Origin]:
@@ -230,11 +228,24 @@ def in_folder(folder: Path) -> Iterator[Origin]:
         raise UserError(
             Problem(phrase("There is no such folder of plugins. Check the name given with --plugins."), str(folder))
         )
-    each = announced(folder, GROUP) or {name: (name, "") for name in _names_in(folder)}
-    listed = _listed(folder) if (folder / LIST).is_file() else each
+    if (folder / LIST).is_file():
+        yield from _in_files(folder, _listed(folder))
+    elif kinds := announced(folder, GROUP):
+        yield from (_in_project(folder, kind, *place) for kind, place in kinds.items())
+    else:
+        yield from _in_files(folder, {name: (name, ATTRIBUTE) for name in _names_in(folder)})
+
+
+def _in_files(folder: Path, listed: Mapping[str, tuple[str, str]]) -> Iterator[Origin]:
     for kind, (name, attribute) in listed.items():
         file = _file_of(folder, name)
-        yield Origin(kind, str(file), partial(_of_file, file, attribute or ATTRIBUTE), partial(Path, file))
+        yield Origin(kind, str(file), partial(_of_file, file, attribute), partial(Path, file))
+
+
+def _in_project(folder: Path, kind: str, name: str, attribute: str) -> Origin:
+    """A kind of the project of a package, whose modules import each other by its name, as where it is installed."""
+    file, source = _file_of(folder, name), source_of(folder, name)
+    return Origin(kind, str(file), partial(_of_project, file, source, attribute or ATTRIBUTE), partial(Path, file))
 
 
 def _names_in(folder: Path) -> list[str]:
@@ -260,28 +271,8 @@ def _file_of(folder: Path, name: str) -> Path:
     return package if package.is_file() else folder / f"{name}.py"
 
 
-def _module_of(file: Path) -> ModuleType:
-    """The module of a local file; it stands in sys.modules while it runs, or postponed annotations would not resolve."""
-    digest = hashlib.sha256(str(file.resolve()).encode()).hexdigest()[:16]
-    if file.exists() and not file.is_file():
-        raise OSError(phrase("it is not a regular file"))  # a pipe would be waited for
-    name = f"diecut_report_local_{digest}_{re.sub(r'[^A-Za-z0-9]', '_', file.stem)}"
-    if name in sys.modules:
-        return sys.modules[name]
-    folder = [str(file.parent)] if file.name == "__init__.py" else None
-    spec = util.spec_from_file_location(name, file, submodule_search_locations=folder)
-    assert spec is not None and spec.loader is not None, file
-    module = sys.modules[name] = util.module_from_spec(spec)
-    try:
-        spec.loader.exec_module(module)
-    except BaseException:
-        del sys.modules[name]
-        raise
-    return module
-
-
 def _of_module(name: str) -> Any:
-    return _attribute(import_module(name), ATTRIBUTE)
+    return attribute_of(import_module(name), ATTRIBUTE)
 
 
 def _file_of_module(name: str) -> Path:
@@ -289,10 +280,8 @@ def _file_of_module(name: str) -> Path:
 
 
 def _of_file(file: Path, attribute: str) -> Any:
-    return _attribute(_module_of(file), attribute)
+    return attribute_of(module_of_file(file), attribute)
 
 
-def _attribute(module: ModuleType, name: str) -> Any:
-    if not hasattr(module, name):
-        raise AttributeError(Phrase("there is no {name} in it", name=name))
-    return getattr(module, name)
+def _of_project(file: Path, source: Path, attribute: str) -> Any:
+    return attribute_of(module_of_project(file, source), attribute)

@@ -21,6 +21,7 @@ from diecut_report.config.own_tables import Find, OwnTables
 from diecut_report.config.plain_data import texts
 from diecut_report.config.references import Linker
 from diecut_report.config.source_hashes import plugin_hash, program_hash
+from diecut_report.config.study_files import refuse_study
 from diecut_report.config.taken_entries import taken
 from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
@@ -85,7 +86,7 @@ def load_config(given: Path | Tree, discovery: Discovery, *, find: Find | None =
 def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = None) -> tuple[Config, list[Problem]]:
     """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
     tree = given if isinstance(given, Tree) else yaml_tree.load(given)
-    _refuse_study(tree)
+    refuse_study(tree)
     if excess := too_much(tree):
         raise UserError(excess)
     discovery.extend()
@@ -111,13 +112,6 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
 def in_order(problems: Iterable[Problem]) -> list[Problem]:
     """Return problems of one file in the order of its lines, each once."""
     return sorted(dict.fromkeys(problems), key=lambda p: (p.line or 0, p.column or 0))
-
-
-def _refuse_study(tree: Tree) -> None:
-    if isinstance(tree.data, dict) and {"base", "sample"} <= tree.data.keys() and "mechanisms" not in tree.data:
-        raise UserError(
-            Problem(Phrase("This is a study: calculate it with diecut-report batch {file}", file=tree.file), tree.file)
-        )
 
 
 @dataclass

@@ -10,6 +10,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase
 
 MOST_TOLERANCE = 0.01  # of a check: more than rounding and measuring leave open is a limit of its own
 NOT_READ = {"StandardSeries": object, "StandardTable": object, "Chapter": object}  # imported for type checkers alone
@@ -23,21 +24,23 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
             yield Fault(declared.at, subject, text)
     for check in mechanism.checks:
         if not 0 <= check.tolerance <= MOST_TOLERANCE:
-            text = (
-                f"has the tolerance {check.tolerance!r}, a share of the limit; allowed: 0 to {MOST_TOLERANCE} (1 %), "
-                "for rounding alone; put what is allowed into the limit"
+            text = Phrase(
+                "has the tolerance {tolerance}, a share of the limit; allowed: 0 to {most} (1 %), for rounding alone; "
+                "put what is allowed into the limit",
+                tolerance=repr(check.tolerance),
+                most=MOST_TOLERANCE,
             )
-            yield Fault(check.at, f"check {check.id}", text)
+            yield Fault(check.at, Phrase("check {id}", id=check.id), text)
 
 
 def _declared(mechanism: Mechanism) -> Iterator[tuple[str, Any]]:
-    yield f"mechanism {mechanism.kind}", mechanism
-    yield from ((f"chapter {chapter.title!r}", chapter) for chapter in mechanism.chapters)
-    yield from ((f"step {step.id}", step) for _, step in mechanism.steps)
-    yield from ((f"check {check.id}", check) for check in mechanism.checks)
-    yield from ((f"figure {figure.id}", figure) for figure in mechanism.figures)
-    yield from ((f"export {profile.id}", profile) for profile in mechanism.exports)
-    yield from ((f"erratum of {erratum.source}", erratum) for erratum in mechanism.errata)
+    yield Phrase("mechanism {kind}", kind=mechanism.kind), mechanism
+    yield from ((Phrase("chapter {title}", title=repr(chapter.title)), chapter) for chapter in mechanism.chapters)
+    yield from ((Phrase("step {id}", id=step.id), step) for _, step in mechanism.steps)
+    yield from ((Phrase("check {id}", id=check.id), check) for check in mechanism.checks)
+    yield from ((Phrase("figure {id}", id=figure.id), figure) for figure in mechanism.figures)
+    yield from ((Phrase("export {id}", id=profile.id), profile) for profile in mechanism.exports)
+    yield from ((Phrase("erratum of {source}", source=erratum.source), erratum) for erratum in mechanism.errata)
 
 
 def _wrong(declared: Any) -> Iterator[str]:
@@ -45,11 +48,17 @@ def _wrong(declared: Any) -> Iterator[str]:
         value = getattr(declared, name)
         if words and value not in words:
             told = ", ".join(map(repr, words))
-            yield f"has {name}={value!r}{nearest(str(value), map(str, words))}; allowed: {told}"
+            yield Phrase(
+                "has {name}={value}{nearest}; allowed: {told}",
+                name=name,
+                value=repr(value),
+                nearest=nearest(str(value), map(str, words)),
+                told=told,
+            )
         elif kind is bool and not isinstance(value, bool):
-            yield f"has {name}={value!r}; allowed: True, False"
+            yield Phrase("has {name}={value}; allowed: True, False", name=name, value=repr(value))
         elif kind is tuple and isinstance(value, str):
-            yield f"has {name}={value!r}, a text; write a tuple, ({value!r},)"
+            yield Phrase("has {name}={value}, a text; write a tuple, ({value},)", name=name, value=repr(value))
 
 
 @cache

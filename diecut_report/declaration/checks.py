@@ -7,11 +7,12 @@ from itertools import product
 
 from diecut_report.contract.checks import Check
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.messages import named
+from diecut_report.declaration.messages import unprintable
 from diecut_report.declaration.names import DeclaredNames, Giver
 from diecut_report.declaration.order import pairs
 from diecut_report.declaration.words import Fault, unknown
 from diecut_report.declaration.world import When
+from diecut_report.languages.phrases import Phrase, named, phrase
 from diecut_report.quantities.units import unit
 
 JUDGED = ("number", "row", "curve")
@@ -24,7 +25,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     yield from pairs(names, "check", made)
     for check in mechanism.checks:
         for text in _wrong(names, check):
-            yield Fault(check.at, f"check {check.id}", text)
+            yield Fault(check.at, Phrase("check {id}", id=check.id), text)
 
 
 def _when(names: DeclaredNames, check: Check) -> list[When]:
@@ -42,28 +43,32 @@ def _when(names: DeclaredNames, check: Check) -> list[When]:
 def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
     sides = {name: names.givers(name) for name in check.named}
     if not sides:
-        yield "compares plain numbers only; one side at least must be the id of a quantity"
+        yield phrase("compares plain numbers only; one side at least must be the id of a quantity")
         return
     for name, givers in sides.items():
         if not givers:
-            yield f"takes {unknown(name, names.known)}"
+            yield Phrase("takes {unknown}", unknown=unknown(name, names.known))
         for kind in sorted({giver.kind for giver in givers} - set(JUDGED)):
-            yield f"compares {name}, {_instead(name, kind)}"
+            yield Phrase("compares {name}, {instead}", name=name, instead=_instead(name, kind))
         units = {each for giver in givers if giver.kind in JUDGED for each in _units(names, giver, check)}
         wrong = sorted(each for each in units if unit(each).kind != unit(check.unit).kind)
         if wrong:
-            yield f"is in {check.unit}, {name} in {', '.join(wrong)}"
+            yield Phrase("is in {unit}, {name} in {wrong}", unit=check.unit, name=name, wrong=", ".join(wrong))
     if not all(sides.values()):
         return
     axes = {giver.axis for givers in sides.values() for giver in givers if giver.axis}
     if len(axes) > 1:
-        yield f"compares what runs over {' with what runs over '.join(sorted(axes))}; compare numbers, or curves over one abscissa"
+        yield Phrase(
+            "compares what runs over {axes}; compare numbers, or curves over one abscissa",
+            axes=named(sorted(axes), " with what runs over "),
+        )
     yield from _names_of_parts(names, check)
     made = _when(names, check)
     if not made:
-        yield "is never made: what it needs and what it compares is never given together"
+        yield phrase("is never made: what it needs and what it compares is never given together")
     parts = OF_PARTS if any(names.kinds(name) == {"row"} for name in sides) else ()
-    yield from dict.fromkeys(f"the consequence names {text}" for when in made for text in named(names, check.consequence, when, parts))  # fmt: skip
+    wrong_names = (text for when in made for text in unprintable(names, check.consequence, when, parts))
+    yield from dict.fromkeys(Phrase("the consequence names {text}", text=text) for text in wrong_names)
 
 
 def _names_of_parts(names: DeclaredNames, check: Check) -> Iterator[str]:
@@ -71,9 +76,14 @@ def _names_of_parts(names: DeclaredNames, check: Check) -> Iterator[str]:
     if not check.named_by:
         return
     if not any(giver.kind == "row" for name in check.named for giver in names.givers(name)):
-        yield f"is one check for each of {check.named_by}, but compares no row over repeated parts; leave named_by out"
+        yield Phrase(
+            "is one check for each of {named_by}, but compares no row over repeated parts; leave named_by out",
+            named_by=check.named_by,
+        )
     elif check.named_by not in names.world.keys or {giver.kind for giver in names.givers(check.named_by)} - {"text"}:
-        yield f"is one check for each of {check.named_by}, which is not a text of repeated parts"
+        yield Phrase(
+            "is one check for each of {named_by}, which is not a text of repeated parts", named_by=check.named_by
+        )
 
 
 def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:
@@ -85,9 +95,11 @@ def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:
 
 def _instead(name: str, kind: str) -> str:
     return {
-        "text": "a text; compare a number",
-        "abscissa": "an abscissa, which takes all its values; compare a curve over it",
-        "crossings": f"places that may be none or many; compare {name}_count, or one of them as {name}_1",
-        "curve input": "a curve input; take it over by FromCurve and compare that curve",
-        "block": "a block; compare one of its inputs",
+        "text": phrase("a text; compare a number"),
+        "abscissa": phrase("an abscissa, which takes all its values; compare a curve over it"),
+        "crossings": Phrase(
+            "places that may be none or many; compare {name}_count, or one of them as {name}_1", name=name
+        ),
+        "curve input": phrase("a curve input; take it over by FromCurve and compare that curve"),
+        "block": phrase("a block; compare one of its inputs"),
     }[kind]

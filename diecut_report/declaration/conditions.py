@@ -12,6 +12,7 @@ from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.units import kind_of
 from diecut_report.declaration.words import Fault
 from diecut_report.expressions import FormulaError, Node
+from diecut_report.languages.phrases import Phrase, phrase
 
 MAY_BE_ABSENT = Value | Choice | Computed
 YES_OR_NO = ("cmp", "and", "or", "not")
@@ -23,26 +24,32 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         for part, condition in _conditions(step):
             for link in condition.options() if isinstance(condition, ByText) else (bound(condition),):
                 if not _decides(link, names):
-                    text = f"the {part} gives a number, not yes or no; compare it with something ({link.formula.__name__} > 0)"
-                    yield Fault(step.at, f"step {step.id}", text)
+                    text = Phrase(
+                        "the {part} gives a number, not yes or no; compare it with something ({formula} > 0)",
+                        part=part,
+                        formula=link.formula.__name__,
+                    )
+                    yield Fault(step.at, Phrase("step {id}", id=step.id), text)
                     break
         if step.exists is not None and not isinstance(step, MAY_BE_ABSENT):
             kinds = ", ".join(kind.__name__.lower() for kind in get_args(MAY_BE_ABSENT))
             yield Fault(
-                step.at, f"step {step.id}", f"has exists, which holds for {kinds} alone; put it on what this step takes"
+                step.at,
+                Phrase("step {id}", id=step.id),
+                Phrase("has exists, which holds for {kinds} alone; put it on what this step takes", kinds=kinds),
             )
         texts = _cases(step.cases) if isinstance(step, Choice) else _flag(step, names)
-        yield from (Fault(step.at, f"step {step.id}", text) for text in texts)
+        yield from (Fault(step.at, Phrase("step {id}", id=step.id), text) for text in texts)
 
 
 def _conditions(step: Step) -> Iterator[tuple[str, Binding]]:
     if step.exists is not None:
-        yield "condition exists", step.exists
+        yield phrase("condition exists"), step.exists
     if isinstance(step, Require):
-        yield "condition", step.condition
+        yield phrase("condition"), step.condition
     for case in step.cases if isinstance(step, Choice) else ():
         if case.condition is not None:
-            yield "condition of a case", case.condition
+            yield phrase("condition of a case"), case.condition
 
 
 def _decides(link: Bound, names: DeclaredNames, *, unread: bool = True) -> bool:
@@ -74,15 +81,21 @@ def _flag(step: Step, names: DeclaredNames) -> Iterator[str]:
     ):
         wrong = [each for each in (step.unit, *(other for _, other in step.units)) if kind_of(each) != kind_of("1")]
         if wrong:
-            yield f"gives yes or no (1 or 0), but has the unit {wrong[0]}; a flag has the unit 1"
+            yield Phrase("gives yes or no (1 or 0), but has the unit {wrong}; a flag has the unit 1", wrong=wrong[0])
 
 
 def _cases(cases: tuple[object, ...]) -> Iterator[str]:
     texts = [isinstance(getattr(case, "value", None), str) for case in cases]
     if any(texts) and not all(texts):
-        yield "mixes texts and numbers in its cases; give all cases texts, or all numbers"
+        yield phrase("mixes texts and numbers in its cases; give all cases texts, or all numbers")
     if cases and getattr(cases[-1], "condition", None) is not None:
-        yield "has a condition in its last case, so that none may hold; take it away, or add a case for all else"
+        yield Phrase(
+            "has a condition in its last case, so that none may hold; take it away, or add a case for all else"
+        )
     for number, case in enumerate(cases[:-1], 1):
         if getattr(case, "condition", None) is None:
-            yield f"has no condition in case {number} of {len(cases)}, so that those after it are never taken; add one"
+            yield Phrase(
+                "has no condition in case {number} of {all}, so that those after it are never taken; add one",
+                number=number,
+                all=len(cases),
+            )

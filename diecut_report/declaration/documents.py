@@ -13,6 +13,7 @@ from diecut_report.declaration.order import lacking
 from diecut_report.declaration.words import Fault, short, unknown
 from diecut_report.declaration.world import When, world
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase, named, phrase
 
 CITED = re.compile(r"(?:^|; ?)(?:(\d{3,})\b|(\S+?),? (?:eq\.|Fig\.|Table|erratum)\s)")
 
@@ -25,17 +26,10 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         if first.id == second.id:
             yield Fault(
                 second.at,
-                f"source {second.id}",
-                f"has the id of another source (at {short(first.at)}); give it another",
+                Phrase("source {id}", id=second.id),
+                Phrase("has the id of another source (at {place}); give it another", place=short(first.at)),
             )
-    known = [source.id for source in mechanism.sources]
-    for erratum in mechanism.errata:
-        if erratum.source not in known:
-            text = f"is of no listed source{nearest(erratum.source, known)}; listed: {', '.join(known)}"
-            yield Fault(erratum.at, f"erratum of {erratum.source}", text)
-        for name in erratum.touches:
-            if not names.givers(name) and name not in _silent(mechanism):
-                yield Fault(erratum.at, f"erratum of {erratum.source}", f"touches {unknown(name, names.known)}")
+    yield from _errata(mechanism, names)
     for name in mechanism.key_results:
         text = _key_result(names, name)
         if text:
@@ -43,7 +37,21 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     yield from _exports(mechanism, names)
     for comparison in mechanism.comparisons:
         for text in _comparison(mechanism, names, comparison):
-            yield Fault(comparison.at, f"comparison {comparison.mechanism.kind}", text)
+            yield Fault(comparison.at, Phrase("comparison {kind}", kind=comparison.mechanism.kind), text)
+
+
+def _errata(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Errata of sources that are not listed, and those that touch what there is not."""
+    known = [source.id for source in mechanism.sources]
+    for erratum in mechanism.errata:
+        subject = Phrase("erratum of {source}", source=erratum.source)
+        if erratum.source not in known:
+            words = "is of no listed source{nearest}; listed: {known}"
+            listed = {"nearest": nearest(erratum.source, known), "known": ", ".join(known)}
+            yield Fault(erratum.at, subject, Phrase(words, listed))
+        for name in erratum.touches:
+            if not names.givers(name) and name not in _silent(mechanism):
+                yield Fault(erratum.at, subject, Phrase("touches {unknown}", unknown=unknown(name, names.known)))
 
 
 def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
@@ -51,10 +59,11 @@ def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for first, second in combinations(mechanism.chapters, 2):
         both = When(frozenset(first.needs + second.needs))
         if first.title == second.title and names.world.example(both) is not None:
-            text = (
-                f"has the title of another chapter (at {short(first.at)}); give it another, or put their steps into one"
+            text = Phrase(
+                "has the title of another chapter (at {place}); give it another, or put their steps into one",
+                place=short(first.at),
             )
-            yield Fault(second.at, f"chapter {second.title!r}", text)
+            yield Fault(second.at, Phrase("chapter {title}", title=repr(second.title)), text)
 
 
 def _silent(mechanism: Mechanism) -> set[str]:
@@ -66,54 +75,67 @@ def _sources(mechanism: Mechanism) -> Iterator[Fault]:
     known = [source.id for source in mechanism.sources]
     if not known:
         return
-    cited = [(step.at, f"step {step.id}", step.source) for _, step in mechanism.steps]
-    cited += [(check.at, f"check {check.id}", check.source) for check in mechanism.checks]
+    cited = [(step.at, Phrase("step {id}", id=step.id), step.source) for _, step in mechanism.steps]
+    cited += [(check.at, Phrase("check {id}", id=check.id), check.source) for check in mechanism.checks]
     for place, subject, text in cited:
         for found in CITED.finditer(text):
             name = found[1] or found[2]
             if not any(text[found.start() :].lstrip("; ").startswith(source) for source in known):
-                yield Fault(place, subject, f"cites {name}, which is not a source{nearest(name, known)}; listed: {', '.join(known)}")  # fmt: skip
+                words = "cites {name}, which is not a source{nearest}; listed: {known}"
+                listed = {"name": name, "nearest": nearest(name, known), "known": ", ".join(known)}
+                yield Fault(place, subject, Phrase(words, listed))
 
 
 def _key_result(names: DeclaredNames, name: str) -> str:
     givers = [giver for giver in names.givers(name) if giver.step is not None]
     if not givers:
         steps = [known for known, all_ in names.known.items() if any(giver.step for giver in all_)]
-        return f"{name} is not a step{nearest(name, steps)}; name what a step gives"
+        return Phrase("{name} is not a step{nearest}; name what a step gives", name=name, nearest=nearest(name, steps))
     if not any(giver.step and giver.step.output for giver in givers):
-        return f"{name} is not an output; take output=False away from its step"
-    return f"{name} is a curve; name an extreme of it" if {g.kind for g in givers} <= {"curve", "abscissa"} else ""
+        return Phrase("{name} is not an output; take output=False away from its step", name=name)
+    return (
+        Phrase("{name} is a curve; name an extreme of it", name=name)
+        if {g.kind for g in givers} <= {"curve", "abscissa"}
+        else ""
+    )
 
 
 def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for profile in mechanism.exports:
-        when, subject = When(frozenset(profile.needs)), f"export {profile.id}"
+        when, subject = When(frozenset(profile.needs)), Phrase("export {id}", id=profile.id)
         if isinstance(profile, CurveTable):
             kinds = [names.kinds(name) for name in profile.columns]
             if kinds != [{"abscissa"}]:
                 yield Fault(
                     profile.at,
                     subject,
-                    f'has columns={profile.columns!r}; name the abscissa of its curves alone: ("angle",)',
+                    Phrase(
+                        'has columns={columns}; name the abscissa of its curves alone: ("angle",)',
+                        columns=repr(profile.columns),
+                    ),
                 )
             continue
         if len(profile.columns) < 2:
-            yield Fault(profile.at, subject, "has fewer than two columns; name x and y at least")
+            yield Fault(profile.at, subject, phrase("has fewer than two columns; name x and y at least"))
         for name in profile.columns:
             absent = lacking(names, name, when)
             curves = [giver for giver in names.givers(name) if giver.kind == "curve"]
             if absent:
-                yield Fault(profile.at, subject, f"writes {absent}")
+                yield Fault(profile.at, subject, Phrase("writes {absent}", absent=absent))
             elif not curves:
-                yield Fault(profile.at, subject, f"writes {name}, which is not a curve")
+                yield Fault(profile.at, subject, Phrase("writes {name}, which is not a curve", name=name))
             elif not all(giver.step and giver.step.output for giver in curves):
                 yield Fault(
-                    profile.at, subject, f"writes {name}, which is not an output; take output=False away from its step"
+                    profile.at,
+                    subject,
+                    Phrase("writes {name}, which is not an output; take output=False away from its step", name=name),
                 )
         axes = set().union(*(names.axes(name) for name in profile.columns))
         if len(axes) > 1:
             yield Fault(
-                profile.at, subject, f"writes curves over {' and over '.join(sorted(axes))}; give each its own export"
+                profile.at,
+                subject,
+                Phrase("writes curves over {axes}; give each its own export", axes=named(sorted(axes), " and over ")),
             )
 
 
@@ -121,9 +143,11 @@ def _comparison(mechanism: Mechanism, names: DeclaredNames, comparison: Comparis
     keys = world(comparison.mechanism.inputs).keys
     for key, (kind, name) in comparison.takes.items():
         if key not in keys:
-            yield f"fills {key}, which is not an input of it{nearest(key, keys)}"
+            yield Phrase("fills {key}, which is not an input of it{nearest}", key=key, nearest=nearest(key, keys))
         if kind == mechanism.kind and not names.givers(name):
-            yield f"takes {unknown(name, names.known)} in {kind}"
+            yield Phrase("takes {unknown} in {kind}", unknown=unknown(name, names.known), kind=kind)
     for name, declared in comparison.mechanism.inputs.model_fields.items():
         if declared.is_required() and name not in comparison.takes:
-            yield f"fills nothing into {name}, which is required; add it to takes, or give it a default"
+            yield Phrase(
+                "fills nothing into {name}, which is required; add it to takes, or give it a default", name=name
+            )

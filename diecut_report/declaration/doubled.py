@@ -11,6 +11,7 @@ from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.remembered import files
 from diecut_report.declaration.sources import parsed
 from diecut_report.declaration.words import Fault
+from diecut_report.languages.phrases import Phrase
 
 Defined = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
 MEANT = {
@@ -33,8 +34,9 @@ def _twice(file: Path, scope: ast.Module | Defined) -> Iterator[Fault]:
     for statement in scope.body:
         name = _name(statement, isinstance(scope, ast.ClassDef))
         if name and name in seen:
-            what = "is a field" if isinstance(statement, ast.AnnAssign) else "is defined"
-            text = f"{what} twice, at first in line {seen[name]}, and only the last one counts; give one of them another name, or take it away"
+            told = "twice, at first in line {line}, and only the last one counts; give one of them another name, or take it away"
+            is_field = isinstance(statement, ast.AnnAssign)
+            text = Phrase("is a field {told}" if is_field else "is defined {told}", told=Phrase(told, line=seen[name]))
             yield Fault(f"{file}:{statement.lineno}", name, text)
         if name:
             seen[name] = statement.lineno

@@ -13,6 +13,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase, phrase
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 
@@ -23,20 +24,21 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     if example is None:
         return
     if not isinstance(example, ExampleBlock):
-        text = f'has example={example!r}; write ExampleBlock("name", {{"key": "10 mm"}})'
-        yield Fault(mechanism.at, f"mechanism {mechanism.kind}", text)
+        text = Phrase('has example={example}; write ExampleBlock("name", {"key": "10 mm"})', example=repr(example))
+        yield Fault(mechanism.at, Phrase("mechanism {kind}", kind=mechanism.kind), text)
         return
     if not NAME.fullmatch(example.name):
-        text = "is not a name of a mechanism: a letter, then letters, digits, _ and - are allowed"
-        yield Fault(example.at, f"example {example.name!r}", text)
-    for key, text in _wrong(mechanism.inputs, example.inputs, ""):
-        yield Fault(example.at, f"example {example.name}", f"{key} {text}")
+        text = phrase("is not a name of a mechanism: a letter, then letters, digits, _ and - are allowed")
+        yield Fault(example.at, Phrase("example {name}", name=repr(example.name)), text)
+    subject = Phrase("example {name}", name=example.name)
+    for key, words in _wrong(mechanism.inputs, example.inputs, ""):
+        yield Fault(example.at, subject, Phrase("{key} {text}", key=key, text=words))
 
 
 def _wrong(model: type[Block], data: Mapping[str, Any], path: str) -> Iterator[tuple[str, str]]:
     for key, value in data.items():
         if key not in model.model_fields:
-            yield f"{path}{key}", f"names no input{nearest(key, model.model_fields)}"
+            yield f"{path}{key}", Phrase("names no input{nearest}", nearest=nearest(key, model.model_fields))
             continue
         block, meta = nested(model.model_fields[key].annotation), meta_of(model, key)
         for each in _values(value):

@@ -8,8 +8,9 @@ from diecut_report.contract.figures import Bars, Figure, Panel, Plot, Polar
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.order import lacking
-from diecut_report.declaration.words import Fault
+from diecut_report.declaration.words import KINDS, Fault, kinds_told
 from diecut_report.declaration.world import When
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import unit
 
 NUMBER, CURVE = frozenset({"number", "row"}), frozenset({"curve"})
@@ -21,7 +22,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for figure in mechanism.figures:
         of_spectrum = isinstance(figure, Plot) and figure.abscissa in spectra
         for text in () if of_spectrum else _wrong(figure, names):
-            yield Fault(figure.at, f"figure {figure.id}", text)
+            yield Fault(figure.at, Phrase("figure {id}", id=figure.id), text)
 
 
 def _wrong(figure: Figure, names: DeclaredNames) -> Iterator[str]:
@@ -36,27 +37,31 @@ def _wrong(figure: Figure, names: DeclaredNames) -> Iterator[str]:
                 yield from _drawn(figure, names, one.curve, own, CURVE, axis)
             yield from _range(figure, names, figure.range, own, "")
             if isinstance(figure.range, tuple) and isinstance(figure.range[0], int | float) and figure.range[0] < 0:
-                yield f"has the range {figure.range!r}, but no distance from the pole is below zero"
+                yield Phrase(
+                    "has the range {range}, but no distance from the pole is below zero", range=repr(figure.range)
+                )
         case Bars(groups=groups):
             for group in groups:
                 for _, name in group.bars:
                     yield from _drawn(figure, names, name.removeprefix("-"), group.unit, NUMBER)
-                yield from _range(figure, names, group.range, group.unit, f" in the group {group.label!r}")
+                yield from _range(
+                    figure, names, group.range, group.unit, Phrase(" in the group {label}", label=repr(group.label))
+                )
 
 
 def _axis(figure: Figure, names: DeclaredNames, axis: str) -> Iterator[str]:
     absent = lacking(names, axis, When(frozenset(figure.needs)))
     if absent:
-        yield f"the abscissa is {absent}"
+        yield Phrase("the abscissa is {absent}", absent=absent)
     elif "abscissa" not in names.kinds(axis):
-        yield f"the abscissa is {axis}, which is not an Abscissa"
+        yield Phrase("the abscissa is {axis}, which is not an Abscissa", axis=axis)
 
 
 def _panel(figure: Figure, names: DeclaredNames, axis: str, panel: Panel) -> Iterator[str]:
     across = next((each for giver in names.givers(axis) for each in giver.units_when(figure.needs)), "1")
     for series in panel.series:
         yield from _drawn(figure, names, series.curve, panel.unit, CURVE, axis)
-    yield from _range(figure, names, panel.range, panel.unit, f" in the panel {panel.title!r}")
+    yield from _range(figure, names, panel.range, panel.unit, Phrase(" in the panel {title}", title=repr(panel.title)))
     for level in panel.levels:
         yield from _drawn(figure, names, level.value, panel.unit, NUMBER)
     for mark in panel.marks:
@@ -72,14 +77,18 @@ def _range(figure: Figure, names: DeclaredNames, ends: object, wanted: str, wher
     if ends is None:
         return
     if not isinstance(ends, tuple) or len(ends) != 2 or not all(isinstance(e, str | int | float | None) for e in ends):
-        yield f"has the range {ends!r}{where}; write its two ends, (0, None), each a number, an id or None"
+        yield Phrase(
+            "has the range {ends}{where}; write its two ends, (0, None), each a number, an id or None",
+            ends=repr(ends),
+            where=where,
+        )
         return
     for end in ends:
         if isinstance(end, str):
             yield from _drawn(figure, names, end, wanted, NUMBER)
     low, high = ends
     if not isinstance(low, str | None) and not isinstance(high, str | None) and not low < high:
-        yield f"has the range {ends!r}{where}, whose ends do not ascend"
+        yield Phrase("has the range {ends}{where}, whose ends do not ascend", ends=repr(ends), where=where)
 
 
 def _drawn(
@@ -88,13 +97,24 @@ def _drawn(
     absent = lacking(names, name, When(frozenset(figure.needs)))
     givers = names.givers(name)
     if absent:
-        yield f"draws {absent}"
+        yield Phrase("draws {absent}", absent=absent)
     elif not names.kinds(name) & allowed:
-        kind = "a curve" if allowed is CURVE else "a number"
-        yield f"draws {name}, which is {' or '.join(sorted(names.kinds(name)))}; {kind} is wanted there"
+        yield Phrase(
+            "draws {name}, which is {kinds}; {wanted} is wanted there",
+            name=name,
+            kinds=kinds_told(names.kinds(name)),
+            wanted=KINDS["curve" if allowed is CURVE else "number"],
+        )
     elif axis and axis not in names.axes(name):
-        yield f"draws {name}, which runs over {', '.join(names.axes(name))}, over {axis}"
+        yield Phrase(
+            "draws {name}, which runs over {axes}, over {axis}", name=name, axes=", ".join(names.axes(name)), axis=axis
+        )
     else:
         units = {each for giver in givers if giver.kind in allowed for each in giver.units_when(figure.needs)}
         if all(unit(each).kind != unit(wanted).kind for each in units):
-            yield f"draws {name}, in {', '.join(sorted(units)) or 'no unit'}, on an axis in {wanted}"
+            yield Phrase(
+                "draws {name}, in {units}, on an axis in {wanted}",
+                name=name,
+                units=", ".join(sorted(units)) or phrase("no unit"),
+                wanted=wanted,
+            )

@@ -17,8 +17,9 @@ from diecut_report.declaration.tables import rows_of
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import When
 from diecut_report.expressions import Formula
+from diecut_report.languages.phrases import Phrase, phrase
 
-PARTS = ("formula", "exists", "condition", "equation", "low", "high", "left", "right")
+PARTS = (phrase("formula"), "exists", phrase("condition"), phrase("equation"), "low", "high", "left", "right")
 
 
 def unmarked(mechanism: Mechanism) -> Iterator[Fault]:
@@ -28,13 +29,17 @@ def unmarked(mechanism: Mechanism) -> Iterator[Fault]:
             if declared is not None and not isinstance(declared, Binding):
                 name = getattr(declared, "__name__", repr(declared))
                 what = (
-                    "a plain function; write @formula above it"
+                    phrase("a plain function; write @formula above it")
                     if callable(declared)
-                    else "no formula; write one with @formula"
+                    else phrase("no formula; write one with @formula")
                 )
-                yield Fault(_place(declared, step.at), f"step {step.id}", f"the {part} {name} is {what}")
+                yield Fault(
+                    _place(declared, step.at),
+                    Phrase("step {id}", id=step.id),
+                    Phrase("the {part} {name} is {what}", part=part, name=name, what=what),
+                )
         if isinstance(step, Choice) and not step.cases:
-            yield Fault(step.at, f"step {step.id}", "has no cases; give at least one Case")
+            yield Fault(step.at, Phrase("step {id}", id=step.id), phrase("has no cases; give at least one Case"))
 
 
 def _declared(step: Step) -> Iterator[tuple[str, Any]]:
@@ -43,8 +48,8 @@ def _declared(step: Step) -> Iterator[tuple[str, Any]]:
             yield part, getattr(step, part)
     for case in getattr(step, "cases", ()):
         if isinstance(case, Case):
-            yield "condition of a case", case.condition
-            yield "value of a case", None if isinstance(case.value, str) else case.value
+            yield phrase("condition of a case"), case.condition
+            yield phrase("value of a case"), None if isinstance(case.value, str) else case.value
 
 
 def _place(function: Any, otherwise: str) -> str:
@@ -65,7 +70,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
                     seen.add(link.formula)
                     yield from _unreadable(step, part, link)
         for text in _choices(step, names, names.when(number)):
-            yield Fault(step.at, f"step {step.id}", text)
+            yield Fault(step.at, Phrase("step {id}", id=step.id), text)
 
 
 def _unreadable(step: Step, part: str, link: Bound) -> Iterator[Fault]:
@@ -73,37 +78,51 @@ def _unreadable(step: Step, part: str, link: Bound) -> Iterator[Fault]:
     try:
         _ = link.formula.tree
     except RecursionError:
-        text = f"the {part} {link.formula.__name__} calls itself; name it otherwise than what it calls"
-        yield Fault(_place(link.formula.function, step.at), f"step {step.id}", text)
+        text = Phrase(
+            "the {part} {formula} calls itself; name it otherwise than what it calls",
+            part=part,
+            formula=link.formula.__name__,
+        )
+        yield Fault(_place(link.formula.function, step.at), Phrase("step {id}", id=step.id), text)
     except Exception as why:
-        yield Fault(_place(link.formula.function, step.at), f"step {step.id}", f"the {part} cannot be printed: {why}")
+        yield Fault(
+            _place(link.formula.function, step.at),
+            Phrase("step {id}", id=step.id),
+            Phrase("the {part} cannot be printed: {why}", part=part, why=why),
+        )
 
 
 def _choices(step: Step, names: DeclaredNames, when: When) -> Iterator[str]:
     for _, declared in _declared(step):
         if isinstance(declared, ByText):
-            yield from _complete(names, declared.key, declared.formulas, when, "formula")
+            yield from _complete(names, declared.key, declared.formulas, when, phrase("no formula"))
     match step:
         case Lookup(by=by) if not step.is_by_number:
-            yield from _complete(names, by, rows_of(step), when_asked(step, when), "row in the table")
+            yield from _complete(names, by, rows_of(step), when_asked(step, when), phrase("no row in the table"))
             yield from _of_steps(names, by, rows_of(step))
         case Pick(by=by, series=Mapping() as series):
-            yield from _complete(names, by, series, when, "series")
+            yield from _complete(names, by, series, when, phrase("no series"))
         case Root(unknown=unknown):
             takes = bound(step.equation).names.values()
             if unknown not in takes:
                 asked = ", ".join(str(name) for name in takes)
-                yield f"the unknown {unknown} is nothing that the equation takes; it takes {asked}"
+                yield Phrase(
+                    "the unknown {unknown} is nothing that the equation takes; it takes {asked}",
+                    unknown=unknown,
+                    asked=asked,
+                )
     function: object = getattr(step, "function", None)
     if hasattr(step, "function") and not callable(function):
-        yield f"the function is {function!r}, which cannot be called; name one without brackets"
+        yield Phrase(
+            "the function is {function}, which cannot be called; name one without brackets", function=repr(function)
+        )
     elif callable(function):
         if isinstance(step, ComputedCurve):
-            first = "the part's index, " if step.named_by else ""
-            told = f"it is called with {first}the object, x, the middles of the pieces and the rows"
+            first = phrase("the part's index, ") if step.named_by else ""
+            told = Phrase("it is called with {first}the object, x, the middles of the pieces and the rows", first=first)
             yield from _signature(function, OF_CURVE + bool(step.named_by), told)
         elif isinstance(step, PartCurves):
-            words = "it is called with the object, the part's number, x, the middles of the pieces and the rows"
+            words = phrase("it is called with the object, the part's number, x, the middles of the pieces and the rows")
             yield from _signature(function, OF_CURVE + 1, words)
         else:
             yield from _signature(function, 1 if isinstance(step, Prepared) else len(getattr(step, "takes", ())))
@@ -122,33 +141,45 @@ def _signature(function: Callable[..., object], given: int, called: str = "") ->
         parameters.bind(*range(given))
     except TypeError:
         asked = [p for p in parameters.parameters.values() if p.default is p.empty and p.kind is not p.VAR_POSITIONAL]
-        named = called or f"takes names {given}: each is given by its position"
-        yield f"its function takes {len(asked)}, and {named}"
+        named = called or Phrase("takes names {given}: each is given by its position", given=given)
+        yield Phrase("its function takes {count}, and {named}", count=len(asked), named=named)
 
 
 def _of_steps(names: DeclaredNames, by: str, rows: Mapping[str, Any]) -> Iterator[str]:
     """What is wrong with a row that is taken by a text of a step: one that a message makes, or a text of a choice without a row."""
     for step in (giver.step for giver in names.givers(by)):
         if isinstance(step, Words):
-            yield f"by is {by}, words that are made where a message asks for them; let choice or computed(…, is_text=True) give the row's name"
+            words = "by is {by}, words that are made where a message asks for them; let choice or computed(…, is_text=True) give the row's name"
+            yield Phrase(words, by=by)
         elif isinstance(step, Choice):
             missing = [case.value for case in step.cases if isinstance(case.value, str) and case.value not in rows]
             if missing:
-                yield f"has no row in the table for {by}={', '.join(map(str, missing))}; the rows are {', '.join(rows)}"
+                words = "has no row in the table for {by}={missing}; the rows are {rows}"
+                yield Phrase(words, by=by, missing=", ".join(map(str, missing)), rows=", ".join(rows))
 
 
-def _complete(names: DeclaredNames, by: str, rows: Mapping[str, Any], when: When, what: str) -> Iterator[str]:
+def _complete(names: DeclaredNames, by: str, rows: Mapping[str, Any], when: When, none: str) -> Iterator[str]:
     """What is wrong with a choice by a text: each text that may be given there has its row."""
     key = names.world.keys.get(by)
     if key is None:
         return  # told where ids are
     if not key.texts:
         allowed = ", ".join(map(repr, rows))
-        yield f"is chosen by {by}, which may be any text; give it allowed ones: Annotated[Literal[{allowed}], Text(…)]"
+        yield Phrase(
+            "is chosen by {by}, which may be any text; give it allowed ones: Annotated[Literal[{allowed}], Text(…)]",
+            by=by,
+            allowed=allowed,
+        )
         return
     possible = [
         text for text in key.texts if key.home or names.world.example(when.with_(When(frozenset((f"{by}={text}",)))))
     ]
     missing = [text for text in possible if text not in rows]
     if missing:
-        yield f"has no {what} for {by}={', '.join(missing)}; add {'it' if len(missing) == 1 else 'them'}, or forbid the text"
+        yield Phrase(
+            "has {none} for {by}={missing}; add {them}, or forbid the text",
+            none=none,
+            by=by,
+            missing=", ".join(missing),
+            them=phrase("it" if len(missing) == 1 else "them"),
+        )

@@ -13,6 +13,7 @@ from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.sources import files_around, own_files, parsed
 from diecut_report.declaration.words import Fault
+from diecut_report.languages.phrases import Phrase, phrase
 
 CALLS = ("Chapter", "Steps")
 
@@ -41,15 +42,23 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 
 def _fault(file: Path, defined: Defined) -> Fault:
     place, name = f"{file}:{defined.line}", defined.name
-    lost = "so that its steps are never calculated"
+    lost = phrase("so that its steps are never calculated")
     if not defined.is_chapter:
-        return Fault(place, f"steps {name}", f"is added to no chapter, {lost}; write chapter.add({name})")
+        return Fault(
+            place,
+            Phrase("steps {name}", name=name),
+            Phrase("is added to no chapter, {lost}; write chapter.add({name})", lost=lost, name=name),
+        )
     title = defined.call.args[0] if defined.call.args else None
-    subject = f"chapter {ast.unparse(title) if title else name}"
-    instead = f"name {name} in chapters=(…) of the Mechanism"
+    subject = Phrase("chapter {title}", title=ast.unparse(title) if title else name)
+    instead = Phrase("name {name} in chapters=(…) of the Mechanism", name=name)
     if defined.until != float("inf"):
-        instead = f"line {defined.until} calls another one {name}: give one of them another name, and name both in chapters=(…)"
-    return Fault(place, subject, f"is in no mechanism, {lost}; {instead}")
+        instead = Phrase(
+            "line {until} calls another one {name}: give one of them another name, and name both in chapters=(…)",
+            until=defined.until,
+            name=name,
+        )
+    return Fault(place, subject, Phrase("is in no mechanism, {lost}; {instead}", lost=lost, instead=instead))
 
 
 def _definitions(tree: ast.Module) -> Iterator[Defined]:

@@ -9,6 +9,7 @@ from diecut_report import api
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.sources import own_files, parsed
 from diecut_report.declaration.words import Fault
+from diecut_report.languages.phrases import Phrase, named, phrase
 
 PROGRAM = "diecut_report"
 ALLOWED = (f"{PROGRAM}.api", f"{PROGRAM}.mechanics")
@@ -20,9 +21,17 @@ def faults(mechanism: Mechanism) -> Iterator[Fault]:
         for line, module, names in _imports(parsed(file)):
             if module.split(".")[0] == PROGRAM and not any(f"{module}.".startswith(f"{each}.") for each in ALLOWED):
                 public = [name for name in names if name in api.__all__]
-                instead = f"import {', '.join(public)} from {ALLOWED[0]}" if public else "do without it"
-                text = f"a plugin may import {' and '.join(ALLOWED)} of the program, nothing else; {instead}"
-                yield Fault(f"{file}:{line}", f"import of {module}", text)
+                instead = (
+                    Phrase("import {public} from {allowed}", public=", ".join(public), allowed=ALLOWED[0])
+                    if public
+                    else phrase("do without it")
+                )
+                text = Phrase(
+                    "a plugin may import {allowed} of the program, nothing else; {instead}",
+                    allowed=named(ALLOWED, " and "),
+                    instead=instead,
+                )
+                yield Fault(f"{file}:{line}", Phrase("import of {module}", module=module), text)
 
 
 def _imports(tree: ast.AST) -> Iterator[tuple[int, str, list[str]]]:

@@ -19,6 +19,7 @@ from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import Key, allowed
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.quantities.units import unit
 
@@ -33,34 +34,51 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         forms = getattr(key.meta, "units", ())
         if forms and "." in key.path:
             yield Fault(
-                key.meta.at if key.meta else "", f"input {key.path}", "has other units within a block, where none hold"
+                key.meta.at if key.meta else "",
+                Phrase("input {path}", path=key.path),
+                phrase("has other units within a block, where none hold"),
             )
         for other in forms:
-            yield from _form(key.meta.at if key.meta else "", f"input {key.path}", other, names.world.keys)
+            yield from _form(
+                key.meta.at if key.meta else "", Phrase("input {path}", path=key.path), other, names.world.keys
+            )
     for _, step in mechanism.steps:
         for other in step.units:
-            yield from _form(step.at, f"step {step.id}", other, names.world.keys)
+            yield from _form(step.at, Phrase("step {id}", id=step.id), other, names.world.keys)
 
 
 def _form(place: str, subject: str, form: tuple[str, str], keys: dict[str, Key]) -> Iterator[Fault]:
     """A unit beside a key by which it cannot be told."""
     name, key = form[0], keys.get(form[0])
     if key is None:
-        yield Fault(place, subject, f"has units beside {name}, which is not an input{nearest(name, keys)}")
+        yield Fault(
+            place,
+            subject,
+            Phrase("has units beside {name}, which is not an input{nearest}", name=name, nearest=nearest(name, keys)),
+        )
     elif not key.may_be_absent or key.has_default or "." in name or getattr(key.meta, "press", None):
-        yield Fault(place, subject, f"has units beside {name}, which is not an optional input without a default")
+        yield Fault(
+            place,
+            subject,
+            Phrase("has units beside {name}, which is not an optional input without a default", name=name),
+        )
 
 
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
     for name, declared in model.model_fields.items():
-        inner, subject = nested(declared.annotation), f"input {prefix}{name}"
+        inner, subject = nested(declared.annotation), Phrase("input {path}", path=f"{prefix}{name}")
         for text in (*_absent(declared), *(() if inner else _wrong(name, declared, meta_of(model, name)))):
             yield Fault(of_field(model, name, place), subject, text)
         if name in RESERVED and not prefix:
-            text = f"has the name of a key that the program reads itself ({', '.join(RESERVED)}), so that nobody can give it; name it otherwise"
+            text = Phrase(
+                "has the name of a key that the program reads itself ({reserved}), so that nobody can give it; name it otherwise",
+                reserved=", ".join(RESERVED),
+            )
             yield Fault(of_field(model, name, place), subject, text)
         for kind in _strange(declared.annotation):
-            text = f"is made of {kind.__name__}, which is not a block of inputs; write class {kind.__name__}(Block)"
+            text = Phrase(
+                "is made of {name}, which is not a block of inputs; write class {name}(Block)", name=kind.__name__
+            )
             yield Fault(of_class(kind, place), subject, text)
         if inner:
             yield from _block(inner[0], place, f"{prefix}{name}.")
@@ -69,16 +87,23 @@ def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
             set().union(*rule.groups, rule.shared, filter(None, [rule.when.partition("=")[0]]))
             - set(model.model_fields)
         ):
-            yield Fault(place, f"one_of of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
+            yield Fault(place, Phrase("one_of of {name}", name=model.__name__), _no_input(key, model))
     for key in sorted({single for keys in model.spread.values() for single in keys} - set(model.model_fields)):
-        yield Fault(place, f"spread of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
+        yield Fault(place, Phrase("spread of {name}", name=model.__name__), _no_input(key, model))
     for key in sorted({key for rule in model.from_tables for key in (rule.key, *rule.gives)} - set(model.model_fields)):
-        yield Fault(place, f"from_tables of {model.__name__}", f"names {key}, which is not an input{nearest(key, model.model_fields)}")  # fmt: skip
+        yield Fault(place, Phrase("from_tables of {name}", name=model.__name__), _no_input(key, model))
     known = {name: meta_of(model, name) for name in model.model_fields}
     for key, curve in model.curve_keys.items():
         if not isinstance(known.get(key), Quantity) or not isinstance(known.get(curve), CurveInput):
-            text = f"lay {key} on {curve}; a Quantity and a CurveInput of the inputs are needed"
-            yield Fault(place, f"curve_keys of {model.__name__}", text)
+            text = Phrase(
+                "lay {key} on {curve}; a Quantity and a CurveInput of the inputs are needed", key=key, curve=curve
+            )
+            yield Fault(place, Phrase("curve_keys of {name}", name=model.__name__), text)
+
+
+def _no_input(key: str, model: type[Block]) -> Phrase:
+    known = model.model_fields
+    return Phrase("names {key}, which is not an input{nearest}", key=key, nearest=nearest(key, known))
 
 
 def _absent(declared: FieldInfo) -> Iterator[str]:
@@ -87,9 +112,14 @@ def _absent(declared: FieldInfo) -> Iterator[str]:
     said = " | ".join(_said(kind) for kind in kinds if kind is not type(None))
     may_be_none = type(None) in kinds or Any in kinds
     if declared.is_required() and type(None) in kinds:
-        yield f"may be None, but has no default, so that it must be given all the same; write = None behind it, or annotate it as {said}"
+        yield Phrase(
+            "may be None, but has no default, so that it must be given all the same; write = None behind it, or annotate it as {said}",
+            said=said,
+        )
     if not declared.is_required() and declared.get_default(call_default_factory=True) is None and not may_be_none:
-        yield f"has the default None, but may not be None; annotate it as {said} | None, or give it a value"
+        yield Phrase(
+            "has the default None, but may not be None; annotate it as {said} | None, or give it a value", said=said
+        )
 
 
 def _kinds(annotation: Any) -> tuple[Any, ...]:
@@ -124,12 +154,17 @@ def _bounds(meta: Quantity) -> Iterator[str]:
     given = {name: getattr(meta, name) for name, _ in BOUNDS if getattr(meta, name) is not None}
     for name, bound in given.items():
         if isinstance(bound, bool) or not isinstance(bound, int | float):
-            yield f"has the bound {name}={bound!r}; write a plain number, which counts in its unit ({meta.unit}): {name}=0"
+            yield Phrase(
+                "has the bound {name}={bound}; write a plain number, which counts in its unit ({unit}): {name}=0",
+                name=name,
+                bound=repr(bound),
+                unit=meta.unit,
+            )
             return
     low = max((given[name] for name in ("gt", "ge") if name in given), default=-math.inf)
     high = min((given[name] for name in ("lt", "le") if name in given), default=math.inf)
     if low > high or (low == high and low in (meta.gt, meta.lt)):
-        yield f"has bounds that no number keeps: {meta.allowed}; exchange or widen them"
+        yield Phrase("has bounds that no number keeps: {allowed}; exchange or widen them", allowed=meta.allowed)
 
 
 def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
@@ -138,7 +173,13 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
         kind = getattr(declared.annotation, "__name__", str(declared.annotation))
         what = f'Quantity("SYMBOL", "UNIT", "description")' if kind in ("int", "float") else 'Text("description")'  # noqa: F541
         value = "" if declared.is_required() else f" = {default!r}"
-        yield f"is a plain {kind}, of which nothing is known; write {name}: Annotated[{kind}, {what}]{value}"
+        yield Phrase(
+            "is a plain {kind}, of which nothing is known; write {name}: Annotated[{kind}, {what}]{value}",
+            kind=kind,
+            name=name,
+            what=what,
+            value=value,
+        )
         return
     if isinstance(meta, Quantity):
         wrong = list(_bounds(meta))
@@ -146,11 +187,13 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
             yield from wrong
             return
         if int in _kinds(declared.annotation) and not meta.integer:
-            yield "is annotated as int, but takes any number; write integer=True in its Quantity, or annotate it as float"
+            yield Phrase(
+                "is annotated as int, but takes any number; write integer=True in its Quantity, or annotate it as float"
+            )
     if isinstance(meta, Quantity) and meta.plausible:
         yield from _sizes(meta, meta.plausible)
     if isinstance(meta, Quantity) and meta.integer and (meta.unit != "1" or meta.units):
-        yield f"is a whole number in {meta.unit}; a count has the unit 1"
+        yield Phrase("is a whole number in {unit}; a count has the unit 1", unit=meta.unit)
     if declared.is_required() or default is None:
         return
     yield from _default(default, declared.annotation, meta)
@@ -163,9 +206,14 @@ def _sizes(meta: Quantity, ends: tuple[str, str]) -> Iterator[str]:
         _ = own.ends  # which are judged when they are read
         kinds = [unit(text).kind for text in (meta.unit, *(other for _, other in meta.units))]
         if own.kind not in kinds:
-            yield f"has plausible sizes {ends[0]} to {ends[1]}; a quantity in {meta.unit} is needed"
+            yield Phrase(
+                "has plausible sizes {low} to {high}; a quantity in {unit} is needed",
+                low=ends[0],
+                high=ends[1],
+                unit=meta.unit,
+            )
     except (TypeError, ValueError) as why:
-        yield f"has plausible sizes that are none: {why}"
+        yield Phrase("has plausible sizes that are none: {why}", why=why)
 
 
 def _default(default: Any, annotation: Any, meta: Meta) -> Iterator[str]:
@@ -173,9 +221,14 @@ def _default(default: Any, annotation: Any, meta: Meta) -> Iterator[str]:
         texts = tuple(allowed(annotation, meta))
         said = str(default).lower() if isinstance(default, bool) else str(default)
         if texts and said not in texts:
-            yield f"has the default {default!r}{nearest(said, texts)}; allowed: {', '.join(texts)}"
+            yield Phrase(
+                "has the default {default}{nearest}; allowed: {texts}",
+                default=repr(default),
+                nearest=nearest(said, texts),
+                texts=", ".join(texts),
+            )
         return
     try:
         meta.validate(default)
     except ValueError as why:
-        yield f"the default {why}; change the default or the bounds"
+        yield Phrase("the default {why}; change the default or the bounds", why=why)

@@ -37,7 +37,8 @@ from diecut_report.contract.steps import (
     Words,
 )
 from diecut_report.declaration.names import DeclaredNames
-from diecut_report.declaration.words import Fault
+from diecut_report.declaration.words import Fault, kinds_told
+from diecut_report.languages.phrases import Phrase, joined, phrase
 
 NUMBER, ROW, CURVE = (
     frozenset({"number"}),
@@ -45,12 +46,12 @@ NUMBER, ROW, CURVE = (
     frozenset({"number", "row", "curve", "abscissa"}),
 )
 CURVE_INPUT = frozenset({"curve input"})
-BY_NAME = "a text, as the table's rows have names; for a number name the column that it is sought in, sought_in"
+BY_NAME = phrase("a text, as the table's rows have names; for a number name the column that it is sought in, sought_in")
 PARTS = frozenset({"list of parts", "block"})
 PLAIN = ROW | {"text", "curve input", "phase", "mechanism", "prepared", "crossings", "varying"}
 SAID = {
-    NUMBER: "a single number", ROW: "a number or a row over repeated parts", CURVE: "a number, a row or a curve",
-    CURVE_INPUT: "an input declared as a CurveInput", PARTS: "the id of PartNames",
+    NUMBER: phrase("a single number"), ROW: phrase("a number or a row over repeated parts"), CURVE: phrase("a number, a row or a curve"),
+    CURVE_INPUT: phrase("an input declared as a CurveInput"), PARTS: phrase("the id of PartNames"),
 }  # fmt: skip
 Asked = tuple[str, str, frozenset[str], str]  # the field, the name in it, what it may be, and what is wanted in words
 
@@ -61,20 +62,24 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         for field, name, allowed, wanted in _asked(step):
             kinds = names.kinds(name)
             if kinds and not kinds & allowed:
-                text = f"{field} is {name}, {_said(kinds)}; {wanted or SAID[allowed]} is wanted"
-                yield Fault(step.at, f"step {step.id}", text)
+                text = Phrase(
+                    "{field} is {name}, {said}; {wanted} is wanted",
+                    field=field,
+                    name=name,
+                    said=kinds_told(kinds),
+                    wanted=wanted or SAID[allowed],
+                )
+                yield Fault(step.at, Phrase("step {id}", id=step.id), text)
         yield from _mixed(step, names)
         if isinstance(step, Value | Choice) and step.per_piece and not _is_curve(step, names):
-            text = "has per_piece=True, which marks a flag of a curve's smooth pieces, but takes no curve and no abscissa; take it away"
-            yield Fault(step.at, f"step {step.id}", text)
+            text = Phrase(
+                "has per_piece=True, which marks a flag of a curve's smooth pieces, but takes no curve and no abscissa; take it away"
+            )
+            yield Fault(step.at, Phrase("step {id}", id=step.id), text)
 
 
 def _is_curve(step: Step, names: DeclaredNames) -> bool:
     return any(giver.step is step and giver.kind == "curve" for giver in names.known.get(step.id, ()))
-
-
-def _said(kinds: set[str]) -> str:
-    return " or ".join(f"{'an' if kind[0] in 'aeiou' else 'a'} {kind}" for kind in sorted(kinds))
 
 
 def _asked(step: Step) -> Iterator[Asked]:
@@ -83,35 +88,36 @@ def _asked(step: Step) -> Iterator[Asked]:
         yield from _of(step.exists, "exists", ROW)
     match step:
         case Value():
-            yield from _of(step.formula, "the formula", CURVE)
+            yield from _of(step.formula, phrase("the formula"), CURVE)
         case Choice():
             for case in step.cases:
-                yield from () if isinstance(case.value, str) else _of(case.value, "the value of a case", CURVE)
-                yield from () if case.condition is None else _of(case.condition, "a condition", CURVE)
+                yield from () if isinstance(case.value, str) else _of(case.value, phrase("the value of a case"), CURVE)
+                yield from () if case.condition is None else _of(case.condition, phrase("a condition"), CURVE)
         case Root():
             for field in ("low", "high"):
                 yield from _of(getattr(step, field), field, NUMBER)
         case Require() | Fact():
-            yield from _of(step.condition, "the condition", ROW)
+            yield from _of(step.condition, phrase("the condition"), ROW)
         case Reduction(of=of) | Crossings(of=of) | Accumulated(of=of) | Derivative(of=of):
-            yield "of", of, frozenset({"curve"}), "a curve over an abscissa"
+            yield "of", of, frozenset({"curve"}), phrase("a curve over an abscissa")
         case Total(of=of) | Neighbour(of=of) | Running(of=of) | Part(of=of):
             for field, name in (("of", of), ("among", getattr(step, "among", ""))):
-                yield from ((field, name, frozenset({"row"}), "a row over repeated parts"),) if name else ()
+                yield from ((field, name, frozenset({"row"}), phrase("a row over repeated parts")),) if name else ()
         case Pick(of=of):
             yield "of", of, ROW, ""
         case Words():
             yield from (
-                ("takes", name, ROW | {"text", "prepared"} | CURVE_INPUT, "a number or a text") for name in step.takes
+                ("takes", name, ROW | {"text", "prepared"} | CURVE_INPUT, phrase("a number or a text"))
+                for name in step.takes
             )
         case Computed() | MadeCurve() | PartNames():
             yield from (
-                ("takes", name, PLAIN, "a number, a text, or what is taken by reference") for name in step.takes
+                ("takes", name, PLAIN, phrase("a number, a text, or what is taken by reference")) for name in step.takes
             )
             yield from _over(step)
         case PartTable(parts=parts, columns=columns):
             yield "parts", parts, PARTS, ""
-            yield from (("columns", name, frozenset({"row"}), "a row over repeated parts") for name in columns)
+            yield from (("columns", name, frozenset({"row"}), phrase("a row over repeated parts")) for name in columns)
         case Clash():
             yield from (("takes", name, ROW, "") for name in step.takes)
         case _:
@@ -119,7 +125,7 @@ def _asked(step: Step) -> Iterator[Asked]:
 
 
 def _over(step: Step) -> Iterator[Asked]:
-    axis = frozenset({"abscissa"}), "the id of an Abscissa"
+    axis = frozenset({"abscissa"}), phrase("the id of an Abscissa")
     match step:
         case Abscissa(period=period, points=points, speed=speed):
             yield from (("period", period, NUMBER, ""),) if isinstance(period, str) else ()
@@ -127,7 +133,9 @@ def _over(step: Step) -> Iterator[Asked]:
             yield from (("speed", speed, NUMBER, ""),) if speed else ()
         case Breakpoints(abscissa=abscissa, places=places, every=every):
             yield "abscissa", abscissa, *axis
-            yield from (("places", place, NUMBER | {"crossings"}, "a number or found crossings") for place in places)
+            yield from (
+                ("places", place, NUMBER | {"crossings"}, phrase("a number or found crossings")) for place in places
+            )
             yield from (("every", every, NUMBER, ""),) if every else ()
         case FromCurve(abscissa=abscissa, given=given):
             yield "abscissa", abscissa, *axis
@@ -135,13 +143,13 @@ def _over(step: Step) -> Iterator[Asked]:
             yield from ((f, getattr(step, f), NUMBER, "") for f in ("start", "lasts") if getattr(step, f))
         case ComputedCurve(abscissa=abscissa, of=of) | PartCurves(abscissa=abscissa, of=of):
             yield "abscissa", abscissa, *axis
-            yield "of", of, frozenset({"prepared"}), "what is prepared"
+            yield "of", of, frozenset({"prepared"}), phrase("what is prepared")
         case Prepared(holds=holds):
-            yield from (("holds", name, PLAIN | {"block"}, "an input or a number") for name in holds)
+            yield from (("holds", name, PLAIN | {"block"}, phrase("an input or a number")) for name in holds)
         case Phase(abscissa=abscissa, spans=spans, period=period):
             yield "abscissa", abscissa, *axis
             yield from (("period", period, NUMBER, ""),) if period else ()
-            yield from (("an end", end, NUMBER, "") for span in spans for end in span if isinstance(end, str))
+            yield from ((phrase("an end"), end, NUMBER, "") for span in spans for end in span if isinstance(end, str))
         case CurvePeriod(given=given):
             yield "given", given, CURVE_INPUT, ""
         case Lookup(by=by):
@@ -160,6 +168,8 @@ def _mixed(step: Step, names: DeclaredNames) -> Iterator[Fault]:
     own = {name: names.axes(name) for name in step.takes() if isinstance(name, str)}
     sole = {name: next(iter(axes)) for name, axes in own.items() if len(axes) == 1}
     if len(set(sole.values())) > 1:
-        told = ", ".join(f"{name} runs over {axis}" for name, axis in sole.items())
-        text = f"mixes what runs over unlike places: {told}; take a single number of one of them first"
-        yield Fault(step.at, f"step {step.id}", text)
+        told = joined([Phrase("{name} runs over {axis}", name=name, axis=axis) for name, axis in sole.items()], ", ")
+        text = Phrase(
+            "mixes what runs over unlike places: {told}; take a single number of one of them first", told=told
+        )
+        yield Fault(step.at, Phrase("step {id}", id=step.id), text)

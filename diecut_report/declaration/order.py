@@ -14,6 +14,7 @@ from diecut_report.contract.steps import SILENT, Root, Step, Words
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short, unknown
 from diecut_report.declaration.world import When, told
+from diecut_report.languages.phrases import Phrase, phrase
 
 
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
@@ -24,16 +25,18 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         when = names.when(number)
         if names.world.example(when) is None:
             yield Fault(
-                step.at, f"step {step.id}", "is never calculated: what it needs and lacks is never given together"
+                step.at,
+                Phrase("step {id}", id=step.id),
+                phrase("is never calculated: what it needs and lacks is never given together"),
             )
             continue
         if not isinstance(step, SILENT) and not (step.symbol and step.description):
-            yield Fault(step.at, f"step {step.id}", "has no symbol or no description")
+            yield Fault(step.at, Phrase("step {id}", id=step.id), phrase("has no symbol or no description"))
         for name in sorted(asked(step)):
             late = name == getattr(step, "shown_at", "") or isinstance(step, Words)
             text = lacking(names, name, when_asked(step, when), None if late else number)
             if text:
-                yield Fault(step.at, f"step {step.id}", f"takes {text}")
+                yield Fault(step.at, Phrase("step {id}", id=step.id), Phrase("takes {text}", text=text))
 
 
 def asked(step: Step) -> set[str]:
@@ -66,12 +69,17 @@ def lacking(names: DeclaredNames, name: str, when: When, before: int | None = No
     if later and names.missing(name, when) is None:
         step = later[0].step
         place = short(step.at) if step else ""
-        return f"{name} before it is calculated (at {place}); move that step up, or this one down"
+        return Phrase(
+            "{name} before it is calculated (at {place}); move that step up, or this one down", name=name, place=place
+        )
     tokens = set().union(*(part for each in (when, *(giver.when for giver in givers)) for part in each))
     where = told(given, tokens)
-    return f"{name}, which nothing gives {where}; give it there too, or leave this out by needs or lacks".replace(
-        "  ", " "
+    words = (
+        "{name}, which nothing gives {where}; give it there too, or leave this out by needs or lacks"
+        if where
+        else "{name}, which nothing gives; give it there too, or leave this out by needs or lacks"
     )
+    return Phrase(words, name=name, where=where)
 
 
 def _doubled(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
@@ -92,11 +100,14 @@ def _in_two_chapters(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fau
         )
         doubled = [step.id for step in shared if names.world.example(_together(first, second, step)) is not None]
         if doubled:
-            text = (
-                f"has {', '.join(doubled)} of another chapter too, {first.title!r} (at {short(first.at)}), so that they are calculated twice; "
-                "add them to one of the two, or let their needs exclude each other"
+            text = Phrase(
+                "has {doubled} of another chapter too, {title} (at {place}), so that they are calculated twice; "
+                "add them to one of the two, or let their needs exclude each other",
+                doubled=", ".join(doubled),
+                title=repr(first.title),
+                place=short(first.at),
             )
-            yield Fault(second.at, f"chapter {second.title!r}", text)
+            yield Fault(second.at, Phrase("chapter {title}", title=repr(second.title)), text)
 
 
 def _together(first: Chapter, second: Chapter, step: Step) -> When:
@@ -114,6 +125,31 @@ def pairs(names: DeclaredNames, what: str, declared: list[tuple[Any, When]]) -> 
             given = names.world.example(both) if first is not second else None
             if given is not None:
                 where = told(given, both.needs | both.lacks)
-                yield Fault(second.at, f"{what} {name}", f"has the id of another {what} (at {short(first.at)}), and both are made"
-                            f"{' ' + where if where else ''}; name one of them otherwise, or let their needs exclude each other")  # fmt: skip
+                yield Fault(second.at, _subject(what, name), _doubled_id(what, short(first.at), where))
                 break
+
+
+def _subject(what: str, name: str) -> Phrase:
+    return {
+        "step": Phrase("step {id}", id=name),
+        "check": Phrase("check {id}", id=name),
+        "figure": Phrase("figure {id}", id=name),
+        "export": Phrase("export {id}", id=name),
+    }[what]
+
+
+ANOTHER = {
+    "step": phrase("another step"),
+    "check": phrase("another check"),
+    "figure": phrase("another figure"),
+    "export": phrase("another export"),
+}
+
+
+def _doubled_id(what: str, place: str, where: str) -> Phrase:
+    words = (
+        "has the id of {another} (at {place}), and both are made {where}; name one of them otherwise, or let their needs exclude each other"
+        if where
+        else "has the id of {another} (at {place}), and both are made; name one of them otherwise, or let their needs exclude each other"
+    )
+    return Phrase(words, another=ANOTHER[what], place=place, where=where)

@@ -12,6 +12,7 @@ from diecut_report.declaration.units import kind_of
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import When, told
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase, named, phrase
 
 Known = Mapping[str, list[tuple[int, When, Phase]]]
 
@@ -30,16 +31,25 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 
 
 def _subject(step: Step) -> str:
-    return f"phase {step.id.removeprefix(PREFIX)}" if isinstance(step, Phase) else f"step {step.id}"
+    return (
+        Phrase("phase {name}", name=step.id.removeprefix(PREFIX))
+        if isinstance(step, Phase)
+        else Phrase("step {id}", id=step.id)
+    )
 
 
 def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> Iterator[str]:
     if step.role not in ROLES:
-        yield f"has the role {step.role!r}{nearest(step.role, ROLES)}; there are {', '.join(ROLES)}"
+        yield Phrase(
+            "has the role {role}{nearest}; there are {roles}",
+            role=repr(step.role),
+            nearest=nearest(step.role, ROLES),
+            roles=", ".join(ROLES),
+        )
     if not step.description:
-        yield "has no description"
+        yield phrase("has no description")
     if [bool(step.spans), bool(step.union), bool(step.rest_of)].count(True) != 1:
-        yield "needs one of three forms: places it goes between, (start, end), or union=(…), or rest_of=(…)"
+        yield phrase("needs one of three forms: places it goes between, (start, end), or union=(…), or rest_of=(…)")
     for each in (*step.union, *step.rest_of):
         yield from _held(step, each, names.when(number), names, known)
     axis = {giver.unit for giver in names.givers(step.abscissa) if giver.unit}
@@ -47,7 +57,13 @@ def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> I
         units = {each for giver in names.givers(place) for each in giver.units_when(step.needs)}
         if units and not any(kind_of(one) == kind_of(other) for one in units for other in axis):
             yield (
-                f"goes to {place}, in {' or '.join(sorted(units))}; its abscissa {step.abscissa} is in {' or '.join(axis)}"
+                Phrase(
+                    "goes to {place}, in {units}; its abscissa {abscissa} is in {axis}",
+                    place=place,
+                    units=named(sorted(units), " or "),
+                    abscissa=step.abscissa,
+                    axis=named(sorted(axis), " or "),
+                )
             )
 
 
@@ -57,18 +73,25 @@ def _held(step: Phase, name: str, when: When, names: DeclaredNames, known: Known
     others = [each for each in known.get(name, ()) if name != own]
     if not others:
         near = nearest(name, [each for each in known if each != own])
-        yield f"takes the phase {name}, which is not declared above it{near}"
+        yield Phrase("takes the phase {name}, which is not declared above it{near}", name=name, near=near)
         return
     if any(other.abscissa != step.abscissa for _, _, other in others):
-        yield f"takes the phase {name}, which runs over another abscissa"
+        yield Phrase("takes the phase {name}, which runs over another abscissa", name=name)
     given = names.world.example(when, [other for _, other, _ in others])
     if given is not None:
         where = told(given, set().union(*(part for each in (when, *(w for _, w, _ in others)) for part in each)))
-        yield f"takes the phase {name}, which there is not {where}; give both the same needs"
+        yield Phrase(
+            "takes the phase {name}, which there is not {where}; give both the same needs", name=name, where=where
+        )
 
 
 def _of_speed(step: Abscissa, names: DeclaredNames) -> Iterator[str]:
     wanted = f"{step.unit}/s"
     units = {each for giver in names.givers(step.speed) for each in giver.units_when(step.needs)}
     if units and not any(kind_of(one) == kind_of(wanted) for one in units):
-        yield f"is run through with {step.speed}, in {' or '.join(sorted(units))}; a speed in {wanted} is needed"
+        yield Phrase(
+            "is run through with {speed}, in {units}; a speed in {wanted} is needed",
+            speed=step.speed,
+            units=named(sorted(units), " or "),
+            wanted=wanted,
+        )

@@ -17,6 +17,7 @@ from diecut_report.contract.steps import Abscissa, Breakpoints, Case, Choice, Ph
 from diecut_report.declaration.input_places import of_class
 from diecut_report.declaration.words import Fault, short
 from diecut_report.expressions import Formula
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.standards import StandardTable
 
 ID = re.compile(r"[A-Za-z_]\w*(\.\w+)*")
@@ -34,14 +35,19 @@ FORMULAS = ("formula", "condition", "exists", "equation", "low", "high", "left",
 
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return what has not the shape that the contract names."""
-    own = [Fault(place, f"mechanism {mechanism.kind}", text) for place, text in _of_mechanism(mechanism)]
+    own = [
+        Fault(place, Phrase("mechanism {kind}", kind=mechanism.kind), text) for place, text in _of_mechanism(mechanism)
+    ]
     if own:
         return own
     found = list(own)
     for chapter in mechanism.chapters:
-        found += [Fault(chapter.at, f"chapter {chapter.title!r}", text) for text in _ids(chapter, "needs")]
+        found += [
+            Fault(chapter.at, Phrase("chapter {title}", title=repr(chapter.title)), text)
+            for text in _ids(chapter, "needs")
+        ]
         for step in chapter.steps:
-            found += [Fault(step.at, f"step {step.id}", text) for text in _of_step(step)]
+            found += [Fault(step.at, Phrase("step {id}", id=step.id), text) for text in _of_step(step)]
     return found
 
 
@@ -49,12 +55,19 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
     """What has another shape, each with its place: of a class that is not an Inputs its own, else that of the mechanism."""
     for name in TEXTS:
         if not isinstance(getattr(mechanism, name), str):
-            yield mechanism.at, f"has {name}={getattr(mechanism, name)!r}; write a text in quotes"
+            yield (
+                mechanism.at,
+                Phrase("has {name}={given}; write a text in quotes", name=name, given=repr(getattr(mechanism, name))),
+            )
     model: Any = mechanism.inputs
     if not (isinstance(model, type) and issubclass(model, Inputs)):
         kind = model if isinstance(model, type) else type(model)
         given = kind.__name__ if kind is model else repr(model)
-        text = f"has inputs={given}; give the class of its inputs, which is a subclass of Inputs: class {kind.__name__}(Inputs)"
+        text = Phrase(
+            "has inputs={given}; give the class of its inputs, which is a subclass of Inputs: class {name}(Inputs)",
+            given=given,
+            name=kind.__name__,
+        )
         yield of_class(kind, mechanism.at) if kind is model else mechanism.at, text
     for name, kind in HOLDS.items():
         given = getattr(mechanism, name)
@@ -62,24 +75,35 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
         strange = [given] if several is None else [each for each in several if not isinstance(each, kind)]
         if strange:
             at = getattr(strange[0], "at", "")
-            where = f", {type(strange[0]).__name__}" + (f" (at {short(at)})" if at else "")
-            text = f"has {name} of another kind{where}; write a tuple of {kind.__name__}, with a comma behind a single one: {name}=(…,)"
+            where = f", {type(strange[0]).__name__}" + (Phrase(" (at {place})", place=short(at)) if at else "")
+            text = Phrase(
+                "has {name} of another kind{where}; write a tuple of {kind}, with a comma behind a single one: {name}=(…,)",
+                name=name,
+                where=where,
+                kind=kind.__name__,
+            )
             yield mechanism.at, text
 
 
 def _of_step(step: Step) -> Iterator[str]:
     if not ID.fullmatch(step.id):
-        yield "is not an id; write letters, digits and underscores"
+        yield phrase("is not an id; write letters, digits and underscores")
     if step.digits < 1:
-        yield f"has digits={step.digits!r}; at least one digit is printed"
+        yield Phrase("has digits={digits}; at least one digit is printed", digits=repr(step.digits))
     yield from _ids(step, "needs", "lacks")
     for name in FORMULAS:
         yield from _of_formula(getattr(step, name, None))
     match step:
         case Abscissa(intervals=intervals) if intervals < 2:
-            yield f"has intervals={intervals!r}; the search for extremes needs at least 2, usually 32 or 64"
+            yield Phrase(
+                "has intervals={intervals}; the search for extremes needs at least 2, usually 32 or 64",
+                intervals=repr(intervals),
+            )
         case Breakpoints() if not _are_texts(step.places):
-            yield f'has places={step.places!r}; name them one after another, each an id: "first", "second"'
+            yield Phrase(
+                'has places={places}; name them one after another, each an id: "first", "second"',
+                places=repr(step.places),
+            )
         case Phase():
             yield from _of_spans(step)
         case Choice():
@@ -94,7 +118,9 @@ def _of_spans(step: Phase) -> Iterator[str]:
     spans: tuple[Any, ...] = step.spans
     for span in spans:
         if not isinstance(span, tuple) or len(span) != 2 or not all(isinstance(end, str | int | float) for end in span):
-            yield f'goes between {span!r}; write a start and an end in brackets: ("begins", "ends")'
+            yield Phrase(
+                'goes between {span}; write a start and an end in brackets: ("begins", "ends")', span=repr(span)
+            )
     yield from _ids(step, "union", "rest_of")
 
 
@@ -102,7 +128,11 @@ def _ids(declared: Any, *names: str) -> Iterator[str]:
     for name in names:
         given = getattr(declared, name)
         if not isinstance(given, tuple) or not _are_texts(given):
-            yield f'has {name}={given!r}; write a tuple of texts, with a comma behind a single one: {name}=("key",)'
+            yield Phrase(
+                'has {name}={given}; write a tuple of texts, with a comma behind a single one: {name}=("key",)',
+                name=name,
+                given=repr(given),
+            )
 
 
 def _are_texts(given: Iterable[object]) -> bool:
@@ -113,38 +143,51 @@ def _of_formula(part: object) -> Iterator[str]:
     if isinstance(part, Bound):
         taken: dict[str, Any] = dict(part.names)
         strange = [name for name, value in taken.items() if not isinstance(value, str | int | float)]
-        yield from (f"binds {name} to {taken[name]!r}; give an id or a number" for name in strange)
+        yield from (
+            Phrase("binds {name} to {taken}; give an id or a number", name=name, taken=repr(taken[name]))
+            for name in strange
+        )
     formula = part.formula if isinstance(part, Bound) else part
     if isinstance(formula, Formula) and formula.function.__defaults__:
-        yield f"takes the formula {formula.__name__}, whose parameters have a default; each takes a quantity: remove the default"
+        yield Phrase(
+            "takes the formula {formula}, whose parameters have a default; each takes a quantity: remove the default",
+            formula=formula.__name__,
+        )
 
 
 def _of_cases(step: Choice) -> Iterator[str]:
     cases: tuple[Any, ...] = step.cases
     if not all(isinstance(case, Case) for case in cases):
-        yield 'has cases that are none; give them one after another: case(value, "why", condition), case(value, "why")'
+        yield Phrase(
+            'has cases that are none; give them one after another: case(value, "why", condition), case(value, "why")'
+        )
         return
     for case in cases:
         if not isinstance(case.words, str):
-            yield 'has a case whose words are not a text; write case(value, "why it is taken", condition)'
+            yield phrase('has a case whose words are not a text; write case(value, "why it is taken", condition)')
         if not isinstance(case.value, str | Binding):
-            yield f"has a case of the value {case.value!r}; write a text, or a lambda that gives a number"
+            yield Phrase(
+                "has a case of the value {value}; write a text, or a lambda that gives a number", value=repr(case.value)
+            )
         yield from _of_formula(case.value)
         yield from _of_formula(case.condition)
 
 
 def _of_series(series: object, by: str) -> Iterator[str]:
     if isinstance(series, tuple) and not series:
-        yield "picks from an empty series; give its values"
+        yield phrase("picks from an empty series; give its values")
     if isinstance(series, Mapping) and not by:
-        yield f'picks from several series ({", ".join(map(str, series))}); name the text input that chooses one: by="…"'
+        yield Phrase(
+            'picks from several series ({series}); name the text input that chooses one: by="…"',
+            series=", ".join(map(str, series)),
+        )
 
 
 def _of_table(table: Any) -> Iterator[str]:
     if not isinstance(table, Mapping):
-        yield f'takes from {table!r}; give a table, then the text input by which: table, by="…"'
+        yield Phrase('takes from {table}; give a table, then the text input by which: table, by="…"', table=repr(table))
         return
     wrong = [key for key, value in table.items() if isinstance(value, bool) or not isinstance(value, int | float)]
     if wrong:
         told = ", ".join(f"{key} ({table[key]!r})" for key in wrong)
-        yield f"has no number in its table for {told}; write numbers in the step's unit"
+        yield Phrase("has no number in its table for {told}; write numbers in the step's unit", told=told)

@@ -16,6 +16,7 @@ from diecut_report.declaration.input_places import of_input
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault, short
 from diecut_report.declaration.world import When
+from diecut_report.languages.phrases import Phrase
 
 
 class Printed(NamedTuple):
@@ -53,9 +54,16 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> Fault:
     """The fault of the other; inputs stand where they are declared, their quantity may be one of the program."""
     at, there = (each.at if each.step else of_input(mechanism.inputs, each.name, each.at) for each in (other, one))
-    whose = f"{one.name} ({'POINTS, ' * one.is_points}at {short(there)})"
-    text = f"has the symbol {symbol} of {whose}: both would be printed as one quantity; give it another"
-    return Fault(at, f"{'step' if other.step else 'input'} {other.name}", text)
+    text = Phrase(
+        "has the symbol {symbol} of {name} ({points}at {place}): both would be printed as one quantity; give it another",
+        symbol=symbol,
+        name=one.name,
+        points="POINTS, " * one.is_points,
+        place=short(there),
+    )
+    return Fault(
+        at, Phrase("step {id}", id=other.name) if other.step else Phrase("input {path}", path=other.name), text
+    )
 
 
 def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:

@@ -12,6 +12,7 @@ from diecut_report.contract.steps import Abscissa, Step
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
 from diecut_report.errors import nearest
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import unit
 from diecut_report.standards import StandardFault, StandardSeries, StandardTable
 
@@ -20,7 +21,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with what steps take from tables and series."""
     for _, step in mechanism.steps:
         for text in _wrong(step, names):
-            yield Fault(step.at, f"step {step.id}", text)
+            yield Fault(step.at, Phrase("step {id}", id=step.id), text)
 
 
 def _wrong(step: Step, names: DeclaredNames) -> Iterator[str]:
@@ -32,8 +33,15 @@ def _wrong(step: Step, names: DeclaredNames) -> Iterator[str]:
             yield from _given(step, names)
         case Interpolated():
             across, upwards = step.between.columns
-            yield from _unlike(f"the column {upwards.name} of the table", upwards.unit, _units(step), "the step")
-            yield from _unlike(f"the column {across.name} of the table", across.unit, _taken(names, step.of), step.of)
+            yield from _unlike(
+                Phrase("the column {name} of the table", name=upwards.name),
+                upwards.unit,
+                _units(step),
+                phrase("the step"),
+            )
+            yield from _unlike(
+                Phrase("the column {name} of the table", name=across.name), across.unit, _taken(names, step.of), step.of
+            )
             yield from _key(step, step.of, names, is_covered=_covered(step, names))
         case Pick(series=series):
             yield from _given(step, names)
@@ -41,10 +49,14 @@ def _wrong(step: Step, names: DeclaredNames) -> Iterator[str]:
                 yield from _key(step, step.of, names, is_covered=True)
             for own in series.values() if isinstance(series, Mapping) else (series,):
                 if isinstance(own, StandardTable):
-                    yield "takes from a table; name its column, table.series(…)"
+                    yield phrase("takes from a table; name its column, table.series(…)")
                 elif isinstance(own, StandardSeries):
-                    yield from _unlike(f"the series “{own.title}”", own.unit, _units(step), "the step")
-                    yield from _unlike(f"the series “{own.title}”", own.unit, _taken(names, step.of), step.of)
+                    yield from _unlike(
+                        Phrase("the series “{title}”", title=own.title), own.unit, _units(step), phrase("the step")
+                    )
+                    yield from _unlike(
+                        Phrase("the series “{title}”", title=own.title), own.unit, _taken(names, step.of), step.of
+                    )
 
 
 def rows_of(step: Lookup) -> Mapping[str, Any]:
@@ -58,7 +70,10 @@ def rows_of(step: Lookup) -> Mapping[str, Any]:
 def _column(step: Lookup) -> Iterator[str]:
     if not isinstance(step.table, StandardTable):
         if step.column:
-            yield f"names the column {step.column}, but its table has none; write it with own_table(…, columns=…)"
+            yield Phrase(
+                "names the column {column}, but its table has none; write it with own_table(…, columns=…)",
+                column=step.column,
+            )
         return
     try:
         own = step.table.column(step.column)
@@ -66,7 +81,10 @@ def _column(step: Lookup) -> Iterator[str]:
         yield str(fault).removesuffix(".")
         return
     yield from _unlike(
-        "the table" if not own.name else f"the column {own.name} of the table", own.unit, _units(step), "the step"
+        phrase("the table") if not own.name else Phrase("the column {name} of the table", name=own.name),
+        own.unit,
+        _units(step),
+        phrase("the step"),
     )
 
 
@@ -74,7 +92,9 @@ def _sought(step: Lookup, names: DeclaredNames) -> Iterator[str]:
     """What is wrong with the number by which a row is sought."""
     if not step.is_by_number:
         if step.key:
-            yield f"names the key {step.key}, but its row is that of a text, which is always there; take key away"
+            yield Phrase(
+                "names the key {key}, but its row is that of a text, which is always there; take key away", key=step.key
+            )
         return
     assert isinstance(step.table, StandardTable)
     try:
@@ -83,8 +103,12 @@ def _sought(step: Lookup, names: DeclaredNames) -> Iterator[str]:
         yield str(fault).removesuffix(".")
         return
     if len(set(own.values)) < len(own.values):
-        yield f"seeks the row by the column {own.name} of the table “{step.table.title}”, which has a number twice; take another column"
-    title = f"the column {own.name} of the table" if own.name else "the table"
+        yield Phrase(
+            "seeks the row by the column {name} of the table “{title}”, which has a number twice; take another column",
+            name=own.name,
+            title=step.table.title,
+        )
+    title = Phrase("the column {name} of the table", name=own.name) if own.name else phrase("the table")
     yield from _unlike(title, own.unit, _taken(names, step.by), step.by)
     yield from _key(step, step.by, names, is_covered=_is_picked(step, names))
 
@@ -109,8 +133,13 @@ def _idle(step: Lookup, names: DeclaredNames) -> Iterator[str]:
     for row in step.table:
         if row not in key.texts:
             yield (
-                f"has a row for {row!r}{nearest(row, key.texts)}, which {step.by} can never be; allowed: {', '.join(key.texts)}; "
-                "take the row away, or allow its text"
+                Phrase(
+                    "has a row for {row}{nearest}, which {by} can never be; allowed: {texts}; take the row away, or allow its text",
+                    row=repr(row),
+                    nearest=nearest(row, key.texts),
+                    by=step.by,
+                    texts=", ".join(key.texts),
+                )
             )
 
 
@@ -122,27 +151,40 @@ def _given(step: Lookup | Pick, names: DeclaredNames) -> Iterator[str]:
     key = names.world.keys.get(path)
     if key is None or not isinstance(key.meta, Quantity):
         known = [name for name, other in names.world.keys.items() if isinstance(other.meta, Quantity)]
-        yield f"given is {path}, which is not an input that is a number{nearest(path, known)}"
+        yield Phrase(
+            "given is {path}, which is not an input that is a number{nearest}", path=path, nearest=nearest(path, known)
+        )
         return
     by = names.world.keys.get(step.by if isinstance(step, Lookup) else step.of)
     if not key.may_be_absent or key.has_default:
-        yield f"given is {path}, which is always there; let it be float | None with the default None"
+        yield Phrase("given is {path}, which is always there; let it be float | None with the default None", path=path)
     if by is not None and by.home != key.home:
         other = "by" if isinstance(step, Lookup) else "of"
-        yield f"given is {path}, {other} is {by.path}; both must be inputs of one list, or of none"
-    yield from _unlike(f"given, {path},", key.meta.unit, _units(step), "the step")
+        yield Phrase(
+            "given is {path}, {other} is {second}; both must be inputs of one list, or of none",
+            path=path,
+            other=other,
+            second=by.path,
+        )
+    yield from _unlike(Phrase("given, {path},", path=path), key.meta.unit, _units(step), phrase("the step"))
 
 
 def _key(step: Interpolated | Lookup | Pick, taken: str, names: DeclaredNames, *, is_covered: bool) -> Iterator[str]:
     """An impossible machine is told at an input."""
     inputs = [name for name in names.world.keys if "=" not in name]
     if step.key and step.key not in inputs:
-        yield f"key is {step.key}, which is not an input{nearest(step.key, inputs)}"
+        yield Phrase("key is {key}, which is not an input{nearest}", key=step.key, nearest=nearest(step.key, inputs))
     elif not step.key and taken.removeprefix("inputs.") not in inputs and not is_covered:
         where = (
-            "lie outside of the table" if isinstance(step, Interpolated) else "be a number that the table does not have"
+            phrase("lie outside of the table")
+            if isinstance(step, Interpolated)
+            else phrase("be a number that the table does not have")
         )
-        yield f'takes {taken}, which may {where}; name the input that is then to be changed, key="…"'
+        yield Phrase(
+            'takes {taken}, which may {where}; name the input that is then to be changed, key="…"',
+            taken=taken,
+            where=where,
+        )
 
 
 def _covered(step: Interpolated, names: DeclaredNames) -> bool:
@@ -174,4 +216,6 @@ def _unlike(what: str, own: str, wanted: set[str], whose: str) -> Iterator[str]:
     except ValueError:
         return
     if not is_alike:
-        yield f"{what} is in {own}, {whose} in {', '.join(sorted(wanted))}"
+        yield Phrase(
+            "{what} is in {own}, {whose} in {units}", what=what, own=own, whose=whose, units=", ".join(sorted(wanted))
+        )

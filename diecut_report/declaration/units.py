@@ -9,6 +9,7 @@ from diecut_report.contract.part_steps import Lookup, Neighbour, Part, Pick, Run
 from diecut_report.contract.steps import Crossings, Reduction, Step
 from diecut_report.declaration.names import DeclaredNames
 from diecut_report.declaration.words import Fault
+from diecut_report.languages.phrases import Phrase, named, phrase
 from diecut_report.quantities.units import unit
 from diecut_report.standards import StandardSeries, StandardTable
 
@@ -21,15 +22,20 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         own = [step.unit, *(other for _, other in step.units)]
         for what, units in _taken(step, names, number):
             if units and not any(kind_of(one) == kind_of(other) for one in own for other in units):
-                text = f"is in {' or '.join(own)}, {what} in {' or '.join(sorted(units))}; give it the unit of what it takes over"
-                yield Fault(step.at, f"step {step.id}", text)
+                text = Phrase(
+                    "is in {own}, {what} in {units}; give it the unit of what it takes over",
+                    own=named(own, " or "),
+                    what=what,
+                    units=named(sorted(units), " or "),
+                )
+                yield Fault(step.at, Phrase("step {id}", id=step.id), text)
 
 
 def _taken(step: Step, names: DeclaredNames, number: int) -> Iterator[tuple[str, set[str]]]:
     """What a step takes over as it is, with the units that it may have."""
     match step:
         case Total(of=of, operation="product") | Running(of=of, operation="product"):
-            yield "a product of any number of parts", {"1"}
+            yield phrase("a product of any number of parts"), {"1"}
             yield of, _units(names, of, step, number)
         case Total(of=of, operation=operation) | Running(of=of, operation=operation) if operation in AS_IT_IS:
             yield of, _units(names, of, step, number)
@@ -43,10 +49,14 @@ def _taken(step: Step, names: DeclaredNames, number: int) -> Iterator[tuple[str,
         case Pick(of=of, series=series):
             yield of, _units(names, of, step, number)
             several = series.values() if isinstance(series, Mapping) else (series,)
-            yield from ((f"the series {one.title}", {one.unit}) for one in several if isinstance(one, StandardSeries))
+            yield from (
+                (Phrase("the series {title}", title=one.title), {one.unit})
+                for one in several
+                if isinstance(one, StandardSeries)
+            )
         case Lookup(table=StandardTable() as table, column=column):
             yield (
-                f"the table {table.title}",
+                Phrase("the table {title}", title=table.title),
                 {one.unit for one in table.of_values if len(table.of_values) == 1 or one.name == column},
             )
 

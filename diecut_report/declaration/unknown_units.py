@@ -9,6 +9,7 @@ from diecut_report.contract.inputs import fields
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.declaration.input_places import of_input
 from diecut_report.declaration.words import Fault
+from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit
 
 
@@ -16,26 +17,26 @@ def faults(mechanism: Mechanism) -> Iterator[Fault]:
     """Yield each unit of an input, a step, a check or a figure that nobody knows."""
     for path, meta in fields(mechanism.inputs):
         for text in _unknown([getattr(meta, "unit", "1"), *(own for _, own in getattr(meta, "units", ()))]):
-            yield Fault(of_input(mechanism.inputs, path, mechanism.at), f"input {path}", text)
+            yield Fault(of_input(mechanism.inputs, path, mechanism.at), Phrase("input {path}", path=path), text)
     for _, step in mechanism.steps:
         for text in _unknown([step.unit, *(own for _, own in step.units)]):
-            yield Fault(step.at, f"step {step.id}", text)
+            yield Fault(step.at, Phrase("step {id}", id=step.id), text)
     for check in mechanism.checks:
-        yield from (Fault(check.at, f"check {check.id}", text) for text in _unknown([check.unit]))
+        yield from (Fault(check.at, Phrase("check {id}", id=check.id), text) for text in _unknown([check.unit]))
     for figure in mechanism.figures:
         for text in _unknown(_drawn(figure)):
-            yield Fault(figure.at, f"figure {figure.id}", text)
+            yield Fault(figure.at, Phrase("figure {id}", id=figure.id), text)
 
 
 def _unknown(units: Iterable[object]) -> Iterator[str]:
     for text in dict.fromkeys(units):
         if not isinstance(text, str):
-            yield f'has the unit {text!r}; write a text, "mm"'
+            yield Phrase('has the unit {text}; write a text, "mm"', text=repr(text))
             continue
         try:
             unit(text)
         except ValueError as unknown:
-            yield f"has the unit {text!r}: {unknown}"
+            yield Phrase("has the unit {text}: {unknown}", text=repr(text), unknown=unknown)
 
 
 def _drawn(figure: Figure) -> list[str]:

@@ -9,6 +9,7 @@ from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from diecut_report.contract.inputs import Block, Meta, Quantity, Text, meta_of, nested
 from diecut_report.contract.placeholders import OneOf
+from diecut_report.languages.phrases import Phrase, joined
 
 GIVEN, OTHER = "given", "another text"
 Given = str | None  # what is known of an input: that it is given, its text, or None where it is left out
@@ -199,5 +200,6 @@ def told(given: Mapping[str, Given], tokens: Iterable[str]) -> str:
     words = []
     for path in sorted(path for path in paths if path in given):
         text = given[path]
-        words.append(f"without {path}" if text is None else f"with {path}" + (f"={text}" if text not in (GIVEN, OTHER) else ""))  # fmt: skip
-    return " and ".join(words)
+        given_text = f"{path}={text}" if text not in (GIVEN, OTHER) else path
+        words.append(Phrase("without {path}", path=path) if text is None else Phrase("with {given}", given=given_text))
+    return joined(words, " and ")

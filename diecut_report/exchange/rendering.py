@@ -10,6 +10,7 @@ from diecut_report import pipeline
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.carried_results import carried_results
+from diecut_report.exchange.other_forms import other_form
 from diecut_report.files import write_all
 from diecut_report.languages.catalogues import Catalogues
 from diecut_report.languages.phrases import Phrase, phrase
@@ -75,7 +76,8 @@ def document(
             "The report cannot be made of these results: {told}. Give results as the program wrote them.",
             told=_told(cause),
         )
-        raise UserError(Problem(words, file)) from cause
+        why = other_form(results)
+        raise UserError([Problem(words, file), *([Problem(why, file)] if why else [])]) from cause
 
 
 def told(lost: Iterable[pipeline.Lost]) -> list[str]:

@@ -8,10 +8,12 @@ from base64 import b64decode
 from typing import Annotated, Any, Literal, NoReturn
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic_core import ErrorDetails
 
 from diecut_report.config.hidden_letters import CONTROL
 from diecut_report.config.own_tables import MOST as MOST_TABLES
 from diecut_report.errors import TOLD, Problem, UserError
+from diecut_report.exchange.other_forms import other_form, refuse_other_form
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_TEXT
 from diecut_report.pictures import MOST as MOST_OF_PICTURE
@@ -165,14 +167,22 @@ class ResultsForm(_PartOfResults):
 def results_of(content: bytes, file: str) -> dict[str, Any]:
     """Return results from the bytes of their file; UserError with what is wrong with them."""
     found = parsed(content, file)
+    refuse_other_form(found, file)
     try:
         ResultsForm.model_validate(found)
     except ValidationError as error:
         faults = error.errors(include_url=False)
-        problems = [Problem(f"{fault['msg']}. {ASK}", file, path=_path(fault["loc"])) for fault in faults[:TOLD]]
-        raise UserError(problems) from None
+        problems = [Problem(_words(fault), file, path=_path(fault["loc"])) for fault in faults[:TOLD]]
+        why = other_form(found)
+        raise UserError([*([Problem(why, file)] if why else []), *problems]) from None
     _refuse_hidden(found, file)
     return found
+
+
+def _words(fault: ErrorDetails) -> Phrase:
+    if fault["type"] == "missing":
+        return Phrase("is missing. {ask}", ask=ASK)
+    return Phrase("is not what stands there in results: {told}. {ask}", told=fault["msg"], ask=ASK)
 
 
 def parsed(content: bytes, file: str) -> dict[str, Any]:

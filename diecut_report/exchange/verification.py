@@ -31,7 +31,7 @@ Told = tuple[str, bool]  # what was found, in words, and whether it is as it sho
 SHORT = 12  # of a hash, as in a report
 OF_CODE = ("plugin_version", "plugin_sha256", "plugin_file", "plugin_check")
 """What tells of the code and is held against the program's own apart from the numbers."""
-OF_DOCUMENT = ("program", "config", "mechanisms", "comparisons", "report", "changes", "wordings")
+OF_DOCUMENT = ("program", "config", "mechanisms", "comparisons", "report", "changes", "wordings", "form_version")
 """What is compared by itself, or is a choice of the document: how much it shows, and against which former one."""
 
 

@@ -29,6 +29,7 @@ from diecut_report.formula_checks.dimensions import (
     relations,
 )
 from diecut_report.formula_checks.idle import idle_inputs
+from diecut_report.languages.phrases import Phrase
 
 
 def check_mechanism(mechanism: Mechanism) -> None:
@@ -80,4 +81,11 @@ def printing(mechanism: Mechanism) -> Iterator[str]:
             printed = evaluate(link.formula.tree, lambda leaf, known=values: known[leaf.args[0]])  # type: ignore[misc]
             computed = link.formula(**taken)
         if not np.allclose(printed, computed, rtol=1e-12, equal_nan=True):
-            yield f"{step.id}: the {part} {link.formula.__name__} prints {printed}, computes {computed}"
+            yield Phrase(
+                "{id}: the {part} {formula} prints {printed}, computes {computed}",
+                id=step.id,
+                part=part,
+                formula=link.formula.__name__,
+                printed=printed,
+                computed=computed,
+            )

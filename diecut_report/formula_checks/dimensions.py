@@ -34,14 +34,23 @@ from diecut_report.formula_checks.kinds import (
     kind_text,
     times,
 )
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import Kind, unit
 
 
 def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, str, Bound]]:
     """Yield every bound formula with its step and its part in it."""
     for _, step in mechanism.steps:
-        for part in ("formula", "condition", "exists", "equation", "low", "high", "left", "right"):
+        for part in (
+            phrase("formula"),
+            phrase("condition"),
+            "exists",
+            phrase("equation"),
+            "low",
+            "high",
+            "left",
+            "right",
+        ):
             declared = getattr(step, part, None)
             yield from _bindings(step, part, declared)
         for case in getattr(step, "cases", ()):
@@ -49,8 +58,8 @@ def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, str, Bound]]:
 
 
 def _of_case(step: Step, case: Case) -> Iterator[tuple[Step, str, Bound]]:
-    yield from _bindings(step, "formula", case.value)
-    yield from _bindings(step, "condition", case.condition)
+    yield from _bindings(step, phrase("formula"), case.value)
+    yield from _bindings(step, phrase("condition"), case.condition)
 
 
 def _bindings(step: Step, part: str, declared: Any) -> Iterator[tuple[Step, str, Bound]]:

@@ -47,7 +47,7 @@ def times(one: Found, other: Found, power: float = 1) -> Found:
 
 def kind_text(kind: Found) -> str:
     """Return the coherent SI unit of a kind, in words for the pure number."""
-    return "zero" if kind is None else "a pure number" if kind == NUMBER else si_text(kind)
+    return phrase("zero") if kind is None else phrase("a pure number") if kind == NUMBER else si_text(kind)
 
 
 def angle_hint(found: Found, wanted: Found, part: str = "…") -> str:

@@ -10,6 +10,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.design.design_choices import DesignChoice
 from diecut_report.design.design_inputs import DesignInput
 from diecut_report.errors import Problem
+from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import localised, said
 from diecut_report.live.session import LiveMachine, LiveSession
 from diecut_report.quantities.plausible import plausible
@@ -68,7 +69,14 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
         ]
     }
     if instance.mechanism is None:
-        return own | {"name": name, "title": PRESS, "checks": [], "outputs": [], "figures": [], "skipped": False}
+        return own | {
+            "name": name,
+            "title": said(phrase("Press")),
+            "checks": [],
+            "outputs": [],
+            "figures": [],
+            "skipped": False,
+        }
     is_there = name in run.calculations
     before = {check["id"]: check for check in start.run.checks.get(name, ())}
     return own | {

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import json
 from collections.abc import Iterable, Sequence
+from contextlib import ExitStack
 from dataclasses import dataclass, replace
 from pathlib import Path
 
@@ -64,7 +65,9 @@ def run(
     study = _asked(file, directory, where)
     _refuse_huge(study, agreed)
     search = run_search(study, directory, where, resume=resume, tell=shown)
-    with search.store.lock(), opened(directory) as stored:
+    with search.store.lock(), ExitStack() as open_ones:
+        with in_its_language(study, where):  # columns have their titles in the language of the documents
+            stored = open_ones.enter_context(opened(directory))
         shown.doing(phrase("the front, machine by machine"))
         found = result(study, search.store, stored, where)
         chosen = _chosen(found, reports)

@@ -1,7 +1,7 @@
 """Quantities with units: texts such as "21 kN" to SI numbers and back, with the dimension checked.
 
 Everyday units come from `units_table.json`, which `tools/make_units_table.py` makes from pint. Any other unit is
-read by pint itself, which is imported only then (its registry costs about half a second).
+read by pint itself, which is imported only then.
 The plane angle counts as a dimension of its own here, so that an angular speed (rpm, rad/s) and a frequency (1/min,
 Hz) are different kinds.
 """
@@ -15,14 +15,12 @@ from dataclasses import dataclass
 from decimal import Decimal
 from functools import cache, lru_cache
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import Any
 
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_QUANTITY
+from diecut_report.quantities.pint_registry import pint_registry
 from diecut_report.quantities.unit_spelling import normalised
-
-if TYPE_CHECKING:
-    import pint
 
 TABLE_FILE = Path(__file__).with_name("units_table.json")
 DIMENSIONS = ("mass", "length", "time", "temperature", "current", "substance", "luminosity", "angle")
@@ -167,19 +165,6 @@ def _si_text(kind: Kind) -> str:
 
 def _power(base: str, exponent: float) -> str:
     return base if exponent == 1 else f"{base}**{exponent:g}"
-
-
-@cache
-def pint_registry() -> pint.UnitRegistry[Any]:
-    """Pint's own definitions with the radian as a base unit, in exact fractions."""
-    from fractions import Fraction
-
-    import pint
-
-    folder = Path(pint.__file__).parent
-    constants = (folder / "constants_en.txt").read_text(encoding="utf-8")
-    text = (folder / "default_en.txt").read_text(encoding="utf-8").replace("@import constants_en.txt", constants)
-    return pint.UnitRegistry(text.replace("radian = []", "radian = [angle]").splitlines(), non_int_type=Fraction)
 
 
 def measure_with_pint(text: str) -> tuple[float, Kind] | None:

@@ -30,6 +30,7 @@ from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
+from diecut_report.results.form.version import FORM_VERSION, SCHEMA_VERSION
 from diecut_report.results.mechanism import worst
 from diecut_report.results.press_run import Run
 from diecut_report.results.reference_origins import with_origins
@@ -48,7 +49,8 @@ def document(run: Run) -> Data:
     mechanisms = with_origins({name: _mechanism_data(run, name) for name in config.instances if name != PRESS})
     comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
     made: Data = {
-        "schema_version": 1,
+        "schema_version": SCHEMA_VERSION,
+        "form_version": FORM_VERSION,
         "program": {"name": "diecut-report", "version": __version__, **_code(config)},
         "config": {
             "file": printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),

@@ -111,7 +111,7 @@ def run(
         shown.doing(phrase("summary"))
         told += export(outcome.store, formats)
         with in_its_language(known, where):
-            summarise(directory)
+            summarise(directory, discovery=_discovery(where))
     return replace(
         outcome, broken_reports=broken, notes=(*filter(None, [known.sample.note]), *told, *untranslated(known, where))
     )

@@ -61,6 +61,38 @@ def test_a_folder_with_an_init_is_a_kind_with_modules_of_its_own(tmp_path: Path)
     assert Discovery([tmp_path]).mechanism("gadget").title == "A gadget"
 
 
+def project(folder: Path, title: str, name: str = "bar_chain", inner: str = "words") -> Path:
+    """A project whose package imports its own modules by its name, as where it is installed."""
+    package = folder / "src" / name
+    package.mkdir(parents=True)
+    (folder / "pyproject.toml").write_text(f"[project.entry-points.'{discovery.GROUP}']\nbar_chain = '{name}'\n")
+    (package / "words.py").write_text(f"TITLE = {title!r}\n")
+    (package / "__init__.py").write_text(
+        f"from diecut_report.api import Inputs, Mechanism\nfrom {name}.{inner} import TITLE\n"
+        "MECHANISM = Mechanism(kind='bar_chain', version='1', title=TITLE, summary='', inputs=Inputs, chapters=())\n"
+    )
+    return folder
+
+
+def test_a_package_that_is_not_installed_imports_its_modules_by_its_name(tmp_path: Path) -> None:
+    """Also where another project has one of the same name."""
+    for title in ("First", "Second", "First"):
+        folder = tmp_path / title
+        folder = folder if folder.is_dir() else project(folder, title)
+        assert Discovery([folder]).mechanism("bar_chain").title == title
+
+
+def test_a_package_that_breaks_is_told_and_leaves_nothing(tmp_path: Path) -> None:
+    with pytest.raises(PluginError, match=r"No module named 'bar_chain\.verbs' \(__init__\.py:2\)"):
+        Discovery([project(tmp_path, "A", inner="verbs")]).mechanism("bar_chain")
+    assert not [name for name in sys.modules if name.startswith("bar_chain")]
+
+
+def test_a_package_with_the_name_of_one_that_is_loaded_is_told(tmp_path: Path) -> None:
+    with pytest.raises(PluginError, match=r"another package json is loaded already, .*uninstall it, or give this one"):
+        Discovery([project(tmp_path, "A", name="json")]).mechanism("bar_chain")
+
+
 def test_files_that_begin_with_an_underscore_are_no_kinds(tmp_path: Path) -> None:
     (tmp_path / "_shared.py").write_text("raise RuntimeError\n")
     assert Discovery([tmp_path]).origins.keys() == Discovery().origins.keys()

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from dataclasses import replace
 from pathlib import Path
 from typing import Any, ClassVar, Literal
@@ -48,6 +49,7 @@ from diecut_report.api import (
 )
 from diecut_report.contract.figures import Figure
 from diecut_report.declaration import faults
+from diecut_report.languages.speech import said, speaking
 from diecut_report.testing import check_mechanism
 
 
@@ -332,7 +334,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(figures=(plot(unit="mm"),)),
         "figure turn: draws torque, in N*m, on an axis in mm",
     ),
-    "a number as a curve": (made(figures=(plot("moment"),)), "draws moment, which is number; a curve is wanted there"),
+    "a number as a curve": (
+        made(figures=(plot("moment"),)),
+        "draws moment, which is a number; a curve is wanted there",
+    ),
     "an unknown curve": (
         made(figures=(plot("torqe"),)),
         "figure turn: draws torqe, which nothing gives (did you mean 'torque'?)",
@@ -430,6 +435,15 @@ def test_a_mistake_is_told_with_its_place(name: str) -> None:
     with pytest.raises(AssertionError) as caught:
         check_mechanism(mechanism)
     assert words in str(caught.value)
+
+
+@pytest.mark.parametrize("name", FAULTS)
+def test_a_mistake_is_told_in_ukrainian(name: str) -> None:
+    """Only names of the contract, ids and what was written stay as they are: no two English words in a row."""
+    with speaking("uk"):
+        told = [said(str(fault)) for fault in faults(FAULTS[name][0])]
+    assert [line for line in told if re.search(r"[a-z]{2,} [a-z]{2,}", line)] == []
+    assert all(re.search("[а-яіїєґ]{3}", line) for line in told)
 
 
 def test_a_place_is_the_line_of_the_author_and_is_kept() -> None:

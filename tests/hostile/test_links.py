@@ -118,7 +118,7 @@ def test_a_link_among_what_a_killed_run_left_is_removed_alone(tmp_path: Path, se
 def test_a_folder_of_a_study_that_is_a_link_is_refused(
     tmp_path: Path, secret: Path, capfd: pytest.CaptureFixture[str], monkeypatch: pytest.MonkeyPatch, name: str
 ) -> None:
-    monkeypatch.setattr("diecut_report.study.command.summarise", lambda _: None)
+    monkeypatch.setattr("diecut_report.study.command.summarise", lambda *_, **__: None)
     folder = tmp_path / "out"
     saved(tmp_path, BASE)
     study = saved(tmp_path, STUDY, "study.yaml")

@@ -33,7 +33,7 @@ def summary(tmp_path_factory: pytest.TempPathFactory) -> str:
         study = saved(folder, STUDY, "study.yaml")
         command = ["batch", study, "-o", folder / "out", "--jobs", "1", "--plugins", GOOD, "--quiet"]
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(study_command, "summarise", lambda out: summarise(out, ["html"]))
+            patch.setattr(study_command, "summarise", lambda out, discovery: summarise(out, ["html"], discovery))
             assert main([*map(str, command)]) == 0
 
     return (once(tmp_path_factory, "small_summary", make) / "out" / "summary.html").read_text("utf-8")

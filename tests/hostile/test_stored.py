@@ -23,7 +23,7 @@ Capture = pytest.CaptureFixture[str]
 @pytest.fixture
 def no_summary(monkeypatch: pytest.MonkeyPatch) -> None:
     """Studies are left without their summary, which takes seconds."""
-    monkeypatch.setattr("diecut_report.study.command.summarise", lambda _: None)
+    monkeypatch.setattr("diecut_report.study.command.summarise", lambda *_, **__: None)
 
 
 def run(*arguments: object) -> int:

@@ -25,7 +25,7 @@ def test_a_value_that_is_put_into_a_tree_is_judged_as_one_that_is_read(text: str
 def test_a_stored_study_brings_no_control_characters_into_a_report(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
-    monkeypatch.setattr("diecut_report.study.command.summarise", lambda _: None)
+    monkeypatch.setattr("diecut_report.study.command.summarise", lambda *_, **__: None)
     saved(tmp_path, BASE)
     out = tmp_path / "out"
     command = ["batch", saved(tmp_path, STUDY, "study.yaml"), "-o", out, "--jobs", 1, "--plugins", GOOD, "--quiet"]

@@ -24,10 +24,21 @@ REPORTING = {
 }  # these take a message among others
 MAKING = {"Phrase", "phrase", "say"}
 FAULTS = (AssertionError, AttributeError, IndexError, RuntimeError, TypeError, ValueError)
+COUNTING = {
+    "Counted",
+    "joined",
+    "named",
+    "DeclaredText",
+}  # the last one's second text is for whoever translates the first
+FAULT_NAMES = {each.__name__ for each in FAULTS}
+NOT_TOLD = {"another text", "curve input", "list of parts"}  # what the check of declarations tells things apart by
+TEMPLATES = {"words", "told"}  # names of templates that a phrase of the same function fills
 WORDS = re.compile(r"[A-Za-z]{2,}[,;:]? [a-z]{2,}")
 FILES = sorted(ROOT.rglob("*.py"))
-OF_AUTHORS = ("testing",)
-"""Packages that speak to the tests of plugins' authors alone, in English."""
+OF_TESTS = ("testing/found_values.py", "testing/printed_values.py", "testing/single_machine.py")
+"""What the tests of plugins' authors call, which speaks to them alone, in English."""
+OF_AUTHORS = ("declaration", "formula_checks", "testing")
+"""Packages in which texts are yielded rather than raised: every text with words in them is part of a phrase."""
 OF_PROGRAM = {  # faults of the program itself, or of a plugin's code, which nobody mends by typing something else
     "__init__.py": 1, "errors.py": 1, "conditions/formula_tree.py": 1, "conditions/numpy_emitter.py": 3, "engine/steps/run.py": 2,
     "mechanics/motion_laws.py": 1, "mechanics/timing/lines.py": 1, "mechanics/timing/motor_slip.py": 1, "report/expression_printer.py": 1,
@@ -98,7 +109,7 @@ def test_errors_are_made_of_phrases() -> None:
     plain: dict[str, list[tuple[str, str]]] = {}
     for file in FILES:
         name = file.relative_to(ROOT).as_posix()
-        if not name.startswith(OF_AUTHORS) and (found := list(fixed(file))):
+        if name not in OF_TESTS and (found := list(fixed(file))):
             plain[name] = found
     of_program = {
         name: len(found)
@@ -125,3 +136,30 @@ def test_a_plain_text_is_seen(tmp_path: Path, body: str) -> None:
         'def told(a):\n    words = Phrase("the {a} is wrong", a=a)\n    raise UserError(Problem(words))\n', "utf-8"
     )
     assert list(fixed(file)) == []
+
+
+def test_what_authors_are_told_is_made_of_phrases() -> None:
+    """Of a plugin's declarations and of the rules of its contract, which packages yield one by one."""
+    plain: dict[str, list[str]] = {}
+    for file in FILES:
+        name = file.relative_to(ROOT).as_posix()
+        if name.startswith(OF_AUTHORS) and name not in OF_TESTS:
+            found = [text for text in _plain(ast.parse(file.read_text("utf-8"))) if text not in NOT_TOLD]
+            plain |= {name: found} if found else {}
+    assert plain == {}
+
+
+def _plain(node: ast.AST) -> Iterator[str]:
+    """The texts with words that no phrase is made of, apart from docstrings and errors of the program itself."""
+    match node:
+        case ast.Expr(value=ast.Constant()) | ast.Assert():
+            return
+        case ast.Call(func=function) if _name(function) in MAKING | COUNTING | FAULT_NAMES:
+            return
+        case ast.Assign(targets=[ast.Name(id=name)], value=ast.Constant() | ast.IfExp()) if name in TEMPLATES:
+            return
+        case ast.Constant() | ast.JoinedStr():
+            yield from _texts(node)
+            return
+    for each in ast.iter_child_nodes(node):
+        yield from _plain(each)

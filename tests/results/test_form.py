@@ -17,16 +17,20 @@ from pydantic import ValidationError
 import diecut_report as dr
 from diecut_report.cli.main import main
 from diecut_report.results.form.document import ResultsFileKeys
-from diecut_report.results.form.schema import VERSION, results_schema
+from diecut_report.results.form.schema import results_schema
+from diecut_report.results.form.version import FORM_VERSION
 from tests.configs import BROKEN, EXAMPLES, GOOD, HEAD, saved
 from tests.processes import Example
 
 ROOT = Path(__file__).parents[2]
 FORMS = {
-    "1.0": "6b4700b3ae474658167d0cbeb80029264d5dfe15786a08fd0686ca5d5b19cad6",
-    "1.1": "f825b321d6a47917eb4aa03ab191ce88a5fb5b132ee609d46c25a06decd8dd40",
+    "1.0": "643c70b9afd7eb4dfda59fdca761942c480102a7079b696f82d9cac008d82309",
+    "1.1": "fba9db5e89f3bf52b119bfa7746322b3397677eb6154467acb84157e48ee0ee2",
+    "1.2": "6b4700b3ae474658167d0cbeb80029264d5dfe15786a08fd0686ca5d5b19cad6",
+    "1.3": "272751081a5f791da54d5fae6163f047f1e3783c872cbe56063785fe54da0657",
+    "1.4": "71261d3dd042161ff3688a0b85d1cba09debdf49b5b964a87c0c97701de1f9af",
 }
-"""The hashes of the forms so far, without their words. Where yours is another: raise VERSION as its comment tells, and add it here."""
+"""The hashes of the forms so far, without their words. Where yours is another: raise FORM_VERSION as its comment tells, and add it here."""
 ODD = (
     HEAD
     + """\
@@ -86,11 +90,18 @@ def test_the_schema_is_one_and_the_command_gives_it(capfd: pytest.CaptureFixture
     jsonschema.Draft202012Validator.check_schema(results_schema())
     assert main(["schema", "results"]) == 0
     assert json.loads(capfd.readouterr().out) == results_schema()
-    assert results_schema()["$id"] == f"urn:diecut-report:results:{VERSION}"
+    assert results_schema()["$id"] == f"urn:diecut-report:results:{FORM_VERSION}"
 
 
 def test_a_form_keeps_its_version() -> None:
-    assert sha256(json.dumps(without_words(results_schema()), sort_keys=True).encode()).hexdigest() == FORMS[VERSION]
+    assert (
+        sha256(json.dumps(without_words(results_schema()), sort_keys=True).encode()).hexdigest() == FORMS[FORM_VERSION]
+    )
+
+
+def test_what_each_form_added_is_told() -> None:
+    tool = runpy.run_path(str(ROOT / "tools" / "make_results_page.py"))
+    assert list(tool["ADDED"]) == list(FORMS) and list(FORMS)[-1] == FORM_VERSION
 
 
 def test_the_page_is_made_from_the_form() -> None:
@@ -128,6 +139,26 @@ def test_what_a_report_alone_tells_meets_the_schema(tmp_path: Path) -> None:
           "--previous", str(results.save(tmp_path / "old.json"))])  # fmt: skip
     found = json.loads((tmp_path / "press.json").read_text("utf-8"))
     assert found["summary"]["moves"] and "changes" in found
+    assert faults(found) == []
+
+
+def test_the_influence_of_inputs_meets_the_schema(tmp_path: Path) -> None:
+    text = ODD.split("  b: ")[0] + "report: {influence: {of: [a.moment]}}\n"
+    main(
+        [
+            "report",
+            str(saved(tmp_path, text)),
+            "-o",
+            str(tmp_path),
+            "--format",
+            "json",
+            "--plugins",
+            str(GOOD),
+            "--quiet",
+        ]
+    )
+    found = json.loads((tmp_path / "press.json").read_text("utf-8"))
+    assert found["influence"]["tornados"] and found["report"]["influence"]["of"] == ["a.moment"]
     assert faults(found) == []
 
 

@@ -14,6 +14,7 @@ import scipy.stats
 from pypdf import PdfReader
 
 from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
 from diecut_report.study.analysis.query import variants
 from diecut_report.study.analysis.stored_variants import STATUSES, opened
@@ -55,7 +56,7 @@ def large_summary(large: Path) -> contents.Summary:
 
 def summary_of(folder: Path) -> contents.Summary:
     with opened(folder) as stored:
-        return contents.content(stored)
+        return contents.content(stored, Discovery())
 
 
 # --- numbers ---------------------------------------------------------------------------------------------------------

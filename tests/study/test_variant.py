@@ -60,7 +60,7 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
         saved(folder, BASE)
         study = saved(folder, STUDY, "study.yaml")
         with pytest.MonkeyPatch.context() as patch:
-            patch.setattr(command, "summarise", lambda _: None)
+            patch.setattr(command, "summarise", lambda *_, **__: None)
             patch.setattr(variant_reports, "FORMATS", ("json",))
             assert main(["batch", str(study), "-o", str(folder / "out"), "--plugins", str(SHARES), "--quiet"]) in (0, 1)
 

@@ -8,6 +8,7 @@ from pathlib import Path
 
 import pytest
 
+from tests.cli.test_cli import run
 from tests.shared import once
 from tests.third_party.installed import EXAMPLES, install, run_with
 
@@ -64,3 +65,8 @@ def test_its_study_runs_and_is_told_of(folder: Path, tmp_path: Path) -> None:
     state = json.loads((tmp_path / "study" / "study.json").read_text("utf-8"))
     assert state["counts"]["variants"] == 30 and "error" not in state["counts"] and not state["slow"]
     assert "gripper_chain" in command(folder, "plugins").stdout
+
+
+def test_its_project_folder_serves_without_being_installed(capfd: pytest.CaptureFixture[str]) -> None:
+    assert run("calc", CONFIG, "--plugins", PACKAGE) == 0
+    assert json.loads(capfd.readouterr().out)["mechanisms"]["transport"]["kind"] == "gripper_chain"

@@ -11,10 +11,13 @@ from matplotlib.backends.backend_agg import FigureCanvasAgg
 
 from diecut_report.report.figures.by_type import build
 from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import load_fonts, style
+from diecut_report.report.figures.style import canvas, load_fonts, plain, style, text_size
 from diecut_report.report.i18n import Catalogue
 
 DENSITY = 200  # points an inch
+
+
+MARGIN, LARGEST = 0.9, 14.0  # share of a picture that a text may fill, points of its letters
 
 
 class Raster(NamedTuple):
@@ -36,4 +39,18 @@ def raster(
         content = io.BytesIO()
         drawn.savefig(content, format="png", dpi=DENSITY, metadata={"Software": None}, facecolor="white")
         width, height = (float(side) * 72 for side in drawn.get_size_inches())
+    return Raster(content.getvalue(), width, height)
+
+
+def raster_of_text(text: str, width: float, height: float) -> Raster:
+    """Return a line of text as a picture of a size in points, its letters as large as fit."""
+    load_fonts()
+    with mpl.rc_context(style("text")):  # type: ignore[arg-type]  # a plain dictionary is one too
+        drawn = canvas(width, height)
+        wide, high = text_size(plain(text), LARGEST)
+        size = LARGEST * min(1.0, MARGIN * width / max(wide, 1.0), MARGIN * height / max(high, 1.0))
+        drawn.text(0.5, 0.5, plain(text), size=size, ha="center", va="center")
+        FigureCanvasAgg(drawn)
+        content = io.BytesIO()
+        drawn.savefig(content, format="png", dpi=DENSITY, metadata={"Software": None}, facecolor="white")
     return Raster(content.getvalue(), width, height)

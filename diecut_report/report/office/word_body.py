@@ -165,11 +165,14 @@ class WordBody:
         if drawing is None:
             self.say(bold(self.words["not_drawn"]) + run(" ") + rich(prose(self.failed(number))), keep=True)
         else:
-            self._drawn += 1
             told = " ".join(filter(None, (f"{title}.", caption)))
-            inner = picture(self._drawn, self.embed(drawing.content), drawing.width, drawing.height, told)
-            self.say(inner, keep=True)
+            self.say(self.drawn(drawing, told), keep=True)
         self.caption("figure", number, bold(f"{title}.") + (run(" ") + rich(prose(caption)) if caption else ""))
+
+    def drawn(self, drawing: Raster, told: str, vector: str = "") -> Inline:
+        """A picture in its natural size; ``vector`` names the same as SVG in the file."""
+        self._drawn += 1
+        return picture(self._drawn, self.embed(drawing.content), drawing.width, drawing.height, told, vector)
 
     def item(self, item: Item) -> None:
         """One step of a calculation."""

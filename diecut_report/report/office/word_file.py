@@ -6,12 +6,14 @@ from functools import partial
 from io import BytesIO
 from typing import TYPE_CHECKING
 
+from diecut_report.pictures import SVG
 from diecut_report.report.carried import DATE
 from diecut_report.report.context import Material
 from diecut_report.report.office import word_chapters as chapters
 from diecut_report.report.office import word_front as front
 from diecut_report.report.office.archive import undated
 from diecut_report.report.office.word_body import WordBody
+from diecut_report.report.office.word_logo import logo
 from diecut_report.report.office.word_styles import describe, parsed, set_page, set_styles
 from diecut_report.report.scope import BRIEF, FULL
 
@@ -30,6 +32,8 @@ def word_file(material: Material) -> bytes:
     describe(made, document, DATE)
     _without_thumbnail(made)
     body = WordBody(document.words, material.rasters, material.why_not_drawn, partial(_embedded, made))
+    if found := material.results["config"].get("logo"):
+        logo(body, found, document.project["organisation"], partial(_embedded_svg, made))
     _write(body, material)
     _fill(made, body)
     content = BytesIO()
@@ -62,6 +66,16 @@ def _embedded(made: WordDocument, picture: bytes) -> str:
     """Put a picture into the file; return what names it there."""
     relation, _ = made.part.get_or_add_image(BytesIO(picture))
     return relation
+
+
+def _embedded_svg(made: WordDocument, content: bytes) -> str:
+    """Put an SVG into the file, of which python-docx knows nothing; return what names it there."""
+    from docx.opc.constants import RELATIONSHIP_TYPE
+    from docx.opc.packuri import PackURI
+    from docx.opc.part import Part
+
+    part = Part(PackURI("/word/media/logo.svg"), SVG, content, made.part.package)
+    return made.part.relate_to(part, RELATIONSHIP_TYPE.IMAGE)
 
 
 def _fill(made: WordDocument, body: WordBody) -> None:

@@ -19,6 +19,10 @@ SPACES = {
     "a": "http://schemas.openxmlformats.org/drawingml/2006/main",
     "pic": "http://schemas.openxmlformats.org/drawingml/2006/picture",
 }
+SVG_SPACE, SVG_EXTENSION = (
+    "http://schemas.microsoft.com/office/drawing/2016/SVG/main",
+    "{96DAC541-7B7A-43D3-8B79-37D633B846F1}",
+)
 TEXT_WIDTH = 9638  # twentieths of a point: A4 with margins of 20 mm
 EMU = 12700  # to a point
 WIDEST, HIGHEST = TEXT_WIDTH / 20, 620.0  # of a picture, points
@@ -146,8 +150,11 @@ def _row(cells: Sequence[Inline], widths: Sequence[int], aligns: Sequence[str], 
     return f"<w:tr><w:trPr><w:cantSplit/>{head}</w:trPr>{''.join(made)}</w:tr>"
 
 
-def picture(number: int, relation: str, width: float, height: float, told: str) -> Inline:
-    """A picture of a size in points, bounded by the page; ``told`` is what it says to those who do not see it."""
+def picture(number: int, relation: str, width: float, height: float, told: str, vector: str = "") -> Inline:
+    """A picture of a size in points, bounded by the page; ``told`` is what it says to those who do not see it.
+
+    ``vector`` names the same as SVG, which programs show that know it.
+    """
     scale = min(1.0, WIDEST / width, HIGHEST / height)
     extent = f'cx="{round(width * scale * EMU)}" cy="{round(height * scale * EMU)}"'
     named = f'id="{number}" name="Figure {number}" descr={attribute(told)}'
@@ -155,7 +162,15 @@ def picture(number: int, relation: str, width: float, height: float, told: str) 
         f'<w:r><w:drawing><wp:inline distT="0" distB="0" distL="0" distR="0"><wp:extent {extent}/><wp:docPr {named}/>'
         '<wp:cNvGraphicFramePr><a:graphicFrameLocks noChangeAspect="1"/></wp:cNvGraphicFramePr>'
         f'<a:graphic><a:graphicData uri="{SPACES["pic"]}"><pic:pic><pic:nvPicPr><pic:cNvPr {named}/><pic:cNvPicPr/></pic:nvPicPr>'
-        f'<pic:blipFill><a:blip r:embed="{relation}"/><a:stretch><a:fillRect/></a:stretch></pic:blipFill>'
+        f'<pic:blipFill><a:blip r:embed="{relation}">{_vector(vector)}</a:blip><a:stretch><a:fillRect/></a:stretch></pic:blipFill>'
         f'<pic:spPr><a:xfrm><a:off x="0" y="0"/><a:ext {extent}/></a:xfrm><a:prstGeom prst="rect"><a:avLst/></a:prstGeom></pic:spPr>'
         "</pic:pic></a:graphicData></a:graphic></wp:inline></w:drawing></w:r>"
     )
+
+
+def _vector(relation: str) -> str:
+    """What names an SVG beside the picture of points (Microsoft's extension of 2016)."""
+    if not relation:
+        return ""
+    named = f'<asvg:svgBlip xmlns:asvg="{SVG_SPACE}" r:embed="{relation}"/>'
+    return f'<a:extLst><a:ext uri="{SVG_EXTENSION}">{named}</a:ext></a:extLst>'

@@ -84,6 +84,7 @@ class ReportKeys(ClosedKeys):
     frame: Literal["plain", "iso7200", "dstu2104"] = always("Frame and title block of its sheets.")
     logo: str = sometimes("The file of the logo.")
     units: dict[str, str] = sometimes("Units in which quantities are shown, by dimension or by MECHANISM.QUANTITY.")
+    influence: dict[str, Any] = sometimes("What the chapter about the influence of inputs is asked for.")
     only: list[str] = sometimes("The mechanisms that alone are shown.")
     template_sha256: str = sometimes("The SHA-256 of a firm's own templates.")
 
@@ -166,7 +167,8 @@ class WordingKeys(ClosedKeys):
 class ResultsFileKeys(ClosedKeys):
     """The results of a machine. Numbers are SI floats in their shortest exact form, never NaN or infinite; texts are English."""
 
-    schema_version: Literal[1] = always("The version of this form.")
+    schema_version: Literal[1] = always("The first number of the version of this form.")
+    form_version: str = always("The version of this form, such as `1.3`; results before 1.3 do not tell it.")
     program: ProgramKeys = always("What calculated.")
     config: ConfigKeys = always("The configuration that was calculated.")
     project: ProjectKeys = always("What the title block prints.")
@@ -178,6 +180,9 @@ class ResultsFileKeys(ClosedKeys):
     mechanisms: dict[str, MechanismKeys] = always("The mechanisms by name, in the order of the configuration.")
     comparisons: dict[str, ComparisonKeys] = sometimes("Comparisons between mechanisms, by kind and mechanisms.")
     comparisons_left_out: LeftOutKeys = sometimes("Comparisons that are not made.")
+    influence: dict[str, Any] = sometimes(
+        "Of a report with `report: {influence: …}`: what moves what, as its chapter tells it."
+    )
     changes: dict[str, Any] = sometimes(
         "Of a report with `--previous`: what changed (the form of `diff --format json`)."
     )

@@ -9,11 +9,10 @@ from pydantic.json_schema import GenerateJsonSchema
 from pydantic_core import core_schema
 
 from diecut_report.results.form.document import ResultsFileKeys
+from diecut_report.results.form.version import FORM_VERSION
 
 Schema = dict[str, Any]
 DRAFT = "https://json-schema.org/draft/2020-12/schema"
-VERSION = "1.1"
-"""The first number is ``schema_version`` of the file: it rises when a key changes its name or meaning. The second rises with each addition."""
 SUFFIX = "Keys"  # of the classes
 
 
@@ -28,7 +27,11 @@ class _WithoutDefaults(GenerateJsonSchema):
 def results_schema() -> Schema:
     """Return the JSON Schema of the results file."""
     made = ResultsFileKeys.model_json_schema(schema_generator=_WithoutDefaults)
-    head = {"$schema": DRAFT, "$id": f"urn:diecut-report:results:{VERSION}", "title": "Results file of diecut-report"}
+    head = {
+        "$schema": DRAFT,
+        "$id": f"urn:diecut-report:results:{FORM_VERSION}",
+        "title": "Results file of diecut-report",
+    }
     return head | {key: value for key, value in _named(made).items() if key != "title"}
 
 

@@ -49,10 +49,16 @@ def variant_config(
 
 
 def variant_of(
-    stored: Stored, variant: int, discovery: Discovery, name: str, warn: Callable[[str], None] | None = None
+    stored: Stored,
+    variant: int,
+    discovery: Discovery,
+    name: str,
+    warn: Callable[[str], None] | None = None,
+    *,
+    in_error: bool = False,
 ) -> Tree:
-    """Return the configuration of a variant of an opened folder, as `variant_config` does."""
-    found = _variant(stored, variant, discovery)
+    """Return the configuration of a variant of an opened folder, as `variant_config` does; also of one that is ``in_error``."""
+    found = _variant(stored, variant, discovery, in_error=in_error)
     base = found.base
     values = {place: as_config_value(value, column) for place, (column, value) in found.values.items()}
     values |= dict(_named(base, variant, found.study))
@@ -72,8 +78,9 @@ def stored_variant(directory: Path, variant: int, discovery: Discovery) -> Store
         return _variant(stored, variant, discovery)
 
 
-def _variant(stored: Stored, variant: int, discovery: Discovery) -> StoredVariant:
-    _refuse_error(stored, variant)
+def _variant(stored: Stored, variant: int, discovery: Discovery, *, in_error: bool = False) -> StoredVariant:
+    if not in_error:
+        _refuse_error(stored, variant)
     row = _row(stored, variant)
     ((status, governing),) = stored.rows("SELECT status, governing FROM v WHERE variant = ?", [variant])
     description = stored.description

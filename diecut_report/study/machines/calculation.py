@@ -12,6 +12,7 @@ from typing import Any
 
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
+from diecut_report.config.study_files import is_study
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase, phrase
@@ -92,11 +93,6 @@ def _why_no_configuration(path: Path) -> str:
     if is_study(tree):
         return phrase("it is a study, which batch calculates")
     return phrase("it has no key mechanisms, and so is not a configuration")
-
-
-def is_study(tree: Tree) -> bool:
-    """Return whether a file is a study rather than a configuration."""
-    return isinstance(tree.data, dict) and "base" in tree.data and "mechanisms" not in tree.data
 
 
 def machines(

@@ -5,13 +5,16 @@ from __future__ import annotations
 from collections.abc import Sequence
 from pathlib import Path
 
+from diecut_report.config.discovery import Discovery
 from diecut_report.study.analysis.stored_variants import opened
 
 FORMATS = ("html", "pdf")
 
 
-def summarise(directory: Path, formats: Sequence[str] = FORMATS) -> list[Path]:
+def summarise(directory: Path, formats: Sequence[str] = FORMATS, discovery: Discovery | None = None) -> list[Path]:
     """Write ``summary.html`` and ``summary.pdf`` into the folder of a run, from what is stored there; gives the files.
+
+    ``discovery`` knows the plugins that the variants were calculated by.
 
     UserError in words where nothing is stored or the files cannot be written; OSError where the system has no pango (PDF).
     """
@@ -20,7 +23,7 @@ def summarise(directory: Path, formats: Sequence[str] = FORMATS) -> list[Path]:
     from diecut_report.study.summary.content import content  # with matplotlib
 
     with opened(directory) as stored:
-        found = content(stored)
+        found = content(stored, discovery or Discovery())
     from diecut_report.study.summary.pages import page, sheets  # with WeasyPrint
 
     contents = {"html": lambda: page(found).encode(), "pdf": lambda: sheets(found)}

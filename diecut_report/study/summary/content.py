@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.config import yaml_tree
+from diecut_report.config.discovery import Discovery
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import localised, said, say, say_counted
 from diecut_report.report.number_format import number
@@ -98,7 +99,7 @@ class Summary:
         )
 
 
-def content(stored: Stored) -> Summary:
+def content(stored: Stored, discovery: Discovery) -> Summary:
     """Return the summary of the stored variants."""
     data.prepare(stored)
     states = data.statuses(stored)
@@ -140,7 +141,7 @@ def content(stored: Stored) -> Summary:
         matrices=list(matrix.matrices(stored, groups, [row.check for row in matrix.telling(made)])),
         is_whole=total <= matrix.ALL,
         spreads=ranges[:RANGES], more_spreads=max(0, len(ranges) - RANGES),
-        reasons=data.reasons(stored) if states["error"] else [],
+        reasons=data.reasons(stored, discovery) if states["error"] else [],
         reports=best.reports(stored, reports[: matrix.LISTED]), more_reports=max(0, len(reports) - matrix.LISTED),
         front=front, best_head=[titled(column) for column in shown], best=best.best(stored, first[: matrix.BEST], shown),
         is_sobol=influence.is_saltelli(stored), ranked=ranked(found, figures) if found else None,

@@ -11,8 +11,10 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
+from diecut_report.config.discovery import Discovery
 from diecut_report.languages.speech import say
 from diecut_report.study.analysis.stored_variants import STATUSES, Stored, StoredColumn, text
+from diecut_report.study.analysis.told_reasons import told_reason
 from diecut_report.study.summary.quantity_names import WORST, is_utilisation
 
 Array = NDArray[Any]
@@ -212,14 +214,17 @@ def _place(column: StoredColumn, low: float, high: float, cells: int) -> str:
     return f"CAST(greatest(0, least({at}, {cells - 1})) AS BIGINT)"
 
 
-def reasons(stored: Stored) -> list[Reason]:
-    """Return why variants are in error, without the numbers that differ, the most frequent first."""
+def reasons(stored: Stored, discovery: Discovery) -> list[Reason]:
+    """Return why variants are in error, without the numbers that differ, the most frequent first, in the language that is spoken."""
     alike = r"regexp_replace(error, '[-+]?[0-9]+[.]?[0-9]*([eE][-+]?[0-9]+)?', '…', 'g')"
     sql = (
         f"SELECT arg_min(error, variant), count(*) AS n, min(variant) FROM v WHERE status = 'error' "
         f"GROUP BY {alike} ORDER BY n DESC, 3 LIMIT {REASONS}"
     )
-    return [Reason(told or say("no reason was given"), count, example) for told, count, example in stored.rows(sql)]
+    return [
+        Reason(told_reason(stored, example, told, discovery) if told else say("no reason was given"), count, example)
+        for told, count, example in stored.rows(sql)
+    ]
 
 
 def sample(stored: Stored, columns: Sequence[StoredColumn], most: int) -> SampledVariants:
