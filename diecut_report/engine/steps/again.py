@@ -109,11 +109,14 @@ def _of_trials(value: Any, trials: Array) -> Any:
 def _alike(changed: Mapping[str, Any], count: int) -> Iterator[tuple[Array, dict[str, Any]]]:
     """The trials that have the same texts, with these."""
     texts = {name: value for name, value in changed.items() if faults.is_text(value)}
+    if not texts:
+        yield np.arange(count), {}
+        return
     each = list(
         zip(*(np.broadcast_to(np.asarray(value, dtype=object), (count,)) for value in texts.values()), strict=True)
     )
     trials: dict[tuple[Any, ...], list[int]] = {}
-    for trial, said in enumerate(each or [()] * count):
+    for trial, said in enumerate(each):
         trials.setdefault(said, []).append(trial)
     yield from ((np.array(own), dict(zip(texts, said, strict=True))) for said, own in trials.items())
 
