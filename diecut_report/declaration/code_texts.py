@@ -15,8 +15,8 @@ JOINING = re.compile(r"[\s,;]*(?:and|or)[\s,;]*")
 LABELS = {"label": 1, "mark": 2, "level": 1, "vertical": 1, "line": 2, "fill": 2, "point": 2, "arrow": 3, "dimension": 3, "phrase": 0,
           "radius_dimension": 3, "box": 3}  # fmt: skip
 """Functions that draw, each with the place of its words; and that which marks a text."""
-SILENT_CALLS = {"ValueError", "TypeError", "KeyError", "AssertionError", "RuntimeError"}
-SILENT_KEYWORDS = {"source", "needs", "lacks", "id", "symbol", "unit", "role", "anchor"}
+SILENT_CALLS = {"Source", "ValueError", "TypeError", "KeyError", "AssertionError", "RuntimeError"}
+SILENT_KEYWORDS = {"source", "sources", "needs", "lacks", "id", "symbol", "unit", "role", "anchor"}
 
 
 def code_texts(folder: Path) -> Iterator[DeclaredText]:

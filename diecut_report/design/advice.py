@@ -18,6 +18,7 @@ from diecut_report.design.changed_machines import MOST, ChangedMachines, Enough,
 from diecut_report.design.choice_search import ChangeableChoice, changeable_choices, with_choices
 from diecut_report.design.conflicts import CheckConflict, conflict_of, scattered
 from diecut_report.design.design_inputs import DesignInput, design_input
+from diecut_report.design.may_be_freed import nothing_free, untried
 from diecut_report.design.mending import MendingPath
 from diecut_report.design.proved_machine import ProvedMachine, proved
 from diecut_report.design.typed_changes import fewer, passes, rounded
@@ -45,7 +46,8 @@ class Mended:
     """Hold what became of a machine: its checks before, the changes, the machine with them (None where none passes), why none does.
 
     ``left`` are the checks that fail at the best machine that was found, ``conflict`` those of them and others that do not hold together.
-    ``is_ended``: as many machines were calculated as were allowed, and the search is not at its end.
+    ``is_ended``: as many machines were calculated as were allowed, and the search is not at its end. ``untried`` are the texts and numbers
+    of parts that are tried only where they are named.
     """
 
     before: ProvedMachine
@@ -56,6 +58,7 @@ class Mended:
     free: int = 0
     calculated: int = 0
     is_ended: bool = False
+    untried: tuple[str, ...] = ()
 
     @property
     def size(self) -> float:
@@ -89,8 +92,7 @@ def mended(
     choices = changeable_choices(config, free, kept)
     begun = dict(advice.choices.values()) | advice.stepped
     if not inputs and not begun and not choices:
-        words = phrase("nothing is free to be changed: name more inputs by --free, or keep fewer by --keep.")
-        raise UserError(Problem(words, config.tree.file))
+        raise UserError(Problem(nothing_free(config, {*only, *kept}), config.tree.file))
     run = ChangedMachines(config, inputs, begun, Spent(most))
     path, is_ended = _searched(MendingPath(run, inputs, _start(run, inputs, advice)), choices, tell)
     run = _machines(path)
@@ -103,9 +105,9 @@ def mended(
     why = None
     if not is_ended:
         why, is_ended = _conflict(config, path, touched, tell)
-    return Mended(
-        before, (), None, tuple(path.made.failing(0)), why, len(inputs) + len(choices), run.spent.count, is_ended
-    )
+    left_out = () if free else untried(config, touched, {each.path for each in free_ones} | kept)
+    found = tuple(path.made.failing(0))
+    return Mended(before, (), None, found, why, len(inputs) + len(choices), run.spent.count, is_ended, left_out)
 
 
 def _searched(path: MendingPath, choices: Sequence[ChangeableChoice], tell: Tell) -> tuple[MendingPath, bool]:
@@ -229,4 +231,5 @@ def data(found: Mended) -> dict[str, Any]:
         "free": found.free,
         "calculated": found.calculated,
         "ended": found.is_ended,
+        "untried": list(found.untried),
     }  # fmt: skip

@@ -73,6 +73,9 @@ def _without(found: Mended) -> Iterator[Phrase]:
         yield Counted(len(found.left), one, many, checks=", ".join(found.left))
     if found.conflict:
         yield from _conflict(found.conflict)
+    if found.untried:
+        words = "not tried, as --free must name them, and then names all that may be changed: {names}"
+        yield Phrase(words, names=", ".join(found.untried))
     yield phrase("let more inputs be changed with --free, or change what the machine is made of")
 
 

@@ -7,8 +7,9 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.config.loader import Config
-from diecut_report.contract.inputs import Quantity
+from diecut_report.contract.inputs import Block, Quantity
 from diecut_report.design.changeable import is_stepped
+from diecut_report.design.design_choices import options_of, texts_of
 from diecut_report.design.design_inputs import DesignInput, design_input
 from diecut_report.errors import UserError
 from diecut_report.results.advised_changes import AdvisedChange, advised_changes
@@ -45,7 +46,8 @@ def advised(config: Config, failing: Iterable[tuple[str, Data]]) -> Advised:
     for name, check in failing:
         home = name.split(".")[0]
         instance = config.instances.get(home)
-        for change in advised_changes(str(check["message"]), instance.model.model_fields) if instance else ():
+        model = instance.model if instance else Block
+        for change in advised_changes(str(check["message"]), model.model_fields, texts_of(model)):
             _take(config, found, f"{MECHANISMS}.{home}.{change.key}", change)
     return found
 
@@ -55,7 +57,8 @@ def _take(config: Config, found: Advised, path: str, change: AdvisedChange) -> N
     try:
         asked = find_input(config, path)
         if not isinstance(asked.meta, Quantity):
-            found.choices.setdefault(path, (asked, change.value))
+            if change.value in options_of(asked):
+                found.choices.setdefault(path, (asked, change.value))
             return
         design = design_input(config, path)
         value = design.read(change.value)

@@ -10,7 +10,7 @@ from diecut_report.config.instances import slots
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Quantity
+from diecut_report.contract.inputs import Block, Quantity, meta_of
 from diecut_report.contract.texts import Text
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
 
@@ -41,7 +41,17 @@ def options_of(asked: Input) -> tuple[str, ...]:
     """Return the values that an input may have, as they are typed; none where it may have any of a range, or any text."""
     if isinstance(asked.meta, Quantity):
         return tuple(_listed(asked.meta))
-    return tuple(asked.meta.options) or tuple(_options(asked.annotation))
+    return _texts(asked.meta, asked.annotation)
+
+
+def texts_of(model: type[Block]) -> dict[str, tuple[str, ...]]:
+    """Return the texts that each key of a block may have, where these are a few."""
+    known = {name: (meta_of(model, name), field.annotation) for name, field in model.model_fields.items()}
+    return {name: _texts(meta, annotation) for name, (meta, annotation) in known.items() if isinstance(meta, Text)}
+
+
+def _texts(meta: Any, annotation: Any) -> tuple[str, ...]:
+    return tuple(meta.options) or tuple(_options(annotation))
 
 
 def _listed(meta: Quantity) -> Iterator[str]:

@@ -3,8 +3,10 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Container, Iterator
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass
+from functools import cache
+from types import MappingProxyType
 from typing import Literal
 
 QUANTITY = r"[-+]?\d[\d.]*(?:e[-+]?\d+)?(?: ?[^\s,;:()]+)?"
@@ -12,6 +14,7 @@ SET = re.compile(rf"\bset (?P<key>[a-z]\w*) to (?:(?P<sign>at least|at most) )?(
 BESIDE = re.compile(rf"\bwith an? (?P<key>[a-z]\w*) of (?P<sign>at least|at most) (?P<value>{QUANTITY})")
 CHOSEN = re.compile(r"\((?P<key>[a-z]\w*): (?P<value>true|false|[a-z]\w*)\)")
 OTHER_WAY = re.compile(r"[,;] or (?:set|leave|take|make)\b|; or ")
+NONE: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 END = re.compile(r"[.,;:]+$")
 
 Sign = Literal["at least", "at most", "to"]
@@ -26,21 +29,33 @@ class AdvisedChange:
     value: str
 
 
-def advised_changes(message: str, keys: Container[str]) -> list[AdvisedChange]:
-    """Return what a message advises by its first way, of several; nothing where it names no key of these with a value."""
-    start = SET.search(message)
-    if start is None:
+def advised_changes(
+    message: str, keys: Container[str], texts: Mapping[str, tuple[str, ...]] = NONE
+) -> list[AdvisedChange]:
+    """Return what a message advises by its first way, of several; nothing where it names no key of these with a value.
+
+    ``texts`` are the texts that keys may have, by the key: one of them may be advised as a number is.
+    """
+    ways = (SET, *(_set_text(key, own) for key, own in texts.items() if own))
+    starts = [found.start() for pattern in ways if (found := pattern.search(message))]
+    if not starts:
         chosen = CHOSEN.search(message)
         is_known = chosen is not None and chosen["key"] in keys
         return [AdvisedChange(chosen["key"], "to", chosen["value"])] if chosen and is_known else []
-    rest = message[start.start() :]
+    rest = message[min(starts) :]
     other = OTHER_WAY.search(rest)
-    way = rest[: other.start()] if other else rest
-    return list(_changes(way, keys))
+    return list(_changes(rest[: other.start()] if other else rest, keys, (*ways, BESIDE)))
 
 
-def _changes(way: str, keys: Container[str]) -> Iterator[AdvisedChange]:
-    for pattern in (SET, BESIDE):
+@cache
+def _set_text(key: str, texts: tuple[str, ...]) -> re.Pattern[str]:
+    """The way in which one of some texts is advised, the longest first."""
+    known = "|".join(map(re.escape, sorted(texts, key=len, reverse=True)))
+    return re.compile(rf"\bset (?P<key>{re.escape(key)}) to (?P<sign>)(?P<value>{known})(?![\w-])")
+
+
+def _changes(way: str, keys: Container[str], patterns: Iterable[re.Pattern[str]]) -> Iterator[AdvisedChange]:
+    for pattern in patterns:
         for found in pattern.finditer(way):
             if found["key"] in keys:
                 sign: Sign = "at least" if found["sign"] == "at least" else "at most" if found["sign"] else "to"

@@ -129,6 +129,23 @@ def test_advice_is_read_where_it_names_a_key_and_a_value(message: str, changes: 
     assert advised_changes(message, {"bore", "radius", "angle", "single"}) == changes
 
 
+TEXTS = {"size": ("GM3-6", "GM3-60", "GM 4"), "way": ("mean",)}
+
+
+@pytest.mark.parametrize(
+    ("message", "changes"),
+    [
+        ("slips; set size to GM3-60.", [AdvisedChange("size", "to", "GM3-60")]),
+        ("slips; set size to GM 4, or set bore to at most 3 mm.", [AdvisedChange("size", "to", "GM 4")]),
+        ("slips; set size to GM3-600, or set bore to at most 3 mm.", [AdvisedChange("bore", "at most", "3 mm")]),
+        ("slips; set size to the next, or set bore to at most 3 mm.", [AdvisedChange("bore", "at most", "3 mm")]),
+        ("slips; set bore to mean, or set way to mean.", [AdvisedChange("way", "to", "mean")]),
+    ],
+)
+def test_a_text_that_a_key_may_have_is_advised_as_a_number_is(message: str, changes: list[AdvisedChange]) -> None:
+    assert advised_changes(message, {"bore", "size", "way"}, TEXTS) == changes
+
+
 @pytest.mark.parametrize("config", few([EXAMPLE], lambda _: False))
 def test_the_published_press_is_mended_by_advice_alone(config: Path) -> None:
     made = mended(load_config(config, Discovery([])), Discovery([]), tell=lambda _: None)

@@ -66,6 +66,36 @@ def test_the_nearest_of_the_values_that_it_may_have_is_found(
     assert found["machine"]["status"] == "pass" and not found["ended"]
 
 
+NAMED = ("the pin gives way.", "the pin gives way; {grade_advice}.")
+WORDS = (
+    "MECHANISM = ",
+    "pin.words('grade_advice', lambda grade: 'set grade to hard, or set bore to at least 90 mm', takes=('grade',))\nMECHANISM = ",
+)
+
+
+def test_a_text_that_the_advice_names_is_followed_without_free(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setitem(globals(), "PLUGIN", PLUGIN.replace(*NAMED).replace(*WORDS))
+    kept = PRESS.replace("bore: 20 mm", "bore: {value: 20 mm, basis: standard}")
+    found = advise(tmp_path, capfd, text=kept)
+    (change,) = found["changes"]
+    assert (change["name"], change["before"], change["after"]) == ("pin.grade", "soft", "hard")
+    assert found["machine"]["status"] == "pass"
+
+
+def test_what_would_be_tried_if_it_were_named_is_told(tmp_path: Path, capfd: Capture) -> None:
+    file = saved(tmp_path, PRESS.replace("1000 N", "5 kN"))
+    saved(tmp_path, PLUGIN, "pin.py")
+    command = ["advise", str(file), "--plugins", str(tmp_path)]
+    assert main(command) == 1
+    words = "not tried, as --free must name them, and then names all that may be changed: pin.grade, pin.count"
+    assert words in capfd.readouterr().out
+    assert main([*command, "--free", "pin.bore", "--keep", "pin.bore"]) == 2
+    words = "nothing is free to be changed: name inputs by --free, such as --free pin.grade, or keep fewer by --keep; the file has pin.grade"
+    assert words in capfd.readouterr().err
+
+
 def test_several_of_them_are_changed_where_one_is_not_enough(tmp_path: Path, capfd: Capture) -> None:
     text = PRESS.replace("1000 N", "20 kN")  # 45 mm carry 4050 N, the hard grade 16200 N: both, and three pins
     free = ("--free=pin.bore", "--free=pin.grade", "--free=pin.count")

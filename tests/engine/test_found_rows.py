@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Callable
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 import numpy as np
 import pytest
 
-from diecut_report.api import Chapter, Inputs, ListedColumn, Mechanism, Quantity, Text, case, own_table
+from diecut_report.api import Block, Chapter, Inputs, ListedColumn, Mechanism, Quantity, Text, case, own_table
 from diecut_report.contract.inputs import flatten
 from diecut_report.contract.place import Misdeclared
 from diecut_report.declaration import faults
@@ -31,6 +32,10 @@ class Place(Inputs):
     given: Annotated[Literal["small", "big"] | None, Text("Bearing")] = None
     is_wet: Annotated[bool, Text("Wet")] = False
     factor: Annotated[float, Quantity("f", "1", "Factor", gt=0)] = 1
+
+
+class Bar(Block):
+    length: Annotated[float | None, Quantity("l", "m", "Length of a bar")] = None
 
 
 def found(load: Any) -> Any:
@@ -160,6 +165,21 @@ def test_texts_are_tried_one_for_each_trial_or_one_for_all() -> None:
     assert (all_["twice"].tolist(), all_["bore"].tolist()) == ([0.05, 0.05], [0.025, 0.025])
     wet = run(made(again({"is_wet": np.array([True, False]), "given": "big"}, ("wet",)))).inputs["sought"]["wet"]
     assert wet[0] == 3 and np.isnan(wet[1])
+
+
+def test_numbers_of_parts_are_tried_where_some_have_none() -> None:
+    class Bars(Place):
+        bars: Annotated[list[Bar], Text("Bars")] = []  # noqa: RUF012
+
+    mechanism = made(again({"bars.length": (np.array([1.0, 2.0]), None), "given": "big"}, ("first",)))
+    chapter = Chapter("More", needs=("bars",), absent="none")
+    chapter.prepared("lengths", lambda known: known["bars.length"], ("bars.length",), for_many=True)
+    chapter.computed(
+        "first", "L", "m", "First length", lambda lengths: np.reshape(lengths[0], (-1, 1)), ("lengths",), "the first"
+    )
+    whole = replace(mechanism, inputs=Bars, chapters=(*mechanism.chapters, chapter))
+    given = flatten(Bars(bars=[Bar(length=1), Bar()]))
+    assert calculate(whole, given).inputs["sought"]["first"].tolist() == [1.0, 2.0]
 
 
 @pytest.mark.parametrize(

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextvars import ContextVar
 from dataclasses import dataclass, replace
 from typing import Any
 
@@ -17,6 +18,9 @@ from diecut_report.engine.steps.needed import needed
 from diecut_report.expressions import Array
 
 Calculate = Callable[..., Calculation]
+DEEPEST = 2  # times that a search may be within itself, as one of a second size
+SEEKING: ContextVar[tuple[tuple[str, str], ...]] = ContextVar("SEEKING", default=())
+"""The kinds and steps that seek now, the outer ones first."""
 
 
 @dataclass(frozen=True)
@@ -67,26 +71,37 @@ class Again:
                 found[name][trials] = values
         return found
 
+    @property
+    def _outer(self) -> tuple[tuple[str, str], ...]:
+        """The searches within which this one is made; Misdeclared where it is made within itself again and again."""
+        outer = SEEKING.get()
+        if outer.count((self.mechanism.kind, self.step.id)) >= DEEPEST:
+            raise faults.endless(self.step)
+        return outer
+
     def _made(self, changed: Mapping[str, Any], rows: Array, names: Sequence[str]) -> dict[str, Array]:
         """The quantities of machines of the same texts."""
         inputs = {name: _of(value, rows, self.count) for name, value in self.inputs.items()} | dict(changed)
         only = needed(self.mechanism, frozenset(inputs) | texts_given(inputs), names)
         if not only:  # none of these machines has what is asked
             return {}
-        if self.step.id in only:
-            raise faults.endless(self.step)
+        asking = SEEKING.set((*self._outer, (self.mechanism.kind, self.step.id)))
         try:
             made = self.calculate(self.mechanism, inputs, len(rows), only)
         except (Impossible, Unproven):
             return {}
+        finally:
+            SEEKING.reset(asking)
         possible = np.ones(len(rows), dtype=bool)
         possible[list(made.flaws)] = False
         there = [name for name in names if name in made.values or name in made.inputs]
         return {name: np.where(possible, made[name].reshape(len(rows), -1)[:, 0], np.nan) for name in there}
 
 
-def _of_trials(value: Any, trials: Array) -> Array:
-    """The numbers of these trials; one alone is that of all."""
+def _of_trials(value: Any, trials: Array) -> Any:
+    """The numbers of these trials; one alone is that of all, of parts each has its own, or none."""
+    if isinstance(value, tuple):
+        return tuple(None if part is None else _of_trials(part, trials) for part in value)
     found = np.asarray(value, dtype=float)
     return found[trials] if found.ndim else np.full(len(trials), found)
 
@@ -94,11 +109,14 @@ def _of_trials(value: Any, trials: Array) -> Array:
 def _alike(changed: Mapping[str, Any], count: int) -> Iterator[tuple[Array, dict[str, Any]]]:
     """The trials that have the same texts, with these."""
     texts = {name: value for name, value in changed.items() if faults.is_text(value)}
+    if not texts:
+        yield np.arange(count), {}
+        return
     each = list(
         zip(*(np.broadcast_to(np.asarray(value, dtype=object), (count,)) for value in texts.values()), strict=True)
     )
     trials: dict[tuple[Any, ...], list[int]] = {}
-    for trial, said in enumerate(each or [()] * count):
+    for trial, said in enumerate(each):
         trials.setdefault(said, []).append(trial)
     yield from ((np.array(own), dict(zip(texts, said, strict=True))) for said, own in trials.items())
 

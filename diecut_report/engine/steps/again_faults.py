@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping, Sequence
-from functools import cache
+from functools import cache, lru_cache
 from itertools import chain
 from typing import Any
 
@@ -21,7 +21,9 @@ from diecut_report.quantities.units import pretty
 
 
 def is_text(value: Any) -> bool:
-    """Return whether what is tried are texts, or yes and no."""
+    """Return whether what is tried are texts, or yes and no; a tuple of others is what the parts of a list have."""
+    if isinstance(value, tuple):
+        return bool(value) and all(isinstance(each, str) for each in value)
     return np.asarray(value).dtype.kind in "UOb"
 
 
@@ -47,12 +49,17 @@ def _keys(model: type[Block]) -> dict[str, Key]:
     return world(model).keys
 
 
+@lru_cache(maxsize=64)
+def _steps(mechanism: Mechanism) -> dict[str, Step]:
+    return {step.id: step for _, step in mechanism.steps}
+
+
 def _inputs(mechanism: Mechanism, changed: Mapping[str, Any], count: int) -> Iterator[str]:
     keys = _keys(mechanism.inputs)
     for name, value in changed.items():
         if name not in keys:
             yield Phrase("changes {name}, which is not an input{near}", name=name, near=nearest(name, keys))
-        elif np.ndim(value) and len(value) != count:
+        elif not isinstance(value, tuple) and np.ndim(value) and len(value) != count:
             words = "gets {n} values of {name} for {count} trials; give one for each"
             yield Phrase(words, n=len(value), name=name, count=count)
         elif is_text(value):
@@ -80,8 +87,7 @@ def _text(key: Key, value: Any) -> Iterator[str]:
 
 def _asked(mechanism: Mechanism, names: Sequence[str]) -> Iterator[str]:
     """Quantities that no step gives."""
-    steps = {step.id: step for _, step in mechanism.steps}
-    known = {*steps, *_keys(mechanism.inputs)}
+    steps, keys = _steps(mechanism), _keys(mechanism.inputs)
     for name in names:
-        if name not in known and named(name, steps) is None:
-            yield Phrase("asks for {name}, which nothing gives{near}", name=name, near=nearest(name, known))
+        if name not in steps and name not in keys and named(name, steps) is None:
+            yield Phrase("asks for {name}, which nothing gives{near}", name=name, near=nearest(name, {*steps, *keys}))
