@@ -159,7 +159,7 @@ class PressConsistency(Inputs):
         CurveInput("M_f", "N*m", "Load at the flywheel's shaft over the turns after which it repeats", referred=True),
     ] = None
     load_turns: Annotated[
-        int, Quantity("k_T", "1", "Turns of the drive train's output that this load spans", ge=1, integer=True)
+        int, Quantity("k_T", "1", "Turns of the drive train's output that this load spans", ge=1, le=64, integer=True)
     ] = 1
     flywheel_inertia: Annotated[float | None, Quantity("J", "kg*m**2", "Moment of inertia of the flywheel", gt=0)] = (
         None
