@@ -108,8 +108,8 @@ def _made_anew(there: bytes, known: Catalog, lacking: list[tuple[str, str]], idl
         if message is not None:
             known.delete(text)
             known.obsolete |= {text: message} if message.string else {}
+    head = there.replace(b"\r\n", b"\n").partition(b"\n\n")[0]  # as its author wrote it, where it stands by itself
+    is_kept = head.count(b"msgid") == 1 and b'msgid ""\n' in head
     stream = BytesIO()
-    write_po(stream, known, width=WIDTH)
-    lines = stream.getvalue().splitlines(keepends=True)
-    kept = (line for line in lines if not line.startswith(UNSAID) or line in there)
-    return ChangedCatalogue(b"".join(kept), waiting, len(idle))
+    write_po(stream, known, width=WIDTH, omit_header=is_kept)
+    return ChangedCatalogue((head + b"\n\n") * is_kept + stream.getvalue(), waiting, len(idle))

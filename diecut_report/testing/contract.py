@@ -232,7 +232,7 @@ class ContractTest:
     def _as_given(self, language: str) -> str:
         """Which sources a report in a language leaves as they are."""
         found = self.words.sources_as_given(language)
-        named = "; ".join(f"“{text}”" for text in found[:TOLD])
+        named = "; ".join(found[:TOLD])
         more = Counted(len(found) - TOLD, " and {n} other", " and {n} others") if len(found) > TOLD else ""
         return (found and Phrase("; sources that stay as they are given: {named}{more}", named=named, more=more)) or ""
 

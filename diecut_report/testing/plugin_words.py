@@ -78,7 +78,8 @@ class PluginWords:
         """What stands in the files of the plugin, and in those of its folder that it may import or read."""
         home = Path(self.mechanism.at.rpartition(":")[0]).parent
         code = {*files_around(self.mechanism), *home.glob("*.py")}
-        tables = (each for each in home.rglob("*") if each.suffix in TABLES and each.is_file())
+        found = home.rglob("*") if (home / "__init__.py").is_file() else home.glob("*")
+        tables = (each for each in found if each.suffix in TABLES and each.is_file())
         small = (each for each in tables if each.stat().st_size < LARGEST)
         return _WrittenTexts(
             {text for file in code for text in _constants(parsed(file))},

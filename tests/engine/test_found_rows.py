@@ -91,6 +91,16 @@ def test_the_row_of_a_text_that_a_choice_gives_is_taken() -> None:
     assert run(mechanism)["bore"].item() == 0.02 and run(mechanism, factor=14)["bore"].item() == 0.025
 
 
+def test_a_machine_without_the_text_has_no_row() -> None:
+    def declare(chapter: Chapter) -> None:
+        all_cases = case("small", "it is light", lambda load: load < 14e3 * load / load), case("big", "it is not")
+        chapter.choice("bearing", "B", "1", "Bearing", *all_cases, exists=lambda factor: factor > 1)
+
+    mechanism = made(declare, looked_up)
+    many = calculate(mechanism, {**flatten(Place()), "factor": np.array([1.0, 2.0])}, 2)
+    assert np.isnan(many["bore"][0, 0]) and many["bore"][1, 0] == 0.025
+
+
 def test_what_is_sought_in_the_place_of_an_input_is_marked_as_chosen() -> None:
     def sought(chapter: Chapter) -> None:
         chapter.computed("size", "s", "1", "Size", lambda load: load / 1e3, ("load",), "tried", lacks=("given",))

@@ -58,9 +58,9 @@ def _by_text(calc: Calculation, step: Lookup) -> Array:
 
 
 def _by_found(calc: Calculation, step: Lookup, texts: Array) -> Array:
-    """The numbers of rows whose names were calculated; Misdeclared where a machine that can be has another one."""
+    """The numbers of rows whose names were found, NaN without one; Misdeclared where a machine that can be has another name."""
     numbers, display = step.rows()
-    strange = next((text for text in texts[possible(calc)].flat if text not in numbers), None)
+    strange = next((text for text in texts[possible(calc)].flat if isinstance(text, str) and text not in numbers), None)
     if strange is not None:
         words = "step {id}: {by} is {text}, which is not a row of its table; the rows are {rows}"
         filling = {"id": step.id, "by": step.by, "text": repr(strange), "rows": ", ".join(numbers)}
