@@ -29,9 +29,7 @@ TERMS = {  # of the glossary, each with the beginnings of its words
     "plugin": ("плагін",), "objective": ("ціл",), "study": ("дослідж",), "Pareto": ("парето",), "constraint": ("обмеж",),
     "cyclogram": ("циклограм",), "dwell": ("вист",), "rocker": ("коромис",), "governing check": ("визначальн",),
 }  # fmt: skip
-ORDER = re.compile(
-    r"(?<!\w)(?:ви|за|на|по|до|з|у)?(?:бер|да|дай|зв|чит|став|пиш|мін|лиш)\w*(?:іть|йте)(?!\w)", re.IGNORECASE
-)
+ORDER = re.compile(r"(?<!\w)\w+(?:іть|йте|ьте)(?!\w)", re.IGNORECASE)
 ADDED_NUMBERS = {
     "`3,17`",  # two numbers, typed
     "figure 2a",

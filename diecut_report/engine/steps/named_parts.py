@@ -9,7 +9,7 @@ from diecut_report.contract.code_steps import ComputedCurve
 from diecut_report.contract.result_names import part_result, result_names
 from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation, Impossible
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 
 
 def name_row(calc: Calculation, step: Step) -> None:
@@ -28,7 +28,7 @@ def curves_of(calc: Calculation, step: ComputedCurve) -> dict[str, ComputedCurve
     if names is None:
         return {step.id: step}
     made = (
-        replace(step, id=part_result(name, step), description=f"{step.description}: {name}", named_by="",
+        replace(step, id=part_result(name, step), description=Phrase("{quantity}: {part}", quantity=phrase(step.description), part=name), named_by="",
                 function=partial(step.function, index))
         for index, name in enumerate(names)
     )  # fmt: skip

@@ -110,7 +110,8 @@ def _cell(cell: dict[str, Any] | None) -> str:
     """A check in a table: its verdict with its utilisation."""
     if cell is None:
         return ""
-    return said(STATES[cell["status"]]) + ("" if cell["utilisation"] is None else f" {cell['utilisation']:.6g}")
+    used = "" if cell["utilisation"] is None else localised(f" {cell['utilisation']:.6g}")
+    return said(STATES[cell["status"]]) + used
 
 
 def _json(made: MachineComparison) -> bytes:

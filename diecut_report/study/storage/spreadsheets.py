@@ -17,7 +17,7 @@ from diecut_report.study.storage.store import PARTS, Store
 if TYPE_CHECKING:
     from openpyxl.worksheet._write_only import WriteOnlyWorksheet
 
-NAME = "variants"
+NAME, PROGRAM = "variants", "diecut-report"
 SHEET_ROWS, SHEET_COLUMNS = 1_048_576, 16_384  # what a sheet of a workbook holds
 
 
@@ -98,6 +98,7 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
         )
         raise UserError(Problem(words, str(path)))
     book = Workbook(write_only=True)
+    book.properties.creator = PROGRAM
     rows = _rows(store, list(names))
     with room(store.directory), closed(book):  # it keeps each sheet in a temporary file
         for sheet in range(_sheets(store)):
@@ -114,6 +115,7 @@ def workbook(tables: Mapping[str, list[list[Any]]]) -> bytes:
     from diecut_report.report.office.workbook import closed
 
     book, content = Workbook(write_only=True), BytesIO()
+    book.properties.creator = PROGRAM
     with closed(book):
         for name, (heads, *rows) in tables.items():
             _fill(book.create_sheet(name), heads, rows)
