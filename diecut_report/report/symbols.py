@@ -34,9 +34,10 @@ def symbol(name: str) -> Markup:
     return Markup("{}<i class=sy>{}</i>{}{}").format(found["before"], found["base"], below, found["after"])
 
 
-def pieces(typed: str) -> Markup:
-    """What was typed, with the places where a line may break: between its words, and behind the dots of a path."""
-    words = [re.split(r"(?<=\.)(?=[^\W\d])", word) for word in typed.split(" ")]
+def pieces(typed: str, *, narrow: bool = False) -> Markup:
+    """What was typed, with the places where a line may break: between its words, behind the dots of a path, ``narrow`` behind its low lines."""
+    joints = r"(?<=\.)(?=[^\W\d])|(?<=[^\W_]_)(?=[^\W_])" if narrow else r"(?<=\.)(?=[^\W\d])"
+    words = [re.split(joints, word) for word in typed.split(" ")]
     joint = Markup("<wbr/>")
     return Markup(" ").join(
         joint.join(Markup('<span class="whole">{}</span>').format(part) for part in word) for word in words

@@ -81,6 +81,9 @@ class _Mechanism:
             "inputs": {key: self._row(row) for key, row in data["inputs"].items()},
             "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
             "figures": [self.drawn(figure) for figure in data.get("figures", ())],
+            "sources": [
+                {**source, "id": self.words.source(source["id"], self.home)} for source in data.get("sources", ())
+            ],
         }
         return {**self.walk({key: part for key, part in data.items() if key not in own}), **own}
 

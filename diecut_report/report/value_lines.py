@@ -1,4 +1,4 @@
-"""How steps of one line each share the lines of a sheet: two side by side, or one that is long alone, so that they take the fewest lines."""
+"""How steps of one line each share the lines of a sheet: two side by side, or each alone, so that no description stands in a narrow column."""
 
 from __future__ import annotations
 
@@ -16,35 +16,13 @@ FORMS = (
     (35.0, 34, "least"),
 )  # width of a value, that of its description, and its class
 ALONE = "broad"
+MOST_LINES = 2  # of a row beside another one
 
 
 def in_lines(rows: Sequence[ValueRow]) -> list[tuple[ValueRow, str]]:
-    """Return the rows, each with how it is set: in a half, with less room for its description, or alone."""
-    fewest = [0] * (len(rows) + 2)
-    halves = [_half(row) for row in rows]
-    alone = [_lines(_said(row) + _value(row) + 4, WHOLE) for row in rows]
-    is_pair = [False] * len(rows)
-    for place in range(len(rows) - 1, -1, -1):
-        fewest[place] = alone[place] + fewest[place + 1]
-        if place + 1 < len(rows):
-            pair = max(halves[place][0], halves[place + 1][0]) + fewest[place + 2]
-            is_pair[place] = pair < fewest[place]
-            fewest[place] = min(pair, fewest[place])
-    found: list[tuple[ValueRow, str]] = []
-    while len(found) < len(rows):
-        place = len(found)
-        taken = (place, place + 1) if is_pair[place] else (place,)
-        found += [(rows[each], halves[each][1] if len(taken) > 1 else ALONE) for each in taken]
-    return found
-
-
-def _half(row: ValueRow) -> tuple[int, str]:
-    """The lines of a row beside another one, and its form."""
-    value = _value(row)
-    for widest, room, form in FORMS:
-        if value <= widest:
-            return _lines(_said(row), room), form
-    return _lines(_said(row), HALF) + 1, ""
+    """Return the rows, each with how it is set: two by two where all of them have room in half a line, else each in a line of its own."""
+    is_short = len(rows) > 1 and all(_value(row) <= WIDEST and _lines(_said(row), ROOM) == 1 for row in rows)
+    return [(row, "" if is_short else ALONE) for row in rows]
 
 
 def _lines(width: float, room: float) -> int:

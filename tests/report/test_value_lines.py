@@ -17,16 +17,13 @@ def test_short_steps_stand_two_by_two() -> None:
     assert [form for _, form in in_lines([row("Width")] * 4)] == [""] * 4
 
 
-def test_a_long_one_stands_alone_and_not_in_a_narrow_column() -> None:
+def test_beside_a_long_one_each_stands_in_a_line_of_its_own() -> None:
     long = row("Distance from the crank's support to the joint of the rocker in this position, in lengths of the crank")
-    assert [form for _, form in in_lines([row("Width"), row("Width"), long, row("Width"), row("Width")])] == [
-        "", "", ALONE, "", "",
-    ]  # fmt: skip
+    assert [form for _, form in in_lines([row("Width"), row("Width"), long])] == [ALONE] * 3
 
 
-def test_a_last_one_without_a_neighbour_stands_alone() -> None:
-    assert [form for _, form in in_lines([row("Width")] * 3)][-1:] in ([ALONE], [""])
-    assert [form for _, form in in_lines([row("Width")])] == [ALONE]
+def test_a_wide_value_leaves_no_room_beside_it() -> None:
+    assert [form for _, form in in_lines([row("Width"), row("Width", "1.234 567 890 1 N·m at 12 mm")])] == [ALONE] * 2
 
 
 def test_every_step_is_kept_in_its_order() -> None:
