@@ -3,30 +3,19 @@
 from __future__ import annotations
 
 from collections.abc import Sequence
-from math import ceil
 
 from diecut_report.report.value_rows import ValueRow
 
 LETTER = 1.55  # mm, of the letters of a description
 REFERENCE = 0.86  # how wide letters of what is referred to are, against those
-HALF, WHOLE = 69.0, 158.0  # mm for a description and its value, side by side with another one and alone
-FORMS = (
-    (19.0, 50, ""),
-    (27.0, 42, "less"),
-    (35.0, 34, "least"),
-)  # width of a value, that of its description, and its class
+ROOM, WIDEST = 50.0, 19.0  # mm for a description and for its value, in half a line
 ALONE = "broad"
-MOST_LINES = 2  # of a row beside another one
 
 
 def in_lines(rows: Sequence[ValueRow]) -> list[tuple[ValueRow, str]]:
     """Return the rows, each with how it is set: two by two where all of them have room in half a line, else each in a line of its own."""
-    is_short = len(rows) > 1 and all(_value(row) <= WIDEST and _lines(_said(row), ROOM) == 1 for row in rows)
+    is_short = len(rows) > 1 and all(_value(row) <= WIDEST and _said(row) <= ROOM for row in rows)
     return [(row, "" if is_short else ALONE) for row in rows]
-
-
-def _lines(width: float, room: float) -> int:
-    return ceil(width / room)
 
 
 def _said(row: ValueRow) -> float:
