@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
-from dataclasses import replace
 from typing import Any
 
+from diecut_report.report.chapter_inputs import ChapterInputs
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import placed, row_item, rows_of, sketch
 from diecut_report.report.file_names import suffixes
@@ -17,7 +17,6 @@ from diecut_report.report.model import (
     PrintedChapter,
     QuantityRow,
     quantity_row,
-    rested,
     utilisation,
 )
 from diecut_report.report.number_format import quantity
@@ -72,7 +71,7 @@ class _Filler:
         self.rows = rows_of(self.placed, paired=not self.is_full)
         self.part, self.mechanism, self.words = part, mechanism, words
         self.decimal = words["decimal"]
-        self.tables = Tables(part.letter, words)
+        self.tables = Tables(part.letter, words, mechanism.get("lists", {}))
         self.steps = PrintedSteps(part.letter, equations, words, self.tables, self.rows, told)
 
     def fill_brief(self) -> None:
@@ -90,11 +89,9 @@ class _Filler:
         part.summary, part.assumptions = mechanism["summary"], self._new(mechanism["assumptions"])
         self._head("purpose")
         self._head("inputs")
-        single, lists = gathered(mechanism["inputs"])
-        is_left = {key: not self.is_full and _is_left_alone(row) for key, row in single.items()}
-        part.inputs = [self._input(key, row) for key, row in single.items() if not is_left[key]]
-        part.defaults = _each_once(self._input(key, row) for key, row in single.items() if is_left[key])
-        part.input_parts = [table for parts in lists for table in self.tables.of_parts(parts, given=True)]
+        given = ChapterInputs(self.words, self.tables, self.told)
+        part.inputs, part.defaults, part.input_parts = given.of(mechanism["inputs"])
+        part.are_defaults_told = given.are_told
         part.figures = [(each.number, each.figure) for each in self.placed]
         part.halves = frozenset(each.number for row in self.rows if len(row.figures) > 1 for each in row.figures)
         part.sections = [
@@ -126,12 +123,14 @@ class _Filler:
         return texts if self.told is None else self.told.new(texts)
 
     def _symbols(self) -> list[SymbolRow]:
-        """The symbols: of a standard report with the places where each is explained, not with its words once more."""
+        """The symbols that no earlier chapter of the kind lists: of a standard report with the places where each is explained."""
         rows = symbol_rows(self.mechanism)
         if self.told is None:
             return rows
         inputs = {row["symbol"]: self.part.parts["inputs"].number for row in self.mechanism["inputs"].values()}
-        return symbols_at(rows, self.steps.given, inputs)
+        listed = set(self.told.new([f"symbol {row.name} {row.meaning} {row.unit}" for row in rows]))
+        new = [row for row in rows if f"symbol {row.name} {row.meaning} {row.unit}" in listed]
+        return symbols_at(new, self.steps.given, inputs)
 
     def _head(self, key: str, title: str = "") -> Heading:
         number = f"{self.part.letter}.{len(self.part.headings) + 1}"
@@ -140,27 +139,6 @@ class _Filler:
         if key:
             self.part.parts[key] = heading
         return heading
-
-    def _input(self, key: str, row: Data) -> QuantityRow:
-        shown, path = quantity_row(row, self.decimal), row.get("path", "")
-        typed = str(row.get("text") or (path if row["origin"] == "reference" else ""))
-        origin = self._origin(row["origin"], path, typed)
-        if not self.is_full and row["origin"] == "given":
-            plain, origin = row["display"]["text"] + row["display"]["unit"], ""
-            typed = "" if typed.replace(" ", "") in (plain, row["display"]["text"]) else typed
-        row_of = replace(shown, typed=typed, origin=origin, key=key)
-        return rested(row_of, row, self.words)
-
-    def _origin(self, origin: str, path: str, typed: str) -> str:
-        """Where an input comes from; the path of a reference stands in what was typed."""
-        is_seen = "${" in typed or (path and path in typed)
-        if is_seen and not self.is_full:
-            return ""  # what was typed says it
-        if not path:
-            return self.words[origin]
-        if path in typed:
-            return self.words["reference"]
-        return self.words.say("refers" if origin == "reference" else "from_press", path=path)
 
     def _results(self, outputs: Data) -> None:
         """Outputs line by line, those of repeated parts as tables: all, or those that no step has printed; the key ones."""
@@ -198,9 +176,13 @@ class _Filler:
                     yield from ((column["symbol"], row[place]) for row in item["rows"])
 
     def _listed(self) -> Iterator[str]:
-        """The results that say only how many lines a table of the calculation has."""
+        """The results that a table of the calculation lists by itself, and those that say how many lines it has."""
         items = (item for section in self.mechanism["sections"] for item in section["items"])
-        return (f"{item['id']}_count" for item in items if item["type"] == "table" and "id" in item)
+        tables = {item["id"] for item in items if item["type"] == "table" and "id" in item}
+        yield from (f"{table}_count" for table in tables)
+        for name, row in self.mechanism["outputs"].items():
+            if "quantity" not in row.get("part", {"quantity": ""}) and row["part"]["family"] in tables:
+                yield name
 
     def _phases(self, phases: Data, absent: Data) -> None:
         """When the mechanism does what, a table for each abscissa; and what is not known of it."""
@@ -281,19 +263,3 @@ class _Filler:
     def _touched(self, erratum: Data) -> str:
         rows = self.mechanism["outputs"] | self.mechanism["values"] | self.mechanism["curves"]
         return ", ".join(rows[key]["description"] if key in rows else key for key in erratum["touches"])
-
-
-def _each_once(rows: Iterator[QuantityRow]) -> list[QuantityRow]:
-    """Inputs of which something is to be said: those of repeated parts that say the same once, and none that has no value."""
-    found = {(row.description, row.value, row.unit): row for row in rows if row.value}
-    return list(found.values())
-
-
-def _is_left_alone(row: Data) -> bool:
-    """Whether an input is a default of the program's own, of which nothing is said."""
-    return (
-        row["origin"] == "default"
-        and not row.get("path")
-        and row.get("basis", "given") == "given"
-        and not row.get("note")
-    )

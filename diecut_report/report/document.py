@@ -164,10 +164,20 @@ def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[Prin
         known = told.setdefault(kind, ToldBefore())
         chapters.append(chapter(letter, name, data, equations, words, stem, whole.detail, known))
         told[kind] = known.next(letter)
+    _tell_apart(chapters)
     mechanisms = {part.name: part for part in chapters[: len(results["mechanisms"])]}
     for part, (_, data) in zip(chapters, parts(results), strict=True):
         part.between = [mechanisms[name] for name in data.get("between", ())]
     return chapters
+
+
+def _tell_apart(chapters: list[PrintedChapter]) -> None:
+    """Put the names of mechanisms behind the titles that several of them share."""
+    shared = Counter(part.title for part in chapters)
+    for part in chapters:
+        part.is_named = shared[part.title] > 1
+    for part in chapters:
+        part.title = f"{part.title}: {part.name}" if part.is_named else part.title
 
 
 def _begun(counts: list[str]) -> list[str]:

@@ -13,6 +13,7 @@ BEFORE = -1  # the first step of a section
 NEAR = 2  # sections later a figure may stand, beside another one
 MOST_NOTES = 3  # within a diagram that has room for them over half the width
 LONGEST_LEGEND = 110  # letters in the names of a diagram's lines, or of its marks, that have room over half the width
+MANY = 4  # diagrams of one figure, which stand two by two over the whole width
 VALUE = 16  # letters of the numbers behind the name of a mark
 
 
@@ -81,7 +82,7 @@ def rows_of(figures: list[Placed], *, paired: bool) -> list[Row]:
 
 
 def _is_narrow(figure: Data) -> bool:
-    """Whether a figure can be drawn half as wide as a sheet: it has no bars, no scheme of boxes, no long legend, few names within."""
+    """Whether a figure can be drawn half as wide as a sheet: it has few diagrams, no bars, no scheme of boxes, no long legend, few names within."""
     names = [
         sum(len(line.get("label", "")) for key in ("lines", "fills", "series") for line in panel.get(key, ()))
         for panel in figure.get("panels", ())
@@ -90,7 +91,7 @@ def _is_narrow(figure: Data) -> bool:
         sum(len(mark["label"]) + VALUE for mark in panel.get("marks", ()) if mark.get("label"))
         for panel in figure.get("panels", ())
     ]
-    if figure["type"] == "bars" or figure.get("schematic"):
+    if figure["type"] == "bars" or figure.get("schematic") or len(figure.get("panels", ())) >= MANY:
         return False
     longest, most = max([*names, *marked], default=0), max(map(_notes, figure.get("panels", ())), default=0)
     return longest <= LONGEST_LEGEND and most <= MOST_NOTES

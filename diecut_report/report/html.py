@@ -21,6 +21,7 @@ from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_columns
 from diecut_report.report.symbols import cited, pieces, prose, symbol
+from diecut_report.report.value_lines import in_lines
 
 if TYPE_CHECKING:
     from diecut_report.report.sheet_frames import SheetBlocks
@@ -44,6 +45,7 @@ FILTERS: dict[str, Callable[..., Any]] = {
     "symbol": symbol,
     "tidy": tidy,
     "in_columns": in_columns,
+    "in_lines": in_lines,
     "pieces": pieces,
     "behind": partial(joined, ""),
     "sentence": sentence,

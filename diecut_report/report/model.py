@@ -9,11 +9,12 @@ from typing import Any
 
 from markupsafe import Markup
 
-from diecut_report.languages.tokens import worded
 from diecut_report.quantities.units import pretty
 from diecut_report.report.equations import Equation
+from diecut_report.report.given_names import value_in_words
 from diecut_report.report.number_format import is_words, joined, number, quantity
 from diecut_report.report.printed_tables import PartsTable, PrintedTable
+from diecut_report.report.record_tables import RecordTable
 from diecut_report.report.symbol_list import SymbolRow
 from diecut_report.report.symbols import symbol
 from diecut_report.report.value_rows import ValueRow
@@ -68,6 +69,13 @@ class CheckRow:
     missing: tuple[str, ...] = ()
     parts: PartsTable | None = None
     changed: str = ""
+
+    def repeats(self, other: CheckRow) -> bool:
+        """Whether it is the check before it, of another part: its words are the same but for the part's name."""
+        title, _, part = self.title.partition(": ")
+        words = (self.check_class, self.source, self.demand_label, self.limit_label)
+        same = (other.check_class, other.source, other.demand_label, other.limit_label)
+        return bool(part) and other.title.startswith(f"{title}: ") and words == same and not self.is_sized
 
     @property
     def is_made(self) -> bool:
@@ -157,7 +165,7 @@ class PrintedChapter:
     between: list[PrintedChapter] = field(default_factory=list)
     inputs: list[QuantityRow] = field(default_factory=list)
     defaults: list[QuantityRow] = field(default_factory=list)  # inputs that a standard report tells in a paragraph
-    input_parts: list[PartsTable] = field(default_factory=list)
+    input_parts: list[PartsTable | RecordTable] = field(default_factory=list)
     key_results: list[QuantityRow] = field(default_factory=list)
     outputs: list[QuantityRow] = field(default_factory=list)
     output_parts: list[PartsTable] = field(default_factory=list)
@@ -172,6 +180,8 @@ class PrintedChapter:
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)
     symbols: list[SymbolRow] = field(default_factory=list)
+    are_defaults_told: bool = False  # whether some of the defaults are those of that chapter
+    is_named: bool = False  # whether its title ends in its name
     told_in: str = ""  # the letter of the earlier chapter of the same kind, whose formulas and texts are not repeated
     errata: list[tuple[str, str, str]] = field(default_factory=list)
     parts: dict[str, Heading] = field(default_factory=dict)
@@ -204,7 +214,7 @@ def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
     place = Markup("")
     if at:
         place = symbol(at["symbol"]) + f" = {quantity(at['text'], at['unit'], decimal)}"
-    text = number(worded(shown["text"]), decimal)
+    text = number(value_in_words(row), decimal)
     return QuantityRow(
         description=description or row["description"],
         symbol=symbol(row["symbol"]),

@@ -65,6 +65,11 @@ class PrintedTable:
         return len(self.columns) <= FEW and max((len(row[0]) for row in self.rows), default=0) > LONG_NAME
 
     @property
+    def is_halved(self) -> bool:
+        """Whether it is set in two halves."""
+        return len(self._first) > 1
+
+    @property
     def is_long(self) -> bool:
         """Whether it may go over to another sheet."""
         return len(self.rows) > LONG

@@ -3,12 +3,13 @@
 from __future__ import annotations
 
 from collections import Counter
-from collections.abc import Iterator, Mapping
+from collections.abc import Collection, Iterator, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 Data = Mapping[str, Any]
-FEWEST = 3  # parts that make a table; fewer stay single lines
+FEWEST = 3  # parts of results that make a table; fewer stay single lines
+FEWEST_GIVEN = 2  # parts of a list of the inputs
 
 
 @dataclass
@@ -25,6 +26,11 @@ class Parts:
         """Each column's quantity, and a row of the results that says what it is."""
         return ((quantity, next(iter(rows.values()))[1]) for quantity, rows in self.columns.items())
 
+    def without(self, quantities: Collection[str]) -> Parts:
+        """The table without some of its quantities."""
+        left = {quantity: rows for quantity, rows in self.columns.items() if quantity not in quantities}
+        return Parts(self.family, self.numbers, self.listed, left)
+
     def add(self, name: str, row: Data) -> None:
         """Put a row of the results into its place."""
         number = number_of(row)
@@ -39,9 +45,9 @@ def number_of(row: Data) -> int:
     return int(part.get("number", part["index"] + 1))
 
 
-def gathered(rows: Data) -> tuple[dict[str, Data], list[Parts]]:
-    """Return the lone quantities, and tables of those of at least three repeated parts."""
-    tables = [table for table in _tables(rows) if len(table.numbers) >= FEWEST]
+def gathered(rows: Data, fewest: int = FEWEST) -> tuple[dict[str, Data], list[Parts]]:
+    """Return the lone quantities, and tables of those of at least so many repeated parts, of a single quantity of at least three."""
+    tables = [table for table in _tables(rows) if len(table.numbers) >= (fewest if len(table.columns) > 1 else FEWEST)]
     told = {name for table in tables for column in table.columns.values() for name, _ in column.values()}
     return {name: row for name, row in rows.items() if name not in told}, tables
 

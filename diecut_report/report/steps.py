@@ -91,6 +91,7 @@ class PrintedSteps:
             told.keep(item, number)
             printed = self._item(item, notes, number)
             return _PrintedStep(printed, self._line(item, number) if _is_bare(item) and not printed.notes else None)
+        told.keep_named(item, refers)
         return _PrintedStep(Item("note"), self._line(item, number, refers, self._new_note(item, notes)), is_told=True)
 
     def _line(self, item: Data, number: str, refers: Reference | None = None, note: str = "") -> ValueRow:
@@ -123,9 +124,9 @@ class PrintedSteps:
     def _notes(self, item: Data, notes: set[str]) -> Iterator[str]:
         """The method, where it was not said already in this section, what proves the value, and a note."""
         if item["type"] == "lookup":
-            yield self._looked_up(item)
+            yield from self._each_once(self._looked_up(item), notes)
         if item.get("series") and not item.get("note", "").startswith(item["series"]):
-            yield f"{self.words['series']}: {item['series']}"
+            yield from self._new([f"{self.words['series']}: {item['series']}"])
         if self.told is None or _is_chosen(item):  # why this value and no other is never told elsewhere
             yield from self._proof(item, notes)
         yield from self.said.conversions(item)
@@ -133,6 +134,16 @@ class PrintedSteps:
             yield note
         if len(item["source"]) > LONGEST_SOURCE:
             yield f"{self.words['source']}: {item['source']}"
+
+    def _each_once(self, note: str, notes: set[str]) -> Iterator[str]:
+        """A note, where the section has not said it; a report with all says it at each step."""
+        if self.told is None or note not in notes:
+            notes.add(note)
+            yield note
+
+    def _new(self, texts: Sequence[str]) -> Sequence[str]:
+        """Those of the texts that no chapter of this kind has said; a report with all says them at each step."""
+        return texts if self.told is None else self.told.new(texts)
 
     def _proof(self, item: Data, notes: set[str]) -> Iterator[str]:
         method, residual = item.get("method", ""), item.get("residual")

@@ -42,7 +42,7 @@ def symbol_rows(mechanism: Data) -> list[SymbolRow]:
     known: dict[str, Data] = {}
     for group in GROUPS:
         for row in mechanism[group].values():
-            if row["symbol"] in used:
+            if row["symbol"] in used and any(map(str.isalpha, row["symbol"])):
                 known.setdefault(row["symbol"], row)
     return [_row(known[name]) for name in sorted(known, key=_order)]
 

@@ -10,6 +10,7 @@ from diecut_report.report.number_format import tidy
 
 _SIGNS = "=<>≤≥≈≠−+√"
 SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[′'|\]]*)")
+_OF_LETTERS = re.compile(r"[^\W\d_]{1,2}(?:\([^\W\d_]\)|/[^\W\d_]{1,2})")  # of another one, or their ratio: v(x), t/r
 # A symbol within a sentence: one or two letters with a short subscript (keys such as crank_speed or n_points are none),
 # a lone letter beside a sign of arithmetic (no Cyrillic one: і and а are words), or a lone Greek one.
 _LONE = r"[^\W\d_\u0400-\u04ff][′']?"
@@ -22,15 +23,21 @@ _IN_TEXT = re.compile(
 def symbol(name: str) -> Markup:
     """A symbol as HTML, nothing for the empty one; bars, brackets and digits about the letters stand upright."""
     found = SYMBOL.fullmatch(name)
-    if found is None:
+    if found is None and not _OF_LETTERS.fullmatch(name):
         return escape(name)
+    if found is None:
+        return Markup("").join(
+            Markup("<i class=sy>{}</i>").format(part) if part.isalpha() else escape(part)
+            for part in re.split(r"([^\W\d_]+)", name)
+        )
     below = Markup("<sub>{}</sub>").format(found["below"].replace("_", "\u2009")) if found["below"] else Markup("")
     return Markup("{}<i class=sy>{}</i>{}{}").format(found["before"], found["base"], below, found["after"])
 
 
-def pieces(typed: str) -> Markup:
-    """What was typed, with the places where a line may break: between its words, and behind the dots of a path."""
-    words = [re.split(r"(?<=\.)(?=[^\W\d])", word) for word in typed.split(" ")]
+def pieces(typed: str, *, narrow: bool = False) -> Markup:
+    """What was typed, with the places where a line may break: between its words, behind the dots of a path, ``narrow`` behind its low lines."""
+    joints = r"(?<=\.)(?=[^\W\d])|(?<=[^\W_]_)(?=[^\W_])" if narrow else r"(?<=\.)(?=[^\W\d])"
+    words = [re.split(joints, word) for word in typed.split(" ")]
     joint = Markup("<wbr/>")
     return Markup(" ").join(
         joint.join(Markup('<span class="whole">{}</span>').format(part) for part in word) for word in words

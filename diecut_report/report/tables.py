@@ -9,14 +9,15 @@ from typing import Any, TypeVar
 
 from markupsafe import Markup
 
-from diecut_report.languages.tokens import worded
 from diecut_report.quantities.formatting import place_shown
 from diecut_report.quantities.units import pretty
 from diecut_report.report.curves import CurvePlace, table_places
+from diecut_report.report.given_names import value_in_words
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import rests, utilisation
 from diecut_report.report.number_format import displayed, is_words, number
 from diecut_report.report.printed_tables import PartsTable, PrintedColumn, PrintedTable, TableCell
+from diecut_report.report.record_tables import MOST_PARTS, RecordTable, record_rows
 from diecut_report.report.repeated_parts import Parts
 from diecut_report.report.symbols import symbol
 
@@ -90,6 +91,14 @@ class Tables:
         scale = max(abs(v) for v in curve["values"])
         return displayed(value if abs(value) > ROUNDING * scale else 0.0, curve["display_unit"], self.decimal)
 
+    def of_records(self, parts: Parts) -> list[PartsTable | RecordTable]:
+        """Inputs of repeated parts: of a few the parts side by side, of many a line for each."""
+        if len(parts.numbers) > MOST_PARTS or not parts.listed:
+            return [*self.of_parts(parts, given=True)]
+        heads, rows = record_rows(parts, self._cell, self._origin)
+        title = self.lists.get(parts.family, "")
+        return [RecordTable(self._number(), title, parts.family, heads, rows)] if rows else []
+
     def of_parts(self, parts: Parts, *, given: bool) -> list[PartsTable]:
         """Quantities of repeated parts: inputs (``given``) tell their keys and where they come from, results their sources."""
         told = self._origin if given else lambda _: ""
@@ -139,7 +148,7 @@ class Tables:
 
     def _cell(self, row: Data, told: Callable[[Data], str]) -> TableCell:
         text = row["display"]["text"]
-        return TableCell(number(worded(text), self.decimal), told(row), is_words(text), row.get("changed", ""))
+        return TableCell(number(value_in_words(row), self.decimal), told(row), is_words(text), row.get("changed", ""))
 
     def _origin(self, row: Data) -> str:
         """What is to be said of an input: where it comes from, and what it rests on."""
@@ -150,12 +159,18 @@ class Tables:
         if row["origin"] == "default":
             return self.words.say("from_press", path=row["path"]) if row.get("path") else self.words["default"]
         typed, shown = str(row.get("text") or row.get("path") or ""), row["display"]
-        plain = {shown["text"], shown["text"] + shown["unit"]}
-        return "" if typed.replace(" ", "") in plain else typed
+        plain = {shown["text"].replace(" ", ""), shown["text"].replace(" ", "") + shown["unit"]}
+        return "" if typed.replace(" ", "") in plain or _is_choice(row) else typed
 
     def _number(self) -> str:
         self.count += 1
         return f"{self.letter}.{self.count}"
+
+
+def _is_choice(row: Data) -> bool:
+    """Whether what was typed is a word of the contract, which the shown one says in words."""
+    typed = str(row.get("text") or "")
+    return row["value"] == typed and typed.replace("_", "").isalnum() and typed.islower() and not typed.isdigit()
 
 
 def in_halves(columns: list[Column], rows: list[list[str]]) -> tuple[list[Column], list[list[str]]]:

@@ -47,18 +47,24 @@ class ToldBefore:
 
     letter: str = ""
     steps: dict[str, _KnownFormula] = field(default_factory=dict)
+    named: dict[str, tuple[Data, Reference]] = field(
+        default_factory=dict
+    )  # steps that only name where their formula stands
     texts: set[str] = field(default_factory=set)
     shapes: dict[str, _KnownFormula] = field(default_factory=dict)
 
     def next(self, letter: str) -> ToldBefore:
         """What is known when another chapter of this kind begins; ``letter`` is this one's."""
-        return ToldBefore(self.letter or letter, dict(self.steps), set(self.texts))
+        return ToldBefore(self.letter or letter, dict(self.steps), dict(self.named), set(self.texts))
 
     def find(self, item: Data) -> Reference | None:
         """Where the same step of an earlier chapter stands, or the same formula of this one."""
-        before = self.steps.get(item.get("id", ""))
-        if before and all(before.item.get(key) == item.get(key) for key in SAME):
+        name = item.get("id", "")
+        before, named = self.steps.get(name), self.named.get(name)
+        if before and _are_same(before.item, item):
             return Reference(before.number)
+        if named and _are_same(named[0], item):
+            return named[1]
         shape, letters = _shape(item)
         known = self.shapes.get(shape) if shape else None
         if known is None:
@@ -76,11 +82,20 @@ class ToldBefore:
         if shape:
             self.shapes.setdefault(shape, formula)
 
+    def keep_named(self, item: Data, reference: Reference) -> None:
+        """Remember a step of which only is said where its formula stands: the next chapter says the same."""
+        if "id" in item and item["id"] not in self.steps:
+            self.named.setdefault(item["id"], (item, reference))
+
     def new(self, texts: Sequence[str]) -> list[str]:
         """Those of the texts that were not told; they are now."""
         found = [text for text in texts if text not in self.texts]
         self.texts.update(texts)
         return found
+
+
+def _are_same(one: Data, other: Data) -> bool:
+    return all(one.get(key) == other.get(key) for key in SAME)
 
 
 def _shape(item: Data) -> tuple[str, tuple[str, ...]]:

@@ -6,9 +6,10 @@ import re
 from collections.abc import Callable, Mapping
 from typing import Any
 
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues, built_in
 from diecut_report.languages.tokens import worded
 from diecut_report.languages.translation import Translator
+from diecut_report.report.given_names import given_names
 from diecut_report.report.i18n import Catalogue
 
 Data = Mapping[str, Any]
@@ -30,7 +31,7 @@ def translated(results: Data, catalogues: Catalogues) -> Data:
     found = {**results, "project": _dated(results["project"])}
     for part in ("mechanisms", "comparisons"):
         if part in results:
-            found[part] = {name: _Mechanism(words, data["kind"]).said(data) for name, data in results[part].items()}
+            found[part] = {name: _mechanism(words, data, results).said(data) for name, data in results[part].items()}
     rest = _Mechanism(words, "")
     found["press"] = rest.of_press(results["press"])
     found |= {key: rest.walk(results[key]) for key in ("comparisons_left_out", "changes") if key in results}
@@ -61,11 +62,18 @@ def _date(given: Any) -> Any:
     return ".".join(reversed(found.groups())) if found else given
 
 
-class _Mechanism:
-    """Says the texts of one mechanism's results."""
+def _mechanism(words: Translator, data: Data, results: Data) -> _Mechanism:
+    """What says the texts of a mechanism, or of a comparison, whose sources are those of what it compares."""
+    kinds = [results["mechanisms"][name]["kind"] for name in data.get("between", ())]
+    home = kinds[-1] if kinds and all(map(built_in, kinds)) else data["kind"]
+    return _Mechanism(words, data["kind"], given_names(data, results["mechanisms"]), home)
 
-    def __init__(self, words: Translator, kind: str) -> None:
-        self.words, self.kind = words, kind
+
+class _Mechanism:
+    """Says the texts of one mechanism's results, but the names that its configuration gives; ``home`` is the kind of its sources."""
+
+    def __init__(self, words: Translator, kind: str, names: frozenset[str] = frozenset(), home: str = "") -> None:
+        self.words, self.kind, self.names, self.home = words, kind, names, home or kind
 
     def said(self, data: Data) -> Data:
         """The results of the mechanism."""
@@ -73,6 +81,9 @@ class _Mechanism:
             "inputs": {key: self._row(row) for key, row in data["inputs"].items()},
             "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
             "figures": [self.drawn(figure) for figure in data.get("figures", ())],
+            "sources": [
+                {**source, "id": self.words.source(source["id"], self.home)} for source in data.get("sources", ())
+            ],
         }
         return {**self.walk({key: part for key, part in data.items() if key not in own}), **own}
 
@@ -85,7 +96,9 @@ class _Mechanism:
         return self.words.said(text, self.kind)
 
     def _shown(self, text: str) -> str:
-        """A value that is a text: the words of a choice, or a key in words."""
+        """A value that is a text: the words of a choice, or a key in words; a name as it is."""
+        if text in self.names:
+            return text
         return self.words.known(worded(text), self.kind) or self.text(text)
 
     def _row(self, row: Data) -> Data:
@@ -114,7 +127,7 @@ class _Mechanism:
         if key in SAID:
             return self.text(text)
         if key == "source":
-            return self.words.source(text, self.kind)
+            return self.words.source(text, self.home)
         if key in ("text", "key", "column", "note", "part_name", "name"):
             return self._shown(text)
         return text
@@ -131,7 +144,11 @@ class _Mechanism:
         if key not in SAID and key != "text":
             return self.drawn(part)
         if isinstance(part, str):
-            return self.words.numbers(self.text(part))
+            return self._label(part)
         if isinstance(part, list):
-            return [self.words.numbers(self.text(each)) if isinstance(each, str) else self.drawn(each) for each in part]
+            return [self._label(each) if isinstance(each, str) else self.drawn(each) for each in part]
         return self.drawn(part)
+
+    def _label(self, text: str) -> str:
+        """A text within a figure."""
+        return text if text in self.names else self.words.numbers(self.text(text))

@@ -185,7 +185,7 @@ def _slack(timing: Timing) -> list[Shape]:
     marks = [mark(best.shift, best.slack, "best")] if np.isfinite(best.slack) else []
     lines = [
         line(offsets, np.where(np.isfinite(heights), heights, np.nan), "least slack"),
-        line(offsets, 0 * offsets, "none"),
+        line(offsets, 0 * offsets, "no slack"),
     ]
     return [chart_panel("Slack", "deg", "Offset", "Φ_0", "deg", lines=lines, marks=marks, verticals=feasible)]
 

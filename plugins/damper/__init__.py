@@ -34,7 +34,7 @@ MECHANISM = Mechanism(
               consequence="the block is too short to take up the energy; {advice}."),
         Check(id="dynamic_stiffness", check_class="strength", title="Stiffness of the rubber at the impact",
               demand="dynamic_stiffness_factor", limit="stiffness_borne", unit="1", tolerance=ROUNDING, sized_unless=("adopted_length",),
-              demand_label="dynamic to static stiffness", limit_label="with which the stress is the allowed one", source="002 eq. 22",
+              demand_label="dynamic to static stiffness", limit_label="ratio at which the stress is the allowed one", source="002 eq. 22",
               consequence="at the speed of the impact the rubber is too stiff for the block's length; {advice}."),
         Check(id="slenderness", check_class="strength", title="Buckling of the block",
               demand="slenderness", limit=SLENDEREST, unit="1", tolerance=ROUNDING,

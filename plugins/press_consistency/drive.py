@@ -27,8 +27,8 @@ inertia.value("speed_ratio", "ω_31", "1", "Speed of the cylinder to the crank's
               output=False)
 inertia.value("crank_inertia", "I_red", "kg*m**2", "Inertia that the crank feels",
               bind(inertia_at_crank, rotation="rotation", speed_ratio="speed_ratio"), source="energy")
-inertia.reduction("crank_inertia_mean", "I_m", "kg*m**2", "Its mean over a turn, for the run-up", "mean", of="crank_inertia")
-inertia.reduction("crank_inertia_max", "I_max", "kg*m**2", "Its greatest value", "max", of="crank_inertia")
+inertia.reduction("crank_inertia_mean", "I_m", "kg*m**2", "Inertia at the crank, its mean over a turn, for the run-up", "mean", of="crank_inertia")
+inertia.reduction("crank_inertia_max", "I_max", "kg*m**2", "Inertia at the crank, its greatest value", "max", of="crank_inertia")
 
 engagement = Chapter("Engagement of the clutch",
                      text="From rest the net torque M′ gives the crank ω(φ) = √(2M′(φ − φ₀)/I_red(φ)); the slip ends where that first is the speed "

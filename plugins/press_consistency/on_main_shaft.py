@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from diecut_report.api import Cell, GivenMechanism, ListedColumn, Phrase, Refusal, joined
+from diecut_report.api import Cell, GivenMechanism, ListedColumn, Phrase, Refusal, joined, phrase
 
 TIMES = (
     ListedColumn("what", "What"), ListedColumn("time", "At the productivity", "t", "ms"),
@@ -45,8 +45,8 @@ def times(given: Mapping[str, Any]) -> Iterator[tuple[Cell, ...]]:
 
 
 def _times(timing: GivenMechanism) -> Iterator[tuple[str, float | None]]:
-    yield "sheet", timing.number("sheet_time")
-    yield "common period", timing.number("period_time")
+    yield phrase("one sheet"), timing.number("sheet_time")
+    yield phrase("common period"), timing.number("period_time")
     for row in timing.listing("main_phases"):
         yield str(row[0]), _number(row[PHASE_TIME])
     for row in timing.listing("margins"):

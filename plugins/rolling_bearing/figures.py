@@ -40,7 +40,7 @@ def lives(view: View) -> list[Shape]:
     stems = np.array([end for place, height, _ in known for end in ((place, 0.0), (place, height), (place, np.nan))])
     return [
         chart_panel(
-            "Life to the required one, as a power of ten", "1", "Bearing", "No.", "1",
+            "Life to the required one, as a power of ten", "1", "Number of the bearing", "", "1",
             lines=[
                 line(stems[:, 0], stems[:, 1], "modified rating life"),
                 line([0.5, len(names) + 0.5], [0, 0], "required life"),

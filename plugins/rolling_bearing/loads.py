@@ -76,8 +76,8 @@ ratings.listing("choice", "Bearings out of the table, with their neighbours", CH
 
 loads = Chapter("Equivalent load",
                 text="The forces and their factors stand for the place of the cycle where the equivalent load is greatest; elsewhere it follows in "
-                     "the same way. The mean load P_m = [∮ P^p g dφ/∮ g dφ]^(1/p) weighs each place by how much the rings turn there: g = |n|, or "
-                     "|dθ/dφ| of a relative angle. The cycle is run through evenly in time.")
+                     "the same way. The mean load P_m is the p-th root of the mean of P to the power p; each place counts by how "
+                     "much the rings turn there: by |n|, or by |dθ/dφ| of a relative angle. The cycle is run through evenly in time.")
 loads.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle: a whole turn of it is one cycle of the loads", 2 * np.pi)
 loads.computed_curve("load", "P_φ", "N", "Equivalent load over the cycle", load_over, "all_bearings", "cycle_angle",
                      "from the forces at each place", joints=lambda known: known.joints, named_by=NAMES, source="ISO 281, 5.3")

@@ -17,9 +17,9 @@ from pypdf import PdfReader
 from diecut_report import pipeline
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
+from diecut_report.languages.tokens import worded
 from diecut_report.report import Rendering, html, render_html
 from diecut_report.report.figure_places import BEFORE, Place, placed, sketch
-from diecut_report.report.model import worded
 from diecut_report.report.number_format import number
 from diecut_report.report.scope import scope
 from tests.configs import EXAMPLE, EXAMPLES, LEVER, SMALL, problems, saved

@@ -144,3 +144,28 @@ def test_bars_schemes_and_long_legends_have_the_whole_width() -> None:
     wide = (placed(1, type="bars"), placed(1, schematic=True), placed(1, panels=[{"lines": [{"label": "x" * 200}]}]))
     for each in wide:
         assert [len(row.figures) for row in rows_of([placed(0), each], paired=True)] == [1, 1]
+
+
+def test_what_only_names_its_formula_is_named_alike_in_the_next_chapter() -> None:
+    known = told(step("one", "c", tree("a", "b")))
+    second = step("two", "f", tree("d", "b"))
+    reference = known.find(second)
+    assert reference is not None
+    known.keep_named(second, reference)
+    assert known.next("A").find(second) == Reference("A.1", (("d", "a"),))
+
+
+def test_defaults_and_symbols_of_an_earlier_chapter_are_not_told_again(plain: Data) -> None:
+    plain["report"] = {"detail": "standard"}
+    plain["mechanisms"]["second"] = copy.deepcopy(plain["mechanisms"]["cylinder"])
+    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    first, second = chapters["cylinder"], chapters["second"]
+    assert first.symbols and not second.symbols
+    assert not second.defaults and second.are_defaults_told == bool(first.defaults)
+
+
+def test_chapters_of_one_title_are_told_apart_by_their_names(plain: Data) -> None:
+    plain["mechanisms"]["second"] = copy.deepcopy(plain["mechanisms"]["cylinder"])
+    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    assert chapters["second"].title.endswith(": second") and chapters["cylinder"].title.endswith(": cylinder")
+    assert chapters["drive"].title == plain["mechanisms"]["drive"]["title"]

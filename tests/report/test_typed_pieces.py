@@ -38,3 +38,8 @@ def test_a_unit_is_not_a_symbol_and_a_long_subscript_is_one(sentence: str, symbo
 def test_the_number_of_a_source_stays_with_it() -> None:
     assert cited("ISO 6336-3:2006, 6") == "ISO\u00a06336-3:2006,\u00a06"
     assert cited("000, after eq. 19") == "000, after eq.\u00a019"
+
+
+def test_in_a_narrow_column_a_path_breaks_behind_its_low_lines_too() -> None:
+    found = re.findall(r"<span class=\"whole\">(.*?)</span>", pieces("${drive.crank_speed}", narrow=True))
+    assert found == ["${drive.", "crank_", "speed}"]

@@ -15,6 +15,7 @@ from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import shown, with_unit
 
 Item = dict[str, Any]
+NAMING = ("name", "mechanism")  # inputs that say what the parts of a list are called
 
 
 def has_tables(calc: Calculation, parts: str) -> bool:
@@ -28,6 +29,18 @@ def names(calc: Calculation, parts: str, row: str) -> Sequence[str]:
     """Return the names of the parts that a row runs over; of a list without names their numbers."""
     known = calc.part_names.get(parts) or calc.inputs.get(calc.steps[row].named_by)
     return known or [str(number + 1) for number in range(calc[row].shape[1])]
+
+
+def printed_names(calc: Calculation, step: Step) -> Sequence[str] | None:
+    """Return the names of the parts that a row runs over, where its list has them: by the step's own, else by its list's names."""
+    if step.named_by:
+        return calc.inputs.get(step.named_by)
+    home = calc.axis.get(step.id, "")
+    for key in NAMING:
+        given = [str(each or "") for each in calc.inputs.get(f"{home}.{key}", ())]
+        if all(given) and len(set(given)) == len(given) > 0:
+            return given
+    return None
 
 
 def curves(calc: Calculation, step: ComputedCurve, at: Item) -> Item:
@@ -48,7 +61,7 @@ def curves(calc: Calculation, step: ComputedCurve, at: Item) -> Item:
 
 def told(calc: Calculation, step: Step, axis: str) -> str:
     """Return which of repeated parts the numbers in a row's formula are of; nothing where there is but one."""
-    names, part = calc.part_names.get(axis) or calc.inputs.get(step.named_by), shown_part(calc, step.id)
+    names, part = calc.part_names.get(axis) or printed_names(calc, step), shown_part(calc, step.id)
     if names:
         return Phrase("Shown for: {name}.", name=phrase(names[part]))
     return Phrase("Shown for part {part}.", part=part + 1) if calc[step.id].shape[1] > 1 else ""

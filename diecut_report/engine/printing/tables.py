@@ -10,6 +10,7 @@ import numpy as np
 from diecut_report.contract.part_steps import Interpolated, Lookup, Part, Pick, Total
 from diecut_report.contract.steps import Crossings, Step
 from diecut_report.engine.calculation import Calculation
+from diecut_report.engine.printing import named_parts
 from diecut_report.engine.printing.substitution import printed
 from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
 from diecut_report.engine.steps.lookups import SAME, given_of, text_of
@@ -30,12 +31,15 @@ SERIES_WORDS = {
 
 def table(calc: Calculation, step: Step, names: list[str]) -> Item:
     """Return a row over repeated parts with what it is made of: a line for each part, by its name or numbered."""
+    count = calc[step.id].shape[1]
+    names = [
+        name for name in names if name == step.id or calc[name].shape[1] == count
+    ]  # what is one for all, the formula says
     declared = [calc.step_or_input(name) for name in names]
-    known = calc.inputs.get(step.named_by)
+    known = named_parts.printed_names(calc, step)
     columns = [{"title": "Name" if known else "No.", "symbol": "", "unit": "1"}]
     units = [_column_unit(calc, name) for name in names]
     columns += [_column(d, display) for d, display in zip(declared, units, strict=True)]
-    count = calc[step.id].shape[1]
     heads = known or [str(i + 1) for i in range(count)]
     lines = [[heads[i], *(_cell(calc, *column, i) for column in zip(names, units, strict=True))] for i in range(count)]
     return {"type": "table", "title": step.description, "columns": columns, "rows": lines}

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
+from itertools import zip_longest
 from typing import Any
 
 import numpy as np
@@ -18,25 +19,51 @@ from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import displayed, number, significant
 
 Data = Mapping[str, Any]
+TALL, BESIDE, LEAST = 17.0, 14.0, 56.0  # of a bar with its room, beside a group, and the least width for bars, points
 
 
 def bars(figure: Data, _curves: Data, words: Catalogue, size: Size = Size.LARGE) -> Figure:
-    """Horizontal bars in groups side by side, each group with its unit; what is subtracted is hatched."""
-    groups = figure["groups"]
-    rows = max(len(group["bars"]) for group in groups)
+    """Horizontal bars in groups side by side, in rows where they have no room; what is subtracted is hatched."""
+    groups, width = figure["groups"], WIDTHS[size]
+    rows = _rows(groups, figure.get("unit", ""), width)
     below = 8 if all("range" not in group for group in groups) else 20
-    height = 30 + 17.0 * rows + below
-    width = WIDTHS[size]
-    sheet = canvas(width, height)
-    share = width / len(groups)
-    for index, group in enumerate(groups):
-        names = max(text_size(plain(bar["label"]))[0] for bar in group["bars"]) + 8
-        left, tall = index * share + names + 4, 17.0 * len(group["bars"])
-        axes = sheet.add_axes(
-            (left / width, (height - 24 - tall) / height, (share - names - 14) / width, tall / height)
-        )
-        _group(axes, width, group, group.get("unit") or figure["unit"], words)
+    heights = [26 + TALL * max(len(group["bars"]) for group in row) + below for row in rows]
+    height = 4 + sum(heights)
+    sheet, top = canvas(width, height), height - 2
+    names = [max(map(_names, column)) for column in zip_longest(*rows, fillvalue=rows[0][0])]
+    for row, step in zip(rows, heights, strict=True):
+        left = 0.0
+        for group, named in zip(row, names, strict=False):
+            room, tall = _room(names, width), TALL * len(group["bars"])
+            box = (left + named + 4) / width, (top - 22 - tall) / height, room / width, tall / height
+            _group(sheet.add_axes(box), width, group, group.get("unit") or figure["unit"], words)
+            left += named + room + BESIDE
+        top -= step
     return sheet
+
+
+def _rows(groups: Sequence[Data], shown: str, width: float) -> list[list[Data]]:
+    """The groups in as few rows as leave room for their bars and their titles."""
+    for columns in range(len(groups), 1, -1):
+        rows = [list(groups[start : start + columns]) for start in range(0, len(groups), columns)]
+        room = _room([max(map(_names, column)) for column in zip_longest(*rows, fillvalue=groups[0])], width)
+        if all(max(LEAST, text_size(_title(group, group.get("unit") or shown))[0]) <= room for group in groups):
+            return rows
+    return [[group] for group in groups]
+
+
+def _names(group: Data) -> float:
+    """How wide the names of a group's bars are, points."""
+    return max(text_size(plain(bar["label"]))[0] for bar in group["bars"]) + 8
+
+
+def _room(names: Sequence[float], width: float) -> float:
+    """How wide the bars of each group in a row are beside names of these widths, points."""
+    return (width - sum(names) - BESIDE * len(names)) / len(names)
+
+
+def _title(group: Data, shown: str) -> str:
+    return plain(group["label"]) + (f", {pretty(shown)}" if pretty(shown) else "")
 
 
 def _group(axes: Axes, width: float, group: Data, shown: str, words: Catalogue) -> None:
@@ -54,7 +81,7 @@ def _group(axes: Axes, width: float, group: Data, shown: str, words: Catalogue) 
     axes.set_yticks(rows, [plain(bar["label"]) for bar in group["bars"]], va="center_baseline")
     axes.set_ylim(-0.6, len(values) - 0.4)
     axes.axvline(0, color=INK, linewidth=0.8)
-    axes.set_title(plain(group["label"]) + (f", {pretty(shown)}" if pretty(shown) else ""), pad=5)
+    axes.set_title(_title(group, shown), pad=5)
     axes.grid(visible=False)
     axes.tick_params(axis="y", length=0)
     for side in ("top", "right", "bottom", "left"):

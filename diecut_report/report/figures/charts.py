@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Mapping
-from itertools import pairwise
+from itertools import pairwise, zip_longest
 from typing import Any
 
 import numpy as np
@@ -50,6 +50,34 @@ def diagrams(figure: Data, curves: Data, words: Catalogue) -> list[PanelData]:
 
 
 def _sheet(panels: list[PanelData], words: Catalogue, size: Size) -> Figure:
+    """All diagrams, one below the other; on a sheet that is to be saved many stand two by two."""
+    return _side_by_side(panels, words) if size is Size.LOW and len(panels) >= MANY else _column(panels, words, size)
+
+
+def _side_by_side(panels: list[PanelData], words: Catalogue) -> Figure:
+    """Diagrams in rows of two; numbers stand below the last one of a column, and where the next one runs over something else."""
+    width, share = WIDTHS[Size.LOW], WIDTHS[Size.LOW] / 2
+    wide, height = share - LEFT - RIGHT, HEIGHTS[Size.HALF][2]
+    drawn = _named_once([Diagram(panel, wide, height) for panel in panels])
+    for diagram in drawn[1:]:
+        diagram.follow(drawn[0])
+    below = [each is None or each.across != one.across for one, each in zip_longest(panels, panels[2:])]
+    rows = [range(start, min(start + 2, len(panels))) for start in range(0, len(panels), 2)]
+    heads = [max(drawn[index].head for index in row) for row in rows]
+    feet = [max(NAMED_FOOT + further(drawn[i].across) if below[i] else FOOT for i in row) for row in rows]
+    total = TOP + sum(heads) + height * len(rows) + sum(feet)
+    sheet, bottom = canvas(width, total), total - TOP
+    for row, head, foot in zip(rows, heads, feet, strict=True):
+        bottom -= head + height
+        for index in row:
+            left = LEFT + share * (index % 2)
+            axes = sheet.add_axes((left / width, bottom / total, wide / width, height / total))
+            drawn[index].draw(axes, words, named=below[index])
+        bottom -= foot
+    return sheet
+
+
+def _column(panels: list[PanelData], words: Catalogue, size: Size) -> Figure:
     """All diagrams; numbers stand below a diagram where the next one runs over something else."""
     feet = [NAMED_FOOT if one.across != two.across else FOOT for one, two in pairwise(panels)]
     feet.append(NAMED_FOOT)

@@ -14,7 +14,7 @@ from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 
 from diecut_report.quantities.units import pretty
 from diecut_report.report.figures.label_layout import SIZE, LabelLayout
-from diecut_report.report.figures.panel_data import Across, Frame, PanelData, framed, pieces
+from diecut_report.report.figures.panel_data import Frame, PanelData, framed, pieces
 from diecut_report.report.figures.shapes import hatching
 from diecut_report.report.figures.sizes import WIDTHS, Size
 from diecut_report.report.figures.style import (
@@ -53,6 +53,7 @@ HANDLE, BESIDE, BETWEEN = (
     0.8,
     1.6,
 )  # of a legend, in font sizes: its strokes, the room behind them, between columns
+OF_HANDLE = (HANDLE + BESIDE) * SIZE + 8  # beside a text of a legend, points
 APART, ABOVE = 24.0, 11.0  # the least room for a number at an axis, points
 
 
@@ -76,7 +77,7 @@ class Diagram:
         notes = [panel.marks[index].text for index in self.names.told_marks]
         notes += [panel.levels[index].text for index in self.names.told_levels]
         notes += [panel.verticals[index].text for index in self.names.told_uprights]
-        self.told = [tag for tag in self.tags if tag] + areas + notes
+        self.told = [wrapped(text, width - OF_HANDLE, SIZE) for text in (*filter(None, self.tags), *areas, *notes)]
         self.title = wrapped(self._title(), width)
         self.legend = legend(self.told, width, text_size(self.title)[0])
         self.across = wrapped(titled(*panel.across[:3]), width)
@@ -105,7 +106,7 @@ class Diagram:
         axes.set_xlim(self.frame.across)
         axes.set_ylim(self.frame.upwards)
         handles = [*self._lines(axes), *self._areas(axes), *self._notes(axes)]
-        _ticks(axes, self.panel.across, self.frame, words)
+        _ticks(axes, self.panel, self.frame, words)
         axes.tick_params(labelbottom=named)
         if named:
             axes.set_xlabel(self.across, labelpad=2)
@@ -139,7 +140,7 @@ class Diagram:
         above = 1 + (TITLE + further(self.title)) / self.frame.height
         beside = self.legend.beside
         axes.legend(
-            handles, [str(handle.get_label()) for handle in handles], loc="lower right" if beside else "lower left",
+            handles, self.told, loc="lower right" if beside else "lower left",
             bbox_to_anchor=(1.01, 1.0) if beside else (-0.01, above), ncols=self.legend.columns, borderaxespad=0,
             borderpad=0.25, columnspacing=BETWEEN, handletextpad=BESIDE, handlelength=HANDLE, labelspacing=0.25, fontsize=SIZE,
         )  # fmt: skip
@@ -209,7 +210,8 @@ def legend(told: list[str], width: float, title: float) -> Legend | None:
             return Legend(columns, 1, beside=True)
         if total <= width:
             break
-    return Legend(columns, -(-len(wide) // columns), beside=False)
+    further_lines = max(sum(text.count("\n") for text in column) for column in np.array_split(np.array(told), columns))
+    return Legend(columns, -(-len(wide) // columns) + int(further_lines), beside=False)
 
 
 def further(text: str) -> float:
@@ -223,8 +225,10 @@ def titled(words: str, sign: str, shown: str) -> str:
     return " ".join(parts) + (f", {pretty(shown)}" if pretty(shown) else "")
 
 
-def _ticks(axes: Axes, across: Across, frame: Frame, words: Catalogue) -> None:
-    """Round numbers at both axes: angles in steps that divide a turn."""
+def _ticks(axes: Axes, panel: PanelData, frame: Frame, words: Catalogue) -> None:
+    """Round numbers at both axes: angles in steps that divide a turn, whole numbers under points that are counted."""
+    across = panel.across
+    is_counted = len(panel.marks) > 1 and all(float(mark.x).is_integer() for mark in panel.marks)
     span = across.high - across.low
     if across.unit == "deg" and span > 60:
         axes.xaxis.set_major_locator(MultipleLocator(60 if span > 200 else 30))
@@ -234,6 +238,7 @@ def _ticks(axes: Axes, across: Across, frame: Frame, words: Catalogue) -> None:
             MaxNLocator(
                 min(9, int(frame.width / APART)),
                 steps=[1, 1.5, 3, 5, 10] if across.unit == "deg" else [1, 2, 2.5, 5, 10],
+                integer=is_counted and across.unit == "1",
             )
         )
     axes.yaxis.set_major_locator(MaxNLocator(min(6, int(frame.height / ABOVE)), steps=[1, 2, 2.5, 5, 10]))

@@ -88,7 +88,7 @@ def within(start: float, end: float, height: float, size: Size) -> Iterator[Plac
     """Within a range across a diagram, at its upper edge and then at its lower one, its middle first."""
     middle, room = (start + end) / 2, max((end - start - size[0]) / 2 - 2, 0.0)
     for share in (0.0, -0.5, 0.5, -1.0, 1.0):
-        for y in (height - size[1] / 2 - 2, size[1] / 2 + 2):
+        for y in (height - size[1] / 2 - 4, size[1] / 2 + 4):  # clear of the frame
             yield middle + share * room, y
 
 

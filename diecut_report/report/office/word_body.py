@@ -27,6 +27,7 @@ from diecut_report.report.office.wordml import (
     table,
 )
 from diecut_report.report.printed_tables import PartsTable, PrintedTable
+from diecut_report.report.record_tables import RecordTable
 from diecut_report.report.symbols import prose
 from diecut_report.report.value_rows import ValueRow
 
@@ -151,6 +152,19 @@ class WordBody:
             [run(number), *(run(cell.text) + (new_line() + small(cell.note) if cell.note else "") for cell in cells)]
             for number, cells in found.lines
         ]
+        self.table(columns, rows)
+
+    def record_table(self, found: RecordTable) -> None:
+        """A table of a few repeated parts side by side."""
+        self.caption("table", found.number, rich(prose(f"{found.title} ".lstrip())) + key(found.family), keep=True)
+        columns = [self.head("quantity", 4), self.head("symbol", 1)]
+        columns += [*(TableColumn(run(head), 2) for head in found.heads), self.head("unit", 1), self.head("origin", 2)]
+        rows = [
+            [rich(prose(row.description)) + new_line() + key(row.key), rich(row.symbol),
+             *(run(cell.text) + (new_line() + small(cell.note) if cell.note else "") for cell in row.cells),
+             run(row.unit), small(row.note)]
+            for row in found.rows
+        ]  # fmt: skip
         self.table(columns, rows)
 
     def formula(self, equation: Equation) -> None:

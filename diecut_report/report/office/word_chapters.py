@@ -12,6 +12,7 @@ from diecut_report.report.model import Heading, PrintedChapter, QuantityRow
 from diecut_report.report.office.word_body import WordBody
 from diecut_report.report.office.word_front import check_table
 from diecut_report.report.office.wordml import Inline, TableColumn, bold, key, new_line, rich, run, small
+from diecut_report.report.record_tables import RecordTable
 from diecut_report.report.scope import FULL
 from diecut_report.report.symbol_list import SymbolRow
 from diecut_report.report.symbols import prose
@@ -79,11 +80,12 @@ def _given(body: WordBody, part: PrintedChapter) -> None:
         body.listed(rich(prose(text)) for text in part.assumptions)
     _head(body, part.parts.get("inputs"))
     _inputs(body, part.inputs)
-    if part.defaults:
-        told = [f"{row.description} {row.value} {row.unit}".strip() for row in part.defaults]
+    if part.defaults or part.are_defaults_told:
+        told = [body.words.say("defaults_told", letter=part.told_in)] if part.are_defaults_told else []
+        told += [f"{row.description} {row.value} {row.unit}".strip() for row in part.defaults]
         body.say(bold(body.words["defaults"]) + run(": ") + rich(prose(" · ".join(told))), "Why")
     for table in part.input_parts:
-        body.parts_table(table)
+        body.record_table(table) if isinstance(table, RecordTable) else body.parts_table(table)
 
 
 def _inputs(body: WordBody, rows: Sequence[QuantityRow]) -> None:

@@ -1,0 +1,33 @@
+"""Names that a configuration gives: of mechanisms and of the parts of a list. They are printed as they are typed, in any language."""
+
+from __future__ import annotations
+
+from collections.abc import Collection, Mapping
+from typing import Any
+
+from diecut_report.languages.tokens import worded
+
+Data = Mapping[str, Any]
+
+
+def given_names(mechanism: Data, mechanisms: Collection[str]) -> frozenset[str]:
+    """Return the names among the inputs of a mechanism: those of its parts, and of the ``mechanisms`` that it takes."""
+    rows = mechanism.get("inputs", {}).values()
+    return frozenset(text for row in rows for text in _texts(row["value"]) if is_name(row) or text in mechanisms)
+
+
+def is_name(row: Data) -> bool:
+    """Return whether an input is what a part of a list is called."""
+    return bool(row.get("part", {}).get("quantity") == "name")
+
+
+def value_in_words(row: Data) -> str:
+    """Return the shown text of a quantity: a choice as words, a name or what stands in the configuration elsewhere as it is."""
+    text: str = row["display"]["text"]
+    is_taken = text == row.get("path") or (row.get("origin") == "given" and "text" not in row)  # a mechanism
+    return text if is_name(row) or is_taken else worded(text)
+
+
+def _texts(value: Any) -> list[str]:
+    several = value if isinstance(value, list) else [value]
+    return [each for each in several if isinstance(each, str)]

@@ -1,0 +1,53 @@
+"""Names that a configuration gives are printed as they are typed."""
+
+from __future__ import annotations
+
+from typing import Any
+
+import pytest
+
+from diecut_report.languages.catalogues import Catalogues
+from diecut_report.report.given_names import given_names, value_in_words
+from diecut_report.report.translated import translated
+
+Data = dict[str, Any]
+
+
+def named(value: str, quantity: str = "name", **more: Any) -> Data:
+    """An input of a part of a list."""
+    return {"value": value, "symbol": "", "description": "", "display": {"text": value, "unit": "1"}, "origin": "given", "text": value,
+            "part": {"family": "loads", "index": 0, "quantity": quantity}} | more  # fmt: skip
+
+
+@pytest.mark.parametrize(
+    ("row", "text"),
+    [
+        (named("main_a"), "main_a"),
+        (named("deep_groove", "type"), "deep groove"),
+        (named("gripper_chain", "mechanism", origin="reference", path="gripper_chain"), "gripper_chain"),
+    ],
+)
+def test_a_name_keeps_its_form_and_a_choice_is_said_in_words(row: Data, text: str) -> None:
+    assert value_in_words(row) == text
+
+
+def test_names_are_those_of_parts_and_of_mechanisms_that_are_taken() -> None:
+    inputs = {
+        "loads.0.name": named("crank"),
+        "loads.0.type": named("gear", "type"),
+        "drives": named("", "") | {"value": ["feeder"]},
+    }
+    assert given_names({"inputs": inputs}, {"feeder": {}, "gear_1": {}}) == {"crank", "feeder"}
+
+
+def test_a_name_that_is_a_word_of_the_catalogue_is_not_translated(plain: Data) -> None:
+    """“drive” is a word of several catalogues."""
+    data = plain["mechanisms"]["cylinder"]
+    data["inputs"]["lines.0.name"] = named("drive")
+    data["figures"] = [{"type": "diagram", "title": "Torque", "panels": [{"series": [{"label": "drive"}]}]}]
+    catalogues = Catalogues("uk")
+    catalogues.know(["cyclogram", "drive_train"])
+    one = {**plain, "mechanisms": {"cylinder": data}, "comparisons": {}}
+    said = translated(one, catalogues)["mechanisms"]["cylinder"]
+    assert said["inputs"]["lines.0.name"]["display"]["text"] == "drive"
+    assert said["figures"][0]["panels"][0]["series"][0]["label"] == "drive"
