@@ -115,6 +115,8 @@ class _Mechanism:
             return self.text(text)
         if key == "source":
             return self.words.source(text, self.kind)
+        if key == "citation":
+            return self.words.paper(text, self.kind)
         if key in ("text", "key", "column", "note", "part_name", "name"):
             return self._shown(text)
         return text
