@@ -280,4 +280,11 @@ def _margin(margin: float, display: str, texts: list[dict[str, str]]) -> dict[st
     """A margin with as many digits as the printed demand and limit show of it: who subtracts them finds no other one."""
     seen = Decimal(texts[1]["text"]) - Decimal(texts[0]["text"])
     told = [shown(margin, display, digits) for digits in MARGIN_DIGITS]
-    return next((each for each in told if seen.quantize(number := Decimal(each["text"])) == number), told[-1])
+    found = next((each for each in told if seen.quantize(number := Decimal(each["text"])) == number), told[-1])
+    return found | {"text": _no_finer(found["text"], seen)}
+
+
+def _no_finer(text: str, seen: Decimal) -> str:
+    """A number's text without zeros beyond the last place of what is seen: 9.27 for 9.270 between 20.73 and 30."""
+    number, is_plain = Decimal(text), "e" not in text
+    return str(number.quantize(seen)) if is_plain and number == seen and len(text) > len(str(seen)) else text
