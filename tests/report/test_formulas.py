@@ -289,6 +289,11 @@ def test_a_branch_is_shown_with_its_condition_once_and_named_after_that() -> Non
     assert said.condition(item | {"words": "the board is long"}) is not None
 
 
+def test_a_number_times_one_of_a_unit_is_printed_as_a_quantity() -> None:
+    condition = _equations()[0].condition({"condition": ["cmp", "<=", A, ["*", ["num", "40"], ["qty", "1", "mm"]]]})
+    assert condition is not None and condition.text == "a ≤ 40 mm"
+
+
 def test_unknown_expression_is_refused() -> None:
     with pytest.raises(ValueError, match="no expression"):
         Latex()(["@", A, B])
