@@ -27,7 +27,7 @@ APPENDIX = (
     ("configuration", "5.4", "configuration"),
 )
 CONTENTS_COLUMNS = 3
-MOST_CONTENTS = 140  # lines, for which the contents of a report stay on one sheet
+MOST_CONTENTS = 80  # lines, for which the contents leave room for the verdict on the first sheet
 
 
 @dataclass(frozen=True)
@@ -158,14 +158,11 @@ def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[Prin
     results = whole.results
     stem = PurePath(results["config"]["file"]).stem
     told: dict[str, ToldBefore] = {}
-    titles = Counter(data.get("title") for _, data in parts(results))
-    several = {title for title, count in titles.items() if title and count > 1}
     chapters = []
     for name, data in parts(results):
         letter, kind = whole.letters[name], data["kind"]
         known = told.setdefault(kind, ToldBefore())
-        named = dict(data, title=f"{data['title']} ({name})") if data.get("title") in several else data
-        chapters.append(chapter(letter, name, named, equations, words, stem, whole.detail, known))
+        chapters.append(chapter(letter, name, data, equations, words, stem, whole.detail, known))
         told[kind] = known.next(letter)
     mechanisms = {part.name: part for part in chapters[: len(results["mechanisms"])]}
     for part, (_, data) in zip(chapters, parts(results), strict=True):

@@ -182,11 +182,6 @@ class PrintedChapter:
         """Whether it could not be calculated."""
         return self.status in ("error", "skipped")
 
-    @property
-    def is_told_apart(self) -> bool:
-        """Whether its title has its name, as another chapter has the same title."""
-        return self.title.endswith(f"({self.name})")
-
     def count(self, status: str) -> int:
         """How many checks of the machine have a status."""
         return sum(row.status == status and not row.is_self_test for row in self.checks)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping
 from typing import Any
 
 from diecut_report.report.equations import Equation, Equations
@@ -35,15 +35,12 @@ class SaidOnce:
         self.defined.add(told)
         return equation
 
-    def new(self, texts: Sequence[str]) -> Iterator[str]:
-        """Those of the texts that were not said already."""
-        yield from (text for text in texts if text not in self.defined)
-        self.defined.update(texts)
-
     def conversions(self, item: Data) -> Iterator[str]:
         """How numbers of the formula follow from what stands elsewhere in another unit, where that was not said already."""
         told = [self._converted(each) for each in item.get("conversions", ())]
-        if new := list(self.new(told)):
+        new = [each for each in told if each not in self.defined]
+        self.defined.update(new)
+        if new:
             yield f"{self.words['where']} {self.words.listed(new)}"
 
     def _converted(self, conversion: Data) -> str:

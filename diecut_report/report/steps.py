@@ -122,10 +122,10 @@ class PrintedSteps:
 
     def _notes(self, item: Data, notes: set[str]) -> Iterator[str]:
         """The method, where it was not said already in this section, what proves the value, and a note."""
-        told = [self._looked_up(item)] if item["type"] == "lookup" else []
+        if item["type"] == "lookup":
+            yield self._looked_up(item)
         if item.get("series") and not item.get("note", "").startswith(item["series"]):
-            told.append(f"{self.words['series']}: {item['series']}")
-        yield from self.said.new(told) if self.told else told
+            yield f"{self.words['series']}: {item['series']}"
         if self.told is None or _is_picked(item):  # why this value and no other is never told elsewhere
             yield from self._proof(item, notes)
         yield from self.said.conversions(item)

@@ -15,7 +15,6 @@ from diecut_report.report.symbols import symbol
 from diecut_report.report.told_before import Reference
 
 Data = Mapping[str, Any]
-LONGEST_VALUE = 9  # letters, beside a description in half a line
 
 
 @dataclass(frozen=True)
@@ -32,11 +31,6 @@ class ValueRow:
     letters: tuple[tuple[Markup, Markup], ...] = ()
     note: str = ""
     changed: str = ""
-
-    @property
-    def is_tight(self) -> bool:
-        """Whether its value needs so much of a half line that its description has less."""
-        return not self.at and len(self.value) > LONGEST_VALUE
 
     def named_formula(self, words: Catalogue, *, linked: bool = False) -> Markup:
         """Where the formula stands that is not printed again, and which letters take the place of others in it."""

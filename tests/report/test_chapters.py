@@ -30,14 +30,6 @@ def _items(chapters: dict[str, PrintedChapter]) -> dict[str, Item]:
     return {item.description: item for item in chapters["train"].sections[0].items}
 
 
-def test_chapters_of_one_title_are_told_apart_by_their_names_and_others_are_not() -> None:
-    found = sample()
-    found["mechanisms"] = {"first": mechanism("Shaft"), "second": mechanism("Shaft"), "pair": mechanism("Gears")}
-    found |= {"comparisons": {}, "governing": None}
-    told = [part.title for part in Rendering(found).material.document.chapters]
-    assert told == ["Shaft (first)", "Shaft (second)", "Gears"]
-
-
 def test_what_is_absent_does_not_say_the_words_of_its_heading_again() -> None:
     found = sample()
     absent = [{"title": "Bending", "text": "not calculated: bearing_span is not given"}]

@@ -206,15 +206,10 @@ def closing(body: WordBody, document: ReportDocument, digest: str) -> None:
         body.head("verdict", 2),
     ]
     body.table(columns, [
-        [run(f"{part.letter} {part.title}") + _named(part), key(part.kind),
+        [run(f"{part.letter} {part.title} (") + key(part.name) + run(")"), key(part.kind),
          run(part.version or "–") + _foreign(body, part) + _hash(body, part.source_sha256), body.status(part.face)]
         for part in document.chapters
     ])  # fmt: skip
-
-
-def _named(part: PrintedChapter) -> Inline:
-    """The name of a mechanism behind its title, where that does not have it."""
-    return "" if part.is_told_apart else run(" (") + key(part.name) + run(")")
 
 
 def _foreign(body: WordBody, part: PrintedChapter) -> Inline:
