@@ -13,11 +13,12 @@ import click
 from jinja2 import Environment, nodes
 
 from diecut_report.cli.main import program
+from diecut_report.config.discovery import Discovery
 from diecut_report.config.model import Press, Project
 from diecut_report.contract.inputs import fields
 from diecut_report.declaration.texts import inputs_texts, is_text
 from diecut_report.engine.printing import methods, tables
-from diecut_report.languages.translation import CITATION, EQUATIONS
+from diecut_report.languages.translation import CITATION, EQUATIONS, PAPER
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.quantities.units import _table
 from diecut_report.report.i18n import COUNTED, ENGLISH, one
@@ -78,6 +79,7 @@ def program_texts() -> Iterator[ProgramText]:
         *_counted(),
         *_templates(),
         *_sources(),
+        *_papers(),
     ):
         if (found.context, found.text) not in seen:
             seen.add((found.context, found.text))
@@ -99,6 +101,15 @@ def _standards() -> Iterator[ProgramText]:
         yield from (ProgramText(standard_series(id).title, note=f"standard series {id}") for id in standard_ids(form))
     for id in standard_ids("by"):
         yield from (ProgramText(each.title, note=f"standard series {id}") for each in standard_series_by(id).values())
+
+
+def _papers() -> Iterator[ProgramText]:
+    """The papers that the built-in mechanisms follow, which are in Ukrainian: their numbers begin with two zeros."""
+    discovery = Discovery()
+    for kind in discovery.origins:
+        for source in discovery.mechanism(kind).sources:
+            if source.id.startswith("00"):
+                yield ProgramText(source.citation, context=PAPER)
 
 
 def _press() -> Iterator[str]:

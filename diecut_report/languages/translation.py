@@ -12,6 +12,7 @@ from diecut_report.languages.phrases import Phrase, filled, wording
 
 DECIMAL = re.compile(r"(?<![\w.,])(\d+)\.(\d+)(?![\w.]*\.?\d)")
 CITATION = "citation"  # the context of the words about sources
+PAPER = "paper"  # the context of papers, each as it is cited in the language that it is written in
 EQUATIONS = {
     re.compile(r"(?P<paper>\b\d{3}) eq\. (?P<numbers>\d[\w–-]*(?:, \d[\w–-]*)*)"): "{paper} eq. {numbers}",
     re.compile(r"\beq\. (?P<numbers>\d[\w–-]*(?:, \d[\w–-]*)*)"): "eq. {numbers}",
@@ -78,6 +79,14 @@ class Translator:
         for pattern, template in EQUATIONS.items():
             text = pattern.sub(_filler(self._citation.get(template, template)), text)
         return self._cited.sub(lambda words: self._citation[words[0]], text)
+
+    def paper(self, citation: str, kind: str = "") -> str:
+        """Return how a work is cited in the language: one that is written in it by its own title, others as they are given."""
+        return self._papers.get(citation) or self.known(citation, kind) or citation
+
+    @cached_property
+    def _papers(self) -> dict[str, str]:
+        return self.catalogues.program.of_context(PAPER)
 
     @cached_property
     def _citation(self) -> dict[str, str]:

@@ -108,7 +108,7 @@ class _Filler:
         part.files = list(self._files())
         if part.files:
             self._head("files")
-        part.absent = mechanism["absent"]
+        part.absent = [dict(told, text=self._under_heading(told["text"])) for told in mechanism["absent"]]
         if part.absent:
             self._head("absent")
         part.symbols = self._symbols()
@@ -117,6 +117,10 @@ class _Filler:
         if self.is_full:
             part.curves = self.tables.of_curves(mechanism["curves"])
             part.errata = [(e["source"], e["text"], self._touched(e)) for e in mechanism["errata"]]
+
+    def _under_heading(self, text: str) -> str:
+        """Why something is absent, without the words of the heading that stands above it."""
+        return text.removeprefix(f"{self.words['absent'].lower()}: ")
 
     def _new(self, texts: list[str]) -> list[str]:
         """Those of the texts that an earlier chapter has not told."""

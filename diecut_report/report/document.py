@@ -27,7 +27,7 @@ APPENDIX = (
     ("configuration", "5.4", "configuration"),
 )
 CONTENTS_COLUMNS = 3
-MOST_CONTENTS = 140  # lines, for which the contents of a report stay on one sheet
+MOST_CONTENTS = 80  # lines, for which the contents leave room for the verdict on the first sheet
 
 
 @dataclass(frozen=True)

@@ -6,7 +6,7 @@ from collections.abc import Callable, Mapping
 from functools import reduce
 from typing import Any, NamedTuple
 
-from diecut_report.report.expression_printer import Tree, factors, terms
+from diecut_report.report.expression_printer import Tree, factors, terms, with_units
 from diecut_report.report.latex import Latex, Linear, escaped
 
 Item = Mapping[str, Any]
@@ -113,6 +113,7 @@ class Equations:
         return [*links, result] if trees or item["type"] in ("found", "lookup") else []
 
     def _link(self, tree: Tree) -> Link:
+        tree = with_units(tree)
         return Link(self.latex(tree), self.linear(tree), tree, tree)
 
     def _result(self, result: Item) -> Link:

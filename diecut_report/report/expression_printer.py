@@ -25,6 +25,15 @@ LEVEL = ("min", "max", "minimum", "maximum")  # of as many arguments as there ar
 BRACKETS = {"abs": ("|", "|"), "ceil": ("⌈", "⌉"), "floor": ("⌊", "⌋")}
 
 
+def with_units(tree: Any) -> Any:
+    """Return a tree in which a number times one of a unit is a quantity: 40 mm for 40 · 1 mm."""
+    if not isinstance(tree, list):
+        return tree
+    if len(tree) == 3 and tree[0] == "*" and tree[1][:1] == ["num"] and tree[2][:2] == ["qty", "1"]:
+        return ["qty", tree[1][1], tree[2][2]]
+    return [with_units(part) for part in tree]
+
+
 class Piece(NamedTuple):
     """A printed part: its text, how tightly it holds together, and what its ends are."""
 

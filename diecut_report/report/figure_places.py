@@ -12,6 +12,7 @@ Data = Mapping[str, Any]
 BEFORE = -1  # the first step of a section
 NEAR = 2  # sections later a figure may stand, beside another one
 MOST_NOTES = 3  # within a diagram that has room for them over half the width
+MOST_LINES = 6  # of a diagram over half the width, whose legend would else be higher than the diagram
 LONGEST_LEGEND = 110  # letters in the names of a diagram's lines, or of its marks, that have room over half the width
 MANY = 4  # diagrams of one figure, which stand two by two over the whole width
 VALUE = 16  # letters of the numbers behind the name of a mark
@@ -91,10 +92,20 @@ def _is_narrow(figure: Data) -> bool:
         sum(len(mark["label"]) + VALUE for mark in panel.get("marks", ()) if mark.get("label"))
         for panel in figure.get("panels", ())
     ]
-    if figure["type"] == "bars" or figure.get("schematic") or len(figure.get("panels", ())) >= MANY:
+    is_large = len(figure.get("panels", ())) >= MANY or _most_lines(figure) > MOST_LINES
+    if figure["type"] == "bars" or figure.get("schematic") or is_large:
         return False
     longest, most = max([*names, *marked], default=0), max(map(_notes, figure.get("panels", ())), default=0)
     return longest <= LONGEST_LEGEND and most <= MOST_NOTES
+
+
+def _most_lines(figure: Data) -> int:
+    """How many lines a diagram of the figure has that a legend names."""
+    named = [
+        sum(bool(line.get("label")) for key in ("lines", "series") for line in panel.get(key, ()))
+        for panel in figure.get("panels", ())
+    ]
+    return max(named, default=0)
 
 
 def _notes(panel: Data) -> int:

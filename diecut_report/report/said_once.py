@@ -26,6 +26,15 @@ class SaidOnce:
                 self.defined.add(equation.text)
                 yield equation
 
+    def condition(self, item: Data) -> Equation | None:
+        """Return the condition of the branch taken, with its numbers, where the chapter has not shown it already."""
+        equation = self.equations.condition(item)
+        told = "" if equation is None else f"{item.get('words', '')}: {equation.text}"
+        if not told or (told in self.defined and item.get("words")):
+            return None
+        self.defined.add(told)
+        return equation
+
     def conversions(self, item: Data) -> Iterator[str]:
         """How numbers of the formula follow from what stands elsewhere in another unit, where that was not said already."""
         told = [self._converted(each) for each in item.get("conversions", ())]

@@ -151,11 +151,11 @@ def _iso_next(block: TitleBlock, words: Catalogue) -> Iterator[Cell]:
     p = block.project
     yield from _row(0, 10, [
         (36, _cell(words["owner"], p["organisation"])),
-        (48, _cell(words["title"], p["title"])),
+        (43, _cell(words["title"], p["title"])),
         (38, _cell(words["identification"], p["document_number"], bold=True)),
         (13, _cell(words["revision"], p["revision"])),
         (17, _cell(words["issued"], p["date"])),
-        (13, _cell(words["status"], block.status, bold=block.is_held)),
+        (18, _cell(words["status"], block.status, bold=block.is_held)),
         (15, _cell(words["sheet"], kind="sheet")),
     ])  # fmt: skip
 

@@ -113,10 +113,10 @@ class PrintedSteps:
             description=item["description"],
             source=item["source"] if len(item["source"]) <= LONGEST_SOURCE else "",
             equation=self.equations.of(item),
-            condition=self.equations.condition(item),
+            condition=self.said.condition(item),
             definitions=tuple(self.said.definitions(item)),
             words=item.get("words", ""),
-            text="" if item.get("equation") or item["type"] in WORDLESS else item["result"]["text"],
+            text="" if item.get("equation") or item["type"] in WORDLESS else worded(item["result"]["text"]),
             notes=tuple(self._notes(item, notes)),
             changed=item.get("changed", ""),
         )

@@ -87,7 +87,7 @@ def _used(sections: list[Data]) -> Iterator[str]:
     """The symbols of results and of formulas."""
     for section in sections:
         for item in section["items"]:
-            if item.get("symbol"):
+            if any(map(str.isalpha, item.get("symbol", ""))):  # no arrow before a choice in words
                 yield item["symbol"]
             if len(columns := item.get("columns", ())) >= WIDE:
                 yield from (column["symbol"] for column in columns if column["symbol"])

@@ -8,6 +8,7 @@ from markupsafe import Markup, escape
 
 from diecut_report.report.number_format import tidy
 
+LONGEST_WHOLE = 26  # letters of a source that stands in one line
 _SIGNS = "=<>≤≥≈≠−+√"
 SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[′'|\]]*)")
 _OF_LETTERS = re.compile(r"[^\W\d_]{1,2}(?:\([^\W\d_]\)|/[^\W\d_]{1,2})")  # of another one, or their ratio: v(x), t/r
@@ -42,6 +43,11 @@ def pieces(typed: str, *, narrow: bool = False) -> Markup:
     return Markup(" ").join(
         joint.join(Markup('<span class="whole">{}</span>').format(part) for part in word) for word in words
     )
+
+
+def is_short(source: str) -> bool:
+    """Return whether a source beside a formula is not to be broken over lines."""
+    return len(source) <= LONGEST_WHOLE
 
 
 def cited(source: str) -> Markup:

@@ -10,7 +10,7 @@ from typing import Any, TypeVar
 from markupsafe import Markup
 
 from diecut_report.quantities.formatting import place_shown
-from diecut_report.quantities.units import pretty
+from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.curves import CurvePlace, table_places
 from diecut_report.report.given_names import value_in_words
 from diecut_report.report.i18n import Catalogue
@@ -73,7 +73,10 @@ class Tables:
         keys = ("from", "to", "length")
         texts = [(self.words[key], Markup(""), "") for key in ("phase", "role")]
         columns = texts + [(self.words[key], Markup(""), pretty(display)) for key in keys]
-        timed = any("time" in interval for phase in members for interval in phase["display"]["intervals"])
+        is_time = unit(display).kind == unit("ms").kind
+        timed = not is_time and any(
+            "time" in interval for phase in members for interval in phase["display"]["intervals"]
+        )
         columns += [(self.words["time"], Markup(""), "ms")] if timed else []
         rows = [
             [phase["description"], self.words[f"role_{phase['role']}"]]

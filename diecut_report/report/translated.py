@@ -128,6 +128,8 @@ class _Mechanism:
             return self.text(text)
         if key == "source":
             return self.words.source(text, self.home)
+        if key == "citation":
+            return self.words.paper(text, self.home)
         if key in ("text", "key", "column", "note", "part_name", "name"):
             return self._shown(text)
         return text

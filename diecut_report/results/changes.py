@@ -230,6 +230,7 @@ def _follows(before: Data | None, after: Data | None) -> str:
     if (
         before is None
         or after is None
+        or "origin" not in after  # data of the press, whose path is their own
         or any(before.get(key) != after.get(key) for key in ("origin", "text", "path", "paths"))
     ):
         return ""

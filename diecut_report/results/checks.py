@@ -25,6 +25,7 @@ Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-12
 MARGIN_DIGITS = (4, 3, 2)
+NOTHING_BESIDE = 1e-6  # of the limit: a demand below this share takes nothing visible of it
 
 
 class JudgedCheck(NamedTuple):
@@ -278,6 +279,15 @@ def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str
 
 def _margin(margin: float, display: str, texts: list[dict[str, str]]) -> dict[str, str]:
     """A margin with as many digits as the printed demand and limit show of it: who subtracts them finds no other one."""
+    if abs(float(texts[0]["text"])) < NOTHING_BESIDE * abs(float(texts[1]["text"])):
+        return texts[1]
     seen = Decimal(texts[1]["text"]) - Decimal(texts[0]["text"])
     told = [shown(margin, display, digits) for digits in MARGIN_DIGITS]
-    return next((each for each in told if seen.quantize(number := Decimal(each["text"])) == number), told[-1])
+    found = next((each for each in told if seen.quantize(number := Decimal(each["text"])) == number), told[-1])
+    return found | {"text": _no_finer(found["text"], seen)}
+
+
+def _no_finer(text: str, seen: Decimal) -> str:
+    """A number's text without zeros beyond the last place of what is seen: 9.27 for 9.270 between 20.73 and 30."""
+    number, is_plain = Decimal(text), "e" not in text
+    return str(number.quantize(seen)) if is_plain and number == seen and len(text) > len(str(seen)) else text

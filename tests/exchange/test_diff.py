@@ -62,6 +62,12 @@ def test_what_a_user_writes_anew_is_no_follower(tmp_path: Path) -> None:
     assert [(row["path"], row["relative"], row["follows"]) for row in found["inputs"]] == [("b.force", 0.5, "")]
 
 
+def test_data_of_the_press_that_a_user_changes_follow_nothing(tmp_path: Path) -> None:
+    found = between(tmp_path, LIMITED, LIMITED.replace("thickness: 0.6 mm", "thickness: 0.5 mm"))
+    [thickness] = (row for row in found["inputs"] if row["path"] == "press.sheet.thickness")
+    assert thickness["follows"] == ""
+
+
 def test_the_basis_of_a_value_is_a_change(tmp_path: Path) -> None:
     found = between(tmp_path, LIMITED, LIMITED.replace("force: 2 kN", "force: {value: 2 kN, basis: measured}"))
     (row, *_) = printed_changes(found, Catalogue("en")).inputs

@@ -6,6 +6,7 @@ from pathlib import Path
 
 import pytest
 
+from diecut_report.config.discovery import Discovery
 from diecut_report.languages.catalogues import Catalogues
 from diecut_report.languages.translation import Translator
 
@@ -26,3 +27,9 @@ def test_a_foreign_source_is_printed_as_it_is_given(words: Translator, text: str
 
 def test_a_foreign_source_of_its_own_catalogue_is_said_as_that_has_it(words: Translator) -> None:
     assert words.source("the works' sheet", "hook") == "аркуш заводу"
+
+
+def test_a_paper_is_cited_in_the_language_that_it_is_written_in_and_others_as_they_are(words: Translator) -> None:
+    [source] = Discovery().mechanism("knife_drive").sources
+    assert words.paper(source.citation).startswith("Дідич В. П., Нагорнюк С. О. Порівняльний аналіз механізмів")
+    assert words.paper("Pilkey W. D. Stress Concentration Factors.") == "Pilkey W. D. Stress Concentration Factors."

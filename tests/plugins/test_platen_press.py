@@ -320,3 +320,19 @@ def test_the_example_is_the_sources_machine() -> None:
     outputs = found["mechanisms"]["platen"]["outputs"]
     assert outputs["torque_max"]["value"] == number(platen(), "torque_max")
     assert degrees(outputs["torque_max_angle"]["value"]) == pytest.approx(3.12, abs=5e-3)
+
+
+def test_a_number_half_way_between_two_is_rounded_alike_as_a_result_and_within_a_formula() -> None:
+    steps = {
+        item["id"]: item
+        for part in mechanism_results(platen(), {})["sections"]
+        for item in part["items"]
+        if "id" in item
+    }
+    assert steps["standing_distance"]["result"] == {"text": "525.5", "unit": "mm"}
+    assert "'525.4'" not in str(steps["stretched_length"])
+
+
+def test_a_margin_has_no_zeros_behind_what_its_sides_show() -> None:
+    journal = checks(platen(journal_length="120 mm", allowable_pin_pressure=30))["contact_stress_journal"]
+    assert journal["margin_display"] == {"text": "9.27", "unit": "MPa"}

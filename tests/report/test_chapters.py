@@ -11,7 +11,7 @@ import pytest
 from diecut_report.report import Rendering, render_html
 from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.profile_files import CENTER, PITCH_CURVE, PROFILE, exports
-from tests.report.made_results import SOURCE, check, export
+from tests.report.made_results import SOURCE, check, export, mechanism, sample
 
 Data = dict[str, Any]
 
@@ -28,6 +28,15 @@ def _words(html: str) -> str:
 
 def _items(chapters: dict[str, PrintedChapter]) -> dict[str, Item]:
     return {item.description: item for item in chapters["train"].sections[0].items}
+
+
+def test_what_is_absent_does_not_say_the_words_of_its_heading_again() -> None:
+    found = sample()
+    absent = [{"title": "Bending", "text": "not calculated: bearing_span is not given"}]
+    found["mechanisms"] = {"first": mechanism("Shaft", absent=absent)}
+    found |= {"comparisons": {}, "governing": None}
+    [part] = Rendering(found).material.document.chapters
+    assert [told["text"] for told in part.absent] == ["bearing_span is not given"]
 
 
 # lists

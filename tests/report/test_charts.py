@@ -11,7 +11,7 @@ import numpy as np
 import pytest
 
 from diecut_report.report.figures.by_type import render
-from diecut_report.report.figures.charts import _of_curves, _of_lines
+from diecut_report.report.figures.charts import _of_curves, _of_lines, diagrams
 from diecut_report.report.figures.diagram import STROKES, Diagram, legend
 from diecut_report.report.figures.label_layout import LabelLayout
 from diecut_report.report.figures.panel_data import PanelData, framed, pieces
@@ -119,6 +119,16 @@ def test_many_lines_without_room_carry_numbers_which_the_legend_names() -> None:
 def test_panels_of_the_same_lines_share_a_legend_in_rows() -> None:
     written = _texts(laws())
     assert sum("cycloidal" in text for text in written) == 1
+
+
+def test_a_panel_names_in_its_legend_only_what_the_first_does_not() -> None:
+    figure = laws()
+    bounds = [{"value": 0.5, "label": "a bound whose long name has room nowhere among so many lines"}]
+    figure["panels"][1] = figure["panels"][1] | {"levels": bounds, "lines": figure["panels"][1]["lines"][:5]}
+    first, second, _ = (Diagram(each, 400, 20) for each in diagrams(figure, {}, WORDS))
+    before = list(second.told)
+    second.follow(first)
+    assert before[:5] == first.told[:5] and second.told == before[5:]
 
 
 def test_legend_stands_beside_a_short_title_and_in_rows_where_it_is_long() -> None:

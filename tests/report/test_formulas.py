@@ -15,6 +15,7 @@ from hypothesis import strategies as st
 from diecut_report.report.equations import WIDTH, Equations
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.latex import Latex, Linear, unit_latex
+from diecut_report.report.said_once import SaidOnce
 from diecut_report.report.typeset import Typesetter
 
 Tree = list[Any]
@@ -277,6 +278,20 @@ def test_condition_is_shown_in_symbols_and_with_numbers() -> None:
     condition = _equations()[0].condition(item)
     assert condition is not None
     assert condition.text == "a > b: 40 mm > 30 mm"
+
+
+def test_a_branch_is_shown_with_its_condition_once_and_named_after_that() -> None:
+    said = SaidOnce(_equations()[0], Catalogue("en"))
+    item = {"words": "the knife cuts", "condition": ["cmp", ">", A, B]}
+    first = said.condition(item)
+    assert first is not None and first.text == "a > b"
+    assert said.condition(item) is None
+    assert said.condition(item | {"words": "the board is long"}) is not None
+
+
+def test_a_number_times_one_of_a_unit_is_printed_as_a_quantity() -> None:
+    condition = _equations()[0].condition({"condition": ["cmp", "<=", A, ["*", ["num", "40"], ["qty", "1", "mm"]]]})
+    assert condition is not None and condition.text == "a ≤ 40 mm"
 
 
 def test_unknown_expression_is_refused() -> None:

@@ -123,6 +123,17 @@ def test_texts_of_figures_keep_clear_in_every_example(config: Path, paired: bool
     assert _every(calc(config, Discovery([]), lambda _: None)[0].results, paired=paired, language=language) == []
 
 
+def test_a_diagram_of_many_lines_is_as_wide_as_the_sheet() -> None:
+    over = ("Angle", "φ", "deg")
+    few, many = ([line([0, 1], [0, n], f"law {n}") for n in range(count)] for count in (6, 7))
+    narrow, wide = (
+        {"sections": [], "figures": [chart("x", "x", [panel("y", "N", over, lines=lines)])] * 2}
+        for lines in (few, many)
+    )
+    assert [len(row.figures) for row in rows_of(placed("A", narrow), paired=True)] == [2]
+    assert [len(row.figures) for row in rows_of(placed("A", wide), paired=True)] == [1, 1]
+
+
 @pytest.mark.usefixtures("style")
 def test_titles_that_are_wider_than_their_diagram_stand_in_lines() -> None:
     """Two long titles and a legend in rows, in the narrowest size."""

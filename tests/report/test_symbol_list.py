@@ -39,6 +39,13 @@ def test_the_list_tells_the_letter_of_the_source() -> None:
     assert "W" in first.in_source and not any(each.in_source for each in others)
 
 
+def test_the_arrow_before_a_choice_in_words_is_no_symbol() -> None:
+    made = mechanism()
+    made["values"]["chosen"] = row("→", "Drive that is taken", "1")
+    made["sections"][0]["items"].append({"symbol": "→", "type": "choice"})
+    assert all("→" not in each.symbol for each in symbol_rows(made))
+
+
 def test_a_lone_symbol_stands_in_the_first_column() -> None:
     row = SymbolRow(Markup("φ"), "Angle of the cycle", "°", Markup(""))
     assert in_columns([row]) == [[row]]

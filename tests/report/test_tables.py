@@ -79,3 +79,12 @@ def test_rounding_beside_great_values_is_printed_as_zero() -> None:
 )
 def test_pieces_that_are_too_many_or_not_shared_are_not_told_apart(curves: tuple[dict[str, Any], ...]) -> None:
     assert angles(*curves) == [30.0 * k for k in range(12)]
+
+
+def test_phases_over_time_do_not_tell_their_time_once_more() -> None:
+    shown = {"unit": "ms", "intervals": [{"from": "0", "to": "333.3", "length": "333.3", "time": "333.3"}]}
+    phase = {"abscissa": "time", "description": "The input moves", "role": "moving", "display": shown}
+    turned = phase | {"abscissa": "angle", "display": shown | {"unit": "deg"}}
+    over_time, over_angle = Tables("A", Catalogue("en")).of_phases({"moves": phase, "turns": turned})
+    assert [unit for _, _, unit in over_time.columns] == ["", "", "ms", "ms", "ms"]
+    assert [unit for _, _, unit in over_angle.columns] == ["", "", "°", "°", "°", "ms"]

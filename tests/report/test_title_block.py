@@ -81,6 +81,16 @@ def test_the_line_of_changes_has_its_date_in_each_language(results: Data, date: 
     assert all(["22.11.26"] in [cell.shown for cell in sheet.cells] for sheet in blocks)
 
 
+@pytest.mark.parametrize("frame", SIZES)
+def test_a_status_is_broken_between_words_alone(results: Data, frame: str) -> None:
+    words = Catalogue("uk")
+    results["report"] = {"frame": frame}
+    made = title_block(passing(results), words)
+    for sheet in sheet_blocks(made, words, has_logo=True):
+        shown = [cell.shown for cell in sheet.cells if cell.label == words["status"]]
+        assert all(list(lines) == [made.status] for lines in shown)
+
+
 def test_a_title_that_has_room_is_not_cut(results: Data) -> None:
     results["project"]["title"] = LONG
     shown = [cell.shown for cell in sheet_blocks(block(results, frame="dstu2104"), WORDS, has_logo=False).first.cells]

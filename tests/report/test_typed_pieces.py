@@ -6,7 +6,7 @@ import re
 
 import pytest
 
-from diecut_report.report.symbols import cited, pieces, prose
+from diecut_report.report.symbols import cited, is_short, pieces, prose
 
 
 @pytest.mark.parametrize(
@@ -43,3 +43,7 @@ def test_the_number_of_a_source_stays_with_it() -> None:
 def test_in_a_narrow_column_a_path_breaks_behind_its_low_lines_too() -> None:
     found = re.findall(r"<span class=\"whole\">(.*?)</span>", pieces("${drive.crank_speed}", narrow=True))
     assert found == ["${drive.", "crank_", "speed}"]
+
+
+def test_a_short_source_is_kept_in_one_line() -> None:
+    assert is_short("001, after eq. 2") and not is_short("ISO 281:2007, with the factors of the maker's catalogue")

@@ -250,7 +250,7 @@ class Substitution:
         declared, value = self.calc.step_or_input(name), self.value_of(name)
         own = self.display(name)
         display = own if self.is_copy else self.unit_of(own, angle=angle)
-        text = self._text(name, value / unit(display).factor, digits)
+        text = self._text(name, unit(display).from_si(value), digits)
         is_zero = digits <= TRUSTED and is_nothing(value, declared.unit)
         self.numbers[name] = Node("qty", ("0" if is_zero else text, display))
         return self.numbers[name]

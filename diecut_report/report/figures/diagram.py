@@ -73,14 +73,19 @@ class Diagram:
         self.frame = framed(panel, width, height)
         self.names = LabelLayout(panel, self.frame)
         self.tags = self.names.tags if len(panel.lines) > 1 else []
-        areas = [marked(panel.fills[index].label) for index in self.names.outside]
+        self.areas = [marked(panel.fills[index].label) for index in self.names.outside]
         notes = [panel.marks[index].text for index in self.names.told_marks]
         notes += [panel.levels[index].text for index in self.names.told_levels]
         notes += [panel.verticals[index].text for index in self.names.told_uprights]
-        self.told = [wrapped(text, width - OF_HANDLE, SIZE) for text in (*filter(None, self.tags), *areas, *notes)]
+        self.told = [tag for tag in self.tags if tag] + self.areas + notes
+        self.left_out: set[str] = set()  # names that another diagram's legend has
         self.title = wrapped(self._title(), width)
-        self.legend = legend(self.told, width, text_size(self.title)[0])
+        self.legend = legend(self._wrapped(), width, text_size(self.title)[0])
         self.across = wrapped(titled(*panel.across[:3]), width)
+
+    def _wrapped(self) -> list[str]:
+        """The names in the legend, in lines where one has no room."""
+        return [wrapped(text, self.frame.width - OF_HANDLE, SIZE) for text in self.told]
 
     @property
     def head(self) -> float:
@@ -97,15 +102,21 @@ class Diagram:
         return Diagram(replace(self.panel, verticals=kept), self.frame.width, self.frame.height)
 
     def follow(self, first: Diagram) -> None:
-        """Leave a legend in rows away that the first diagram has already."""
-        if self.told == first.told and self.legend and not self.legend.beside:
-            self.legend = None
+        """Leave away of a legend in rows what the first diagram's legend names already, line by line and area by area."""
+        if self.legend is None or self.legend.beside:
+            return
+        are_lines_told = self.tags == first.tags[: len(self.tags)]
+        are_areas_told = self.areas == first.areas[: len(self.areas)]
+        self.left_out = {*(self.tags if are_lines_told else ()), *(self.areas if are_areas_told else ())}
+        self.told = [text for text in self.told if text not in self.left_out]
+        self.legend = legend(self._wrapped(), self.frame.width, text_size(self.title)[0])
 
     def draw(self, axes: Axes, words: Catalogue, *, named: bool) -> None:
         """Draw into axes; ``named`` puts numbers and a title below."""
         axes.set_xlim(self.frame.across)
         axes.set_ylim(self.frame.upwards)
         handles = [*self._lines(axes), *self._areas(axes), *self._notes(axes)]
+        handles = [handle for handle in handles if str(handle.get_label()) not in self.left_out]
         _ticks(axes, self.panel, self.frame, words)
         axes.tick_params(labelbottom=named)
         if named:
@@ -140,7 +151,7 @@ class Diagram:
         above = 1 + (TITLE + further(self.title)) / self.frame.height
         beside = self.legend.beside
         axes.legend(
-            handles, self.told, loc="lower right" if beside else "lower left",
+            handles, self._wrapped(), loc="lower right" if beside else "lower left",
             bbox_to_anchor=(1.01, 1.0) if beside else (-0.01, above), ncols=self.legend.columns, borderaxespad=0,
             borderpad=0.25, columnspacing=BETWEEN, handletextpad=BESIDE, handlelength=HANDLE, labelspacing=0.25, fontsize=SIZE,
         )  # fmt: skip
