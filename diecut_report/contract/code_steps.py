@@ -73,9 +73,10 @@ class PartCurves(SilentStep):
 
     def curves(self, of: Any) -> Iterator[ComputedCurve]:
         """Yield the curve of each part."""
+        between = "," if "_" in self.symbol else "_"
         for index, name in enumerate(self.names(of)):
             yield ComputedCurve(
-                id=f"{self.id}_{index + 1}", symbol=f"{self.symbol},{index + 1}", unit=self.unit, at=self.at, method=self.method,
+                id=f"{self.id}_{index + 1}", symbol=f"{self.symbol}{between}{index + 1}", unit=self.unit, at=self.at, method=self.method,
                 description=Phrase("{title}: {name}", title=phrase(self.description), name=name), source=self.source, of=self.of,
                 abscissa=self.abscissa,
                 function=lambda of, *places, index=index: self.function(of, index, *places),

@@ -132,8 +132,8 @@ class _Filler:
         if self.told is None:
             return rows
         inputs = {row["symbol"]: self.part.parts["inputs"].number for row in self.mechanism["inputs"].values()}
-        listed = set(self.told.new([f"symbol {row.name} {row.meaning} {row.unit}" for row in rows]))
-        new = [row for row in rows if f"symbol {row.name} {row.meaning} {row.unit}" in listed]
+        listed = set(self.told.new([f"symbol {row.name} {row.meaning}" for row in rows]))
+        new = [row for row in rows if f"symbol {row.name} {row.meaning}" in listed]
         return symbols_at(new, self.steps.given, inputs)
 
     def _head(self, key: str, title: str = "") -> Heading:

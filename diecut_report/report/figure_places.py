@@ -15,6 +15,7 @@ MOST_NOTES = 3  # within a diagram that has room for them over half the width
 MOST_LINES = 6  # of a diagram over half the width, whose legend would else be higher than the diagram
 LONGEST_LEGEND = 110  # letters in the names of a diagram's lines, or of its marks, that have room over half the width
 MANY = 4  # diagrams of one figure, which stand two by two over the whole width
+SKETCHED_TEXTS = 12  # of a drawing that is legible as a sketch
 VALUE = 16  # letters of the numbers behind the name of a mark
 
 
@@ -135,7 +136,11 @@ def row_item(row: Row) -> Item:
 
 
 def sketch(figures: list[Placed]) -> list[Placed]:
-    """Return the one figure of a mechanism that a brief report shows: a drawing, if one can be to scale; no chart, whose texts would be too small."""
-    drawn = [each for each in figures if each.figure["type"] == "drawing"]
+    """Return the one figure of a mechanism that a brief report shows: a drawing of few texts, if one can be to scale; others would be too small."""
+    drawn = [each for each in figures if each.figure["type"] == "drawing" and _texts(each.figure) <= SKETCHED_TEXTS]
     to_scale = [each for each in drawn if not each.figure.get("schematic")]
     return (to_scale or drawn)[:1]
+
+
+def _texts(figure: Data) -> int:
+    return sum("text" in shape or "label" in shape for shape in figure.get("shapes", ()))

@@ -102,6 +102,10 @@ class PrintedSteps:
         note: str = item.get("note", "")
         if self.told is None:
             return note
+        if item.get("series") and note.startswith(
+            item["series"]
+        ):  # where standard values stand is told once for all chapters of a kind
+            return "".join(self.told.new([note]))
         is_new = note not in notes
         notes.add(note)
         return note if is_new else ""

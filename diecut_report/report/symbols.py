@@ -23,6 +23,8 @@ _IN_TEXT = re.compile(
 
 def symbol(name: str) -> Markup:
     """A symbol as HTML, nothing for the empty one; bars, brackets and digits about the letters stand upright."""
+    if name.startswith("Σ "):  # a sum of what has a symbol of its own
+        return Markup("Σ\u2009") + symbol(name[2:])
     found = SYMBOL.fullmatch(name)
     if found is None and not _OF_LETTERS.fullmatch(name):
         return escape(name)

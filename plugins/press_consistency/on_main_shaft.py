@@ -45,7 +45,7 @@ def times(given: Mapping[str, Any]) -> Iterator[tuple[Cell, ...]]:
 
 
 def _times(timing: GivenMechanism) -> Iterator[tuple[str, float | None]]:
-    yield phrase("one sheet"), timing.number("sheet_time")
+    yield phrase("sheet"), timing.number("sheet_time")
     yield phrase("common period"), timing.number("period_time")
     for row in timing.listing("main_phases"):
         yield str(row[0]), _number(row[PHASE_TIME])

@@ -12,9 +12,11 @@ import pytest
 
 from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.charts import _of_curves, _of_lines, diagrams
+from diecut_report.report.figures.charts import chart as sheet_of
 from diecut_report.report.figures.diagram import STROKES, Diagram, legend
 from diecut_report.report.figures.label_layout import LabelLayout
 from diecut_report.report.figures.panel_data import PanelData, framed, pieces
+from diecut_report.report.figures.sizes import Size
 from diecut_report.report.figures.style import overlap, text_size
 from diecut_report.report.i18n import Catalogue
 from tests.report.made_figures import CHARTS, block, chart, energy, laws, line, panel, wedge
@@ -253,3 +255,36 @@ def test_symbol_of_an_abscissa_may_hold_more_than_letters() -> None:
 def test_head_of_a_diagram_leaves_room_for_its_legend() -> None:
     one, many = (Diagram(_panels(figure)[0], 430, 118) for figure in (block(), laws()))
     assert many.head > one.head
+
+
+# room
+def test_names_of_a_legend_are_broken_where_they_are_wider_than_the_diagram() -> None:
+    long = "stress at the governing place of the shaft (a keyseat made by an end mill) with its required safety"
+    figure = chart(
+        "c", "Chart", [panel("Stress", "MPa", TURN, lines=[line([0, 1], [0, 1], long), line([0, 1], [1, 0], "other")])]
+    )
+    narrow = Diagram(_panels(figure)[0], 180, 96)
+    assert any("\n" in text for text in narrow.told)
+    assert all(text_size(each)[0] <= 180 for text in narrow.told for each in text.split("\n"))
+    assert narrow.legend and narrow.legend.rows >= sum(text.count("\n") + 1 for text in narrow.told)
+
+
+def test_many_diagrams_stand_two_by_two_where_the_sheet_is_to_be_saved() -> None:
+    figure = chart("c", "Chart", [panel(f"Panel {n}", "mm", TURN, lines=[line([0, 1], [0, 1], "a")]) for n in range(4)])
+
+    def places(size: Size) -> list[tuple[float, float]]:
+        axes = sheet_of(figure, {}, WORDS, size).axes
+        return [(round(each.get_position().x0, 3), round(each.get_position().y0, 3)) for each in axes]
+
+    assert len({x for x, _ in places(Size.LOW)}) == 2 and len({y for _, y in places(Size.LOW)}) == 2
+    assert len({x for x, _ in places(Size.LARGE)}) == 1
+
+
+def test_points_that_are_counted_have_whole_numbers_below() -> None:
+    marks = [{"x": float(n), "y": 1.0, "label": f"part {n}"} for n in (1, 2, 3)]
+    figure = chart(
+        "c", "Chart", [panel("Life", "1", ("Part", "", "1"), lines=[line([0.5, 3.5], [0, 0], "a")], marks=marks)]
+    )
+    (axes,) = sheet_of(figure, {}, WORDS, Size.LOW).axes
+    low, high = axes.get_xlim()
+    assert [tick for tick in axes.get_xticks() if low <= tick <= high] == [1, 2, 3]

@@ -176,3 +176,22 @@ def test_text_stays_inside_its_limits() -> None:
 ])  # fmt: skip
 def test_symbols_of_a_drawing(text: str, set_as: str) -> None:
     assert marked(text) == set_as
+
+
+def test_bars_stand_in_rows_where_names_and_titles_leave_no_room_beside_each_other() -> None:
+    def groups(name: str) -> dict[str, Any]:
+        one = {
+            "bars": [{"label": f"{name} 1", "value": 5.0}, {"label": f"{name} 2", "value": 6.0}],
+            "label": "Safety factors",
+        }
+        return {"unit": "1", "groups": [one] * 4}
+
+    def rows(name: str) -> int:
+        return len({round(axes.get_position().y1, 3) for axes in bars(groups(name), {}, WORDS).axes})
+
+    assert rows("gear") == 1
+    assert rows("flank of the gear with the most teeth") > 1
+    wide = bars(groups("flank of the gear with the most teeth"), {}, WORDS)
+    points = wide.get_figwidth() * 72
+    assert all(axes.get_position().width * points > 50 for axes in wide.axes)
+    assert all(axes.get_position().x1 <= 1 for axes in wide.axes)
