@@ -20,7 +20,7 @@ from diecut_report.report.model import Item
 from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_columns
-from diecut_report.report.symbols import cited, is_short, pieces, prose, symbol
+from diecut_report.report.symbols import cited, pieces, prose, symbol
 
 if TYPE_CHECKING:
     from diecut_report.report.sheet_frames import SheetBlocks
@@ -41,7 +41,6 @@ FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack t
 FILTERS: dict[str, Callable[..., Any]] = {
     "prose": prose,
     "cited": cited,
-    "is_short": is_short,
     "symbol": symbol,
     "tidy": tidy,
     "in_columns": in_columns,
