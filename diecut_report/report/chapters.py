@@ -10,6 +10,7 @@ from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import placed, row_item, rows_of, sketch
 from diecut_report.report.file_names import suffixes
 from diecut_report.report.i18n import Catalogue
+from diecut_report.report.left_out import under_heading
 from diecut_report.report.model import (
     CheckRow,
     File,
@@ -108,7 +109,7 @@ class _Filler:
         part.files = list(self._files())
         if part.files:
             self._head("files")
-        part.absent = [dict(told, text=self._under_heading(told["text"])) for told in mechanism["absent"]]
+        part.absent = under_heading(mechanism["absent"], self.words["absent"])
         if part.absent:
             self._head("absent")
         part.symbols = self._symbols()
@@ -117,10 +118,6 @@ class _Filler:
         if self.is_full:
             part.curves = self.tables.of_curves(mechanism["curves"])
             part.errata = [(e["source"], e["text"], self._touched(e)) for e in mechanism["errata"]]
-
-    def _under_heading(self, text: str) -> str:
-        """Why something is absent, without the words of the heading that stands above it."""
-        return text.removeprefix(f"{self.words['absent'].lower()}: ")
 
     def _new(self, texts: list[str]) -> list[str]:
         """Those of the texts that an earlier chapter has not told."""
@@ -140,8 +137,7 @@ class _Filler:
         number = f"{self.part.letter}.{len(self.part.headings) + 1}"
         heading = Heading(number, title or self.words[key], f"s-{number}")
         self.part.headings.append(heading)
-        if key:
-            self.part.parts[key] = heading
+        self.part.parts |= {key: heading} if key else {}
         return heading
 
     def _results(self, outputs: Data) -> None:

@@ -20,7 +20,7 @@ from diecut_report.report.model import Item
 from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_columns
-from diecut_report.report.symbols import cited, is_short, pieces, prose, symbol
+from diecut_report.report.symbols import cited, pieces, prose, symbol
 from diecut_report.report.value_lines import in_lines
 
 if TYPE_CHECKING:
@@ -42,7 +42,6 @@ FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack t
 FILTERS: dict[str, Callable[..., Any]] = {
     "prose": prose,
     "cited": cited,
-    "is_short": is_short,
     "symbol": symbol,
     "tidy": tidy,
     "in_columns": in_columns,

@@ -18,6 +18,11 @@ def gathered_notes(items: Sequence[Data | None]) -> list[Data | None]:
     return found
 
 
+def under_heading(absent: Sequence[Data], heading: str) -> list[Data]:
+    """Return why parts are absent, without the words of the heading that stands above them."""
+    return [dict(told, text=told["text"].removeprefix(f"{heading.lower()}: ")) for told in absent]
+
+
 def _said(item: Data | None) -> str:
     """What a note says of its step, without its name; nothing of any other step."""
     if item is None or item["type"] != "note" or not item.get("description"):

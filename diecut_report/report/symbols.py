@@ -47,14 +47,9 @@ def pieces(typed: str, *, narrow: bool = False) -> Markup:
     )
 
 
-def is_short(source: str) -> bool:
-    """Return whether a source beside a formula is not to be broken over lines."""
-    return len(source) <= LONGEST_WHOLE
-
-
 def cited(source: str) -> Markup:
-    """A source beside a formula, its numbers kept with what they number: ISO 6336-3, eq. 4."""
-    return prose(re.sub(r" (?=\d)", "\u00a0", source))
+    """A source beside a formula: a short one whole, of any other the numbers kept with what they number: ISO 6336-3, eq. 4."""
+    return prose(re.sub(r" " if len(source) <= LONGEST_WHOLE else r" (?=\d)", "\u00a0", source))
 
 
 def prose(sentence: str) -> Markup:

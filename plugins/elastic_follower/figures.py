@@ -24,6 +24,7 @@ from diecut_report.api import (
 )
 from diecut_report.mechanics.follower_peaks import peaks
 from diecut_report.mechanics.motion_laws import LAWS
+from diecut_report.plugins.elastic_follower.drawing import DRAWINGS
 from diecut_report.plugins.elastic_follower.motion import CURVE
 from diecut_report.plugins.elastic_follower.spectrum import DAMPINGS, FIRST, LAST, RATIOS, of_law
 
@@ -143,6 +144,7 @@ SPECTRUM_CAPTION = (
     "natural periods within the rise, for five dampings. Drives of equal λ and ζ are dynamically similar."
 )
 FIGURES = (
+    *DRAWINGS,
     motion("inertia", "deg", "rad/s**2"),
     motion("mass", "mm", "m/s**2"),
     Chart(

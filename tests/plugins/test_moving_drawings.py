@@ -14,11 +14,14 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.contract.figures import Drawing
 from diecut_report.engine import Calculation
 from diecut_report.engine.moving_shapes import FRAMES
+from diecut_report.expressions import Array
 from tests.machines import drive, number
+from tests.plugins.followers import follower, integrated, law_stretches
 from tests.plugins.knives import knife as circular_knife
 from tests.plugins.moving import MovingDrawing, complex_points, lengths
 from tests.plugins.platens import platen
 from tests.plugins.steppers import CAMS, stepper
+from tests.plugins.test_elastic_follower import SLIDE
 from tests.plugins.test_geneva_transport import geneva
 from tests.plugins.test_knife_drive import INNER, OUTER, PLANETARY, SLIDER
 from tests.plugins.test_knife_drive import knife as folding_knife
@@ -36,12 +39,15 @@ MACHINES: dict[str, tuple[Callable[[], Calculation], str]] = {
     "slider": (lambda: folding_knife(**SLIDER), "crank_slider_drive"),
     "rocker outer": (lambda: folding_knife(**OUTER), "crank_rocker_drive"),
     "rocker inner": (lambda: folding_knife(**INNER), "crank_rocker_drive"),
+    "turning link": (follower, "turning_link"),
+    "sliding link": (lambda: follower(**SLIDE), "sliding_link"),
 }
 STILL_AT: dict[str, Callable[[Calculation], float]] = {
     "drive": lambda calc: number(calc, "crank_torque_peak_at"), "stepper": lambda calc: 0.0,
     "cam 1": lambda calc: number(calc, "dwell_angle") / 2, "cam 2": lambda calc: number(calc, "dwell_angle") / 2,
     "geneva": lambda calc: number(calc, "entry_angle"), "knife": lambda calc: number(calc, "angle_start"), "platen": lambda calc: 5 * pi / 3,
     "planetary": lambda calc: 3 * pi / 2, "slider": lambda calc: 0.0,
+    "turning link": lambda calc: number(calc, "acceleration_peak_at"), "sliding link": lambda calc: number(calc, "acceleration_peak_at"),
     "rocker outer": lambda calc: number(calc, "crank_rocker_lowest_angle"), "rocker inner": lambda calc: number(calc, "crank_rocker_lowest_angle"),
 }  # fmt: skip
 MOVES = {"geneva": ("body", 6 * 60)}  # which shape of the still drawing must be found, where it is not the link
@@ -79,7 +85,7 @@ def _same_outline(one: Any, other: Any) -> float:
     return float(max(gaps.min(axis=0).max(), gaps.min(axis=1).max()))
 
 
-@pytest.mark.parametrize("name", MACHINES)
+@pytest.mark.parametrize("name", [each for each in MACHINES if not each.endswith("link")])  # which move over time, once
 def test_a_turn_is_shown_at_even_places_and_ends_where_it_begins(name: str) -> None:
     drawn = moving(name)
     assert np.isin(np.round(np.linspace(0, 2 * pi, FRAMES + 1), 12), np.round(drawn.places, 12)).all()
@@ -215,3 +221,37 @@ def test_the_planet_rolls_inside_its_ring() -> None:
     drawn = moving("planetary")
     planet = drawn.of("circle", "hidden")
     assert np.allclose(np.abs(complex_points(planet)) + planet[:, 2], 2 * 0.065656)
+
+
+def _integrated(calc: Calculation, places: Array) -> tuple[Array, Array]:
+    """Input and deflection of the cycloidal rise at the places, by scipy's integration of the link's equation of motion."""
+    omega, damping = np.sqrt(5200 / 0.8), 0.05
+    parts = integrated(law_stretches("cycloidal", 1.2, 0.2), number(calc, "duration") - 0.2, omega, damping, fine=60)
+    time = np.concatenate([part.time for part in parts])
+    states = np.concatenate([part.states for part in parts], axis=1)
+    return np.interp(places, time, states[0]), np.interp(places, time, states[2])
+
+
+def test_the_turning_link_stands_off_its_input_by_the_integrated_deflection_as_many_times_as_is_written() -> None:
+    drawn = moving("turning link")
+    driver, deflection = _integrated(drawn.calc, drawn.places)
+    arm, link = (complex_points(drawn.links(number))[:, 1] for number in (0, 1))
+    assert np.abs(arm - 0.45 * np.exp(1j * driver)).max() < 1e-3
+    times = _written(drawn)
+    assert times * np.abs(deflection).max() > 0.1  # so much that it is seen
+    assert np.abs(np.angle(link / arm) - times * deflection).max() < 1e-3 * times
+
+
+def test_the_spring_of_the_sliding_link_is_as_long_as_the_integrated_deflection_makes_it() -> None:
+    drawn = moving("sliding link")
+    driver, deflection = _integrated(drawn.calc, drawn.places)
+    ends = drawn.links()[:, [0, -1], 0]
+    at_rest = ends[0, 1] - ends[0, 0]
+    assert np.abs(ends[:, 0] - ends[0, 0] - driver).max() < 1e-3
+    assert np.abs(ends[:, 1] - ends[:, 0] - at_rest - _written(drawn) * deflection).max() < 1e-2
+
+
+def _written(drawn: MovingDrawing) -> int:
+    """How many times greater the still drawing says that the deflection is drawn."""
+    [text] = (shape["text"] for shape in drawn.still() if "×" in shape.get("text", ""))
+    return int(text.split()[-1])
