@@ -77,15 +77,16 @@ class Diagram:
         notes = [panel.marks[index].text for index in self.names.told_marks]
         notes += [panel.levels[index].text for index in self.names.told_levels]
         notes += [panel.verticals[index].text for index in self.names.told_uprights]
-        self.told = [tag for tag in self.tags if tag] + self.areas + notes
+        self._told = [tag for tag in self.tags if tag] + self.areas + notes
         self.left_out: set[str] = set()  # names that another diagram's legend has
         self.title = wrapped(self._title(), width)
-        self.legend = legend(self._wrapped(), width, text_size(self.title)[0])
+        self.legend = legend(self.told, width, text_size(self.title)[0])
         self.across = wrapped(titled(*panel.across[:3]), width)
 
-    def _wrapped(self) -> list[str]:
+    @property
+    def told(self) -> list[str]:
         """The names in the legend, in lines where one has no room."""
-        return [wrapped(text, self.frame.width - OF_HANDLE, SIZE) for text in self.told]
+        return [wrapped(text, self.frame.width - OF_HANDLE, SIZE) for text in self._told]
 
     @property
     def head(self) -> float:
@@ -108,8 +109,8 @@ class Diagram:
         are_lines_told = self.tags == first.tags[: len(self.tags)]
         are_areas_told = self.areas == first.areas[: len(self.areas)]
         self.left_out = {*(self.tags if are_lines_told else ()), *(self.areas if are_areas_told else ())}
-        self.told = [text for text in self.told if text not in self.left_out]
-        self.legend = legend(self._wrapped(), self.frame.width, text_size(self.title)[0])
+        self._told = [text for text in self._told if text not in self.left_out]
+        self.legend = legend(self.told, self.frame.width, text_size(self.title)[0])
 
     def draw(self, axes: Axes, words: Catalogue, *, named: bool) -> None:
         """Draw into axes; ``named`` puts numbers and a title below."""
@@ -151,7 +152,7 @@ class Diagram:
         above = 1 + (TITLE + further(self.title)) / self.frame.height
         beside = self.legend.beside
         axes.legend(
-            handles, self._wrapped(), loc="lower right" if beside else "lower left",
+            handles, self.told, loc="lower right" if beside else "lower left",
             bbox_to_anchor=(1.01, 1.0) if beside else (-0.01, above), ncols=self.legend.columns, borderaxespad=0,
             borderpad=0.25, columnspacing=BETWEEN, handletextpad=BESIDE, handlelength=HANDLE, labelspacing=0.25, fontsize=SIZE,
         )  # fmt: skip
