@@ -46,7 +46,9 @@ class CurveInput:
             return given
         if isinstance(given, list) and not self.referred:
             if len(given) < 4:
-                raise ValueError(Phrase("has {count} values; a curve over one turn needs at least 4", count=len(given)))
+                raise ValueError(
+                    Phrase("has {count} values; a curve needs at least 4 over its period", count=len(given))
+                )
             if len(given) > MAX_CURVE_VALUES:
                 raise ValueError(
                     Phrase(

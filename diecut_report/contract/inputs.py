@@ -180,7 +180,7 @@ class Inputs(Block):
     """Declare the base of a mechanism's inputs: one annotated field for each key of the config."""
 
 
-POINTS = Quantity("N", "1", phrase("Samples of each curve over one turn"), ge=36, le=100_000, integer=True)
+POINTS = Quantity("N", "1", phrase("Samples of each curve"), ge=36, le=100_000, integer=True)
 
 Referred = CurveInput | PhaseInput | MechanismInput
 """What stands for something of another mechanism that is no single number."""

@@ -207,12 +207,19 @@ class Mechanism:
                 continue
             si = unit(step.unit).si
             for each in names_ahead(step):
-                of_place = found[self.axis_of(step.of, given) or ""][0] if each.role == "place" else None  # type: ignore[attr-defined]
+                of_place = self._unit_of_axis(step, given, found) if each.role == "place" else None
                 found[each.name] = {"count": "1", "place": of_place}.get(each.role, si), False
             if not isinstance(step, Crossings):
                 text = is_text(step)
                 found[step.id] = None if text else si, self.axis_of(step.id, given) is not None
         return found
+
+    def _unit_of_axis(
+        self, step: Step, given: frozenset[str], found: Mapping[str, tuple[str | None, bool]]
+    ) -> str | None:
+        """The unit of what a curve runs over; None with inputs of which one is missing that gives the curve, which is told of them."""
+        axis = self.axis_of(step.of, given)  # type: ignore[attr-defined]
+        return found[axis][0] if axis in found else None
 
     def phases_of(self, given: frozenset[str]) -> dict[str, str]:
         """Return the ids of the phases that take part, each with the SI unit of its abscissa."""

@@ -110,7 +110,7 @@ def _absent(declared: FieldInfo) -> Iterator[str]:
     """What is wrong with an input that is left out: None must be allowed where it is the default, and be the default where it is allowed."""
     kinds = _kinds(declared.annotation)
     said = " | ".join(_said(kind) for kind in kinds if kind is not type(None))
-    may_be_none = type(None) in kinds or Any in kinds
+    may_be_none = type(None) in kinds  # Any alone does not tell that it may be left out
     if declared.is_required() and type(None) in kinds:
         yield Phrase(
             "may be None, but has no default, so that it must be given all the same; write = None behind it, or annotate it as {said}",

@@ -68,7 +68,7 @@ INPUTS = [
     ("force: 1, parts: [{length: 3 s}]", "5:47: mechanisms.a.parts.0.length: 3 s is a time; a length is needed"),
     ("force: 1, spring: 4", "5:38: mechanisms.a.spring: is 4; a block of keys is needed"),
     ("force: 1, spring: {stiffness: 1 mm}", "5:50: mechanisms.a.spring.stiffness: 1 mm is a length;"),
-    ("force: 1, load: [1, 2]", "5:36: mechanisms.a.load: has 2 values; a curve over one turn needs at least 4"),
+    ("force: 1, load: [1, 2]", "5:36: mechanisms.a.load: has 2 values; a curve needs at least 4 over its period"),
     ("force: 1, n_points: 3", "5:40: mechanisms.a.n_points: 3 is out of range; allowed: ≥ 36, ≤ 100000"),
 ]
 

@@ -187,6 +187,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "both are made with mode=near and with width",
     ),
     "a step that is never made": (made(value("x", needs=("width",), lacks=("width",))), "step x: is never calculated"),
+    "a curve that may be left out and may not be None": (
+        made(inputs=with_input(Annotated[Any, CurveInput("z", "mm", "Lift")], None)),
+        "input extra: has the default None, but may not be None; annotate it as Any | None, or give it a value",
+    ),
     "two checks of one id": (made(checks=(check(), check(limit=4.0))), "check strong: has the id of another check"),
     "two figures of one id": (made(figures=(plot(), plot())), "figure turn: has the id of another figure"),
     "no symbol": (made(value("x", description="")), "step x: has no symbol or no description"),

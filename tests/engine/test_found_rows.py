@@ -121,6 +121,14 @@ def test_names_that_are_no_rows_are_told() -> None:
         run(made(computed(lambda load: ["small", "big"]), looked_up))
 
 
+def test_a_text_that_all_machines_share_is_that_of_each() -> None:
+    def given(chapter: Chapter) -> None:
+        chapter.computed("bearing", "B", "1", "Bearing", lambda: "big", (), "as given", is_text=True)
+
+    found = calculate(made(given, looked_up), {"load": np.array([1e3, 2e3, 3e3]), "factor": 1.0, "speed": 1.0}, 3)
+    assert found["bearing"].tolist() == [["big"]] * 3
+
+
 def test_words_of_messages_name_no_row() -> None:
     told = faults(made(lambda chapter: chapter.words("bearing", lambda load: "small", takes=("load",)), looked_up))
     assert any(

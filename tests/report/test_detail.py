@@ -137,8 +137,9 @@ def test_nothing_in_any_detail_leads_to_what_is_not_there(pages: dict[str, str])
 
 
 def test_tokens_are_words_in_print() -> None:
-    assert [worded(text) for text in ("cast_iron", "modified_trapezoidal", "polynomial_345", "SPA", "1.2e-05", "a_B c")] == [
-        "cast iron", "modified trapezoidal", "polynomial 3-4-5", "SPA", "1.2e-05", "a_B c",
+    tokens = ("cast_iron", "modified_trapezoidal", "polynomial_345", "stainless_304", "SPA", "1.2e-05", "a_B c")
+    assert [worded(text) for text in tokens] == [
+        "cast iron", "modified trapezoidal", "polynomial 3-4-5", "stainless 304", "SPA", "1.2e-05", "a_B c",
     ]  # fmt: skip
 
 

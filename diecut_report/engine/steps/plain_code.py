@@ -74,8 +74,8 @@ def row(step: Computed, found: Any, count: int) -> Array:
 
 
 def texts(step: Computed, found: Any, count: int) -> Array:
-    """Return the texts that a function gives for all variants, shape (variants, 1); Misdeclared where they are not so many texts."""
-    given = [found] if isinstance(found, str) else list(found.flat if isinstance(found, np.ndarray) else found)
+    """Return the texts that a function gives for all variants, shape (variants, 1), one alone that of all; Misdeclared for another number."""
+    given = [found] * count if isinstance(found, str) else list(found.flat if isinstance(found, np.ndarray) else found)
     if len(given) != count:
         words = Phrase("{n} values", n=len(given)), Phrase("a text for each machine, {count}", count=count)
         raise _told(step, step.function, *words)
