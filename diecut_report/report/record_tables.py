@@ -15,7 +15,7 @@ from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
 MOST_PARTS = 4  # that have room beside each other
-NAME = "name"
+NAMES = ("name", "mechanism")  # inputs that say what the parts are called
 
 
 @dataclass(frozen=True)
@@ -53,8 +53,9 @@ def record_rows(
     heads, rows = [str(number) for number in parts.numbers], []
     for quantity, first in parts.heads:
         given = [parts.columns[quantity].get(number) for number in parts.numbers]
-        if quantity == NAME and all(given):
-            heads = [f"{each[1]['value']}" for each in given if each]
+        names = {str(each[1]["value"]): None for each in given if each} if quantity in NAMES else {}
+        if len(names) == len(given):
+            heads = list(names)
             continue
         cells = [cell(each[1], told) if each else TableCell(DASH) for each in given]
         rows.append(_row(quantity, first, cells, len([each for each in given if each])))
