@@ -6,12 +6,9 @@ import copy
 from typing import Any
 
 from diecut_report.report import Rendering
-from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import Place, Placed, rows_of
-from diecut_report.report.model import Heading, Item, PrintedChapter
+from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.section_tables import brought_together
-from diecut_report.report.steps import PrintedSteps
-from diecut_report.report.tables import Tables
 from diecut_report.report.told_before import Reference, ToldBefore
 
 Data = dict[str, Any]
@@ -147,15 +144,3 @@ def test_bars_schemes_and_long_legends_have_the_whole_width() -> None:
     wide = (placed(1, type="bars"), placed(1, schematic=True), placed(1, panels=[{"lines": [{"label": "x" * 200}]}]))
     for each in wide:
         assert [len(row.figures) for row in rows_of([placed(0), each], paired=True)] == [1, 1]
-
-
-def test_a_branch_that_was_told_with_its_reason_is_named_beside_the_next_formula_that_takes_it(
-    rendering: Rendering,
-) -> None:
-    words = rendering.material.words
-    steps = PrintedSteps("A", Equations(words, len), words, Tables("A", words), (), ToldBefore())
-    taken = {"words": "the knife cuts", "condition": ["cmp", ">", ["sym", "a"], ["sym", "b"]]}
-    items = [step(name, name, ["sym", "a"], **taken) | {"type": "choice", "source": "statics"} for name in ("x", "y")]
-    first, second = steps.section(0, {"title": "Cut", "items": items}, Heading("A.1", "Cut", "s-A.1")).items
-    assert (first.words, first.source) == ("the knife cuts", "statics") and first.condition
-    assert (second.words, second.source) == ("", "statics · the knife cuts") and not second.condition
