@@ -43,7 +43,7 @@ SOURCES = (*EQUATIONS.values(),
            "strength of materials", "symmetry", "timing", "vibration", "virtual work", "block with clamped ends", "and", "erratum",
            "in general", "to the first order", "over the full turn", "both dead centres", "overlap once only", "with the unbalance",
            "for n dampers", "for whole teeth", "the source's unit", "at the dead centre", "first paper", "second", "conclusion", "idlers",
-           "method B", "method C", "corrigendum", "series", "catalogue", "Duhamel's integral", "at")  # fmt: skip
+           "method B", "method C", "corrigendum", "series", "catalogue", "SKF catalogue", "Duhamel's integral", "at")  # fmt: skip
 """Words of what is said of sources, beside names of authors and standards."""
 
 

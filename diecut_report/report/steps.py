@@ -111,15 +111,19 @@ class PrintedSteps:
         return note if is_new else ""
 
     def _item(self, item: Data, notes: set[str], number: str) -> Item:
+        source = item["source"] if len(item["source"]) <= LONGEST_SOURCE else ""
+        condition, words = self.said.condition(item), item.get("words", "")
+        if words and item.get("condition") and condition is None:  # a branch whose reason was told
+            source, words = " · ".join(filter(None, (source, words))), ""
         return Item(
             item["type"],
             number=number,
             description=item["description"],
-            source=item["source"] if len(item["source"]) <= LONGEST_SOURCE else "",
+            source=source,
             equation=self.equations.of(item),
-            condition=self.said.condition(item),
+            condition=condition,
             definitions=tuple(self.said.definitions(item)),
-            words=item.get("words", ""),
+            words=words,
             text="" if item.get("equation") or item["type"] in WORDLESS else worded(item["result"]["text"]),
             notes=tuple(self._notes(item, notes)),
             changed=item.get("changed", ""),

@@ -48,8 +48,13 @@ def pieces(typed: str, *, narrow: bool = False) -> Markup:
 
 
 def cited(source: str) -> Markup:
-    """A source beside a formula: a short one whole, of any other the numbers kept with what they number: ISO 6336-3, eq. 4."""
-    return prose(re.sub(r" " if len(source) <= LONGEST_WHOLE else r" (?=\d)", "\u00a0", source))
+    """A source beside a formula, with what is said behind it: a short one whole, of any other the numbers kept with what they number.
+
+    ISO 6336-3, eq. 4 · the teeth are straight
+    """
+    first, _, rest = source.partition(" · ")
+    kept = re.sub(r" " if len(first) <= LONGEST_WHOLE else r" (?=\d)", "\u00a0", first)
+    return prose(f"{kept} · {rest}" if rest else kept)
 
 
 def prose(sentence: str) -> Markup:

@@ -81,7 +81,7 @@ def _limit(timing: Timing) -> float:
 interlocks.computed("is_limited", "k_n", "1", "Whether margins of time limit the productivity", lambda timing: float(timing.limit.value is not None),
                     TIMING, "a margin is a time, and holds at some speed", output=False)
 interlocks.computed("productivity_limit", "n_max", "1/h", "Largest productivity that the margins of time allow", _limit, TIMING,
-                    "angles stay, times take more angle the faster the shaft turns; torques and accelerations are not judged", digits=7,
+                    "angles stay, times take more angle the faster the shaft turns; torques and accelerations are not judged", digits=5,
                     exists=lambda is_limited: is_limited > 0)
 interlocks.computed("is_feasible", "k_Φ", "1", "Whether an offset that is to be found leaves all margins",
                     lambda timing: float(bool(timing.best and timing.best.feasible)), TIMING, PHASES, output=False)
@@ -129,7 +129,7 @@ def _needed(cylinder: GivenMechanism) -> Any:
 
 station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("least",), "least height over the period",
                  output=False)
-station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("least",), CLEARANCE, digits=6,
+station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("least",), CLEARANCE, digits=5,
                  exists=lambda is_below: is_below > 0)
 station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda least: least.angle[:, None], ("least",), CLEARANCE,
                  digits=6, exists=lambda is_below: is_below > 0)

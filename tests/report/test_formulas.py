@@ -15,7 +15,11 @@ from hypothesis import strategies as st
 from diecut_report.report.equations import WIDTH, Equations
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.latex import Latex, Linear, unit_latex
+from diecut_report.report.model import Heading
 from diecut_report.report.said_once import SaidOnce
+from diecut_report.report.steps import PrintedSteps
+from diecut_report.report.tables import Tables
+from diecut_report.report.told_before import ToldBefore
 from diecut_report.report.typeset import Typesetter
 
 Tree = list[Any]
@@ -287,6 +291,16 @@ def test_a_branch_is_shown_with_its_condition_once_and_named_after_that() -> Non
     assert first is not None and first.text == "a > b"
     assert said.condition(item) is None
     assert said.condition(item | {"words": "the board is long"}) is not None
+
+
+def test_a_branch_that_was_told_is_named_beside_the_next_formula_that_takes_it() -> None:
+    words = Catalogue("en")
+    steps = PrintedSteps("A", _equations()[0], words, Tables("A", words), (), ToldBefore())
+    taken = _item(type="choice", source="statics", words="the knife cuts", condition=["cmp", ">", A, B], equation=A)
+    section = {"title": "Cut", "items": [taken | {"id": name, "description": name} for name in ("x", "y")]}
+    first, second = steps.section(0, section, Heading("A.1", "Cut", "s-A.1")).items
+    assert (first.words, first.source) == ("the knife cuts", "statics") and first.condition
+    assert (second.words, second.source) == ("", "statics · the knife cuts") and not second.condition
 
 
 def test_a_number_times_one_of_a_unit_is_printed_as_a_quantity() -> None:

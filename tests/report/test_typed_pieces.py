@@ -37,6 +37,7 @@ def test_a_unit_is_not_a_symbol_and_a_long_subscript_is_one(sentence: str, symbo
 
 def test_the_number_of_a_source_stays_with_it() -> None:
     assert cited("ISO 6336-3:2006, 6") == "ISO\u00a06336-3:2006,\u00a06"
+    assert cited("this method · the knife is in its cut") == "this\u00a0method · the knife is in its cut"
     assert cited("000, after eq. 19") == "000,\u00a0after\u00a0eq.\u00a019"  # short: whole
 
 
