@@ -22,6 +22,7 @@ from diecut_report import pipeline
 from diecut_report.config.discovery import Discovery
 from diecut_report.live.page_data import page_data
 from diecut_report.live.session import LiveSession
+from diecut_report.study.execution.process_settings import one_thread
 
 CONFIGS = Path(import_module("diecut_report.configs").__path__[0])
 CHANGED = ("press.productivity", "drive.crank_length", "clutch.shoe_friction")
@@ -55,7 +56,7 @@ def updated(session: LiveSession, name: str, share: float) -> None:
 
 def main(rounds: int) -> None:
     """Run all in turns and print the least times and their ratios."""
-    with copied() as file:
+    with copied() as file, one_thread():  # as the program's own processes
         session = LiveSession(file, Discovery([]))
         least = dict.fromkeys(("calc", *CHANGED), float("inf"))
         for number in range(rounds + 1):

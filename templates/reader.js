@@ -401,11 +401,11 @@
     c.save();
     c.beginPath(); c.rect(box.left, box.top, box.width, box.height); c.clip();
     c.strokeStyle = c.fillStyle = colour("ink"); c.lineWidth = px;
-    panel.levels.forEach(function (level) {
-      var y = u.valToPos(level.y, "y", true);
-      c.setLineDash([8 * px, 3 * px]); c.beginPath(); c.moveTo(box.left, y); c.lineTo(box.left + box.width, y); c.stroke();
-      write(c, level.text, box.left + box.width - wide(c, level.text) - 6 * px, y - box.top < 18 * px ? y + 13 * px : y - 4 * px);
+    var heights = panel.levels.map(function (level) { return { y: u.valToPos(level.y, "y", true), width: wide(c, level.text) }; });
+    heights.forEach(function (level) {
+      c.setLineDash([8 * px, 3 * px]); c.beginPath(); c.moveTo(box.left, level.y); c.lineTo(box.left + box.width, level.y); c.stroke();
     });
+    window.levelNames(heights, box, 13 * px).forEach(function (place, index) { write(c, panel.levels[index].text, place.x, place.y); });
     panel.uprights.forEach(function (line) {
       var x = u.valToPos(line.x, "x", true), room = wide(c, line.text);
       c.setLineDash([4 * px, 3 * px]); c.beginPath(); c.moveTo(x, box.top); c.lineTo(x, box.top + box.height); c.stroke();

@@ -14,6 +14,7 @@ from diecut_report.config.validation import ConfigPlace, keys_of
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.contract.chapters import Chapter
 from diecut_report.contract.code_steps import ComputedCurve, PartNames
+from diecut_report.contract.input_lists import list_inputs
 from diecut_report.contract.inputs import (
     Block,
     CurveInput,
@@ -22,7 +23,6 @@ from diecut_report.contract.inputs import (
     Quantity,
     Text,
     flatten,
-    list_inputs,
     texts_given,
 )
 from diecut_report.contract.mechanism import Mechanism
@@ -84,13 +84,17 @@ class Instance:
 
     def forget(self) -> None:
         """Forget what follows from the inputs, as they have changed."""
-        for known in ("slots", "given", "results", "phases", "rows"):
+        for known in ("slots", "_by_key", "given", "results", "phases", "rows"):
             self.__dict__.pop(known, None)
 
     @cached_property
     def slots(self) -> tuple[Slot, ...]:
         """All inputs of the blocks and lists that are given in it."""
         return tuple(slots(self.model, self.data))
+
+    @cached_property
+    def _by_key(self) -> dict[KeyPath, Slot]:
+        return {slot.key: slot for slot in self.slots}
 
     @cached_property
     def given(self) -> frozenset[str]:
@@ -163,7 +167,7 @@ class Instance:
 
     def value(self, key: KeyPath) -> Any:
         """The value of an input that is not a reference: an SI number, a text, true or false, values of a curve, or None."""
-        slot = max((s for s in self.slots if s.key == key[: len(s.key)]), key=lambda s: len(s.key))
+        slot = next(self._by_key[key[:n]] for n in range(len(key), 0, -1) if key[:n] in self._by_key)
         value = slot.value
         for part in key[len(slot.key) :]:  # within a block that is there by default
             if value is None:  # an optional block that is not given

@@ -8,7 +8,7 @@ from __future__ import annotations
 import math
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, replace
-from functools import cached_property
+from functools import cache, cached_property
 from typing import Annotated, Any, ClassVar, get_args, get_origin
 
 import numpy as np
@@ -203,40 +203,20 @@ def nested(annotation: Any) -> tuple[type[Block], bool] | None:
     return inner[0][0], inner[0][1] or get_origin(annotation) is list
 
 
-def fields(model: type[Block], prefix: str = "") -> Iterator[tuple[str, Meta]]:
-    """Yield each declared input by its path (``gears.driver_teeth`` for a field of a block or of a list's parts)."""
+@cache
+def fields(model: type[Block]) -> tuple[tuple[str, Meta], ...]:
+    """Return each declared input by its path (``gears.driver_teeth`` for a field of a block or of a list's parts)."""
+    return tuple(_fields(model, ""))
+
+
+def _fields(model: type[Block], prefix: str) -> Iterator[tuple[str, Meta]]:
     for name, field in model.model_fields.items():
         block = nested(field.annotation)
         meta = meta_of(model, name)
         if block:
-            yield from fields(block[0], f"{prefix}{name}.")
+            yield from _fields(block[0], f"{prefix}{name}.")
         elif meta is not None:
             yield prefix + name, meta
-
-
-def list_inputs(model: type[Block], prefix: str = "") -> dict[str, str]:
-    """Return the paths of the inputs that come in rows, one for each part of a list, each with the path of its list."""
-    found: dict[str, str] = {}
-    for name, field in model.model_fields.items():
-        block = nested(field.annotation)
-        own = f"{prefix}{name}"
-        if block and block[1]:
-            found |= {path: own for path, _ in fields(block[0], f"{own}.")}
-        elif block:
-            found |= list_inputs(block[0], f"{own}.")
-    return found
-
-
-def list_titles(model: type[Block], prefix: str = "") -> dict[str, str]:
-    """Return what each list of repeated parts is, by its path."""
-    found: dict[str, str] = {}
-    for name, field in model.model_fields.items():
-        block, meta = nested(field.annotation), meta_of(model, name)
-        if block and block[1] and meta is not None:
-            found[f"{prefix}{name}"] = meta.description
-        elif block:
-            found |= list_titles(block[0], f"{prefix}{name}.")
-    return found
 
 
 def texts_given(values: Mapping[str, Any]) -> set[str]:
@@ -291,8 +271,6 @@ __all__ = [
     "Text",
     "fields",
     "flatten",
-    "list_inputs",
-    "list_titles",
     "meta_of",
     "nested",
     "texts_given",

@@ -11,7 +11,8 @@ from diecut_report.contract.checks import Check
 from diecut_report.contract.code_steps import ComputedCurve, Fact
 from diecut_report.contract.example import ExampleBlock
 from diecut_report.contract.figures import Figure
-from diecut_report.contract.inputs import CurveInput, Inputs, fields, list_inputs
+from diecut_report.contract.input_lists import list_inputs
+from diecut_report.contract.inputs import CurveInput, Inputs, fields
 from diecut_report.contract.part_steps import Lookup, Neighbour, Running
 from diecut_report.contract.place import Misdeclared, placed
 from diecut_report.contract.result_names import names_ahead
@@ -36,7 +37,7 @@ from diecut_report.quantities.units import unit
 
 def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
     """Return for each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
-    found = list_inputs(inputs)
+    found = dict(list_inputs(inputs))
     for step in steps:
         match step:
             case Abscissa():
@@ -175,6 +176,16 @@ class Mechanism:
         if given not in self._active:
             self._active[given] = tuple(self._settled(given))
         return self._active[given]
+
+    def steps_by_id(self, given: frozenset[str]) -> dict[str, Step]:
+        """Return those steps by their ids, in a new dictionary."""
+        if given not in self._by_id:
+            self._by_id[given] = {step.id: step for _, step in self.active(given)}
+        return self._by_id[given].copy()
+
+    @cached_property
+    def _by_id(self) -> dict[frozenset[str], dict[str, Step]]:
+        return {}
 
     def _settled(self, given: frozenset[str]) -> Iterator[tuple[Chapter, Step]]:
         for chapter, step in self.steps:

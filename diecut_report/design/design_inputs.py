@@ -8,7 +8,6 @@ from dataclasses import dataclass
 
 import numpy as np
 
-from diecut_report.config.instances import slots
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Target
@@ -113,7 +112,7 @@ def _whole_path(config: Config, name: str) -> str:
 
 def _of_instance(config: Config, name: str) -> Iterator[DesignInput]:
     instance = config.instances[name]
-    for slot in slots(instance.model, instance.data) if instance else ():
+    for slot in instance.slots if instance else ():
         is_number = isinstance(slot.meta, Quantity) and slot.is_given and slot.meta is not POINTS
         if not is_number or (name, *slot.key) in config.links:
             continue

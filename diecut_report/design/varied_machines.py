@@ -148,6 +148,11 @@ def upstream(config: Config, names: Iterable[str]) -> set[str]:
     return found
 
 
+def downstream(config: Config, name: str) -> list[str]:
+    """Return the mechanism, or the press, and all mechanisms that follow from it."""
+    return [each for each in config.instances if name in upstream(config, [each])]
+
+
 def _slack(made: CalculatedVariants) -> dict[str, Array]:
     """How far each check is from its limit: the margin as a share of the greater of demand and limit."""
     found: dict[str, Array] = {}

@@ -125,7 +125,7 @@ class Calculation:
         self.given = frozenset(inputs) | texts_given(inputs) | mechanism.facts
         self.meta: dict[str, Meta] = dict(fields(in_form(mechanism.inputs, self.given)))
         self.inputs: dict[str, Any] = {name: column(value, variants) for name, value in inputs.items()}
-        self.steps: dict[str, Step] = {step.id: step for _, step in mechanism.active(self.given)}
+        self.steps: dict[str, Step] = mechanism.steps_by_id(self.given)
         self.axis = mechanism.axes(self.given)
         self.names, self.values = NamedQuantities(), dict[str, Array]()
         self.curves, self.domains = dict[str, CurveStep](), dict[str, Domain]()

@@ -12,6 +12,7 @@ from diecut_report.report.html import filled_page, folder
 FONTS = ("report-sans-regular", "report-sans-bold", "report-sans-italic", "report-symbols")
 FILES = {  # place in the folder of the templates: what it is
     "live/live.css": "text/css; charset=utf-8",
+    "level_names.js": "text/javascript; charset=utf-8",
     "live/live.js": "text/javascript; charset=utf-8",
     "uplot/uPlot.min.css": "text/css; charset=utf-8",
     "uplot/uPlot.iife.min.js": "text/javascript; charset=utf-8",

@@ -37,7 +37,7 @@ POLICY = (
     "default-src 'none'", "style-src 'unsafe-inline'", "font-src data:", "img-src data:", "base-uri 'none'", "form-action 'none'",
 )  # fmt: skip
 READER = ("uplot/uPlot.min.css", "reader.css")
-SCRIPTS = ("uplot/uPlot.iife.min.js", "reader.js")
+SCRIPTS = ("uplot/uPlot.iife.min.js", "level_names.js", "reader.js")
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
 FILTERS: dict[str, Callable[..., Any]] = {
     "prose": prose,

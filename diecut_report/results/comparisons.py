@@ -18,7 +18,8 @@ from diecut_report.engine.chosen_units import NONE_CHOSEN, ChosenUnits
 from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
-from diecut_report.results.mechanism import Provenance, mechanism_results
+from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.stated_inputs import Provenance
 
 Data = dict[str, Any]
 

@@ -4,31 +4,29 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from dataclasses import dataclass
-from typing import Any, Literal
+from typing import Any
 
 import numpy as np
 
 from diecut_report.config.source_hashes import plugin_code
-from diecut_report.contract.inputs import CurveInput, Quantity, TakenWhole, list_titles
+from diecut_report.contract.input_lists import list_titles
 from diecut_report.contract.result_names import ResultName, count_name, named, pattern, place_name, result_names
 from diecut_report.contract.steps import SILENT, Crossings, Step
-from diecut_report.contract.varying import Varying
 from diecut_report.engine import Calculation, listings
 from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.engine.shown_units import declared_unit, unit_for
 from diecut_report.engine.steps import facts
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import given_shown, place_shown, shown
+from diecut_report.quantities.formatting import place_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of
 from diecut_report.results.curves import curves
 from diecut_report.results.exports import exports
 from diecut_report.results.phases import phases, phases_absent
+from diecut_report.results.stated_inputs import GIVEN, Provenance, inputs
 from diecut_report.results.summary import RANK, counts, failed_self_tests
 from diecut_report.results.unchecked import missing
-from diecut_report.results.varying_inputs import varying
 
 Data = dict[str, Any]
 
@@ -45,19 +43,6 @@ class SelfTestFailed(Exception):
 
 
 Of = Callable[[Callable[[Calculation], Any]], Any]  # what a function makes of a calculation
-Origin = Literal["given", "default", "reference", "expression"]
-
-
-@dataclass(frozen=True)
-class Provenance:
-    """Hold where an input comes from, the path it refers to (an expression: the ``paths``), its text as typed, and what it rests on."""
-
-    origin: Origin
-    path: str = ""
-    text: str | None = None
-    paths: tuple[str, ...] = ()
-    basis: str = ""
-    note: str = ""
 
 
 def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance], of: Of | None = None) -> Data:
@@ -117,7 +102,6 @@ def _is_there(calc: Calculation, name: str) -> bool:
     return any(isinstance(value, str) or not np.isnan(value) for value in calc.values[name][0])
 
 
-GIVEN = Provenance("given")
 IDLE = "not checked, though {key} is given: what it limits is not calculated"
 
 
@@ -143,68 +127,6 @@ def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Prove
 def worst(statuses: Any) -> str:
     """Return the worst of statuses; pass where there are none. What is not checked changes nothing."""
     return max((status for status in statuses if status in RANK), key=RANK.__getitem__, default="pass")
-
-
-def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
-    """Return each input with value, unit, origin and typed text; the parts of a list as ``gears.0.driver_teeth``."""
-    found: Data = {}
-    for name, meta in calc.meta.items():
-        if name not in calc.inputs:
-            continue
-        row = calc.inputs[name]
-        parted = name in calc.axis
-        parts = row[0] if parted and isinstance(row, np.ndarray) else row if parted else [row]
-        for index, part in enumerate(parts):
-            if part is None:  # left out of this part of the list
-                continue
-            home = calc.axis[name] if parted else ""
-            path = f"{home}.{index}{name.removeprefix(home)}" if parted else name
-            display = declared_unit(calc, name, meta.unit) if isinstance(meta, Quantity) else "1"
-            found[path] = _input(meta, part, display) | _origin(provenance.get(path))
-            if parted:
-                found[path]["part"] = {"family": home, "index": index, "quantity": name.removeprefix(f"{home}.")}
-    return found
-
-
-def _origin(provenance: Provenance | None) -> Data:
-    known = provenance or Provenance("default")
-    return (
-        {"origin": known.origin}
-        | ({"path": known.path} if known.path else {})
-        | ({"paths": list(known.paths)} if known.paths else {})
-        | ({"text": known.text} if known.text else {})
-        | ({"basis": known.basis} if known.basis else {})
-        | ({"note": known.note} if known.note else {})
-    )
-
-
-def _as_text(value: Any) -> str:
-    """A choice as one would say it: texts after one another, yes or no."""
-    if isinstance(value, bool):
-        return "yes" if value else "no"
-    return ", ".join(value) if isinstance(value, tuple) else str(value)
-
-
-def _input(meta: Any, value: Any, display: str) -> Data:
-    if isinstance(value, TakenWhole) or (isinstance(meta, Quantity) and isinstance(value, str)):
-        return {"value": str(value), "unit": "1", "symbol": meta.symbol, "description": meta.description,
-                "display": {"text": str(value), "unit": "1"}}  # fmt: skip
-    if not isinstance(meta, Quantity):
-        is_curve = isinstance(meta, CurveInput)
-        text = "a curve" if is_curve else _as_text(value)
-        plain = list(value) if isinstance(value, tuple) else value
-        return {"value": text if is_curve else plain, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
-                "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
-    if isinstance(meta, Varying) and not isinstance(value, float | np.ndarray):
-        return varying(meta, value, display)
-    number = float(np.ravel(value)[0])
-    return {
-        "value": int(number) if meta.integer else number,
-        "unit": meta.parsed_unit.si,
-        "symbol": meta.symbol,
-        "description": meta.description,
-        "display": given_shown(number, display),
-    }
 
 
 def numbers(calc: Calculation) -> Data:

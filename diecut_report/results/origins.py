@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diecut_report.config.instances import Instance, Slot
 from diecut_report.config.loader import Config
-from diecut_report.results.mechanism import Origin, Provenance
+from diecut_report.results.stated_inputs import Origin, Provenance
 
 
 def origin_of(config: Config, instance: Instance, slot: Slot) -> Provenance:

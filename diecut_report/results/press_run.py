@@ -26,8 +26,9 @@ from diecut_report.languages.phrases import Phrase, named, phrase
 from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.results.bases import Bases
 from diecut_report.results.comparisons import Found, Uncomparable, compared, found
-from diecut_report.results.mechanism import Provenance, SelfTestFailed, mechanism_results
+from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.origins import origin_of
+from diecut_report.results.stated_inputs import Provenance
 from diecut_report.results.taken_over import Absent, Unavailable, Valueless, Withheld, output
 
 Data = dict[str, Any]

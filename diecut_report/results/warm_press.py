@@ -35,10 +35,11 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.results.checks import check_results
 from diecut_report.results.curves import curves
 from diecut_report.results.document import document, verdict
-from diecut_report.results.mechanism import inputs, key_outputs, mechanism_results, numbers, require_self_tests, worst
+from diecut_report.results.mechanism import key_outputs, mechanism_results, numbers, require_self_tests, worst
 from diecut_report.results.origins import origin_of
 from diecut_report.results.press_run import Run, Tell, require_possible
 from diecut_report.results.reference_origins import told_checks
+from diecut_report.results.stated_inputs import placed_inputs
 from diecut_report.results.summary import governing, summary
 
 Data = dict[str, Any]
@@ -143,12 +144,13 @@ class WarmRun(Run):
         return self.self_tests.get(name, [])
 
     def _inputs(self, name: str) -> Data:
-        """The inputs of a mechanism with where they come from, not what they rest on."""
+        """The inputs of a mechanism with what they refer to, as far as ``told_checks`` asks of them."""
         instance = self.config.instances.get(name)
         if instance is None or name not in self.calculations:
             return {}
-        found = {".".join(map(str, slot.key)): origin_of(self.config, instance, slot) for slot in instance.slots}
-        return inputs(self.calculations[name], found)
+        origins = {".".join(map(str, slot.key)): origin_of(self.config, instance, slot) for slot in instance.slots}
+        placed = ((path, origins.get(path)) for path, *_ in placed_inputs(self.calculations[name]))
+        return {path: {"path": origin.path} if origin and origin.path else {} for path, origin in placed}
 
     @property
     def status(self) -> str:

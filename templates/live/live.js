@@ -434,7 +434,6 @@
   function chart(box, panel, rows, group) {
     var ink = colour("ink"), grid = colour("line"), limit = colour("fail");
     var lines = panel.lines.concat(panel.fills), joined = uPlot.join(lines.map(function (each) { return [rows[each.x], rows[each.y]]; }));
-    var levels = panel.levels.map(function (level) { return { y: level.y, text: level.text }; });
     var axis = { stroke: ink, grid: { stroke: grid, width: 1 }, ticks: { stroke: grid }, values: function (u, places) { return places.map(function (place) { return place === null ? "" : FIGURES.format(place); }); }, font: "12px system-ui, sans-serif", labelFont: "12px system-ui, sans-serif", labelSize: 18 };
     box.append(make("p", { "class": "panel" }, panel.title + (panel.unit ? ", " + panel.unit : "")));
     var made = new uPlot({
@@ -446,14 +445,13 @@
         return { label: each.label || panel.title, stroke: ink, width: 1.5, dash: DASHES[index % DASHES.length], spanGaps: false };
       })),
       hooks: { draw: [function (u) {
-        levels.forEach(function (level) {
-          var y = u.valToPos(level.y, "y", true);
-          u.ctx.save();
-          u.ctx.strokeStyle = u.ctx.fillStyle = limit;
-          u.ctx.beginPath(); u.ctx.moveTo(u.bbox.left, y); u.ctx.lineTo(u.bbox.left + u.bbox.width, y); u.ctx.stroke();
-          u.ctx.textAlign = "right"; u.ctx.fillText(level.text, u.bbox.left + u.bbox.width - 4, y - 4);
-          u.ctx.restore();
-        });
+        var c = u.ctx, edges = u.bbox, px = window.devicePixelRatio;
+        c.save();
+        c.strokeStyle = c.fillStyle = limit; c.textAlign = "left"; c.textBaseline = "alphabetic"; c.font = 12 * px + "px system-ui, sans-serif";
+        var heights = panel.levels.map(function (level) { return { y: u.valToPos(level.y, "y", true), width: c.measureText(level.text).width }; });
+        heights.forEach(function (level) { c.beginPath(); c.moveTo(edges.left, level.y); c.lineTo(edges.left + edges.width, level.y); c.stroke(); });
+        window.levelNames(heights, edges, 14 * px).forEach(function (place, index) { c.fillText(panel.levels[index].text, place.x, place.y); });
+        c.restore();
       }] }
     }, joined, box);
     made.root.querySelectorAll(".u-label").forEach(function (label) {

@@ -8,6 +8,7 @@ import re
 import subprocess
 import sys
 from collections.abc import Iterator
+from itertools import combinations
 from pathlib import Path
 from typing import Any
 
@@ -390,6 +391,17 @@ def test_texts_in_charts_stay_inside_and_every_curve_has_a_value_where_it_begins
     for head in opened.page.locator("figure.read .r-head").all():
         values = head.locator(".r-value").all_text_contents()
         assert len(values) > 1 or re.search(r"\d", values[0]), head.text_content()
+
+
+LEVELS = """() => [1, 4, 9, 15, 40].map(apart => levelNames([200, 100, 100 + apart, 100 + 2 * apart].map(y => ({ y: y, width: 90 })),
+    { left: 50, top: 80, width: 400, height: 140 }, 13))"""
+
+
+def test_names_of_near_levels_stand_apart_and_inside(browser: Browser, report: Path) -> None:
+    for places in Opened(browser, report).page.evaluate(LEVELS):
+        assert all(50 <= place["x"] <= 360 and 93 <= place["y"] <= 220 for place in places), places
+        for one, other in combinations(places, 2):
+            assert abs(one["x"] - other["x"]) >= 90 or abs(one["y"] - other["y"]) >= 13, places
 
 
 def test_the_tab_key_stops_only_where_something_is_seen(browser: Browser, report: Path) -> None:

@@ -6,16 +6,18 @@ import re
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.config.yaml_tree import Tree
+from diecut_report.design.varied_machines import UTILISATION, varied
 from diecut_report.errors import UserError
 from diecut_report.languages.speech import speaking
 from diecut_report.live.effects import effect
-from diecut_report.live.page_data import page_data
+from diecut_report.live.page_data import page_data, slider
 from diecut_report.live.pictures_of_run import Pictures
 from diecut_report.live.session import LiveSession
 from diecut_report.results.document import document
@@ -186,6 +188,38 @@ def test_the_effect_of_an_input_is_that_of_machines_calculated_one_by_one(sessio
         for check in session.machine.run.checks["knife"]:
             if (name := f"knife.{check['id']}") in lines and check["status"] != "not_checked":
                 assert lines[name][place] == pytest.approx(check["utilisation"], rel=1e-3), name
+
+
+CLUTCH = """
+  clutch:
+    kind: clutch
+    torque: 300 N*m
+    shoe_radius: 120 mm
+    shoe_width: 30 mm
+    wedge_angle: 10 deg
+    allowable_pressure: 0.2 MPa
+"""
+
+
+@pytest.mark.parametrize("name", ["clutch.shoe_radius", "press.sheet.thickness"])
+def test_an_effect_calculates_what_follows_from_the_input_and_leaves_the_other_checks_as_they_are(
+    tmp_path: Path, name: str
+) -> None:
+    file = tmp_path / "two.yaml"
+    file.write_text(KNIFE.read_text("utf-8").rstrip() + CLUTCH, encoding="utf-8")
+    machine = LiveSession(file, Discovery([])).machine
+    assert machine is not None
+    asked, told = machine.inputs[name], list[str]()
+    found = effect(machine, name, told.append)
+    places = np.linspace(*slider(asked), len(found["places"]))
+    every = varied(machine.config, {asked.asked: places}, len(places))
+    assert told == (["clutch"] if name.startswith("clutch") else ["knife"])
+    assert found["checks"].keys() == set(every.checks) and found["exists"] == every.exists.tolist()
+    for check, line in found["checks"].items():
+        whole = every.check(check, UTILISATION).astype(float)
+        known = [np.nan if ratio is None else ratio for ratio in line["utilisation"]]
+        np.testing.assert_allclose(known, whole, rtol=1e-3, err_msg=check)
+        assert line["status"] == [status or "" for status in every.check(check)], check
 
 
 def test_an_effect_ends_where_what_it_tells_ends_it(session: LiveSession) -> None:

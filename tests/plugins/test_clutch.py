@@ -15,7 +15,8 @@ from scipy.optimize import brentq
 from diecut_report.engine import Impossible, calculate
 from diecut_report.expressions import Array
 from diecut_report.plugins.clutch import MECHANISM
-from diecut_report.results.mechanism import Provenance, mechanism_results
+from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.stated_inputs import Provenance
 from tests.machines import inputs, number
 from tests.plugins.clutches import BASE, checks, clutch
 

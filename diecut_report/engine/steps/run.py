@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.contract.code_steps import ComputedCurve, Fact, PartCurves, PartNames, PartTable
-from diecut_report.contract.inputs import list_inputs
+from diecut_report.contract.input_lists import list_inputs
 from diecut_report.contract.listings import Listing
 from diecut_report.contract.machines import Machines
 from diecut_report.contract.mechanism import Mechanism

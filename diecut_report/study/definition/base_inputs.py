@@ -16,6 +16,7 @@ from diecut_report.config.taken_entries import taken_anew
 from diecut_report.config.targets import Target
 from diecut_report.config.validation import declared, keys_of, validate
 from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.input_lists import list_inputs
 from diecut_report.contract.inputs import (
     SI,
     Block,
@@ -27,7 +28,6 @@ from diecut_report.contract.inputs import (
     Referred,
     Text,
     fields,
-    list_inputs,
 )
 from diecut_report.contract.unit_variants import in_form
 from diecut_report.errors import Problem, nearest

@@ -15,7 +15,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.contract.checks import Check, by_part
 from diecut_report.contract.code_steps import PartNames
-from diecut_report.contract.inputs import list_inputs
+from diecut_report.contract.input_lists import list_inputs
 from diecut_report.contract.mechanism import is_text
 from diecut_report.contract.missing_keys import missing_keys
 from diecut_report.contract.result_names import CROSSING_COLUMNS, ResultName, count_name, result_names
