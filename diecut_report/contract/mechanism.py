@@ -230,7 +230,7 @@ class Mechanism:
     ) -> str | None:
         """The unit of what a curve runs over; None with inputs of which one is missing that gives the curve, which is told of them."""
         axis = self.axis_of(step.of, given)  # type: ignore[attr-defined]
-        return found[axis][0] if axis in found else None
+        return found[axis][0] if axis is not None and axis in found else None
 
     def phases_of(self, given: frozenset[str]) -> dict[str, str]:
         """Return the ids of the phases that take part, each with the SI unit of its abscissa."""

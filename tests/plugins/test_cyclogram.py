@@ -507,7 +507,7 @@ def test_without_the_lines_of_the_clutch_its_position_is_not_checked() -> None:
 
 def test_all_times_are_told_at_the_rate_that_the_gears_give() -> None:
     times = {row[0]: row[1:] for row in clutched()["listings"]["times"]["rows"]}
-    assert times["one sheet"] == pytest.approx([0.6, 3600 / 5918.367])
+    assert times["sheet"] == pytest.approx([0.6, 3600 / 5918.367])
     assert times["passing, margin at the end"][0] == pytest.approx(29.2308 * 0.6 / 360, abs=1e-6)
     assert times["passing, margin at the end"][1] == pytest.approx(29.2308 / 360 * 3600 / 5918.367, abs=1e-6)
 

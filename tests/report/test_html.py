@@ -11,6 +11,7 @@ from jinja2 import UndefinedError
 
 from diecut_report.languages.catalogues import UnknownLanguage
 from diecut_report.report import Rendering, html, render_html
+from diecut_report.report.html import SCRIPTS
 
 BAD = "<script>alert(1)</script>"
 VOID = {"wbr", "meta", "img", "br", "col", "path", "use", "rect", "link", "mspace", "circle", "line", "input"}
@@ -114,8 +115,7 @@ def test_scripts_in_any_text_are_only_text(request: pytest.FixtureRequest, docum
     page = render_html(poisoned)
     assert re.findall(r"<script[^>]*>", page) == [
         '<script type="application/json" id="reader-data">',
-        "<script>",
-        "<script>",
+        *["<script>"] * len(SCRIPTS),
     ]
     assert BAD not in page
     assert page.count("&lt;script&gt;") > 60
