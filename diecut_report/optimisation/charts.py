@@ -76,7 +76,10 @@ def _pair(axes: Axes, found: FoundFront, there: TriedMachines, behind: Cloud, pa
     columns = [found.objectives[place].column for place in pair]
     scale = np.array([factor(column) for column in columns])
     points = found.values[:, [x, y]] * scale
-    for is_allowed, colour, words in ((False, "#dcc3c3", say("is not allowed")), (True, COLOURS["pass"], say("is allowed"))):
+    for is_allowed, colour, words in (
+        (False, "#dcc3c3", say("is not allowed")),
+        (True, COLOURS["pass"], say("is allowed")),
+    ):
         some = behind.values[behind.allowed == is_allowed][:, [x, y]] * scale
         axes.scatter(some[:, 0], some[:, 1], s=size / 3, c=colour, linewidths=0, alpha=0.7, label=words)
     line = "-" if len(found.objectives) == 2 else "none"

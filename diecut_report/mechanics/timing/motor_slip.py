@@ -62,7 +62,7 @@ def motor_response(load: PieceRows, period: Array, time_constant: Array) -> Piec
     fine = load.split(np.maximum(np.ceil(load.width / (LONGEST * tau[load.machine]) - NARROW), 1).astype(int))
     lag = tau[fine.machine]
     own = _from_rest(fine, lag)
-    starts = _periodic_starts(fine, own[:, -1], np.exp(-fine.width / lag))
+    starts = _periodic_starts(fine, own[:, -1], np.exp(-fine.width / lag), tau)
     passed = fine.width[:, None] * (NODES + 1) / 2
     return fine.through(own[:, :-1] + starts[:, None] * np.exp(-passed / lag[:, None]))
 
@@ -75,14 +75,17 @@ def _from_rest(load: PieceRows, tau: Array) -> Array:
     return found
 
 
-def _periodic_starts(load: PieceRows, gains: Array, decay: Array) -> Array:
-    """The torque at the start of each piece: what the pieces add and leave, after a period the same."""
+def _periodic_starts(load: PieceRows, gains: Array, decay: Array, tau: Array) -> Array:
+    """The torque at the start of each piece: what the pieces add and leave, after a period the same.
+
+    What a period takes away is as small as it is with a long lag, and not the difference of two numbers near one.
+    """
     number = np.bincount(load.machine, minlength=load.count)
     place = np.arange(len(gains)) - (np.cumsum(number) - number)[load.machine]
     gain, left = np.zeros((load.count, number.max())), np.ones((load.count, number.max()))
     gain[load.machine, place], left[load.machine, place] = gains, decay
     gain, left = _run_through(gain, left)
-    first = gain[:, -1:] / (1 - left[:, -1:])
+    first = gain[:, -1:] / -np.expm1(-1 / tau)[:, None]
     begins = np.concatenate([first, gain + left * first], axis=1)
     found: Array = begins[load.machine, place]
     return found

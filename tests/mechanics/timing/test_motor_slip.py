@@ -176,3 +176,11 @@ def test_pieces_joined_by_doubling_are_those_gone_through_one_by_one() -> None:
         assert added[:, piece] + kept[:, piece] * start == pytest.approx(torque, rel=1e-12, abs=1e-12)
     alone = motor_slip._run_through(gain[:1, :77], left[:1, :77])
     assert np.array_equal(alone[0], added[:1, :77])  # a machine is the same among others, which may have more pieces
+
+
+def test_behind_a_lag_without_end_the_motor_bears_the_mean() -> None:
+    edges = np.array([[0.25, 0.5]])
+    load = PieceRows.of(lambda share, _, __: 300 + 200 * np.sin(2 * np.pi * share), edges, 8)
+    for lag in (1e6, 1e12, 1e18):
+        found = motor_slip.motor_response(load, np.array([1.0]), np.array([lag]))
+        assert found.values == pytest.approx(300, rel=1e-5)
