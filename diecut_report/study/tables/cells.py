@@ -89,9 +89,23 @@ class Cells:
 
 def _arrow_floats(raw: Any) -> Array | None:
     import pyarrow
-    import pyarrow.compute as compute
 
     is_text = pyarrow.types.is_string(raw.type) or pyarrow.types.is_large_string(raw.type)
+    if not is_text:
+        return _cast(raw)
+    found = np.empty(len(raw))
+    for start in range(0, len(raw), SLICE):  # all at once would be a second copy of all texts
+        part = _cast(raw.slice(start, SLICE), is_text=True)
+        if part is None:
+            return None
+        found[start : start + SLICE] = part
+    return found
+
+
+def _cast(raw: Any, *, is_text: bool = False) -> Array | None:
+    import pyarrow
+    import pyarrow.compute as compute
+
     trimmed = compute.utf8_trim_whitespace(raw) if is_text else raw
     try:
         return np.array(compute.cast(trimmed, pyarrow.float64(), safe=False).to_numpy(), dtype=float)

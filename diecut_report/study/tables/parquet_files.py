@@ -28,7 +28,7 @@ def read(file: BinaryIO) -> tuple[list[Header], list[Cells]]:
     try:
         table = _table(file)
         units = [((field.metadata or {}).get(b"unit") or b"").decode() or None for field in table.schema]
-        columns = [Cells(column.combine_chunks(), 1) for column in table.columns]
+        columns = [Cells(column, 1) for column in table.columns]  # their pieces as they are: one piece would be a copy
     except pyarrow.ArrowMemoryError as error:
         raise UnreadableTable(Phrase("needs more memory than there is. {smaller}", smaller=SMALLER)) from error
     except (pyarrow.ArrowException, OSError, ValueError, OverflowError) as error:  # Parquet says OSError of damage too
