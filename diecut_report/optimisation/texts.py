@@ -128,7 +128,7 @@ def today(found: OptimisationResult) -> str:
         )
         for goal, value in goals_
     ]
-    verdict = phrase("is allowed") if found.known.violations[0] == 0 else phrase("is not allowed")
+    verdict = phrase("it is allowed") if found.known.violations[0] == 0 else phrase("it is not allowed")
     return Phrase("today's machine is {number} ({verdict}): {told}", number=0, verdict=verdict, told=joined(told, ", "))
 
 
