@@ -128,7 +128,7 @@ def _choices(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = (
     """What is wrong with inputs of which one group is needed, in a block and the blocks in it."""
     if not isinstance(data, dict):
         return
-    given = [name for name, value in data.items() if value is not None and value != []]
+    given = [name for name, value in data.items() if value is not None and not (isinstance(value, list) and not value)]
     texts = {name: data.get(name, field.default) for name, field in model.model_fields.items()}
     for fault in filter(None, (rule.fault(given) for rule in model.one_of if rule.is_asked(texts))):
         yield place.problem(key, fault, at_key=True)

@@ -4,6 +4,9 @@ from __future__ import annotations
 
 import re
 
+NAMING = ("name", "mechanism")
+"""The keys that say what a part of a list is called."""
+
 _TOKEN = re.compile(r"[a-z][a-z0-9]*(?:_[a-z0-9]+)+")
 _POWERS = re.compile(r"(?<=\bpolynomial )[0-9]+")
 

@@ -8,6 +8,7 @@ from typing import Any
 
 from markupsafe import Markup
 
+from diecut_report.languages.tokens import NAMING
 from diecut_report.quantities.units import pretty
 from diecut_report.report.printed_tables import DASH, TableCell
 from diecut_report.report.repeated_parts import Parts
@@ -15,7 +16,6 @@ from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
 MOST_PARTS = 4  # that have room beside each other
-NAMES = ("name", "mechanism")  # inputs that say what the parts are called
 
 
 @dataclass(frozen=True)
@@ -53,7 +53,7 @@ def record_rows(
     heads, rows = [str(number) for number in parts.numbers], []
     for quantity, first in parts.heads:
         given = [parts.columns[quantity].get(number) for number in parts.numbers]
-        names = {str(each[1]["value"]): None for each in given if each} if quantity in NAMES else {}
+        names = {str(each[1]["value"]): None for each in given if each} if quantity in NAMING else {}
         if len(names) == len(given):
             heads = list(names)
             continue

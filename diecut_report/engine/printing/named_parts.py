@@ -12,10 +12,10 @@ from diecut_report.engine.calculation import Calculation
 from diecut_report.engine.printing.shown_place import shown_part, value_at
 from diecut_report.engine.shown_units import unit_for
 from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.tokens import NAMING
 from diecut_report.quantities.formatting import shown, with_unit
 
 Item = dict[str, Any]
-NAMING = ("name", "mechanism")  # inputs that say what the parts of a list are called
 
 
 def has_tables(calc: Calculation, parts: str) -> bool:
