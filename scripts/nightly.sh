@@ -7,7 +7,7 @@ set -eu
 cd "$(dirname -- "$0")/.."
 python=$PWD/.venv/bin/python
 
-HYPOTHESIS_PROFILE=nightly "$python" -m pytest -n auto --maxprocesses 4 --dist worksteal -m "" "$@"
+HYPOTHESIS_PROFILE=nightly "$python" -m pytest -n auto --maxprocesses 4 --dist worksteal -o faulthandler_timeout=7200 -m "" "$@"
 for benchmark in calc report batch_kernel warm; do
     "$python" "benchmarks/$benchmark.py" 1
 done

@@ -31,7 +31,7 @@ Found = TypeVar("Found")
 SETTLED, STEP = 60, 20  # milliseconds: an editor may write a file in several steps
 ALIVE = 15.0  # seconds after which a silent stream says that it is there
 LOOK = 0.1  # seconds between looks whether a page still waits for what is calculated
-AGAIN = 1.0  # seconds between looks for a folder that is gone
+AGAIN = 1.0  # seconds between looks at the files beside what the watch tells
 
 
 class _GivesWay(Exception):
@@ -92,40 +92,32 @@ class LiveApplication:
     # --- what changes ------------------------------------------------------------------------------------------------
 
     async def _watch(self) -> None:
-        """Read the file again whenever it, or what it names, is another."""
-        before = await self._done(self._marks)
+        """Read the file again whenever it, or what it names, is another than what was read.
+
+        What a watch of the folder does not tell (a save before it began, a table elsewhere, a folder that is gone and comes
+        back, a disk of the network) is seen by a look now and then.
+        """
         while not self._is_ending.is_set():
             with suppress(OSError):  # the folder is gone, or cannot be watched: it is looked at again below
                 async for _ in awatch(
-                    self.session.file.parent, debounce=SETTLED, step=STEP, stop_event=self._is_ending, recursive=False
-                ):
-                    before = await self._read_where_changed(before)
+                    self.session.file.parent, debounce=SETTLED, step=STEP, rust_timeout=round(AGAIN * 1000),
+                    yield_on_timeout=True, stop_event=self._is_ending, recursive=False,
+                ):  # fmt: skip
+                    await self._read_where_changed()
             await asyncio.sleep(AGAIN)
-            before = await self._read_where_changed(before)
+            await self._read_where_changed()
 
-    async def _read_where_changed(self, before: dict[Path, object]) -> dict[Path, object]:
-        now = await self._done(self._marks)
-        if now != before:
+    async def _read_where_changed(self) -> None:
+        if await asyncio.to_thread(
+            self.session.is_stale
+        ):  # beside the one thread, where an effect would give way to each look
             self._is_reading = True
             await self._tell()
             try:
                 await self._done(self.session.read)
             finally:
                 self._is_reading = False
-            await self._tell()
-        return await self._done(self._marks)
-
-    def _marks(self) -> dict[Path, object]:
-        """What tells one content of the files from another."""
-        found: dict[Path, object] = {}
-        for file in self.session.files:
-            try:
-                about = file.stat()
-            except OSError as error:
-                found[file] = error.errno
-            else:
-                found[file] = about.st_ino, about.st_mtime_ns, about.st_size
-        return found
+                await self._tell()
 
     async def _tell(self) -> None:
         async with self._changed:
@@ -227,8 +219,10 @@ class LiveApplication:
         return await self._acted(self.session.write)
 
     async def _acted(self, act: Callable[[], None]) -> Response:
-        await self._done(act)
-        await self._tell()
+        try:
+            await self._done(act)
+        finally:
+            await self._tell()  # what is refused may have read the file again
         return JSONResponse({"serial": self.session.serial})
 
 

@@ -53,6 +53,7 @@ class LiveSession:
         self.serial = 0
         self._places: dict[str, KeyPath] = {}
         self._press = WarmPress()
+        self._read: dict[Path, object] = {}
         self.read()
 
     @property
@@ -61,8 +62,13 @@ class LiveSession:
         named = self.machine.config.files if self.machine else ()
         return {self.file, *(self.file.parent / name for name in named)}
 
+    def is_stale(self) -> bool:
+        """Return whether the files are others than those that were read. Any thread may ask."""
+        return self._read != self._marks()
+
     def read(self) -> None:
         """Read the file again and calculate; changes of the page stay over it, but those that stand in it now."""
+        self._read = self._marks()  # before the reading: what is saved meanwhile is another
         try:
             self.tree = yaml_tree.load(self.file)
         except UserError as error:
@@ -70,6 +76,18 @@ class LiveSession:
             return
         self.edits = {name: typed for name, typed in self.edits.items() if self.tree.typed(self._places[name]) != typed}
         self._calculate()
+
+    def _marks(self) -> dict[Path, object]:
+        """What tells one content of the files from another."""
+        found: dict[Path, object] = {}
+        for file in self.files:
+            try:
+                about = file.stat()
+            except OSError as error:
+                found[file] = error.errno
+            else:
+                found[file] = about.st_ino, about.st_mtime_ns, about.st_size
+        return found
 
     def change(self, changes: Mapping[str, str]) -> None:
         """Take values of the page, as typed, by the names of their inputs; UserError where one is not a value of its input."""

@@ -7,6 +7,7 @@ import signal
 import socket
 import subprocess
 import sys
+import time
 from collections.abc import Generator, Iterator
 from contextlib import closing
 from http.client import HTTPConnection
@@ -47,10 +48,12 @@ class Server:
         with closing(HTTPConnection(self.host, timeout=SECONDS)) as connection:
             connection.request("GET", f"{self.path}events")
             with connection.getresponse() as answer:
-                named = False
-                for line in answer:
+                named, end = False, time.monotonic() + SECONDS
+                for line in answer:  # a silent server says now and then that it is there
+                    assert time.monotonic() < end, "nothing was told of the machine"
                     if line.startswith(b"data: ") and not named:  # of the machine; others have a name, as "busy"
                         yield json.loads(line[6:])
+                        end = time.monotonic() + SECONDS
                     named = line.startswith(b"event: ")
 
 
@@ -61,7 +64,7 @@ def server(tmp_path_factory: pytest.TempPathFactory) -> Iterator[Server]:
     made = Server(file)
     yield made
     made.process.kill()
-    made.process.communicate()
+    made.process.communicate(timeout=SECONDS)
 
 
 def test_only_pages_of_its_own_with_the_secret_are_let_in(server: Server) -> None:
@@ -120,7 +123,7 @@ def test_page_script_numbers_and_refusals_are_in_the_language_that_is_asked_for(
         _, refused = server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "5 kg"}})
     finally:
         server.process.kill()
-        server.process.communicate()
+        server.process.communicate(timeout=SECONDS)
     assert '<html lang="uk">' in page and "Записати у файл" in page and "Програма не відповідає" in page
     assert "Рух протягом розрізу" in told and "маса" in json.loads(refused)["refused"]
 

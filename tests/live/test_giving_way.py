@@ -31,7 +31,8 @@ def test_a_page_is_told_that_a_saved_file_is_being_calculated(tmp_path: Path, mo
     async def told() -> list[bytes]:
         stream = made._stream()
         found = [await anext(stream)]
-        asking = asyncio.create_task(made._read_where_changed({}))
+        file.write_bytes(KNIFE.read_bytes() + b"\n")
+        asking = asyncio.create_task(made._read_where_changed())
         while not found[-1].startswith(b"data: ") or len(found) == 1:
             found.append(await anext(stream))
         await asking
@@ -39,6 +40,26 @@ def test_a_page_is_told_that_a_saved_file_is_being_calculated(tmp_path: Path, mo
 
     found = asyncio.run(asyncio.wait_for(told(), 60))
     assert found[1] == b"event: busy\ndata: 1\n\n" and found[-1].startswith(b"data: ")
+
+
+def test_a_table_in_another_folder_is_read_again_when_it_changes(tmp_path: Path) -> None:
+    file, table = tmp_path / "knife.yaml", tmp_path / "tables" / "own.yaml"
+    table.parent.mkdir()
+    table.write_text(
+        "source: Works standard 12\ngear_materials: {own: {sigma_h_lim: 1500 MPa, sigma_f_lim: 500 MPa}}\n"
+    )
+    file.write_text(KNIFE.read_text("utf-8") + "materials: tables/own.yaml\n", "utf-8")
+    session = LiveSession(file, Discovery([]))
+    made = LiveApplication(session, (), None)
+
+    async def told() -> None:
+        async with made.starlette.router.lifespan_context(made.starlette):
+            table.write_text("source: [")
+            while not session.faults:
+                await asyncio.sleep(0.05)
+
+    asyncio.run(asyncio.wait_for(told(), 60))
+    assert session.faults[0].file == str(table)
 
 
 def test_an_effect_gives_way_to_a_change_and_is_made_again_after_it(

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import re
 from pathlib import Path
 from typing import Any
@@ -51,6 +52,40 @@ def shown_of(session: LiveSession, mechanism: str) -> dict[str, Any]:
 def replaced(session: LiveSession, old: str, new: str) -> None:
     session.file.write_text(session.file.read_text("utf-8").replace(old, new), encoding="utf-8")
     session.read()
+
+
+def test_what_is_saved_while_the_file_is_read_is_read_as_well(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    calculate, text = session._calculate, session.file.read_text("utf-8")
+
+    def saved_meanwhile() -> None:
+        calculate()
+        session.file.write_text(text.replace("depth:", "depht:"), encoding="utf-8")
+
+    assert not session.is_stale()
+    session.file.write_text(f"{text}\n", encoding="utf-8")
+    assert session.is_stale()
+    monkeypatch.setattr(session, "_calculate", saved_meanwhile)
+    session.read()
+    assert session.is_stale() and not session.faults
+    monkeypatch.undo()
+    session.read()
+    assert not session.is_stale() and "mechanisms.knife.depht" in [fault.path for fault in session.faults]
+
+
+def test_a_table_that_the_file_names_makes_it_stale_when_it_is_named_and_when_it_changes(session: LiveSession) -> None:
+    table = session.file.with_name("tables.yaml")
+    table.write_text(
+        "source: Works standard 12\ngear_materials: {own: {sigma_h_lim: 1500 MPa, sigma_f_lim: 500 MPa}}\n"
+    )
+    replaced(session, "schema_version: 1\n", "schema_version: 1\nmaterials: tables.yaml\n")
+    assert session.files == {session.file, table} and not session.faults
+    assert session.is_stale()  # it may have changed before it was known that it matters
+    session.read()
+    assert not session.is_stale()
+    os.utime(table, ns=(0, 0))
+    assert session.is_stale()
 
 
 def test_it_shows_what_the_file_gives_when_it_is_calculated_by_itself(session: LiveSession) -> None:
