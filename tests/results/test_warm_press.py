@@ -147,8 +147,12 @@ def edits(config: Config, count: int, seed: int) -> Iterator[Config]:
         if value is None:
             continue
         value = round(value) + chance.choice((-1, 1)) if key.is_integer else value * chance.uniform(0.9, 1.1)
-        start = chance.choice((config, last))
-        found, problems = with_values(start, {key: SI(value, str(key.unit), key.path)})
+        start, asked_for = chance.choice((config, last)), SI(value, str(key.unit), key.path)
+        try:
+            key.meta.validate(asked_for)
+        except ValueError:  # an efficiency above 1; where values are given they are judged before this
+            continue
+        found, problems = with_values(start, {key: asked_for})
         if not problems:
             last = found
             yield found
