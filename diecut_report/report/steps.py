@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from diecut_report.languages.tokens import worded
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import BEFORE, Place, Row, figures_at
+from diecut_report.report.given_names import in_words
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.left_out import gathered_notes
 from diecut_report.report.model import Heading, Item, PrintedSection
@@ -95,7 +96,7 @@ class PrintedSteps:
         return _PrintedStep(Item("note"), self._line(item, number, refers, self._new_note(item, notes)), is_told=True)
 
     def _line(self, item: Data, number: str, refers: Reference | None = None, note: str = "") -> ValueRow:
-        return value_row(item, number, refers, note, self.decimal)
+        return value_row(item, number, refers, note, self.decimal, self.tables.names)
 
     def _new_note(self, item: Data, notes: set[str]) -> str:
         """The note of a step, where the section has not said it; a report with all says it at each step."""
@@ -124,7 +125,7 @@ class PrintedSteps:
             condition=condition,
             definitions=tuple(self.said.definitions(item)),
             words=words,
-            text="" if item.get("equation") or item["type"] in WORDLESS else worded(item["result"]["text"]),
+            text="" if item.get("equation") or item["type"] in WORDLESS else in_words(item["result"]["text"], self.tables.names),
             notes=tuple(self._notes(item, notes)),
             changed=item.get("changed", ""),
         )
