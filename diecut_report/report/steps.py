@@ -51,6 +51,8 @@ class PrintedSteps:
     def section(self, index: int, section: Data, heading: Heading) -> PrintedSection:
         """A section with its figures."""
         notes: set[str] = set()
+        if self.told is not None:
+            self.told.begin(section["items"])
         steps = [_PrintedStep(item) for item in figures_at(self.figures, Place(index, BEFORE))]
         for place, item in enumerate(
             section["items"] if self.told is None else gathered_notes(brought_together(section))
