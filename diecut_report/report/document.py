@@ -246,7 +246,8 @@ def _sources(results: Data) -> list[tuple[str, str]]:
     for _, data in parts(results):
         for source in data.get("sources", ()):
             found.setdefault(source["citation"], {})[source["id"]] = None
-    return sorted((", ".join(sorted(ids)), citation) for citation, ids in found.items())
+    named = ((", ".join(sorted(ids)), citation) for citation, ids in found.items())
+    return sorted(named, key=lambda source: (source[0].casefold(), source))
 
 
 def former(changes: Data, words: Catalogue) -> str:

@@ -19,7 +19,7 @@ from diecut_report.report.house_style import OPTIONS, in_words, refuse_fetching
 from diecut_report.report.model import Item
 from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
-from diecut_report.report.symbol_list import in_columns
+from diecut_report.report.symbol_list import in_blocks
 from diecut_report.report.symbols import cited, pieces, prose, symbol
 from diecut_report.report.value_lines import in_lines
 
@@ -44,7 +44,7 @@ FILTERS: dict[str, Callable[..., Any]] = {
     "cited": cited,
     "symbol": symbol,
     "tidy": tidy,
-    "in_columns": in_columns,
+    "in_blocks": in_blocks,
     "in_lines": in_lines,
     "pieces": pieces,
     "behind": partial(joined, ""),

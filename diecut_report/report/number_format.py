@@ -10,9 +10,12 @@ from diecut_report.quantities.units import pretty
 
 MINUS = "\u2212"
 THIN = "\u202f"  # narrow, and never broken
-_RAISED = str.maketrans("0123456789-", "⁰¹²³⁴⁵⁶⁷⁸⁹⁻")
+RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+_RAISED = str.maketrans("0123456789-", f"{RAISED}⁻")
 _NUMBER = re.compile(r"([+-]?)(\d+)(?:\.(\d+))?(?:[eE]([+-]?\d+))?")
 _SPACED_FROM = 5  # digits: 10 000, but 1200
+# A long whole number of a sentence with its unit, and none that is a name: EN 10083.
+_LONG = re.compile(r"(?<![\w.,])\d{5,}(?=(?:[.,]\d+)?[ \u00a0](?:[kMG]?N|[kMG]?Pa|k?W|k?J|[mµ]?m|kg|s|h|r/min|1/h|1/s|K)(?!\w))")
 
 
 def parts(text: str) -> tuple[str, str, str, int] | None:
@@ -58,6 +61,8 @@ def quantity(text: str, unit: str, decimal: str = ".") -> str:
 def joined(printed: str, unit: str) -> str:
     """A printed number and a printed unit, not to be broken apart."""
     space = "" if not unit or unit.startswith(("°", "′", "″")) else "\u00a0"
+    if not space and unit and printed.endswith(tuple(RAISED)):  # 10⁻⁶ °, whose sign is no part of the power
+        space = THIN
     return f"{printed}{space}{unit}"
 
 
@@ -77,8 +82,9 @@ def displayed(value: float, unit: str, decimal: str = ".") -> str:
 
 
 def tidy(text: str) -> str:
-    """A sentence with real minus signs, powers of ten written out, and degrees close to their number."""
+    """A sentence with real minus signs, powers of ten written out, long numbers in threes, and degrees close to their number."""
     powers = re.sub(r"(?<=\d)[eE]([+-]?\d+)(?!\w)", lambda found: power_of_ten(int(found[1])), text.replace(" °", "°"))
+    powers = re.sub(f"(?<=[{RAISED}])°", f"{THIN}°", _LONG.sub(lambda found: grouped(found[0]), powers))
     return re.sub(r"(?<![\w.)])-(?=\d)", MINUS, powers)
 
 

@@ -27,7 +27,9 @@ class SaidOnce:
                 yield equation
 
     def condition(self, item: Data) -> Equation | None:
-        """Return the condition of the branch taken, with its numbers, where the chapter has not shown it already."""
+        """Return the condition of the branch taken, with its numbers, where it says something and the chapter has not shown it already."""
+        if item.get("words") and _says_nothing(item.get("condition_substituted")):
+            return None
         equation = self.equations.condition(item)
         told = "" if equation is None else f"{item.get('words', '')}: {equation.text}"
         if not told or (told in self.defined and item.get("words")):
@@ -48,3 +50,11 @@ class SaidOnce:
         sides = (conversion[key] for key in ("shown", "converted"))
         texts = [quantity(side["text"], side["unit"], self.words["decimal"]) for side in sides]
         return " = ".join((conversion["symbol"], *texts))
+
+
+def _says_nothing(condition: Any) -> bool:
+    """Whether a condition is, with its numbers, that a number equals itself: a flag that is 1."""
+    match condition:
+        case ["cmp", "==", ["qty" | "num", left, *_], ["qty" | "num", right, *_]]:
+            return bool(left == right)
+    return False

@@ -9,6 +9,7 @@ from typing import Any, NamedTuple
 from diecut_report.languages.tokens import worded
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import BEFORE, Place, Row, figures_at
+from diecut_report.report.given_names import in_words
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.left_out import gathered_notes
 from diecut_report.report.model import Heading, Item, PrintedSection
@@ -50,6 +51,8 @@ class PrintedSteps:
     def section(self, index: int, section: Data, heading: Heading) -> PrintedSection:
         """A section with its figures."""
         notes: set[str] = set()
+        if self.told is not None:
+            self.told.begin(section["items"])
         steps = [_PrintedStep(item) for item in figures_at(self.figures, Place(index, BEFORE))]
         for place, item in enumerate(
             section["items"] if self.told is None else gathered_notes(brought_together(section))
@@ -95,7 +98,7 @@ class PrintedSteps:
         return _PrintedStep(Item("note"), self._line(item, number, refers, self._new_note(item, notes)), is_told=True)
 
     def _line(self, item: Data, number: str, refers: Reference | None = None, note: str = "") -> ValueRow:
-        return value_row(item, number, refers, note, self.decimal)
+        return value_row(item, number, refers, note, self.decimal, self.tables.names)
 
     def _new_note(self, item: Data, notes: set[str]) -> str:
         """The note of a step, where the section has not said it; a report with all says it at each step."""
@@ -124,7 +127,7 @@ class PrintedSteps:
             condition=condition,
             definitions=tuple(self.said.definitions(item)),
             words=words,
-            text="" if item.get("equation") or item["type"] in WORDLESS else worded(item["result"]["text"]),
+            text="" if item.get("equation") or item["type"] in WORDLESS else in_words(item["result"]["text"], self.tables.names),
             notes=tuple(self._notes(item, notes)),
             changed=item.get("changed", ""),
         )

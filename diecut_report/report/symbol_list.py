@@ -16,6 +16,7 @@ from diecut_report.report.symbols import symbol
 Data = Mapping[str, Any]
 GROUPS = ("inputs", "curves", "outputs", "values")
 COLUMNS, ROOM = 3, 33  # on paper, and the letters that a line has beside its symbol
+LINES = 14  # of a block's columns: less than a third of a sheet is left empty before one
 TREES = ("equation", "relation", "condition")
 
 
@@ -39,17 +40,34 @@ class SymbolRow(NamedTuple):
 def symbol_rows(mechanism: Data) -> list[SymbolRow]:
     """The symbols that stand in a chapter's formulas, in the order of the alphabet, Latin letters first."""
     used = set(_used(mechanism["sections"]))
+    printed = {item["id"] for section in mechanism["sections"] for item in section["items"] if "id" in item}
+    rows = [(name, row) for group in GROUPS for name, row in mechanism[group].items()]
     known: dict[str, Data] = {}
-    for group in GROUPS:
-        for row in mechanism[group].values():
-            if row["symbol"] in used and any(map(str.isalpha, row["symbol"])):
-                known.setdefault(row["symbol"], row)
+    for _, row in sorted(rows, key=lambda each: each[0] not in printed):  # what a step prints, before a chart's curves
+        if row["symbol"] in used and any(map(str.isalpha, row["symbol"])):
+            known.setdefault(row["symbol"], row)
     return [_row(known[name]) for name in sorted(known, key=_order)]
 
 
-def in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
-    """The rows in columns for paper, of about as many lines each."""
-    lines = [ceil((len(row.meaning) + len(row.unit) + 2) / ROOM) for row in rows]
+def in_blocks(rows: list[SymbolRow]) -> list[list[list[SymbolRow]]]:
+    """The rows for paper, in blocks of columns that no sheet's end cuts: each block is read column by column."""
+    blocks: list[list[SymbolRow]] = [[]]
+    room = COLUMNS * LINES
+    for row in rows:
+        if sum(map(_lines, blocks[-1])) + _lines(row) > room:
+            blocks.append([])
+        blocks[-1].append(row)
+    return [_in_columns(block) for block in blocks if block]
+
+
+def _lines(row: SymbolRow) -> int:
+    """How many lines a row takes on paper, about."""
+    return ceil((len(row.meaning) + len(row.unit) + 2) / ROOM)
+
+
+def _in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
+    """The rows in columns, of about as many lines each."""
+    lines = [_lines(row) for row in rows]
     count = min(COLUMNS, len(rows))
     share = ceil(sum(lines) / count)
     before = [0, *accumulate(lines)]

@@ -19,6 +19,7 @@ _IN_TEXT = re.compile(
     r"(?<![\w.])(?:([^\W\d_]{1,2}[′']?)_(\d{1,2}|[^\W\d_]{1,3}(?:,[^\W_]{1,3})?|\w{1,6}(?=\s?=))(?!\w)"
     rf"|(?<!\d[ \u00a0\u202f/])({_LONE})(?=\s?[{_SIGNS}])|([Α-Ωα-ωϑϕ])(?!\w)|(?<=[{_SIGNS}])({_LONE})(?!\w)|(?<=[{_SIGNS}] )({_LONE})(?!\w))"
 )
+_EQUAL = re.compile(r"(?<=\w) ([=≤≥<>≈]) (?=[−\d])")  # φ = 180°, which no line's end cuts
 
 
 def symbol(name: str) -> Markup:
@@ -59,7 +60,7 @@ def cited(source: str) -> Markup:
 
 def prose(sentence: str) -> Markup:
     """A sentence as HTML, its symbols set as symbols."""
-    text = tidy(sentence)
+    text = _EQUAL.sub("\u00a0\\1\u00a0", tidy(sentence))
     parts, start = [], 0
     for found in _IN_TEXT.finditer(text):
         base = found[1] or found[3] or found[4] or found[5] or found[6]

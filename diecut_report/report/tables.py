@@ -32,8 +32,10 @@ MOST_COLUMNS = 7  # beside the first one
 class Tables:
     """Makes a chapter's tables; they count up as they are made."""
 
-    def __init__(self, letter: str, words: Catalogue, lists: Mapping[str, str] = MappingProxyType({})) -> None:
-        self.letter, self.words, self.lists = letter, words, lists
+    def __init__(
+        self, letter: str, words: Catalogue, lists: Mapping[str, str] = MappingProxyType({}), names: frozenset[str] = frozenset()
+    ) -> None:  # fmt: skip
+        self.letter, self.words, self.lists, self.names = letter, words, lists, names
         self.decimal = words["decimal"]
         self.count = 0
 

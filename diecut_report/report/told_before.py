@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any, NamedTuple
@@ -25,6 +26,7 @@ SAME = (
     "where",
 )
 FEWEST = 5  # operations of a formula that is rather named than printed again with other letters
+MANY = 7  # formulas of one form in a section, of which a short one, too, is printed once: the ratios of drives that are compared
 MOST_LETTERS = 4  # that differ
 
 
@@ -52,6 +54,12 @@ class ToldBefore:
     )  # steps that only name where their formula stands
     texts: set[str] = field(default_factory=set)
     shapes: dict[str, _KnownFormula] = field(default_factory=dict)
+    repeated: set[str] = field(default_factory=set)  # forms of short formulas that fill the section
+
+    def begin(self, items: Sequence[Data]) -> None:
+        """Learn which short formulas fill the section that begins."""
+        counted = Counter(_shape(item)[0] for item in items)
+        self.repeated = {shape for shape, count in counted.items() if shape and count >= MANY}
 
     def next(self, letter: str) -> ToldBefore:
         """What is known when another chapter of this kind begins; ``letter`` is this one's."""
@@ -65,7 +73,7 @@ class ToldBefore:
             return Reference(before.number)
         if named and _are_same(named[0], item):
             return named[1]
-        shape, letters = _shape(item)
+        shape, letters = self._named_form(item)
         known = self.shapes.get(shape) if shape else None
         if known is None:
             return None
@@ -75,12 +83,18 @@ class ToldBefore:
 
     def keep(self, item: Data, number: str) -> None:
         """Remember a step that is printed."""
-        shape, letters = _shape(item)
+        shape, letters = self._named_form(item)
         formula = _KnownFormula(number, item, letters)
         if "id" in item:
             self.steps.setdefault(item["id"], formula)
         if shape:
             self.shapes.setdefault(shape, formula)
+
+    def _named_form(self, item: Data) -> tuple[str, tuple[str, ...]]:
+        """The form of a formula and its letters, where it is rather named than printed again."""
+        shape, letters = _shape(item)
+        is_named = shape in self.repeated or (shape and _operations(item["equation"]) >= FEWEST)
+        return (shape, letters) if is_named else ("", ())
 
     def keep_named(self, item: Data, reference: Reference) -> None:
         """Remember a step of which only is said where its formula stands: the next chapter says the same."""
@@ -99,9 +113,9 @@ def _are_same(one: Data, other: Data) -> bool:
 
 
 def _shape(item: Data) -> tuple[str, tuple[str, ...]]:
-    """A formula with its letters numbered, and the letters; nothing of one that is short, or stands for several."""
+    """A formula with its letters numbered, and the letters; nothing of one that stands for several."""
     tree = item.get("equation")
-    if item["type"] != "formula" or not tree or item.get("where") or _operations(tree) < FEWEST:
+    if item["type"] != "formula" or not tree or item.get("where"):
         return "", ()
     letters = tuple(dict.fromkeys(_letters(tree)))
     places = {letter: index for index, letter in enumerate(letters)}

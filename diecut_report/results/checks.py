@@ -23,7 +23,7 @@ from diecut_report.results.unchecked import check_unit
 
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
-ROUNDING = 1e-12
+ROUNDING = 1e-9  # of the limit: a demand below this share is the rounding of a difference that is none
 MARGIN_DIGITS = (4, 3, 2)
 NOTHING_BESIDE = 1e-6  # of the limit: a demand below this share takes nothing visible of it
 

@@ -104,8 +104,7 @@ def section(view: View) -> list[Shape]:
         arrow((width / 2, (top + low) / 2), (width / 2, radius), "mark", "P"),
         dimension((0.0, radius + thick), (width, radius + thick), 0.25 * width, view.text("lining_width")),
         arrow((1.25 * width, bottom), (1.25 * width, radius), "body"),
-        label((1.75 * width, 0.55 * radius + 0.45 * bottom), view.text("shoe_radius"), "right"),
-        label((1.75 * width, 0.45 * radius + 0.55 * bottom), "from the axis", "right"),
+        label((1.3 * width, (radius + bottom) / 2), Phrase("{radius} from the axis", radius=view.text("shoe_radius"))),
         label((1.2 * width, radius + thick / 2), "drum"),
     ]  # fmt: skip
 

@@ -293,6 +293,13 @@ def test_a_branch_is_shown_with_its_condition_once_and_named_after_that() -> Non
     assert said.condition(item | {"words": "the board is long"}) is not None
 
 
+def test_a_branch_whose_condition_is_that_one_is_one_is_named_alone() -> None:
+    said = SaidOnce(_equations()[0], Catalogue("en"))
+    flag = {"condition": ["cmp", "==", A, ["num", "1"]], "condition_substituted": ["cmp", "==", ["qty", "1", "1"], ["num", "1"]]}
+    assert said.condition(flag | {"words": "the roller is in a slot"}) is None
+    assert said.condition(flag) is not None
+
+
 def test_a_branch_that_was_told_is_named_beside_the_next_formula_that_takes_it() -> None:
     words = Catalogue("en")
     steps = PrintedSteps("A", _equations()[0], words, Tables("A", words), (), ToldBefore())

@@ -9,6 +9,7 @@ import pytest
 from diecut_report.languages.catalogues import Catalogues
 from diecut_report.report.given_names import given_names, value_in_words
 from diecut_report.report.translated import translated
+from diecut_report.report.value_rows import value_row
 
 Data = dict[str, Any]
 
@@ -24,11 +25,19 @@ def named(value: str, quantity: str = "name", **more: Any) -> Data:
     [
         (named("main_a"), "main_a"),
         (named("deep_groove", "type"), "deep groove"),
+        (named("crank_rocker", "type"), "crank-rocker"),
         (named("gripper_chain", "mechanism", origin="reference", path="gripper_chain"), "gripper_chain"),
     ],
 )
 def test_a_name_keeps_its_form_and_a_choice_is_said_in_words(row: Data, text: str) -> None:
     assert value_in_words(row) == text
+
+
+def test_a_result_that_is_the_name_of_a_part_is_printed_as_it_is_typed() -> None:
+    found = {"value": "main_b", "display": {"text": "main_b", "unit": "1"}}
+    assert value_in_words(found, {"main_b"}) == "main_b" and value_in_words(found) == "main b"
+    item = {"description": "Bearing of the least life", "symbol": "B_L", "source": "", "result": {"text": "main_b", "unit": "1"}}
+    assert value_row(item, "F.21", None, "", ".", {"main_b"}).value == "main_b"
 
 
 def test_names_are_those_of_parts_and_of_mechanisms_that_are_taken() -> None:

@@ -188,6 +188,17 @@ def test_a_name_does_not_cover_a_curve_however_narrow_the_diagram() -> None:
 
 
 @pytest.mark.usefixtures("style")
+@pytest.mark.parametrize(("what", "heights"), [("verticals", (0.0,)), ("marks", (4.25, 5.75))])
+def test_the_name_of_a_level_hides_no_mark_and_cuts_no_line_across(what: str, heights: tuple[float, ...]) -> None:
+    """Where these stand so near to each other that it has no room between them it stands in the legend."""
+    notes = [Note(x, y, "") for x in np.linspace(0.5, 9.5, 6) for y in heights]
+    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=[Line(np.array([0.0, 10.0]), np.array([0.0, 10.0]), "")],
+                      levels=[Note(0.0, 5.0, "allowed level")], **{what: notes})  # fmt: skip
+    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
+    assert layout.told_levels == [0] and not layout.texts
+
+
+@pytest.mark.usefixtures("style")
 def test_a_vertical_line_through_several_diagrams_is_named_once() -> None:
     each = panel(
         "y", "N", ("Angle", "φ", "deg"), lines=[line([0, 1], [0, 1])], verticals=[{"x": 0.5, "label": "contact"}]

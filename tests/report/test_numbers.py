@@ -45,6 +45,7 @@ def test_decimal_sign_of_the_language() -> None:
         ("59.4576", "deg", "59.4576°"),
         ("6.05", "1", "6.05"),
         ("6000", "1/h", f"6000{FIXED}1/h"),
+        ("1e-06", "deg", f"1{NARROW}×{NARROW}10⁻⁶{THIN}°"),  # no power of a degree
     ],
 )
 def test_quantity(text: str, unit: str, printed: str) -> None:
@@ -87,3 +88,15 @@ def test_a_value_is_shown_with_the_digits_that_mean_something(value: float, unit
 )
 def test_sentences(sentence: str, printed: str) -> None:
     assert tidy(sentence) == printed
+
+
+@pytest.mark.parametrize(
+    ("text", "printed"),
+    [
+        ("allowed 10000 m/s², steel of EN 10083", f"allowed 10{THIN}000 m/s², steel of EN 10083"),
+        ("critical speed 971837,5 r/min in 12345 steps", f"critical speed 971{THIN}837,5 r/min in 12345 steps"),
+        ("accepted 1e-06 °", f"accepted 1{NARROW}×{NARROW}10⁻⁶{THIN}°"),
+    ],
+)
+def test_a_sentence_has_its_numbers_as_a_table_has_them(text: str, printed: str) -> None:
+    assert tidy(text) == printed

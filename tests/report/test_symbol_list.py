@@ -6,7 +6,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from diecut_report.report.symbol_list import SymbolRow, in_columns, symbol_rows
+from diecut_report.report.symbol_list import SymbolRow, in_blocks, symbol_rows
 
 
 def row(symbol: str, description: str, unit: str = "mm", **more: Any) -> dict[str, Any]:
@@ -48,4 +48,19 @@ def test_the_arrow_before_a_choice_in_words_is_no_symbol() -> None:
 
 def test_a_lone_symbol_stands_in_the_first_column() -> None:
     row = SymbolRow(Markup("φ"), "Angle of the cycle", "°", Markup(""))
-    assert in_columns([row]) == [[row]]
+    assert in_blocks([row]) == [[[row]]]
+
+
+def test_a_long_list_is_cut_into_blocks_that_stay_whole_on_a_sheet() -> None:
+    rows = [SymbolRow(Markup("a"), f"Number {nth}", "mm", Markup("")) for nth in range(100)]
+    blocks = in_blocks(rows)
+    assert [row for block in blocks for column in block for row in column] == rows
+    assert len(blocks) == 3 and all(len(column) <= 14 for block in blocks for column in block)
+    assert not in_blocks([])
+
+
+def test_a_letter_means_what_its_step_prints_and_not_what_a_chart_draws_with_it() -> None:
+    made = mechanism()
+    made["curves"] = {"drawn": {"symbol": "a_c", "description": "Acceleration with another law", "display_unit": "1"}} | made["curves"]
+    made["sections"][0]["items"][0]["id"] = "acceleration"
+    assert symbol_rows(made)[0].meaning == "Acceleration"

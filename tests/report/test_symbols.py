@@ -46,3 +46,8 @@ def test_symbol(name: str, html: str) -> None:
 )
 def test_prose(text: str, html: str) -> None:
     assert prose(text) == html
+
+
+def test_no_line_ends_between_a_letter_and_its_number() -> None:
+    assert prose("angle, at φ = 180°") == "angle, at <i class=sy>φ</i>\u00a0=\u00a0180°"
+    assert prose("a = b") == "<i class=sy>a</i> = <i class=sy>b</i>"

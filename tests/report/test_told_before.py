@@ -54,6 +54,16 @@ def test_a_short_formula_is_printed_again() -> None:
     assert told(step("one", "c", short)).find(step("two", "f", ["*", ["sym", "d"], ["sym", "b"]])) is None
 
 
+def test_a_short_formula_that_fills_a_section_is_printed_once() -> None:
+    ratios = [step(f"ratio_{n}", f"q_{n}", ["/", ["sym", f"H_{n}"], ["sym", "H_best"]]) for n in range(8)]
+    known = ToldBefore()
+    known.begin(ratios)
+    known.keep(ratios[0], "A.1")
+    assert known.find(ratios[1]) == Reference("A.1", (("H_1", "H_0"),))
+    known.begin(ratios[:3])
+    assert known.find(ratios[1]) is None
+
+
 def test_the_next_chapter_of_a_kind_knows_the_steps_of_the_first_but_not_those_with_another_branch() -> None:
     short = ["*", ["sym", "a"], ["sym", "b"]]
     known = told(step("one", "c", short), step("branch", "x", short, words="a ≤ b")).next("A")

@@ -95,6 +95,8 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [tables.crossings(calc, step)]
         case Accumulated() | Derivative():
             return [_of_curve(calc, step)]
+        case Computed() if named_parts.is_index(calc, step.id):
+            return []  # from 0, of the part that the formulas are shown for, which is told by its name
         case Computed() if step.id in calc.axis:
             return [] if named_parts.has_tables(calc, calc.axis[step.id]) else [tables.table(calc, step, [step.id])]
         case MadeCurve():

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Sequence
 from typing import Any
 
-from diecut_report.contract.code_steps import ComputedCurve, PartTable
+from diecut_report.contract.code_steps import ComputedCurve, PartNames, PartTable
 from diecut_report.contract.result_names import part_result
 from diecut_report.contract.steps import Step
 from diecut_report.engine.calculation import Calculation
@@ -23,6 +23,11 @@ def has_tables(calc: Calculation, parts: str) -> bool:
     return parts in calc.part_names or any(
         isinstance(step, PartTable) and step.parts == parts for step in calc.steps.values()
     )
+
+
+def is_index(calc: Calculation, name: str) -> bool:
+    """Return whether a quantity is the index of the part with whose numbers the formulas of a list are shown."""
+    return any(isinstance(step, PartNames) and step.shown_at == name for step in calc.steps.values())
 
 
 def names(calc: Calculation, parts: str, row: str) -> Sequence[str]:
