@@ -99,6 +99,8 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [] if named_parts.has_tables(calc, calc.axis[step.id]) else [tables.table(calc, step, [step.id])]
         case MadeCurve():
             return [_made(calc, step)]
+        case Computed(printed=False):
+            return []
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
         case ComputedCurve():
@@ -121,6 +123,9 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             text = Phrase("{title}; curves are sampled at {count} places of it.", told)
             return [_head(step) | {"type": "note", "text": text}]
     return []
+
+
+ANSWERS = {True: "yes", False: "no"}
 
 
 def _head(step: Step) -> Item:
@@ -150,9 +155,8 @@ def _yes_or_no(calc: Calculation, step: Value, part: Bound) -> Item:
     held = bool(calc[step.id][0, 0])
     substitution = Substitution(calc, part, lambda name: value_at(calc, name, None))
     symbolic, numeric = _sides(substitution, held)
-    answer = "yes" if held else "no"
     return _head(step) | {"type": "choice", "words": "", "condition": symbolic, "condition_substituted": numeric,
-                          "equation": None, "substituted": None, "result": {"text": answer, "unit": "1"}}  # fmt: skip
+                          "equation": None, "substituted": None, "result": {"text": ANSWERS[held], "unit": "1"}}  # fmt: skip
 
 
 def _sides(substitution: Substitution, held: bool) -> tuple[Any, Any]:
@@ -264,6 +268,8 @@ def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -
     method = period(calc, step) if isinstance(step, CurvePeriod) else step.method
     if isinstance(step, Computed) and step.is_text:
         result: Item = {"text": calc[step.id][0, 0], "unit": "1"}
+    elif isinstance(step, Computed) and calc[step.id].dtype == bool:
+        result = {"text": ANSWERS[bool(calc[step.id][0, 0])], "unit": "1"}
     else:
         result = step_shown(calc, step, value_at(calc, step.id, calc.axis.get(step.id)))
     found = _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
