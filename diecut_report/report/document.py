@@ -246,7 +246,8 @@ def _sources(results: Data) -> list[tuple[str, str]]:
     for _, data in parts(results):
         for source in data.get("sources", ()):
             found.setdefault(source["citation"], {})[source["id"]] = None
-    return sorted((", ".join(sorted(ids)), citation) for citation, ids in found.items())
+    named = ((", ".join(sorted(ids)), citation) for citation, ids in found.items())
+    return sorted(named, key=lambda pair: (not pair[0].startswith("["), pair[0].casefold(), pair[1]))
 
 
 def former(changes: Data, words: Catalogue) -> str:
