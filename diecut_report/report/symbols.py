@@ -27,7 +27,7 @@ _IN_TEXT = re.compile(
     rf"|({_LETTER})"
 )
 _UNIT = r"[kMmµcd]?(?:N|W|Pa|J|g|m|s|K|h|rad|V|A|min|Hz)[²³]?"
-_UNITS = re.compile(rf"(?<![\w·/])(?:1|r|°|{_UNIT})(?:[·/]\(?{_UNIT}\)?)+(?![\w·/])")
+_UNITS = re.compile(rf"(?:°|(?<![\w·/])(?:1|r|{_UNIT}))(?:[·/]\(?{_UNIT}\)?)+(?![\w·/])")
 
 
 def symbol(name: str) -> Markup:

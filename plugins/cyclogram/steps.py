@@ -91,6 +91,7 @@ interlocks.computed("offset_feasible_end", "Φ_b", "deg", "Greatest of the offse
                     exists=lambda is_feasible: is_feasible > 0)
 interlocks.computed("rate_error", "Δn", "1", "Own rate of each line off the press's, relative", lambda timing: np.array([timing.rate_errors]), TIMING,
                     "own turns a second over turns for each sheet, held against the productivity", over="lines", output=False)
+interlocks.total("worst_rate_error", "Δn_max", "1", "Greatest of these own rates", "max", of="rate_error", output=False)
 
 
 interlocks.computed("is_window", "k_w", "1", "Whether one interval of each period holds it, so that a length can be told",
@@ -136,7 +137,6 @@ station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which th
 station.computed("carriage_clearance", "c_r", "mm", "Clearance that the carriages need",
                  _needed, ("station.cylinder",), "as given to the cylinder's drive")
 
-interlocks.total("worst_rate_error", "Δn_max", "1", "Greatest of these own rates", "max", of="rate_error", output=False)
 interlocks.fact("rates_agree", bind(common.is_at_most, smaller="worst_rate_error", greater=LARGEST_RATE_ERROR),
                 "not calculated: a line runs at another rate than the press, so that nothing can be added up over the main shaft")
 
