@@ -175,7 +175,8 @@ class Computed(Step):
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
     curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI; of shape (variants, parts) where
-    it gives a row for the list ``over``, or for what ``PartNames`` declares; or with ``is_text`` a text for each variant.
+    it gives a row for the list ``over``, or for what ``PartNames`` declares; or with ``is_text`` a text for each variant. Truth
+    values are printed as yes and no. What is not ``printed`` serves other steps and figures alone, such as the number of a place.
     """
 
     function: Callable[..., Any]
@@ -183,6 +184,7 @@ class Computed(Step):
     method: str
     over: str = ""
     is_text: bool = False
+    printed: bool = True
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -15,6 +15,7 @@ from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import Item
 from diecut_report.report.scope import BRIEF, FULL, parts
+from diecut_report.report.numbered_papers import numbered
 from diecut_report.report.translated import translated
 from diecut_report.report.typeset import Typesetter
 
@@ -59,8 +60,8 @@ class Material:
 
     @cached_property
     def said(self) -> Mapping[str, Any]:
-        """The results with their texts in the report's language."""
-        return translated(self.results, self.catalogues)
+        """The results with their texts in the report's language, and papers by their numbers."""
+        return numbered(translated(self.results, self.catalogues))
 
     @cached_property
     def changes(self) -> PrintedChanges | None:

@@ -247,7 +247,7 @@ def _sources(results: Data) -> list[tuple[str, str]]:
         for source in data.get("sources", ()):
             found.setdefault(source["citation"], {})[source["id"]] = None
     named = ((", ".join(sorted(ids)), citation) for citation, ids in found.items())
-    return sorted(named, key=lambda source: (source[0].casefold(), source))
+    return sorted(named, key=lambda source: (not source[0].startswith("["), source[0].casefold(), source[1]))
 
 
 def former(changes: Data, words: Catalogue) -> str:

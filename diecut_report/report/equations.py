@@ -58,6 +58,24 @@ class EquationRow(NamedTuple):
         return " = ".join(link.text for link in (self.head, *self.links) if link.text) + self.place.text
 
 
+def _without_copies(links: list[Link], result: Link, symbol: str) -> list[Link]:
+    """What stands between a symbol and its result, each once: 0, 0 rad and 0° say the same, as do numbers of a lone symbol and the result."""
+    of_copy = len(links) > 1 and links[0].form is not None and links[0].form[0] == "sym" and _unit(links[1]) == _unit(result)
+    kept = links[:1] if of_copy else links
+    nothing = _text(result) == "0"
+    kept = [link for link in kept if link.text not in (result.text, symbol) and not (nothing and _text(link) == "0")]
+    return [link for before, link in zip([Link(), *kept], kept, strict=False) if link.text != before.text]
+
+
+def _text(link: Link) -> str | None:
+    """The text of a link that is a number alone."""
+    return str(link.form[1]) if link.form is not None and link.form[0] in ("num", "qty") else None
+
+
+def _unit(link: Link) -> str | None:
+    return str(link.form[2]) if link.form is not None and link.form[0] == "qty" else None
+
+
 class Equations:
     """Builds the equations of a report; ``measure`` tells how wide LaTeX comes out."""
 
@@ -108,8 +126,7 @@ class Equations:
         trees = [tree for tree in (item.get("equation"), item.get("substituted")) if tree]
         links = [self._link(tree) for tree in trees]
         links += [self._result(item["bridge"])] if "bridge" in item else []
-        links = [link for link in links if link.text not in (result.text, item["symbol"])]
-        links = [link for before, link in zip([Link(), *links], links, strict=False) if link.text != before.text]
+        links = _without_copies(links, result, item["symbol"])
         return [*links, result] if trees or item["type"] in ("found", "lookup") else []
 
     def _link(self, tree: Tree) -> Link:

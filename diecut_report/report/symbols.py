@@ -13,13 +13,22 @@ _SIGNS = "=<>≤≥≈≠−+√"
 SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[′'|\]]*)")
 _OF_LETTERS = re.compile(r"[^\W\d_]{1,2}(?:\([^\W\d_]\)|/[^\W\d_]{1,2})")  # of another one, or their ratio: v(x), t/r
 # A symbol within a sentence: one or two letters with a short subscript (keys such as crank_speed or n_points are none),
-# a lone letter beside a sign of arithmetic (no Cyrillic one: і and а are words), or a lone Greek one.
+# a lone letter beside a sign of arithmetic (no Cyrillic one: і and а are words), a lone Greek one, or a lone Latin one that is no
+# word and no name: small ones but a, of the capitals those that name no bearing, class or form, and any in a product. It stands
+# behind no number (units do), within no product of units (``_UNITS``), and is no initial of a person.
 _LONE = r"[^\W\d_\u0400-\u04ff][′']?"
+_LETTER = (
+    r"(?<![^\Wπ½])(?<![.'’–#-])(?<![\d⁰¹²³⁴-⁹][ \u00a0\u202f])(?<![A-Z]\. )(?:[b-zF-HJLMPQRSTWXYZ]|[A-Z](?=·)|(?<=·)[A-Z])′?"
+    r"(?![²³]?(?:[^\W²³]|['’″–-]))(?!(?<=\(.)\))(?!\.(?: ?[A-Z]\.|-))"
+)
 _IN_TEXT = re.compile(
     r"(?<![\w.])(?:([^\W\d_]{1,2}[′']?)_(\d{1,2}|[^\W\d_]{1,3}(?:,[^\W_]{1,3})?|\w{1,6}(?=\s?=))(?!\w)"
-    rf"|(?<!\d[ \u00a0\u202f/])({_LONE})(?=\s?[{_SIGNS}])|([Α-Ωα-ωϑϕ])(?!\w)|(?<=[{_SIGNS}])({_LONE})(?!\w)|(?<=[{_SIGNS}] )({_LONE})(?!\w))"
+    rf"|(?<!\d[ \u00a0\u202f/])({_LONE})(?=\s?[{_SIGNS}])|([Α-Ωα-ωϑϕ])(?!\w)|(?<=[{_SIGNS}])(?<!\w\+)({_LONE})(?!\w)|(?<=[{_SIGNS}] )({_LONE})(?!\w))"
+    rf"|({_LETTER})"
 )
 _EQUAL = re.compile(r"(?<=\w) ([=≤≥<>≈]) (?=[−\d])")  # φ = 180°, which no line's end cuts
+_UNIT = r"[kMmµcd]?(?:N|W|Pa|J|g|m|s|K|h|rad|V|A|min|Hz)[²³]?"
+_UNITS = re.compile(rf"(?:°|(?<![\w·/])(?:1|r|{_UNIT}))(?:[·/]\(?{_UNIT}\)?)+(?![\w·/])")
 
 
 def symbol(name: str) -> Markup:
@@ -61,9 +70,12 @@ def cited(source: str) -> Markup:
 def prose(sentence: str) -> Markup:
     """A sentence as HTML, its symbols set as symbols."""
     text = _EQUAL.sub("\u00a0\\1\u00a0", tidy(sentence))
+    units = [found.span() for found in _UNITS.finditer(text)]
     parts, start = [], 0
     for found in _IN_TEXT.finditer(text):
-        base = found[1] or found[3] or found[4] or found[5] or found[6]
+        if found[7] and any(first <= found.start() < end for first, end in units):
+            continue
+        base = next(filter(None, (found[1], *found.groups()[2:])))
         parts += [escape(text[start : found.start()]), symbol(f"{base}_{found[2]}" if found[2] else base)]
         start = found.end()
     return Markup("").join([*parts, escape(text[start:])])

@@ -78,23 +78,24 @@ def _limit(timing: Timing) -> float:
     return timing.limit.value or 0.0
 
 
-interlocks.computed("is_limited", "k_n", "1", "Whether margins of time limit the productivity", lambda timing: float(timing.limit.value is not None),
+interlocks.computed("is_limited", "k_n", "1", "Whether margins of time limit the productivity", lambda timing: timing.limit.value is not None,
                     TIMING, "a margin is a time, and holds at some speed", output=False)
 interlocks.computed("productivity_limit", "n_max", "1/h", "Largest productivity that the margins of time allow", _limit, TIMING,
                     "angles stay, times take more angle the faster the shaft turns; torques and accelerations are not judged", digits=5,
                     exists=lambda is_limited: is_limited > 0)
 interlocks.computed("is_feasible", "k_Φ", "1", "Whether an offset that is to be found leaves all margins",
-                    lambda timing: float(bool(timing.best and timing.best.feasible)), TIMING, PHASES, output=False)
+                    lambda timing: bool(timing.best and timing.best.feasible), TIMING, PHASES, output=False)
 interlocks.computed("offset_feasible_start", "Φ_a", "deg", "Least of the offsets about the one found that leave all margins",
                     lambda timing: timing.feasible[0], TIMING, PHASES, digits=7, exists=lambda is_feasible: is_feasible > 0)
-interlocks.computed("offset_feasible_end", "Φ_b", "deg", "Greatest of them", lambda timing: timing.feasible[1], TIMING, PHASES, digits=7,
+interlocks.computed("offset_feasible_end", "Φ_b", "deg", "Greatest of the offsets about the one found that leave all margins", lambda timing: timing.feasible[1], TIMING, PHASES, digits=7,
                     exists=lambda is_feasible: is_feasible > 0)
 interlocks.computed("rate_error", "Δn", "1", "Own rate of each line off the press's, relative", lambda timing: np.array([timing.rate_errors]), TIMING,
                     "own turns a second over turns for each sheet, held against the productivity", over="lines", output=False)
+interlocks.total("worst_rate_error", "Δn_max", "1", "Greatest of these own rates", "max", of="rate_error", output=False)
 
 
-interlocks.computed("is_window", "k_w", "1", "Whether each is held by one interval of each period, so that a length can be told",
-                    lambda timing: np.array([np.isfinite(timing.needed_lengths)]).astype(float), TIMING, PHASES, over="interlocks", output=False)
+interlocks.computed("is_window", "k_w", "1", "Whether one interval of each period holds it, so that a length can be told",
+                    lambda timing: np.isfinite([timing.needed_lengths]), TIMING, PHASES, over="interlocks", output=False)
 interlocks.computed("needed_length", "l_n", "deg", "Length that what holds it must have, for the interlock alone at its best offset",
                     lambda timing: np.nan_to_num([timing.needed_lengths]), TIMING, "length of the one interval less twice the greatest slack",
                     over="interlocks", exists=lambda is_window: is_window > 0)
@@ -112,7 +113,7 @@ CLEARANCE = "search over the common period, refined to 1e-13 of it"
 
 
 def _is_below(least: LeastClearance) -> Any:
-    return np.isfinite(least.height)[:, None].astype(float)
+    return np.isfinite(least.height)[:, None]
 
 
 def _least(least: LeastClearance) -> Any:
@@ -136,7 +137,6 @@ station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which th
 station.computed("carriage_clearance", "c_r", "mm", "Clearance that the carriages need",
                  _needed, ("station.cylinder",), "as given to the cylinder's drive")
 
-interlocks.total("worst_rate_error", "Δn_max", "1", "Greatest of them", "max", of="rate_error", output=False)
 interlocks.fact("rates_agree", bind(common.is_at_most, smaller="worst_rate_error", greater=LARGEST_RATE_ERROR),
                 "not calculated: a line runs at another rate than the press, so that nothing can be added up over the main shaft")
 
@@ -156,7 +156,7 @@ motions.computed_curve("clearance_over", "Y", "mm", "Least height over all carri
 energies = Chapter("Kinetic energies", needs=("rates_agree", "energy_known"))
 energies.part_curves("kinetic_energy", "E", "J", "Kinetic energy of the line", lambda motions: motions.energies.names,
                     lambda motions, *asked: motions.energies.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
-energies.computed_curve("kinetic_energy_total", "E_Σ", "J", "Kinetic energy of all lines whose is known",
+energies.computed_curve("kinetic_energy_total", "E_Σ", "J", "Kinetic energy of all lines of which it is known",
                        lambda motions, *asked: motions.energies.total(*asked), "motions", "main_angle",
                         "sum of the lines' kinetic energies", joints=lambda motions: motions.joints)
 energies.reduction("kinetic_energy_max", "E_max", "J", "Greatest kinetic energy of all lines together", "max", of="kinetic_energy_total")

@@ -57,10 +57,10 @@ factors.value("transverse_load_factor", "K_Hα", "1", "Transverse load factor: a
 factors.choice("transverse_load_factor", "K_Hα", "1", "Transverse load factor: assumed",
                case(lambda: 1.2, "the teeth are helical", lambda helix_angle: helix_angle > 0), case(lambda: 1, "the teeth are straight"),
                lacks=("transverse_load_factor",), source="this method")
-for name in (*FACTORS, "transverse_load"):
-    key = f"{name}_factor"
-    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", f"Whether {key} is assumed", lambda: 0, needs=(key,), output=False)
-    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", f"Whether {key} is assumed", lambda: 1, lacks=(key,), output=False)
+for name, words in (*((name, words) for name, (_, words, _) in FACTORS.items()), ("transverse_load", "Transverse load factor")):
+    key, told = f"{name}_factor", f"{words}: 1 where it is assumed, 0 where it is given"
+    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", told, lambda: 0, needs=(key,), output=False)
+    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", told, lambda: 1, lacks=(key,), output=False)
 factors.value("factors_assumed", "n_K", "1", "K factors that are assumed",
               lambda application_assumed, dynamic_assumed, face_load_assumed, transverse_load_assumed:
                   application_assumed + dynamic_assumed + face_load_assumed + transverse_load_assumed, whole=True, source="this method")

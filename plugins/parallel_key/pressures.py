@@ -80,7 +80,7 @@ pressures.pick("nearest_length", "l_std", "mm", "Nearest standard length", "near
                source="DIN 6885-1", output=False)
 pressures.value("length_off", "Δl", "mm", "Difference from it", lambda key_length, nearest_length: abs(key_length - nearest_length),
                 source="this method", output=False)
-pressures.choice("reversal_left_out", "n_w", "1", "Whether a reversing torque is judged as a steady one",
+pressures.choice("reversal_left_out", "n_w", "1", "Reversing torques that are judged as steady",
                  case(lambda: 1, "the torque changes its sign, and load_direction_factor is 1",
                       lambda reversing, load_direction_factor: (reversing > 0) & (load_direction_factor >= 1)),
                  case(lambda: 0, "the torque keeps its sign, or load_direction_factor counts its change"), source="this method", output=False)

@@ -81,5 +81,5 @@ loop.value("wrap_small", "β_s", "deg", "Wrap of the smaller sprocket",
            lambda sprocket_diameter_1, sprocket_diameter_2, center:
                np.pi - 2 * np.arcsin(abs(sprocket_diameter_2 - sprocket_diameter_1) / (2 * center)), source="geometry")
 loop.value("center_in_pitches", "a_p", "1", "Distance of the axes in pitches", lambda center, pitch: center / pitch, source="geometry", output=False)
-loop.value("links_odd", "X_2", "1", "Whether the number of links is odd", lambda links: links - 2 * np.floor(links / 2), source="this method",
+loop.value("links_odd", "X_2", "1", "Links beyond an even number", lambda links: links - 2 * np.floor(links / 2), source="this method",
            output=False)

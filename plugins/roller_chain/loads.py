@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, Curve, as_angle, bind
+from diecut_report.api import Chapter, Curve, as_angle, bind, case
 from diecut_report.plugins.roller_chain import formulas as f
 from diecut_report.plugins.roller_chain.inputs import CONVEYOR, DRIVE
 
@@ -16,7 +16,7 @@ ANY = "list"  # what a list of values runs over: whatever takes it
 def one_cycle(acceleration: Curve, velocity: Curve, like: Any) -> Any:
     """Whether both curves run over one cycle, of each machine."""
     alike = ANY in (acceleration.cycle, velocity.cycle) or acceleration.cycle == velocity.cycle
-    return np.full(np.shape(like), float(alike))
+    return np.full(np.shape(like), bool(alike))
 
 
 # fmt: off
@@ -98,10 +98,11 @@ useful.value("moving_mass_total", "m_tot", "kg", "Mass that is accelerated, with
              **CONVEYED)
 useful.value("resistance", "F_w", "N", "Force against the motion", bind(f.resistance, friction="friction_coefficient", mass="moving_mass_with_chain"),
              source="this method", **CONVEYED)
-useful.value("moving_over", "k_φ", "1", "Whether the chain moves",
-             lambda velocity_margin: velocity_margin > 0, per_piece=True, source="this method", output=False, **VELOCITY)
-useful.value("moving", "k_v", "1", "Whether the chain moves", lambda velocity: velocity > 0, needs=(CONVEYOR, "velocity"), source="this method",
-             output=False)
+MOVES = "Whether the chain moves (1) or stands (0)"
+useful.choice("moving_over", "k_φ", "1", MOVES, case(lambda: 1, "the chain moves", lambda velocity_margin: velocity_margin > 0),
+              case(lambda: 0, "the chain stands"), per_piece=True, source="this method", output=False, **VELOCITY)
+useful.choice("moving", "k_v", "1", MOVES, case(lambda: 1, "the chain moves", lambda velocity: velocity > 0),
+              case(lambda: 0, "the chain stands"), needs=(CONVEYOR, "velocity"), source="this method", output=False)
 
 
 def pulled(acceleration: str, moving: str) -> Any:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chart, Drawing, Panel, Plot, Series, Shape, View, chart_panel, level, line, mark
+from diecut_report.api import Chart, Drawing, Panel, Phrase, Plot, Series, Shape, View, chart_panel, level, line, mark
 from diecut_report.plugins.shaft.drawing import shaft
 
 ALONG = Plot(
@@ -55,7 +55,9 @@ def _places(view: View) -> list[Shape]:
         found = least.get(round(x[i], 9))
         if found is None or safety[i] < found[0]:
             least[round(x[i], 9)] = (safety[i], names[i])
-    shown = [(place, min(each, TOLD), name) for place, (each, name) in least.items()]
+    shown = [
+        (place, min(each, TOLD), Phrase("{place}, above", place=name) if each > TOLD else name) for place, (each, name) in least.items()
+    ]
     stems = np.array([end for place, height, _ in shown for end in ((place, 0.0), (place, height), (place, np.nan))])
     return [
         chart_panel(

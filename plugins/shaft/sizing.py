@@ -46,7 +46,7 @@ class Sizes:
     @property
     def is_found(self) -> Array:
         """Return for each variant whether it has diameters with which it holds, (variants, 1)."""
-        return np.ones((self.diameter.shape[1], 1)) if self.held is None else self.held[:, None].astype(float)
+        return np.ones((self.diameter.shape[1], 1), dtype=bool) if self.held is None else self.held[:, None].astype(bool)
 
     @cached_property
     def neighbours(self) -> list[tuple[float | str | None, ...]]:
@@ -184,7 +184,7 @@ diameters = Chapter("Diameters", text="Where a section's diameter is left out, t
 diameters.prepared("sizes", sizes, TAKES, for_many=True, again=True)
 diameters.computed("section_diameter", "d_k", "mm", "Diameter of the section", lambda sizes: sizes.diameter.T, ("sizes",),
                    "as given, or the least of the series of preferred numbers R40 with which the shaft holds", over="sections", source="ISO 3")
-diameters.computed("diameters_found", "k_d", "1", "Whether there are diameters that hold (1) or not (0)", lambda sizes: sizes.is_found, ("sizes",),
+diameters.computed("diameters_found", "k_d", "1", "Whether there are diameters that hold", lambda sizes: sizes.is_found, ("sizes",),
                    "each size of the series is calculated", output=False)
 diameters.require("diameter_exists", lambda diameters_found: diameters_found > 0, key="sections",
                   message="leave diameters out, but no preferred one up to 250 mm is enough for them; take a stronger steel, move the bearings "

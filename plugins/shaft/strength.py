@@ -121,7 +121,7 @@ fatigue.value("tau_m", "τ_m", "MPa", "Mean of the shear stress",
 fatigue.value("place_safety", "n_f", "1", "Safety against fatigue", bind(formulas.goodman, endurance="place_endurance"), source="Shigley 7-7")
 fatigue.total("fatigue_safety", "n_f,min", "1", "Least safety against fatigue", "min", of="place_safety", source="Shigley 7-7")
 fatigue.computed("governing_place", "i_f", "1", "Index of the place of the least safety, from 0", lambda row: np.argmin(row, axis=1)[:, None],
-                 ("place_safety",), "the least of all places", output=False, whole=True)
+                 ("place_safety",), "the least of all places", output=False, whole=True, printed=False)
 fatigue.computed("fatigue_place", "P_f", "1", "Place of the least safety against fatigue",
                  lambda body, index: [body.names[int(each)] for each in index[:, 0]], ("body", "governing_place"), "the least of all places",
                  is_text=True)
@@ -174,8 +174,8 @@ _number(critical, "critical_speed_rayleigh", "n_R", "rpm", "Critical speed by Ra
         "ω² = Σ f_i y_i/Σ m_i y_i² with f_i = m_i g, downwards on overhangs", source="Shigley 7-23")
 _number(critical, "critical_speed_dunkerley", "n_D", "rpm", "Critical speed by Dunkerley, from below", "dunkerley", "1/ω² = Σ m_i δ_ii",
         source="Shigley 7-32")
-critical.computed("turns", "k_n", "1", "Whether the shaft turns (1), or stands or swings (0)",
-                  lambda rotation, length: np.full_like(length, isinstance(rotation, str) and rotation == "turning"), ("rotation", "length"),
+critical.computed("turns", "k_n", "1", "Whether the shaft turns; else it stands or swings",
+                  lambda rotation, length: np.full(length.shape, isinstance(rotation, str) and rotation == "turning"), ("rotation", "length"),
                   "by rotation", output=False)
 critical.value("turning_limit", "n_k", "rpm", "Critical speed that a turning shaft is held against", lambda critical_speed: critical_speed,
                exists=lambda turns: turns > 0, source="Shigley 7-6", output=False)

@@ -318,3 +318,17 @@ def test_a_number_times_one_of_a_unit_is_printed_as_a_quantity() -> None:
 def test_unknown_expression_is_refused() -> None:
     with pytest.raises(ValueError, match="no expression"):
         Latex()(["@", A, B])
+
+
+def _links(item: dict[str, object]) -> str:
+    built = Equations(Catalogue("en"), lambda _: 1.0).of({"symbol": "x", "type": "formula", **item})
+    return built.text if built else ""
+
+
+def test_what_is_copied_or_nothing_is_said_once() -> None:
+    taken = {"equation": ["sym", "y"], "substituted": ["qty", "1.3354", "K"], "result": {"text": "1.34", "unit": "K"}}
+    assert _links(taken) == "x = y = 1.34 K"
+    other_unit = {"equation": ["sym", "y"], "substituted": ["qty", "10.47", "rad/s"], "result": {"text": "100", "unit": "rpm"}}
+    assert _links(other_unit) == "x = y = 10.47 rad/s = 100 r/min"
+    nothing = {"equation": ["num", "0"], "substituted": None, "bridge": {"text": "0", "unit": "rad"}, "result": {"text": "0", "unit": "deg"}}
+    assert _links(nothing) == "x = 0°"

@@ -23,7 +23,7 @@ from diecut_report.report.figures.by_type import build
 from diecut_report.report.figures.label_layout import AWAY, LabelLayout
 from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, framed
 from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import load_fonts, text_size
+from diecut_report.report.figures.style import load_fonts, text_size, wrapped
 from diecut_report.report.figures.style import style as style_of
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.translated import translated
@@ -237,3 +237,32 @@ def test_the_legend_names_such_marks_and_levels_by_their_signs() -> None:
     names = [box for text, box in boxes.items() if text.startswith(("greatest driving", "mean of"))]
     assert len(names) == 2 and all(box.bottom > boxes["Torque, N·m"].top - 20 for box in names)
     assert list(_faults(figure, {}, Size.HALF)) == []
+
+
+@pytest.mark.usefixtures("style")
+def test_a_name_does_not_cover_other_marks() -> None:
+    """Stress amplitudes of seven places under a limit that falls to the right, one of them with a long name: it stands in the legend."""
+    turn = np.linspace(0, np.pi / 2, 91)
+    places = [(0.0, 0.0), (20.0, 0.0), (30.0, 10.0), (60.0, 18.0), (73.0, 27.0), (43.1, 34.0), (43.3, 45.4)]
+    marks = [Note(x, y, "notch 2 (keyseat end mill) 45.43 MPa (43.32 MPa)" if y > 40 else "") for x, y in places]
+    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 148.0), lines=[Line(148 * np.cos(turn), 86 * np.sin(turn), "")],
+                      marks=marks)  # fmt: skip
+    layout = LabelLayout(panel, framed(panel, 182.0, 96.0))
+    points = np.array([layout.frame.points(note.x, note.y) for note in marks])
+    for text in layout.texts:
+        wide, high = text_size(text.text, text.size)
+        assert not ((np.abs(points[:, 0] - text.x) < wide / 2) & (np.abs(points[:, 1] - text.y) < high / 2)).any()
+
+
+@pytest.mark.usefixtures("style")
+def test_the_name_of_an_area_covers_no_line_within_it() -> None:
+    x = np.linspace(0.0, 10.0, 100)
+    lines = [Line(x, 5 + 4 * np.sin(3 * x) * share, "") for share in (0.2, 0.4, 0.6, 0.8)] + [Line(x, 0 * x + level, "") for level in (1, 2, 3, 4)]
+    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=lines, fills=[Line(x, 0 * x + 9.0, "whole tension")])
+    assert LabelLayout(panel, framed(panel, 182.0, 96.0)).outside == [0]
+
+
+def test_a_symbol_does_not_stand_alone_on_the_last_line_of_a_title() -> None:
+    title = "Angle of the cycle, one turn a period of the torque $φ$, °"
+    wide = text_size(title.removesuffix(" $φ$, °"))[0] + 2
+    assert wrapped(title, wide).split("\n")[-1] == "torque $φ$, °"

@@ -42,6 +42,12 @@ def test_symbol(name: str, html: str) -> None:
         ),
         ("divided by η there", "divided by <i class=sy>η</i> there"),
         ("<script>alert</script>", "&lt;script&gt;alert&lt;/script&gt;"),
+        ("k is the share", "<i class=sy>k</i> is the share"),
+        ("the step S in S/T²", "the step <i class=sy>S</i> in <i class=sy>S</i>/<i class=sy>T</i>²"),
+        ("pressed with P. The shoe", "pressed with <i class=sy>P</i>. The shoe"),
+        ("2πR ≥ p·u", "2π<i class=sy>R</i> ≥ <i class=sy>p</i>·<i class=sy>u</i>"),
+        ("радіус r і сила P", "радіус <i class=sy>r</i> і сила <i class=sy>P</i>"),
+        ("the torque M′ gives", "the torque <i class=sy>M′</i> gives"),
     ],
 )
 def test_prose(text: str, html: str) -> None:
@@ -51,3 +57,12 @@ def test_prose(text: str, html: str) -> None:
 def test_no_line_ends_between_a_letter_and_its_number() -> None:
     assert prose("angle, at φ = 180°") == "angle, at <i class=sy>φ</i>\u00a0=\u00a0180°"
     assert prose("a = b") == "<i class=sy>a</i> = <i class=sy>b</i>"
+
+
+@pytest.mark.parametrize(
+    "text",
+    ["a bearing A or B, method C", "a V-belt and K factors", "5 m, 10⁻³ m², 3 N·m/rad", "in m/s, 1/h, r/min, J/(kg·K) or 0.3°/m", "Gent A. N. and Johnson P. L.",
+     "write (f) there", "C45E+N and NU2208E", "x-axis", "I.5", "the sector's arm"],
+)  # fmt: skip
+def test_letters_that_are_no_symbols(text: str) -> None:
+    assert prose(text) == text.replace("'", "&#39;")

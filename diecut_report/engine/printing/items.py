@@ -101,6 +101,8 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [] if named_parts.has_tables(calc, calc.axis[step.id]) else [tables.table(calc, step, [step.id])]
         case MadeCurve():
             return [_made(calc, step)]
+        case Computed(printed=False):
+            return []
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
         case ComputedCurve():
@@ -152,9 +154,14 @@ def _yes_or_no(calc: Calculation, step: Value, part: Bound) -> Item:
     held = bool(calc[step.id][0, 0])
     substitution = Substitution(calc, part, lambda name: value_at(calc, name, None))
     symbolic, numeric = _sides(substitution, held)
-    answer = "yes" if held else "no"
-    return _head(step) | {"type": "choice", "words": "", "condition": symbolic, "condition_substituted": numeric,
-                          "equation": None, "substituted": None, "result": {"text": answer, "unit": "1"}}  # fmt: skip
+    return _head(step) | _answer(symbolic, numeric, held=held)
+
+
+def _answer(symbolic: Any = None, numeric: Any = None, *, held: bool) -> Item:
+    """Yes or no, with the condition that says so where there is one."""
+    condition = {"condition": symbolic, "condition_substituted": numeric} if symbolic else {}
+    result = {"text": "yes" if held else "no", "unit": "1"}
+    return {"type": "choice", "words": "", "equation": None, "substituted": None, "result": result} | condition
 
 
 def _sides(substitution: Substitution, held: bool) -> tuple[Any, Any]:
@@ -266,6 +273,8 @@ def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -
     method = period(calc, step) if isinstance(step, CurvePeriod) else step.method
     if isinstance(step, Computed) and step.is_text:
         result: Item = {"text": calc[step.id][0, 0], "unit": "1"}
+    elif isinstance(step, Computed) and calc[step.id].dtype == bool:
+        return _head(step) | _answer(held=bool(calc[step.id][0, 0]))
     else:
         result = step_shown(calc, step, value_at(calc, step.id, calc.axis.get(step.id)))
     found = _head(step) | {"type": "found", "relation": None, "method": method, "result": result}

@@ -74,6 +74,8 @@ def _cell(calc: Calculation, name: str, display: str, part: int) -> str:
     value = row[0, min(part, row.shape[1] - 1)]
     if isinstance(value, str):
         return value
+    if isinstance(value, np.bool_):
+        return "yes" if value else "no"
     if np.isnan(float(value)):
         return "–"
     if name not in calc.values:

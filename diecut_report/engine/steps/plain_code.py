@@ -70,7 +70,8 @@ def row(step: Computed, found: Any, count: int) -> Array:
             Phrase("an array of shape {shape}", shape=given.shape),
             phrase("a row of numbers for each machine"),
         )
-    return np.broadcast_to(np.atleast_2d(given), (count, given.shape[-1])).astype(float)
+    whole = np.broadcast_to(np.atleast_2d(given), (count, given.shape[-1]))
+    return whole if given.dtype == bool else whole.astype(float)
 
 
 def texts(step: Computed, found: Any, count: int) -> Array:

@@ -21,6 +21,7 @@ OVER_CURVE, OVER_NOTE = (
     8.0,
     3.0,
 )  # how much each point counts that a text covers: of a curve, of what is noted beside it
+OVER_MARK = 9.0  # of which three points hide a mark
 AIR = 1.0
 WIDE_ENOUGH = 4.0  # between a line's name and the other lines, points
 IN_THE_WAY = 24.0  # what a text would cover: three points of a line; it stands in the legend then
@@ -46,9 +47,11 @@ class LabelLayout:
         self.panel, self.frame = panel, frame
         self.texts: list[LabelText] = []
         self.lines = [sampled(frame.points(line.x, line.y)) for line in panel.lines]
-        self.notes = self._noted()
+        marks = self._marks()
+        self.notes = np.concatenate([self._noted(), marks])
         curves = np.concatenate([np.empty((0, 2)), *self.lines])
-        weights = np.repeat([OVER_CURVE, OVER_NOTE], [len(curves), len(self.notes)])
+        counts = [len(curves), len(self.notes) - len(marks), len(marks)]
+        weights = np.repeat([OVER_CURVE, OVER_NOTE, OVER_MARK], counts)
         self.labels = Labels(np.concatenate([curves, self.notes]), (2, 2, frame.width - 2, frame.height - 2), weights)
         self._spans()
         self.tags = self._tags()
@@ -64,15 +67,19 @@ class LabelLayout:
         return any(each.text == text and not each.solid for each in self.texts)
 
     def _noted(self) -> Array:
-        """Points of levels, vertical lines, marks and edges of areas."""
+        """Points of levels, vertical lines and edges of areas."""
         frame, panel = self.frame, self.panel
         levels = [np.array([[0, y], [frame.width, y]]) for y in (frame.points(0, note.y)[1] for note in panel.levels)]
         uprights = [
             np.array([[x, 0], [x, frame.height]]) for x in (frame.points(note.x, 0)[0] for note in panel.verticals)
         ]
-        marks = [frame.points(note.x, note.y) + np.array([[-3, -3], [3, 3]]) for note in panel.marks]
         edges = [frame.points(area.x, area.y) for area in panel.fills]
-        return np.concatenate([np.empty((0, 2)), *map(sampled, [*levels, *uprights, *marks, *edges])])
+        return np.concatenate([np.empty((0, 2)), *map(sampled, [*levels, *uprights, *edges])])
+
+    def _marks(self) -> Array:
+        """Points of the marks, which are hidden by what covers them as a line is."""
+        marks = [self.frame.points(note.x, note.y) + np.array([[-2, -2], [2, 2]]) for note in self.panel.marks]
+        return np.concatenate([np.empty((0, 2)), *map(sampled, marks)])
 
     def _write(
         self, text: str, places: Iterator[tuple[float, float]], of: tuple[float, float] | None = None, most: float = np.inf,
@@ -121,7 +128,7 @@ class LabelLayout:
 
     # areas
     def _inside(self, area: Line) -> bool:
-        """Writes an area's name into it, where it has room for it; whether it had."""
+        """Writes an area's name into it, where it has room for it that covers no other line; whether it had."""
         text = marked(area.label)
         size = text_size(text, SIZE)
         edges = pieces(self.frame.points(area.x, area.y))
@@ -129,8 +136,8 @@ class LabelLayout:
         rooms = sorted((room for edge in edges for room in _rooms(edge, zero, size)), reverse=True)
         places = [(x, y) for room, _, x, y in rooms if room >= size[1] + 4]
         if places:
-            self._write(text, iter(places))
-        return bool(places)
+            return self._write(text, iter(places), most=IN_THE_WAY)
+        return False
 
     # names of lines
     def _tags(self) -> list[str]:

@@ -25,6 +25,7 @@ FONT_SIZE = 8.5  # points
 BELOW = 1.2  # what the tails of letters take beyond a text's size, points
 LINE = 1.25  # from line to line of a text, in font sizes
 WORDS = re.compile(r"(?:(?<!\\)\$.*?(?<!\\)\$|\S)+")  # a symbol is one word, whatever stands in it
+SHORTEST = 3.0  # em of a last line of several that may stand alone
 Box = tuple[float, float, float, float]  # left, bottom, right, top
 
 
@@ -151,7 +152,16 @@ def wrapped(text: str, width: float, size: float = FONT_SIZE) -> str:
             lines[-1] = longer
         else:
             lines.append(word)
-    return "\n".join(lines)
+    return "\n".join(_with_company(lines, size))
+
+
+def _with_company(lines: list[str], size: float) -> list[str]:
+    """The lines, a last one that is a symbol or a unit alone with the word before it."""
+    *before, last = lines
+    if not before or text_size(last, size)[0] > SHORTEST * size or " " not in before[-1] or before[-1].count("$") % 2:
+        return lines
+    words = WORDS.findall(before[-1])
+    return [*before[:-1], " ".join(words[:-1]), f"{words[-1]} {last}"] if len(words) > 1 else lines
 
 
 def _line_size(text: str, size: float) -> tuple[float, float]:
