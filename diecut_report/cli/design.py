@@ -162,6 +162,7 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
     default=10.0,
     help="By how much each input is lowered and raised (default: 10).",
 )
+@click.option("--defaults", is_flag=True, help="Change inputs that stand at their default too.")
 @click.option(
     "--tolerance",
     "tolerances",
@@ -196,7 +197,7 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
 )
 @common
 def influence(
-    config: Path, names: tuple[str, ...], share: float, tolerances: tuple[str, ...], distribution: Any, count: int, seed: int,
+    config: Path, names: tuple[str, ...], share: float, defaults: bool, tolerances: tuple[str, ...], distribution: Any, count: int, seed: int,
     target: Path | None, form: str, folders: tuple[Path, ...], quiet: bool,
 ) -> int:  # fmt: skip
     """Tell what matters: how far each input moves the governing checks, and how probable it is that checks hold within tolerances.
@@ -212,7 +213,7 @@ def influence(
         loaded = _loaded(config, discovery)
         sizes = dict(_tolerance(loaded, each) for each in tolerances)
         progress(phrase("changing one input after the other"))
-        found = tornados(loaded, names, share, sizes)
+        found = tornados(loaded, names, share, sizes, defaults=defaults)
         progress(phrase("drawing machines within tolerances"))
         drawn = within_tolerances(loaded, sizes, distribution, count, seed) if sizes else None
     told = {"text": lambda: _text(lines(found, drawn)), "json": lambda: _json(data(found, drawn)),

@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import json
 import webbrowser
-from collections.abc import Iterator
+from collections.abc import Iterator, Mapping
 from pathlib import Path
+from tempfile import mkdtemp
 from typing import TYPE_CHECKING
 
 import click
@@ -70,28 +71,38 @@ def new_plugin(
 @click.command("check-plugin", cls=HelpfulCommand, epilog=exit_codes.OF_PLUGIN)
 @click.argument("plugin", metavar="NAME|DIR")
 @click.option("--config", "configs", metavar="FILE", multiple=True, type=path_of,
-              help="A configuration with a machine to try it on (default: one that lies beside the plugin).")  # fmt: skip
+              help="A configuration with machines to try it on (default: those that lie beside the plugin).")  # fmt: skip
 @click.option("--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json.")
-@click.option("-o", "page", metavar="FILE", type=path_of, help="The rendered chapter (default: NAME.html, here).")
+@click.option(
+    "-o",
+    "page",
+    metavar="FILE",
+    type=path_of,
+    help="Write the rendered chapter; of several plugins, or into a folder, each as NAME.html.",
+)
 @click.option(
     "--write-po",
     is_flag=True,
     help="Write the texts that its catalogues lack into them, to be translated, and mark those that nothing says any more.",
 )
-@click.option("--open", "is_shown", is_flag=True, help="Show the rendered chapter in the browser.")
+@click.option(
+    "--open",
+    "is_shown",
+    is_flag=True,
+    help="Show the rendered chapter in the browser; without -o from a folder for what is temporary.",
+)
 @common
 def check_plugin(
     plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, folders: tuple[Path, ...],
     quiet: bool,
 ) -> int:  # fmt: skip
-    """Try a plugin on the rules of its contract, and set its chapter as HTML. Ends with 1 where a rule is broken."""
+    """Try a plugin on the rules of its contract; with -o set its chapter as HTML. Ends with 1 where a rule is broken."""
     from diecut_report.kit.checking import CheckedPlugin, checked, meant
 
     known, kinds = meant(plugin, folders)
-    if page is not None and len(kinds) > 1:
-        raise click.UsageError(
-            say("{folder} has {n} plugins; name one of them, or leave -o out.", folder=plugin, n=len(kinds))
-        )
+    if page is not None and len(kinds) > 1 and page.suffix:
+        words = "{folder} has {n} plugins; name one of them, or give a folder with -o."
+        raise click.UsageError(say(words, folder=plugin, n=len(kinds)))
     found: list[CheckedPlugin] = []
     for kind in kinds:
         with without_output():
@@ -104,7 +115,11 @@ def check_plugin(
         emit("".join(f"{line}\n" for each in found for line in _lines(each)))
     for each in found:
         _tell_changed(each, quiet)
-        _write_page(each, page or Path(f"{each.kind}.html"), configs, quiet, is_shown)
+    pages = {each.kind: each.page.encode() for each in found if each.page}
+    if page or is_shown:
+        _write_pages(_places(pages, page, is_single=len(kinds) == 1), configs, quiet, is_shown)
+    elif pages and not quiet and form == "text":
+        tell([Phrase("-o FILE writes the chapter as it stands in a report, --open shows it")])
     states = {each.status for each in found}
     return PLUGIN_BROKE if "broke" in states else CHECK_FAILED if "fail" in states else PASSED
 
@@ -131,13 +146,18 @@ def _tell_changed(found: CheckedPlugin, quiet: bool) -> None:
         tell([Phrase("written: {file}: {told}", file=file, told=joined(told, ", "))])
 
 
-def _write_page(found: CheckedPlugin, page: Path, configs: tuple[Path, ...], quiet: bool, is_shown: bool) -> None:
+def _places(pages: Mapping[str, bytes], asked: Path | None, *, is_single: bool) -> dict[Path, bytes]:
+    """Where each chapter is written: the file that is named, a file of its own in a folder; where none is named a temporary folder."""
+    place = asked or Path(mkdtemp(prefix="diecut-report-"))
+    is_file = asked and is_single and not asked.is_dir()
+    return {place if is_file else place / f"{kind}.html": page for kind, page in pages.items()}
+
+
+def _write_pages(pages: Mapping[Path, bytes], configs: tuple[Path, ...], quiet: bool, is_shown: bool) -> None:
     from diecut_report.files import write_all
 
-    if not found.page:
-        return
-    write_all({page: found.page.encode()}, keep=configs[0] if configs else page.parent)
+    write_all(pages, keep=configs[0] if configs else None)
     if not quiet:
-        tell_written([page])
-    if is_shown:
+        tell_written(pages)
+    for page in pages if is_shown else ():
         webbrowser.open(page.resolve().as_uri())

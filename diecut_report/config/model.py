@@ -59,6 +59,7 @@ class InfluenceSettings(Block):
         Field(default_factory=list),
     ]
     by: Annotated[float, Quantity("", "1", "Share by which each input is lowered and raised", gt=0, le=1)] = 0.1
+    defaults: Annotated[bool, Text("Whether inputs that stand at their default are changed too")] = False
     tolerances: Annotated[Any, Text("Inputs that scatter, each with how far it does to both sides")] = None
     distribution: Annotated[Literal["normal", "uniform"], Text("How they scatter")] = "normal"
     count: Annotated[int, Quantity("", "1", "Machines that are drawn", ge=10, le=100_000, integer=True)] = 1000

@@ -102,7 +102,13 @@ def with_input(config: Config, design: DesignInput, value: float) -> Config:
 
 def given_numbers(config: Config) -> list[DesignInput]:
     """Return all inputs that stand in the file as a number of their own, in its order."""
-    return [found for name in config.instances for found in _of_instance(config, name) if found.is_given]
+    found = (each for name in config.instances for each in _of_instance(config, name, given=True))
+    return [each for each in found if each.is_given and _stands_there(config, each)]
+
+
+def numbers_at_default(config: Config) -> list[DesignInput]:
+    """Return all inputs that are not given and stand at a number that their declaration has as default."""
+    return [each for name in config.instances for each in _of_instance(config, name, given=False)]
 
 
 def _whole_path(config: Config, name: str) -> str:
@@ -110,10 +116,10 @@ def _whole_path(config: Config, name: str) -> str:
     return f"{MECHANISMS}.{name}" if first in config.instances and first != PRESS else name
 
 
-def _of_instance(config: Config, name: str) -> Iterator[DesignInput]:
+def _of_instance(config: Config, name: str, *, given: bool) -> Iterator[DesignInput]:
     instance = config.instances[name]
     for slot in instance.slots if instance else ():
-        is_number = isinstance(slot.meta, Quantity) and slot.is_given and slot.meta is not POINTS
+        is_number = isinstance(slot.meta, Quantity) and slot.is_given is given and slot.meta is not POINTS
         if not is_number or (name, *slot.key) in config.links:
             continue
         prefix = "" if name == PRESS else f"{MECHANISMS}."
@@ -121,7 +127,7 @@ def _of_instance(config: Config, name: str) -> Iterator[DesignInput]:
             found = _made(config, find_input(config, f"{prefix}{'.'.join(map(str, (name, *slot.key)))}"))
         except UnknownPath:  # it stands for several, as in a list
             continue
-        if found.today is not None and _stands_there(config, found):
+        if found.today is not None:
             yield found
 
 

@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, replace
 from typing import Literal
 
 import numpy as np
 
 from diecut_report.config.loader import Config
-from diecut_report.design.design_inputs import DesignInput, given_numbers
+from diecut_report.design.design_inputs import DesignInput, given_numbers, numbers_at_default
 from diecut_report.design.questions import AskedNumber, quantity
 from diecut_report.design.varied_machines import CHECKS, UTILISATION, VariedMachines, varied
 from diecut_report.errors import Problem, UserError
@@ -41,12 +41,16 @@ class InputEffect:
 
 @dataclass(frozen=True)
 class Tornado:
-    """Hold the inputs by what they do to a number, the greatest first; those that do nothing are counted."""
+    """Hold the inputs by what they do to a number, the greatest first.
+
+    Those that do nothing are counted (``still``), and those that stand at their default and were not changed (``at_default``).
+    """
 
     asked: AskedNumber
     today: float
     bars: tuple[InputEffect, ...]
     still: int
+    at_default: int = 0
 
 
 @dataclass(frozen=True)
@@ -74,16 +78,24 @@ class Tolerances:
 
 
 def tornados(
-    config: Config, names: Sequence[str], share: float, tolerances: Mapping[DesignInput, float]
+    config: Config,
+    names: Sequence[str],
+    share: float,
+    tolerances: Mapping[DesignInput, float],
+    *,
+    defaults: bool = False,
 ) -> list[Tornado]:
     """Return for each number that is asked for what each input does to it: changed by its tolerance, else by a share of its value.
 
-    Without names these are the utilisations of the checks that govern. UserError where there is nothing to look at.
+    With ``defaults`` inputs that stand at their default are changed too. Without names these are the utilisations of the checks that
+    govern. UserError where there is nothing to look at.
     """
     for each in tolerances:
         require_scatter(each)
     own = {each.asked.path for each in tolerances}
-    inputs = [*tolerances, *(each for each in given_numbers(config) if each.today and each.asked.path not in own)]
+    standing = numbers_at_default(config)
+    numbers = [*given_numbers(config), *(standing if defaults else ())]
+    inputs = [*tolerances, *(each for each in numbers if each.today and each.asked.path not in own)]
     if not inputs:
         words = phrase("nothing is given as a number that is not zero, so nothing has an influence.")
         raise UserError(Problem(words, config.tree.file))
@@ -95,7 +107,8 @@ def tornados(
     asked = asked or [quantity(config, name) for name in _governing(made)]
     for number in asked:
         _require_value(config, made, number)
-    return [_tornado(made, each, inputs, steps) for each in asked]
+    left = 0 if defaults else sum(1 for each in standing if each.today and each.asked.path not in own)
+    return [replace(_tornado(made, each, inputs, steps), at_default=left) for each in asked]
 
 
 def require_scatter(design: DesignInput) -> None:

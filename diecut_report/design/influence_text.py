@@ -9,7 +9,7 @@ from typing import Any
 
 from diecut_report import __version__
 from diecut_report.design.influence import IN_TOLERANCE, Chance, InputEffect, Tolerances, Tornado
-from diecut_report.languages.phrases import Phrase, joined, phrase
+from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
 from diecut_report.languages.speech import said, say, spoken_language
 from diecut_report.quantities.units import pretty, unit
 
@@ -26,10 +26,11 @@ pre{{white-space:pre-wrap;background:#f3f5f7;padding:.7rem}}footer{{color:#5a677
 """
 
 
-def lines(found: Sequence[Tornado], tolerances: Tolerances | None) -> Iterator[str]:
-    """Yield what moves each number most, and how probable it is that the checks hold."""
+def lines(found: Sequence[Tornado], tolerances: Tolerances | None, option: str = "--defaults") -> Iterator[str]:
+    """Yield what moves each number most, and how probable it is that the checks hold; ``option`` is what changes defaults too."""
     for each in found:
         yield from _tornado(each)
+    yield from _left_out(found, option)
     if tolerances is not None:
         yield from _tolerances(tolerances)
 
@@ -49,6 +50,14 @@ def _tornado(found: Tornado) -> Iterator[Phrase]:
     rest = [Phrase("{n} more move it less", n=more)] if more else []
     rest += [Phrase("{n} do not move it", n=found.still)] if found.still else []
     yield Phrase("  {rest}", rest=joined(rest, ", ") or phrase("no other input moves it"))
+
+
+def _left_out(found: Sequence[Tornado], option: str) -> Iterator[Phrase]:
+    """How many inputs nobody gave, so that they were not changed."""
+    if left := max((each.at_default for each in found), default=0):
+        one = "{n} input stands at its default and is not changed; {option} changes it too"
+        many = "{n} inputs stand at their default and are not changed; {option} changes them too"
+        yield Counted(left, one, many, option=option)
 
 
 def _value(found: Tornado, value: float) -> str:
@@ -81,7 +90,8 @@ def data(found: Sequence[Tornado], tolerances: Tolerances | None) -> dict[str, A
     return {
         "schema_version": 1,
         "tornados": [
-            {"name": each.asked.name, "unit": each.asked.si, "today": each.today, "bars": [_bar(bar) for bar in each.bars], "still": each.still}
+            {"name": each.asked.name, "unit": each.asked.si, "today": each.today, "bars": [_bar(bar) for bar in each.bars], "still": each.still,
+             "at_default": each.at_default}
             for each in found
         ],
         "tolerances": None if tolerances is None else {
@@ -145,6 +155,7 @@ def page(found: Sequence[Tornado], tolerances: Tolerances | None, name: str) -> 
         caption = say(words, unit=pretty(each.asked.unit) or phrase("a share"))
         below = f"<p>{html.escape(caption)}</p>\n<pre>{html.escape(text)}</pre>"
         parts.append(f"<h2>{html.escape(each.asked.name)}</h2>\n{figure}\n{below}")
+    parts += [f"<p>{html.escape(said(each))}</p>" for each in _left_out(found, "--defaults")]
     if tolerances is not None:
         parts.append(
             f"<h2>{say('Tolerances')}</h2>\n<pre>"

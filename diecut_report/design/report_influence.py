@@ -34,7 +34,7 @@ def influenced(config: Config) -> Data | None:
     sizes = dict(_tolerance(config, name, str(size)) for name, size in (asked.tolerances or {}).items())
     for index, name in enumerate(asked.of):
         _asked(config, index, name)
-    found = _placed(config, ("of",), lambda: tornados(config, asked.of, asked.by, sizes))
+    found = _placed(config, ("of",), lambda: tornados(config, asked.of, asked.by, sizes, defaults=asked.defaults))
     drawn = _drawn(config, asked, sizes) if sizes else None
     return {"by": asked.by, "tornados": [_tornado(each) for each in found]} | ({"tolerances": drawn} if drawn else {})
 
@@ -102,7 +102,7 @@ def _tornado(found: Tornado) -> Data:
     ]  # fmt: skip
     more = len(found.bars) - len(bars)
     return {"name": found.asked.name, "unit": found.asked.unit, "today": _in(own, found.today), "bars": bars, "more": more,
-            "still": found.still}  # fmt: skip
+            "still": found.still, "at_default": found.at_default}  # fmt: skip
 
 
 def _tolerances(found: Tolerances) -> Data:

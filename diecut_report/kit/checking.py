@@ -11,16 +11,16 @@ from typing import Any
 from diecut_report.config.discovery import Discovery, DuplicateKind, Origin, UnknownKind, in_folder
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.errors import PluginError, Problem, UserError
-from diecut_report.kit.example_machines import machine_beside, named_machine
+from diecut_report.kit.all_examples import tried_on_each
+from diecut_report.kit.example_machines import machines_beside, named_machines
 from diecut_report.kit.missing_words import refuse_own, write_missing
 from diecut_report.languages.phrases import Phrase
 from diecut_report.languages.po_files import ChangedCatalogue
 from diecut_report.languages.speech import said
 from diecut_report.testing.contract import ContractTest
-from diecut_report.testing.tried_rules import TITLES, TriedRule
+from diecut_report.testing.tried_rules import TITLES, WORST_LAST, TriedRule
 
 PLUGINS = "plugins"  # the folder of a new plugin's project that holds the plugin
-ORDER = ("pass", "not_tried", "note", "fail", "broke")
 
 
 class FolderFirst(Discovery):
@@ -58,7 +58,7 @@ class CheckedPlugin:
     def status(self) -> str:
         """Return the worst that was found: pass, note, fail or broke."""
         found = [rule.status for rule in self.rules if rule.status != "not_tried"]
-        return "broke" if self.error else max(found, key=ORDER.index, default="pass")
+        return "broke" if self.error else max(found, key=WORST_LAST.index, default="pass")
 
     @property
     def data(self) -> dict[str, Any]:
@@ -128,15 +128,15 @@ def checked(
         found.error = error.message if isinstance(error, PluginError) else str(error)
         yield found
         return
-    machine, refused = (named_machine(configs, kind, known), []) if configs else machine_beside(origin, known)
-    if configs and machine is None:
+    machines, refused = (named_machines(configs, kind, known), []) if configs else machines_beside(origin, known)
+    if configs and not machines:
         words = Phrase("There is no mechanism of the kind {kind} in it.", kind=repr(kind))
         raise UserError(Problem(words, str(configs[0])))
-    config, name = machine or (None, "")
+    config, name = machines[0] if machines else (None, "")
     test = ContractTest(found.mechanism, known, config, name, language, refused)
     if write_po:
         found.changed = write_missing(test, origin)
-    for rule in test.tried():
+    for rule in tried_on_each(test, machines[1:]):
         found.rules.append(rule)
         yield rule
     found.page = test.page

@@ -12,33 +12,32 @@ from diecut_report.config.loader import Config, load_config
 from diecut_report.errors import Problem, UserError
 
 FOLDERS = (".", "examples", "configs")
+Machine = tuple[Config, str]
 LEVELS = 3  # folders above a plugin in which its examples are sought
 INSTALLED = "site-packages"
 LARGEST = 1_000_000  # bytes of a file that is looked through
 
 
-def named_machine(files: Iterable[Path], kind: str, discovery: Discovery) -> tuple[Config, str] | None:
-    """Return the first machine of a kind in these configurations with its name; UserError where one of them is wrong."""
-    for file in files:
-        config = load_config(file, discovery)
-        for name, own in config.kinds.items():
-            if own == kind:
-                return config, name
-    return None
+def named_machines(files: Iterable[Path], kind: str, discovery: Discovery) -> list[Machine]:
+    """Return all machines of a kind in these configurations with their names; UserError where one of them is wrong."""
+    return [
+        (config, name)
+        for config in (load_config(file, discovery) for file in files)
+        for name, own in config.kinds.items()
+        if own == kind
+    ]
 
 
-def machine_beside(origin: Origin, discovery: Discovery) -> tuple[tuple[Config, str] | None, list[Problem]]:
-    """Return the first machine of a kind in a sound configuration beside its plugin with its name; where there is none, why others are not."""
+def machines_beside(origin: Origin, discovery: Discovery) -> tuple[list[Machine], list[Problem]]:
+    """Return all machines of a kind in sound configurations beside its plugin; where there are none, why others are not sound."""
+    found: list[Machine] = []
     refused: list[Problem] = []
     for file in _files(origin):
         try:
-            found = named_machine([file], origin.kind, discovery)
+            found += named_machines([file], origin.kind, discovery)
         except UserError as error:  # of something else, which its user knows, if there is a sound one
             refused += error.problems
-            continue
-        if found:
-            return found, []
-    return None, refused
+    return found, [] if found else refused
 
 
 def _files(origin: Origin) -> Iterator[Path]:

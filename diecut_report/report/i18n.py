@@ -68,6 +68,7 @@ ENGLISH: dict[str, str] = {
     "influence_caption": "Blue: with the input raised, brown: lowered; ×: there is no such machine; the line: now.",
     "influence_lowered": "Lowered to", "influence_raised": "Raised to", "influence_gives": "Gives",
     "influence_more": "{n} more move it less.", "influence_still": "{n} do not move it.", "influence_tolerances": "Tolerances",
+    "influence_at_default": "{n} inputs stand at their default and are not changed; report.influence.defaults changes them too.",
     "influence_normal": "{n} machines drawn with the seed {seed}, normally distributed, the tolerance being three standard deviations: {inputs}.",
     "influence_uniform": "{n} machines drawn with the seed {seed}, uniformly distributed within the tolerance: {inputs}.",
     "influence_probability": "Probability that it holds", "influence_interval": "95 % interval (Clopper and Pearson)",
@@ -127,6 +128,7 @@ COUNTED = {  # what is said of a number ``n`` of things, with its form for one w
     "count_fail": "1 of {total} checks fails", "count_warn": "", "count_pass": "1 passes", "count_not_checked": "", "count_error": "",
     "self_tests": "1 self-test of the calculation holds.", "rests_on": "Rests on 1 assumed value", "more_assumed": "",
     "influence_more": "1 more moves it less.", "influence_still": "1 does not move it.",
+    "influence_at_default": "1 input stands at its default and is not changed; report.influence.defaults changes it too.",
     "influence_sure": "1 check holds in all of these machines.", "repeated_parts": "", "dxf": "", "dxf_profile": "", "csv": "",
 }  # fmt: skip
 

@@ -87,6 +87,8 @@ def _rest(found: Data, words: Catalogue) -> Iterator[str]:
         yield words.say("influence_more", n=found["more"])
     if found["still"]:
         yield words.say("influence_still", n=found["still"])
+    if found.get("at_default"):
+        yield words.say("influence_at_default", n=found["at_default"])
 
 
 def _title(results: Data, name: str, words: Catalogue) -> str:

@@ -168,12 +168,15 @@ class LoadedPress:
         with told_in(self.language), one_thread():
             return mended_press(self._usable(), self.discovery, self._of, tuple(free), tuple(keep))
 
-    def influence(self, *of: str, share: float = 0.1) -> InfluenceTable:
-        """Return how far each input moves a number (the governing checks, where none is named) when it changes by a share of its value."""
+    def influence(self, *of: str, share: float = 0.1, defaults: bool = False) -> InfluenceTable:
+        """Return how far each input moves a number (the governing checks, where none is named) when it changes by a share of its value.
+
+        These are the inputs that are given; with ``defaults`` those that stand at their default too.
+        """
         from diecut_report.scripting.questions import influence_of
 
         with told_in(self.language), one_thread():
-            return influence_of(self._usable(), of, share)
+            return influence_of(self._usable(), of, share, defaults=defaults)
 
     def _usable(self) -> Config:
         """The configuration; PluginError where one of its plugins is broken."""

@@ -125,7 +125,7 @@ def mended_press(
     return MendedPress(changes, press, advice.data(found), "\n".join(advice_text.lines(found)))
 
 
-def influence_of(config: Config, names: Sequence[str], share: float) -> InfluenceTable:
+def influence_of(config: Config, names: Sequence[str], share: float, *, defaults: bool = False) -> InfluenceTable:
     """Return what inputs do to numbers, as the command gives it; ConfigError where the share is not between 0 and 1."""
     if not (math.isfinite(share) and 0 < share <= 1):
         raise ConfigError(
@@ -134,6 +134,6 @@ def influence_of(config: Config, names: Sequence[str], share: float) -> Influenc
                 path="share",
             )
         )
-    found = influence.tornados(config, list(names), share, {})
-    text = "\n".join(influence_text.lines(found, None))
+    found = influence.tornados(config, list(names), share, {}, defaults=defaults)
+    text = "\n".join(influence_text.lines(found, None, "defaults=True"))
     return InfluenceTable(influence_text.data(found, None), text)

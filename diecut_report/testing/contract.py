@@ -5,7 +5,7 @@ from __future__ import annotations
 import time
 import warnings
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from dataclasses import dataclass, field, replace
 from functools import cached_property
 from pathlib import Path
 from typing import Any
@@ -56,6 +56,13 @@ class ContractTest:
     language: str = SOURCE_LANGUAGE
     refused: Sequence[Problem] = ()
     page: str = field(default="", init=False)
+
+    def of(self, config: Config, name: str) -> ContractTest:
+        """Return the test of another machine; what is calculated already of the same configuration is not calculated again."""
+        other = replace(self, config=config, name=name)
+        if config is self.config:
+            vars(other).update({key: vars(self)[key] for key in ("run", "results") if key in vars(self)})
+        return other
 
     def tried(self) -> Iterator[TriedRule]:
         """Yield each rule with what was found; what needs a sound declaration or a machine is not tried without."""

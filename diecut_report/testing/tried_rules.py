@@ -10,6 +10,7 @@ from typing import Literal
 from diecut_report.languages.phrases import Counted, Phrase, phrase
 
 RuleStatus = Literal["pass", "note", "not_tried", "fail", "broke"]
+WORST_LAST = ("pass", "not_tried", "note", "fail", "broke")
 TOLD = 5  # faults of a rule that a short list tells
 TITLES = {
     "declaration": phrase("Declarations"),

@@ -95,3 +95,15 @@ def test_bad_input_is_told_and_ends_with_2(press: Path, capfd: Capture, more: li
     assert influence(press, *more) == 2
     out, err = capfd.readouterr()
     assert out == "" and words in err
+
+
+def test_inputs_at_their_default_are_told_and_changed_on_demand(tmp_path: Path, capfd: Capture) -> None:
+    """The lever's arm is 100 mm, and its teeth are 20, where nobody gives them."""
+    press = saved(tmp_path, HEAD + "  a: {kind: lever, force: 2 kN}\n")
+    assert influence(press, "--of", "a.moment", "--by", "5") == 0
+    out = capfd.readouterr().out.splitlines()
+    assert out[1].startswith("  a.force ") and not any("a.arm" in line for line in out)
+    assert out[-1] == "2 inputs stand at their default and are not changed; --defaults changes them too"
+    assert influence(press, "--of", "a.moment", "--by", "5", "--defaults") == 0
+    out = capfd.readouterr().out.splitlines()
+    assert "  a.arm    95 mm … 105 mm: 190 N·m … 210 N·m" in out and "--defaults" not in out[-1]

@@ -98,3 +98,10 @@ def test_the_schema_knows_it(capfd: Capture) -> None:
     assert main(["schema"]) == 0
     report_block = json.loads(capfd.readouterr().out)["properties"]["report"]["properties"]["influence"]
     assert {"of", "by", "tolerances", "distribution", "count", "seed"} <= set(json.dumps(report_block).split('"'))
+
+
+@pytest.mark.parametrize(("asked", "told"), [("{}", True), ("{defaults: true}", False)])
+def test_the_chapter_tells_of_inputs_at_their_default(tmp_path: Path, asked: str, told: bool) -> None:
+    assert report(tmp_path, config(asked, "uk")) == 0
+    words = "вхідна величина має типове значення і не змінюється; report.influence.defaults змінює і її."
+    assert (words in (tmp_path / "press.html").read_text("utf-8")) == told

@@ -139,9 +139,8 @@ WRITES = "print('by-print'); import os, subprocess; os.write(1, b'by-write'); su
     ],
 )  # fmt: skip
 def test_what_a_plugin_writes_does_not_spoil_what_is_asked_for(
-    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch, command: list[str]
+    tmp_path: Path, capfd: Capture, command: list[str]
 ) -> None:
-    monkeypatch.chdir(tmp_path)  # the page of check-plugin comes into the current folder
     folders = (
         "--plugins",
         plugin(tmp_path, code=WRITES, head=f"\n{WRITES.removesuffix('; return x')}\n"),

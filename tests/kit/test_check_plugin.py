@@ -60,9 +60,42 @@ def test_a_sound_plugin_holds_all_rules_and_is_shown(
     lines = told.out.splitlines()
     assert lines[0] == "toggle 0.1, з plugins/toggle.py" and len(lines) == 1 + len(TITLES)
     assert all(line.startswith("  дотримано  ") for line in lines[1:]) and "Приклад машини: " in told.out
-    assert told.err == "записано: toggle.html\n"
-    page = (home / "toggle.html").read_text("utf-8")
+    assert told.err.startswith("-o FILE ") and not (home / "toggle.html").exists()
+
+
+def test_its_chapter_is_written_where_it_is_asked_for_and_nowhere_else(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    home, shown = toggle(tmp_path), list[str]()
+    monkeypatch.chdir(home)
+    monkeypatch.setattr("webbrowser.open", shown.append)
+    monkeypatch.setattr("diecut_report.cli.kit.mkdtemp", lambda prefix: str(tmp_path))
+    before = sorted(home.rglob("*.html"))
+    (home / "build").mkdir()
+    one = ["check-plugin", "toggle", "--plugins", "plugins", "--language", "uk"]
+    assert main([*one, "-o", "chapter.html"]) == main([*one, "-o", "build"]) == main([*one, "--open"]) == 0
+    assert capfd.readouterr().err.splitlines() == [
+        "записано: chapter.html", "записано: build/toggle.html", f"записано: {tmp_path / 'toggle.html'}",
+    ]  # fmt: skip
+    page = (home / "chapter.html").read_text("utf-8")
     assert "Пружини виштовхувача" in page and "Характеристика" in page
+    assert shown == [(tmp_path / "toggle.html").as_uri()]
+    assert sorted(home.rglob("*.html")) == sorted([*before, home / "chapter.html", home / "build" / "toggle.html"])
+
+
+def test_a_plugin_is_tried_on_all_machines_of_its_kind(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path)
+    example = home / "examples" / "toggle.yaml"
+    second = example.read_text("utf-8").replace("\n  toggle:\n", "\n  second:\n")
+    (home / "examples" / "zweig.yaml").write_text(second, "utf-8")
+    assert main(["check-plugin", str(home)]) == 0
+    out = capfd.readouterr().out
+    assert re.search(r"Example machine: \S*toggle.yaml, mechanism toggle; \S*zweig.yaml, mechanism second\n", out)
+    assert "Figures and report: 1 figure; on 1 other machine too" in out
+    home = toggle(tmp_path / "odd", *odd("assert np.all(travel != 0.011)\n    return travel * 1e5"))
+    (home / "examples" / "zweig.yaml").write_text(second.replace("travel: 10 mm", "travel: 11 mm"), "utf-8")
+    assert main(["check-plugin", str(home)]) == 3
+    assert re.search(r"broke  Example machine: .*\n +\S*zweig.yaml, mechanism second: ", capfd.readouterr().out)
 
 
 MISTAKES = {
@@ -317,6 +350,7 @@ def test_a_broken_rule_ends_with_1_and_without_a_machine_the_rest_is_not_tried(t
         (("no/folder",), "no/folder: There is no such folder of plugins"),
         (("{tmp}",), "There is no plugin in this folder"),
         (("clutch", "--config", "{tmp}/none.yaml"), "none.yaml"),
+        ((str(BROKEN), "-o", "{tmp}/page.html"), "plugins; name one of them, or give a folder with -o."),
         (("damper", "--config", "{tmp}/press.yaml"), "There is no mechanism of the kind 'damper' in it."),
     ],
 )  # fmt: skip

@@ -18,8 +18,8 @@ from tests.examples import few
 
 CONFIGS = Path(__file__).parents[2] / "configs"
 LATIN = re.compile(
-    r"(?<![\w.])[A-Za-z][a-z]{2,}[A-Za-z]*(?![a-z]*_)"
-)  # symbols and units are shorter, or have other signs
+    r"(?<![\w.])[A-Za-z][a-z]{2,}[A-Za-z]*(?![a-z]*[_\d])"
+)  # symbols and units are shorter, or have other signs; hashes have digits
 VERBATIM = (
     "citation",
     "id",

@@ -24,7 +24,7 @@ from diecut_report.study.summary import content as contents
 from diecut_report.study.summary import data, influence, pareto, questions, summarise
 from diecut_report.study.summary.pages import page
 from diecut_report.study.summary.point_charts import near
-from diecut_report.study.summary.quantity_names import WORST, display, utilised
+from diecut_report.study.summary.quantity_names import WORST, display, utilised, value_told
 from tests.hostile.bounded import PEAK
 from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, calculated, made, many, ten, written
 
@@ -234,10 +234,11 @@ def test_what_was_studied_stands_there_as_it_is_written(tmp_path: Path) -> None:
     folder = many(tmp_path / "out", 10, dropped=3)
     found = summary_of(folder)
     assert found.asked is not None
-    assert [values for _, _, values in found.asked.inputs] == [
+    assert [each.values for each in found.asked.inputs] == [
         "from 30 rpm to 6.6e1 rpm", "normal, mean 70 mm, sd 5 mm, low 50 mm", "harmonic, cycloidal",
     ]  # fmt: skip
-    assert found.asked.constraints == ["mechanisms.cylinder.bore_radius <= mechanisms.cylinder.radius - '1 mm'"]
+    typed = "mechanisms.cylinder.bore_radius <= mechanisms.cylinder.radius - '1 mm'"
+    assert found.asked.constraints == [("Radius of the bore (cylinder) R_b", typed)]
     facts = dict(found.asked.facts)
     assert (facts["Sample"], facts["Count"], facts["Seed"]) == ("Latin hypercube", "13", "4")
     assert facts["Dropped by the constraints"] == "3 variants"
@@ -257,7 +258,29 @@ def test_inputs_of_a_table_name_its_file(tmp_path: Path) -> None:
     study = "schema_version: 1\nbase: press.yaml\nsample: {method: table, file: motors.csv}\n"
     found = summary_of(made(tmp_path / "out", [3.0, 4.0], [0.06, 0.06], text=study)).asked
     assert found is not None and dict(found.facts)["Sample"] == "rows of a table: motors.csv"
-    assert [values for _, _, values in found.inputs] == ["a column of motors.csv"] * 2
+    assert [each.values for each in found.inputs] == ["a column of motors.csv"] * 2
+
+
+def test_what_was_studied_stands_there_in_words_with_its_symbol_and_the_key_beside(tmp_path: Path) -> None:
+    study = STUDY.replace('["harmonic", cycloidal]', '["harmonic", modified_trapezoidal]')
+    summary = summary_of(
+        made(tmp_path / "out", [3.0, 4.0], [0.06, 0.06], ["harmonic", "modified_trapezoidal"], text=study)
+    )
+    assert summary.asked is not None
+    assert [(each.told, each.symbol) for each in summary.asked.inputs[:2]] == [
+        ("Speed of the crank (drive)", "n"), ("Radius of the bore (cylinder)", "R_b"),
+    ]  # fmt: skip
+    assert summary.asked.inputs[2].values == "harmonic, modified trapezoidal (modified_trapezoidal)"
+    assert summary.asked.objectives == [
+        ("least Greatest power (drive)", "minimise: drive.power_peak"), ("least Mass of the cylinder (cylinder)", "minimise: cylinder.mass"),
+    ]  # fmt: skip
+    shown = page(summary)
+    assert "Radius of the bore (cylinder) <i class=sy>R</i><sub>b</sub>" in shown
+    assert 'Greatest power (drive)<span class="sub key">minimise: drive.power_peak</span>' in shown
+
+
+def test_a_choice_stands_in_words() -> None:
+    assert value_told("free_end") == "free end" and value_told("EN 10025") == "EN 10025"
 
 
 def test_the_matrix_begins_with_the_best_and_each_variant_stands_once(

@@ -9,6 +9,7 @@ from markupsafe import Markup
 
 from diecut_report.report.document import ReportDocument
 from diecut_report.report.model import Heading, PrintedChapter, QuantityRow
+from diecut_report.report.number_format import joined
 from diecut_report.report.office.word_body import WordBody
 from diecut_report.report.office.word_front import check_table
 from diecut_report.report.office.wordml import Inline, TableColumn, bold, key, new_line, rich, run, small
@@ -81,11 +82,20 @@ def _given(body: WordBody, part: PrintedChapter) -> None:
     _head(body, part.parts.get("inputs"))
     _inputs(body, part.inputs)
     if part.defaults or part.are_defaults_told:
-        told = [body.words.say("defaults_told", letter=part.told_in)] if part.are_defaults_told else []
-        told += [f"{row.description} {row.value} {row.unit}".strip() for row in part.defaults]
-        body.say(bold(body.words["defaults"]) + run(": ") + rich(prose(" · ".join(told))), "Why")
+        told = [run(body.words.say("defaults_told", letter=part.told_in))] if part.are_defaults_told else []
+        told += map(_default, part.defaults)
+        body.say(bold(body.words["defaults"]) + run(": ") + run(" · ").join(told), "Why")
     for table in part.input_parts:
         body.record_table(table) if isinstance(table, RecordTable) else body.parts_table(table)
+
+
+def _default(row: QuantityRow) -> Inline:
+    """An input that is left alone: its key where it is a choice, else its symbol."""
+    name = rich(prose(row.description)) + run(" ")
+    if row.wordy:
+        return name + key(row.key) + run(" ") + rich(prose(row.value))
+    sign = rich(row.symbol) + run(" = ") if row.symbol else ""
+    return name + sign + run(joined(row.value, row.unit))
 
 
 def _inputs(body: WordBody, rows: Sequence[QuantityRow]) -> None:

@@ -7,9 +7,8 @@ import re
 from collections.abc import Iterator
 from typing import Any
 
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE
 from diecut_report.languages.phrases import phrase
-from diecut_report.languages.speech import decimal_sign, localised, said, say, say_counted, spoken_language
+from diecut_report.languages.speech import decimal_sign, localised, said, say, say_counted
 from diecut_report.languages.tokens import worded
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, unit
@@ -89,7 +88,7 @@ def quantity(value: float, column: StoredColumn) -> str:
 def value_told(value: Any) -> str:
     """Return a value that is not a number: the words of a choice, yes or no."""
     if isinstance(value, str):
-        return said(worded(value)) if spoken_language() != SOURCE_LANGUAGE else value
+        return said(worded(value))
     return say("yes") if value else say("no")
 
 

@@ -2,15 +2,17 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from typing import Any, NamedTuple
 
 from diecut_report.config import yaml_tree
 from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import said, say
-from diecut_report.study.analysis.stored_variants import Stored
+from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
+from diecut_report.study.analysis.titles import MECHANISMS
 from diecut_report.study.conditions.constraints import why_dropped
-from diecut_report.study.summary.quantity_names import named, variants
+from diecut_report.study.summary.quantity_names import named, value_told, variants
 
 METHODS = {
     "grid": phrase("grid: each value with each"),
@@ -20,14 +22,32 @@ METHODS = {
     "table": phrase("rows of a table"),
 }
 Path = tuple[str | int, ...]
+NAME = re.compile(r"[A-Za-z_][\w.]*")
+
+
+class AskedInput(NamedTuple):
+    """Hold a varied input: what people call it, its symbol, its path, and its values as written, a choice in words too."""
+
+    told: str
+    symbol: str
+    path: str
+    values: str
+
+
+class AskedText(NamedTuple):
+    """Hold an objective or a constraint: in words, and as the study file has it."""
+
+    told: str
+    typed: str
 
 
 class Asked(NamedTuple):
-    """Hold what was studied: facts, each varied input (title, path, values as written), constraints, and what ``reports`` asks for."""
+    """Hold what was studied: facts, varied inputs, objectives, constraints, and what ``reports`` asks for."""
 
     facts: list[tuple[str, str]]
-    inputs: list[tuple[str, str, str]]
-    constraints: list[str]
+    inputs: list[AskedInput]
+    objectives: list[AskedText]
+    constraints: list[AskedText]
     reports: str
 
 
@@ -41,7 +61,8 @@ def asked(stored: Stored) -> Asked | None:
     return Asked(
         list(_facts(stored, tree, data)),
         [_input(stored, tree, path) for path in stored.study.get("varied") or ()],
-        [str(each) for each in data.get("constraints") or ()],
+        [_objective(stored, way, str(name)) for each in data.get("objectives") or () for way, name in each.items()],
+        [AskedText(_quantities(stored, str(each)), str(each)) for each in data.get("constraints") or ()],
         _reports(tree, data.get("reports")),
     )
 
@@ -73,15 +94,46 @@ def _facts(stored: Stored, tree: yaml_tree.Tree, data: Mapping[str, Any]) -> lis
         facts.append(
             (say("Dropped by the constraints"), variants(int(counts.get("dropped") or 0)) + said(why_dropped(counts)))
         )
-    goals = [f"{way} {name}" for each in data.get("objectives") or () for way, name in each.items()]
-    return [*facts, *([(say("Objectives"), "; ".join(goals))] if goals else [])]
+    return facts
 
 
-def _input(stored: Stored, tree: yaml_tree.Tree, path: str) -> tuple[str, str, str]:
+def _objective(stored: Stored, way: str, name: str) -> AskedText:
+    column, typed = _column_of(stored, name), f"{way}: {name}"
+    words = "least {quantity}" if way == "minimise" else "greatest {quantity}"
+    return AskedText(say(words, quantity=named(column)) if column else typed, typed if column else "")
+
+
+def _quantities(stored: Stored, expression: str) -> str:
+    """What the names in an expression are called."""
+    columns = [_column_of(stored, name) for name in dict.fromkeys(NAME.findall(expression))]
+    return ", ".join(_with_symbol(column) for column in columns if column)
+
+
+def _with_symbol(column: StoredColumn) -> str:
+    return named(column) + (f" {column.symbol}" if column.symbol else "")
+
+
+def _column_of(stored: Stored, name: str) -> StoredColumn | None:
+    """The column that a study means by a name, with ``mechanisms.`` or without."""
+    return stored.columns.get(name) or stored.columns.get(f"{MECHANISMS}{name}")
+
+
+def _input(stored: Stored, tree: yaml_tree.Tree, path: str) -> AskedInput:
     column = stored.columns.get(path)
-    place: Path = ("vary", path)
     given = path in (tree.data.get("vary") or {})
-    return (named(column) if column else path, path, written(tree, place) if given else _column(tree))
+    values = _values(tree, ("vary", path)) if given else _column(tree)
+    return AskedInput(named(column) if column else path, column.symbol if column else "", path, values)
+
+
+def _values(tree: yaml_tree.Tree, place: Path) -> str:
+    """Values as they are written; choices in words, with what is typed behind them."""
+    value = tree.data
+    for step in place:
+        value = value[step]
+    if not isinstance(value, list) or not any(isinstance(each, str) and value_told(each) != each for each in value):
+        return written(tree, place)
+    told = [(value_told(each), written(tree, (*place, index))) for index, each in enumerate(value)]
+    return ", ".join(typed if words == typed else f"{words} ({typed})" for words, typed in told)
 
 
 def _column(tree: yaml_tree.Tree) -> str:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import html
 import io
 import json
 import re
@@ -163,3 +164,13 @@ def test_a_hostile_title_is_a_text() -> None:
 
 def test_the_language_is_told_to_the_word_processor(content: bytes) -> None:
     assert {lang.get(f"{W}val") for lang in part(content, "word/styles.xml").iter(f"{W}lang")} == {"en-GB"}
+
+
+def test_inputs_left_at_their_default_stand_with_symbol_and_unit_as_on_the_page() -> None:
+    rendering = Rendering(without_figures("standard"))
+    told = re.findall(r'<p class="run-in"><strong>Left at its default</strong>(.*?)</p>', rendering.html())
+    on_page = {"".join(html.unescape(re.sub(r"<[^>]*>", "", line)).split()) for line in told}
+    lines = texts(part(rendering.docx())).splitlines()
+    in_word = {"".join(line.split()) for line in lines if line.startswith("Left at its default")}
+    assert on_page and {f"Leftatitsdefault{line}" for line in on_page} == in_word
+    assert any("=" in line for line in on_page)
