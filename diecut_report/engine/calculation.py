@@ -85,8 +85,7 @@ class CurveHandle:
                 self.curve_id, axis, places, lambda names: several(calc, axis, names, *domain.placed(*places), rows)
             )
         x, mid, inside = domain.placed(share, middle, rows)
-        known = calc.recent.at(axis, (x, mid, None), lambda: CurveSampler(proxy(calc), axis, x, mid, None, inside))
-        return known.over(self.curve_id)
+        return calc.sampler_of(axis, x, mid, None, inside).over(self.curve_id)
 
     def gain(self, rows: Array | None) -> Array:
         """Return what the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
@@ -137,7 +136,7 @@ class Calculation:
         self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
         self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
         self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
-        self.recent, self.shared = RecentPlaces[CurveSampler](8), SharedPlaces()  # of a single machine; of many
+        self.recent, self.shared = RecentPlaces[CurveSampler](32), SharedPlaces()  # of a single machine; of many
         self._tables: dict[str, SampleCache] = {}
         self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
         self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
@@ -176,7 +175,10 @@ class Calculation:
         self, axis: str, x: Array, middle: Array, rows: Array | None, inside: Inside | None = None
     ) -> CurveSampler:
         """Return all curves over an abscissa at x (rows, points), in pieces of these middles (rows, points) or (rows, 1)."""
-        return CurveSampler(self, axis, x, middle, rows, inside)
+        if self.count > 1:
+            return CurveSampler(self, axis, x, middle, rows, inside)
+        places = x, middle, None
+        return self.recent.at(axis, places, lambda: CurveSampler(proxy(self), axis, x, middle, None, inside))
 
     def kept(
         self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None
@@ -188,6 +190,10 @@ class Calculation:
             sampler = CurveSampler(proxy(self), axis, *places(domain), rows)
             self._kept[use, axis] = domain.edges, sampler
         return sampler
+
+    def of_pieces(self, axis: str) -> CurveSampler:
+        """Return all curves over an abscissa at the middles of its pieces."""
+        return self.kept("middles", axis, lambda domain: (domain.middles, domain.middles))
 
     def curve_samples(self, curve: str) -> Array:
         """Return a curve at the samples of its abscissa, shape (variants, points)."""

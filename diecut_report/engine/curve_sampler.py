@@ -30,6 +30,9 @@ class CalculatedMachines(Protocol):
     def __getitem__(self, name: str) -> Array:
         """A number of all machines."""
 
+    def of_pieces(self, axis: str) -> CurveSampler:
+        """Return all curves over an abscissa at the middles of its pieces, kept until these change."""
+
 
 class CurveSampler:
     """Give curves at given places of their abscissa; each is computed once.
@@ -83,9 +86,25 @@ class CurveSampler:
 
     def _of_pieces(self, name: str) -> Array:
         """A flag of the pieces, at their middles."""
+        if self._present is not None:
+            pieces, own = self._present
+            found: Array = pieces.over(name)[0].take(own)
+            return found
         if self.inside is None:
             return self._at_middles[name]
         return np.take_along_axis(self._at_middles.over(name), self.inside[1], axis=1)
+
+    @cached_property
+    def _present(self) -> tuple[CurveSampler, Array] | None:
+        """What gives the flags of all present pieces of a single machine, each computed once, and which of these each place lies in.
+
+        None of many machines, and where a place lies in a piece that is not there any more.
+        """
+        if self.owner.count > 1:
+            return None
+        pieces = self.owner.of_pieces(self.axis)
+        own = pieces.mid[0].searchsorted(self.mid)
+        return (pieces, own) if np.array_equal(pieces.mid[0].take(own, mode="clip"), self.mid) else None
 
     @cached_property
     def _at_middles(self) -> CurveSampler:
@@ -120,9 +139,7 @@ class CurveSampler:
 
 def chosen(held: Sequence[Any], values: Sequence[Any]) -> Array:
     """Return the values of the first condition that holds, the last where none does."""
-    if not all(type(value) is float or (isinstance(value, np.ndarray) and value.dtype == float) for value in values):
-        return np.select(np.broadcast_arrays(*held), np.broadcast_arrays(*values[:-1]), values[-1])
-    found = values[-1]  # NumPy's own way takes five times as long for the short arrays of one machine
+    found = values[-1]  # NumPy's select takes five times as long for the short arrays of one machine
     for condition, value in zip(reversed(held), reversed(values[:-1]), strict=True):
         found = np.where(condition, value, found)
     return np.asarray(found)

@@ -28,10 +28,11 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.contract.inputs import Block, flatten
 from diecut_report.contract.mechanism import Mechanism
-from diecut_report.engine import Calculation, calculate
+from diecut_report.engine import Calculation, CurveHandle, calculate
 from diecut_report.engine.chosen_units import ChosenUnits
 from diecut_report.engine.figure_views import figures, shown_figures
 from diecut_report.engine.printing.items import section_items
+from diecut_report.engine.same_curves import same_curve
 from diecut_report.results.checks import check_results
 from diecut_report.results.curves import curves
 from diecut_report.results.document import document, verdict
@@ -73,6 +74,8 @@ def _same(one: Any, other: Any) -> bool:
         return one.keys() == other.keys() and all(_same(part, other[key]) for key, part in one.items())
     if isinstance(one, tuple | list):
         return len(one) == len(other) and all(map(_same, one, other))
+    if isinstance(one, CurveHandle):
+        return same_curve(one, other)
     if isinstance(one, float):
         return one == other and math.copysign(1, one) == math.copysign(1, other)
     return one is other or bool(one == other)
