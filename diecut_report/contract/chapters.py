@@ -161,7 +161,14 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
         *, over: str = "", is_text: bool = False, printed: bool = True, **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a number that plain code finds, where no closed formula tells it: see ``Computed``."""
-        own = {"function": function, "takes": takes, "method": method, "over": over, "is_text": is_text, "printed": printed}
+        own = {
+            "function": function,
+            "takes": takes,
+            "method": method,
+            "over": over,
+            "is_text": is_text,
+            "printed": printed,
+        }
         self._give(Computed, id, symbol, unit, description, options, **own)
 
     def curve_period(

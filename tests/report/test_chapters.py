@@ -159,7 +159,7 @@ def test_comparison_is_a_chapter_of_its_own_after_the_mechanisms(
 def test_comparison_stands_in_contents_sources_and_checks(rendering: Rendering) -> None:
     document = rendering.material.document
     assert ("m-F", "F", "Both drives compared", 1) in document.contents
-    assert ("900", "A source of the comparison alone.") in document.sources
+    assert ("[3]", "A source of the comparison alone.") in document.sources
     assert ("F", "compared") in [(row.chapter, row.id) for row in document.checks]
 
 

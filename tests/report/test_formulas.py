@@ -321,7 +321,16 @@ def _links(item: dict[str, object]) -> str:
 def test_what_is_copied_or_nothing_is_said_once() -> None:
     taken = {"equation": ["sym", "y"], "substituted": ["qty", "1.3354", "K"], "result": {"text": "1.34", "unit": "K"}}
     assert _links(taken) == "x = y = 1.34 K"
-    other_unit = {"equation": ["sym", "y"], "substituted": ["qty", "10.47", "rad/s"], "result": {"text": "100", "unit": "rpm"}}
+    other_unit = {
+        "equation": ["sym", "y"],
+        "substituted": ["qty", "10.47", "rad/s"],
+        "result": {"text": "100", "unit": "rpm"},
+    }
     assert _links(other_unit) == "x = y = 10.47 rad/s = 100 r/min"
-    nothing = {"equation": ["num", "0"], "substituted": None, "bridge": {"text": "0", "unit": "rad"}, "result": {"text": "0", "unit": "deg"}}
+    nothing = {
+        "equation": ["num", "0"],
+        "substituted": None,
+        "bridge": {"text": "0", "unit": "rad"},
+        "result": {"text": "0", "unit": "deg"},
+    }
     assert _links(nothing) == "x = 0°"

@@ -189,7 +189,8 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     if takes and numeric is None:
         item["note"] = methods.EQUAL_TERMS
     if isinstance(substitution, BetweenRows):
-        item["note"] = joined(filter(None, (item.get("note"), substitution.told())), " ")
+        told = substitution.told()
+        item |= told | {"note": joined(filter(None, (told["note"], item.get("note"))), ". ")}
     return (
         item | bridged(substitution, numeric, target, result) | conversions(substitution, numeric) | {"result": result}
     )
