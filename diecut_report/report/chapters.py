@@ -9,6 +9,7 @@ from diecut_report.report.chapter_inputs import ChapterInputs
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import placed, row_item, rows_of, sketch
 from diecut_report.report.file_names import suffixes
+from diecut_report.report.given_names import given_names
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.left_out import under_heading
 from diecut_report.report.model import (
@@ -73,7 +74,8 @@ class _Filler:
         self.part, self.mechanism, self.words = part, mechanism, words
         self.decimal = words["decimal"]
         self.tables = Tables(part.letter, words, mechanism.get("lists", {}))
-        self.steps = PrintedSteps(part.letter, equations, words, self.tables, self.rows, told)
+        self.names = given_names(mechanism, ())
+        self.steps = PrintedSteps(part.letter, equations, words, self.tables, self.rows, told, self.names)
 
     def fill_brief(self) -> None:
         """The purpose, key results, checks and one sketch."""
@@ -161,7 +163,10 @@ class _Filler:
     def _rows(self, outputs: Data) -> dict[str, QuantityRow]:
         """All outputs as lines, those of repeated parts counted."""
         nth = counted(outputs)
-        return {name: quantity_row(row, self.decimal, self._nth(row, nth.get(name))) for name, row in outputs.items()}
+        return {
+            name: quantity_row(row, self.decimal, self._nth(row, nth.get(name)), self.names)
+            for name, row in outputs.items()
+        }
 
     def _key_results(self, rows: dict[str, QuantityRow]) -> list[QuantityRow]:
         return [rows[name] for name, row in self.mechanism["outputs"].items() if row.get("key")] or list(rows.values())

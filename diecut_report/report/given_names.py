@@ -21,11 +21,16 @@ def is_name(row: Data) -> bool:
     return bool(row.get("part", {}).get("quantity") == "name")
 
 
-def value_in_words(row: Data) -> str:
+def in_words(text: str, names: Collection[str]) -> str:
+    """Return a text of the results as words; one of the ``names`` as it is typed."""
+    return text if text in names else worded(text)
+
+
+def value_in_words(row: Data, names: Collection[str] = ()) -> str:
     """Return the shown text of a quantity: a choice as words, a name or what stands in the configuration elsewhere as it is."""
     text: str = row["display"]["text"]
     is_taken = text == row.get("path") or (row.get("origin") == "given" and "text" not in row)  # a mechanism
-    return text if is_name(row) or is_taken else worded(text)
+    return text if is_name(row) or is_taken else in_words(text, names)
 
 
 def _texts(value: Any) -> list[str]:

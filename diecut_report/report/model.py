@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field, replace
 from typing import Any
 
@@ -208,13 +208,13 @@ class PrintedChapter:
         return "incomplete" if self.status == "pass" and is_left else self.status
 
 
-def quantity_row(row: Data, decimal: str, description: str = "") -> QuantityRow:
-    """A quantity of the results as a row of a table; another description may stand for its own."""
+def quantity_row(row: Data, decimal: str, description: str = "", names: Collection[str] = ()) -> QuantityRow:
+    """A quantity of the results as a row of a table; another description may stand for its own, ``names`` stand as they are."""
     shown, at = row["display"], row.get("at")
     place = Markup("")
     if at:
         place = symbol(at["symbol"]) + f" = {quantity(at['text'], at['unit'], decimal)}"
-    text = number(value_in_words(row), decimal)
+    text = number(value_in_words(row, names), decimal)
     return QuantityRow(
         description=description or row["description"],
         symbol=symbol(row["symbol"]),

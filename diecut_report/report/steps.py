@@ -2,13 +2,14 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from itertools import groupby
 from typing import Any, NamedTuple
 
 from diecut_report.languages.tokens import worded
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import BEFORE, Place, Row, figures_at
+from diecut_report.report.given_names import in_words
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.left_out import gathered_notes
 from diecut_report.report.model import Heading, Item, PrintedSection
@@ -38,10 +39,10 @@ class PrintedSteps:
 
     def __init__(
         self, letter: str, equations: Equations, words: Catalogue, tables: Tables, figures: Sequence[Row],
-        told: ToldBefore | None,
+        told: ToldBefore | None, names: Collection[str] = (),
     ) -> None:  # fmt: skip
         self.letter, self.equations, self.words, self.tables = letter, equations, words, tables
-        self.figures, self.told = figures, told
+        self.figures, self.told, self.names = figures, told, names
         self.decimal = words["decimal"]
         self.formulas = 0
         self.given: dict[str, str] = {}  # the numbers of the steps by the symbols that they give
@@ -97,7 +98,7 @@ class PrintedSteps:
         )
 
     def _line(self, item: Data, number: str, refers: Reference | None = None, note: str = "") -> ValueRow:
-        return value_row(item, number, refers, note, self.decimal)
+        return value_row(item, number, refers, note, self.decimal, self.names)
 
     def _said_beside(self, item: Data, notes: set[str]) -> Iterator[str]:
         """The rows of a table between which a number lies, and a note."""
@@ -130,7 +131,9 @@ class PrintedSteps:
             condition=condition,
             definitions=tuple(self.said.definitions(item)),
             words=words,
-            text="" if item.get("equation") or item["type"] in WORDLESS else worded(item["result"]["text"]),
+            text=""
+            if item.get("equation") or item["type"] in WORDLESS
+            else in_words(item["result"]["text"], self.names),
             notes=tuple(self._notes(item, notes)),
             changed=item.get("changed", ""),
         )

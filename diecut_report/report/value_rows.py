@@ -2,13 +2,13 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Collection, Mapping
 from dataclasses import dataclass, field
 from typing import Any
 
 from markupsafe import Markup
 
-from diecut_report.languages.tokens import worded
+from diecut_report.report.given_names import in_words
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number, quantity
 from diecut_report.report.symbols import symbol
@@ -40,8 +40,10 @@ class ValueRow:
         return Markup(words.say(key, number=number, letters=letters))  # words of the catalogue, and symbols
 
 
-def value_row(item: Data, step: str, refers: Reference | None, note: str, decimal: str) -> ValueRow:
-    """A step of the results in one line."""
+def value_row(
+    item: Data, step: str, refers: Reference | None, note: str, decimal: str, names: Collection[str] = ()
+) -> ValueRow:
+    """A step of the results in one line; ``names`` stand as they are."""
     at = item.get("at")
     place = symbol(at["symbol"]) + f" = {quantity(at['text'], at['unit'], decimal)}" if at else Markup("")
     result = item["result"]
@@ -49,7 +51,7 @@ def value_row(item: Data, step: str, refers: Reference | None, note: str, decima
         number=step,
         description=item["description"],
         symbol=symbol(item["symbol"]),
-        value=quantity(worded(result["text"]), result["unit"], decimal),
+        value=quantity(in_words(result["text"], names), result["unit"], decimal),
         at=place,
         source="" if refers else item["source"],
         refers=refers.number if refers else "",

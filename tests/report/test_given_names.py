@@ -9,6 +9,7 @@ import pytest
 from diecut_report.languages.catalogues import Catalogues
 from diecut_report.report.given_names import given_names, value_in_words
 from diecut_report.report.translated import translated
+from diecut_report.report.value_rows import value_row
 
 Data = dict[str, Any]
 
@@ -29,6 +30,22 @@ def named(value: str, quantity: str = "name", **more: Any) -> Data:
 )
 def test_a_name_keeps_its_form_and_a_choice_is_said_in_words(row: Data, text: str) -> None:
     assert value_in_words(row) == text
+
+
+def test_a_name_that_is_found_keeps_its_form() -> None:
+    """The bearing of the least life is called as its configuration calls it; another text of a calculation is said in words."""
+    found = {"symbol": "B", "description": "Bearing", "source": "", "result": {"text": "main_b", "unit": "1"}}
+    assert value_row(found, "L.1", None, "", ".", {"main_b"}).value == "main_b"
+    assert value_row(found, "L.1", None, "", ".").value == "main b"
+    result = {
+        "symbol": "B",
+        "description": "Bearing",
+        "source": "",
+        "value": "main_b",
+        "unit": "1",
+        "display": found["result"],
+    }
+    assert value_in_words(result, {"main_b"}) == "main_b"
 
 
 def test_names_are_those_of_parts_and_of_mechanisms_that_are_taken() -> None:
