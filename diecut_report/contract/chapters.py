@@ -161,8 +161,8 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
         *, over: str = "", is_text: bool = False, printed: bool = True, **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a number that plain code finds, where no closed formula tells it: see ``Computed``."""
-        own = {"function": function, "takes": takes, "method": method, "over": over, "is_text": is_text, "printed": printed}
-        self._give(Computed, id, symbol, unit, description, options, **own)
+        own = {"function": function, "takes": takes, "method": method, "over": over}
+        self._give(Computed, id, symbol, unit, description, options, **own, is_text=is_text, printed=printed)
 
     def curve_period(
         self, id: str, symbol: str, unit: str, description: str, given: str, otherwise: str, **options: Unpack[Options]

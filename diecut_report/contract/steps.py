@@ -1,7 +1,6 @@
 """The steps of a calculation, as a plugin declares them: each is data, the engine runs and prints it.
 
-A step gives one quantity, known by its id. It takes quantities by id: inputs, and what earlier steps gave. Where both
-share an id, it means the step's value, and ``inputs.ID`` the input.
+A step gives one quantity, known by its id, and takes others by id: what earlier steps gave, and inputs (``inputs.ID`` where a step shares it).
 """
 
 from __future__ import annotations
@@ -173,10 +172,9 @@ class Derivative(Step):
 class Computed(Step):
     """Declare a number found by plain code where no closed formula tells it; ``method`` says in words how.
 
-    ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of
-    curve inputs (``Curve`` in ``contract.given``). It gives an array of shape (variants, 1), SI; of shape (variants, parts) where
-    it gives a row for the list ``over``, or for what ``PartNames`` declares; or with ``is_text`` a text for each variant. Truth
-    values are printed as yes and no. What is not ``printed`` serves other steps and figures alone, such as the number of a place.
+    ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of curve inputs (``Curve``).
+    It gives an array of shape (variants, 1), SI; of shape (variants, parts) where it gives a row for the list ``over``, or for what ``PartNames``
+    declares; or with ``is_text`` a text for each variant. Truth values are printed as yes and no; what is not ``printed``, not at all.
     """
 
     function: Callable[..., Any]

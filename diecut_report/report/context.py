@@ -14,8 +14,8 @@ from diecut_report.report.equations import Equations
 from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import Item
-from diecut_report.report.scope import BRIEF, FULL, parts
 from diecut_report.report.numbered_papers import numbered
+from diecut_report.report.scope import BRIEF, FULL, parts
 from diecut_report.report.translated import translated
 from diecut_report.report.typeset import Typesetter
 

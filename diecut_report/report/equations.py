@@ -60,7 +60,9 @@ class EquationRow(NamedTuple):
 
 def _without_copies(links: list[Link], result: Link, symbol: str) -> list[Link]:
     """What stands between a symbol and its result, each once: 0, 0 rad and 0° say the same, as do numbers of a lone symbol and the result."""
-    of_copy = len(links) > 1 and links[0].form is not None and links[0].form[0] == "sym" and _unit(links[1]) == _unit(result)
+    of_copy = (
+        len(links) > 1 and links[0].form is not None and links[0].form[0] == "sym" and _unit(links[1]) == _unit(result)
+    )
     kept = links[:1] if of_copy else links
     nothing = _text(result) == "0"
     kept = [link for link in kept if link.text not in (result.text, symbol) and not (nothing and _text(link) == "0")]

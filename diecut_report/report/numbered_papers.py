@@ -22,7 +22,10 @@ def numbered(results: Data) -> Data:
     if not papers:
         return results
     walk = _Numbered(papers)
-    return {**results, **{key: walk.walk(results[key]) for key in ("mechanisms", "comparisons", "changes") if key in results}}
+    return {
+        **results,
+        **{key: walk.walk(results[key]) for key in ("mechanisms", "comparisons", "changes") if key in results},
+    }
 
 
 class _Numbered:
@@ -30,7 +33,9 @@ class _Numbered:
 
     def __init__(self, papers: Mapping[str, str]) -> None:
         self.papers = papers
-        self.named = re.compile(rf"(?<![\w.,\u202f\u2009\u00a0−-])(?<!\d )(?:{'|'.join(papers)})(?![\w\u202f\u2009\u00a0]|\.\d)")
+        self.named = re.compile(
+            rf"(?<![\w.,\u202f\u2009\u00a0−-])(?<!\d )(?:{'|'.join(papers)})(?![\w\u202f\u2009\u00a0]|\.\d)"
+        )
 
     def walk(self, data: Any) -> Any:
         """Any part of the results."""

@@ -95,10 +95,16 @@ class PrintedSteps:
             printed = self._item(item, notes, number)
             return _PrintedStep(printed, self._line(item, number) if _is_bare(item) and not printed.notes else None)
         told.keep_named(item, refers)
-        return _PrintedStep(Item("note"), self._line(item, number, refers, self._new_note(item, notes)), is_told=True)
+        return _PrintedStep(
+            Item("note"), self._line(item, number, refers, " ".join(self._said_beside(item, notes))), is_told=True
+        )
 
     def _line(self, item: Data, number: str, refers: Reference | None = None, note: str = "") -> ValueRow:
         return value_row(item, number, refers, note, self.decimal, self.tables.names)
+
+    def _said_beside(self, item: Data, notes: set[str]) -> Iterator[str]:
+        """The rows of a table between which a number lies, and a note."""
+        yield from filter(None, (item.get("table_rows"), self._new_note(item, notes)))
 
     def _new_note(self, item: Data, notes: set[str]) -> str:
         """The note of a step, where the section has not said it; a report with all says it at each step."""
@@ -127,7 +133,9 @@ class PrintedSteps:
             condition=condition,
             definitions=tuple(self.said.definitions(item)),
             words=words,
-            text="" if item.get("equation") or item["type"] in WORDLESS else in_words(item["result"]["text"], self.tables.names),
+            text=""
+            if item.get("equation") or item["type"] in WORDLESS
+            else in_words(item["result"]["text"], self.tables.names),
             notes=tuple(self._notes(item, notes)),
             changed=item.get("changed", ""),
         )
@@ -141,8 +149,7 @@ class PrintedSteps:
         if self.told is None or _is_chosen(item):  # why this value and no other is never told elsewhere
             yield from self._proof(item, notes)
         yield from self.said.conversions(item)
-        if note := self._new_note(item, notes):
-            yield note
+        yield from self._said_beside(item, notes)
         if len(item["source"]) > LONGEST_SOURCE:
             yield f"{self.words['source']}: {item['source']}"
 

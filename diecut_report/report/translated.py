@@ -130,7 +130,7 @@ class _Mechanism:
             return self.words.source(text, self.home)
         if key == "citation":
             return self.words.paper(text, self.home)
-        if key in ("text", "key", "column", "note", "part_name", "name"):
+        if key in ("text", "key", "column", "note", "table_rows", "part_name", "name"):
             return self._shown(text)
         return text
 

@@ -82,17 +82,17 @@ def _shades(timing: Timing, bottom: float) -> list[Shape]:
 def rows(view: View) -> list[Shape]:
     """A row of bars for each phase over the common period, and one for each interlock with its margins."""
     timing: Timing = view.prepared("timing")
-    shapes, y = [], 0.0
+    shapes, y, period = [], 0.0, view["main_period"]
     for each in timing.lines:
         for name in each.phases:
             shapes.append(label((-0.2, y), f"{each.name}.{name}", "right"))
-            shapes += _bars(each.on_main_shaft(name, timing.common, None), timing.period, y, "outline")
+            shapes += _bars(each.on_main_shaft(name, timing.common, None), period, y, "outline")
             y -= HIGH
         y -= HIGH / 2
     for interlock, pair in zip(timing.final, timing.worst, strict=True):
         shapes.append(label((-0.2, y), interlock.name, "right"))
-        shapes += _bars(interlock.outer, timing.period, y, "ghost")
-        shapes += _brackets(interlock.inner, timing.period, y)
+        shapes += _bars(interlock.outer, period, y, "ghost")
+        shapes += _brackets(interlock.inner, period, y)
         shapes.append(label((WIDTH + 0.2, y), f"{told(pair.start, 'deg')}, {told(pair.end, 'deg')}", "left"))
         y -= 1.3 * HIGH
     return [*_shades(timing, y), *_scale(timing, y), *shapes]
@@ -101,7 +101,7 @@ def rows(view: View) -> list[Shape]:
 def rings(view: View) -> list[Shape]:
     """A ring for each line, the common period once round, clockwise from the top."""
     timing: Timing = view.prepared("timing")
-    shapes: list[Shape] = []
+    shapes, period = list[Shape](), view["main_period"]
     for index, each in enumerate(timing.lines):
         radius = INNER + index * RING
         shapes += [circle((0.0, 0.0), radius, "ghost"), label((0.0, radius - 0.1), each.name, "center")]
@@ -109,7 +109,7 @@ def rings(view: View) -> list[Shape]:
             role = each.roles[name]
             if role in LAYERS:
                 own = radius + LAYER * (1 + list(LAYERS).index(role)) / 1.5
-                pieces = _pieces(each.on_main_shaft(name, timing.common, None), timing.period)
+                pieces = _pieces(each.on_main_shaft(name, timing.common, None), period)
                 shapes += [
                     arc((0.0, 0.0), own, TURN / 4 - b * TURN, TURN / 4 - a * TURN, LAYERS[role]) for a, b in pieces
                 ]

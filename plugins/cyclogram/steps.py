@@ -87,11 +87,12 @@ interlocks.computed("is_feasible", "k_Φ", "1", "Whether an offset that is to be
                     lambda timing: bool(timing.best and timing.best.feasible), TIMING, PHASES, output=False)
 interlocks.computed("offset_feasible_start", "Φ_a", "deg", "Least of the offsets about the one found that leave all margins",
                     lambda timing: timing.feasible[0], TIMING, PHASES, digits=7, exists=lambda is_feasible: is_feasible > 0)
-interlocks.computed("offset_feasible_end", "Φ_b", "deg", "Greatest of the offsets about the one found that leave all margins", lambda timing: timing.feasible[1], TIMING, PHASES, digits=7,
+interlocks.computed("offset_feasible_end", "Φ_b", "deg", "Greatest of the offsets about the one found that leave all margins",
+                    lambda timing: timing.feasible[1], TIMING, PHASES, digits=7,
                     exists=lambda is_feasible: is_feasible > 0)
 interlocks.computed("rate_error", "Δn", "1", "Own rate of each line off the press's, relative", lambda timing: np.array([timing.rate_errors]), TIMING,
                     "own turns a second over turns for each sheet, held against the productivity", over="lines", output=False)
-interlocks.total("worst_rate_error", "Δn_max", "1", "Greatest of these own rates", "max", of="rate_error", output=False)
+interlocks.total("worst_rate_error", "Δn_max", "1", "Greatest of these rates", "max", of="rate_error", output=False)
 
 
 interlocks.computed("is_window", "k_w", "1", "Whether one interval of each period holds it, so that a length can be told",

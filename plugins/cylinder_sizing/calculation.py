@@ -70,9 +70,10 @@ flat.value("flat_distance", "d", "mm", "Distance of the flat from the axis", lam
 flat.value("wall_at_flat", "w", "mm", "Wall between bore and flat",
            lambda radius, segment_height, bore_radius: radius - segment_height - bore_radius)
 flat.choice("wall_verdict", "w", "1", "What the wall is",
-            case("the bore breaks through the flat", "R_b ≥ R − h", lambda flat_distance, bore_radius: flat_distance <= bore_radius),
-            case("the wall is closed, but thinner than required", "w < w_min", lambda wall_at_flat, min_wall: wall_at_flat < min_wall),
-            case("the wall is thick enough", "w ≥ w_min"), output=False)
+            case("the bore breaks through the flat", "the bore reaches the flat", lambda flat_distance, bore_radius: flat_distance <= bore_radius),
+            case("the wall is closed, but thinner than required", "the wall is less than the required one",
+                 lambda wall_at_flat, min_wall: wall_at_flat < min_wall),
+            case("the wall is thick enough", "the wall is at least the required one"), output=False)
 flat.value("bore_radius_limit", "R_b,max", "mm", "Bore radius that keeps the required wall, in a cylinder of at least the exact radius",
            lambda radius, radius_exact, segment_height, min_wall: np.maximum(radius, radius_exact) - segment_height - min_wall, output=False)
 flat.words("wall_advice", advice.against_thin_wall, ("bore_radius_limit", "radius_exact", "radius", "segment_height", "bore_radius", "min_wall"),

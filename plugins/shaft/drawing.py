@@ -51,5 +51,7 @@ def _bearing(view: View, name: str, told: str, highest: float) -> list[Shape]:
     axial = view.word("locating") == name
     return [
         polyline(triangle, "link" if axial else "outline", closed=True),
-        label((x, foot - width), Phrase("bearing {told}, locating" if axial else "bearing {told}", told=told), "center"),
+        label(
+            (x, foot - width), Phrase("bearing {told}, locating" if axial else "bearing {told}", told=told), "center"
+        ),
     ]

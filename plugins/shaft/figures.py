@@ -56,7 +56,8 @@ def _places(view: View) -> list[Shape]:
         if found is None or safety[i] < found[0]:
             least[round(x[i], 9)] = (safety[i], names[i])
     shown = [
-        (place, min(each, TOLD), Phrase("{place}, above", place=name) if each > TOLD else name) for place, (each, name) in least.items()
+        (place, min(each, TOLD), Phrase("{place}, above", place=name) if each > TOLD else name)
+        for place, (each, name) in least.items()
     ]
     stems = np.array([end for place, height, _ in shown for end in ((place, 0.0), (place, height), (place, np.nan))])
     return [

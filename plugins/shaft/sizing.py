@@ -46,7 +46,9 @@ class Sizes:
     @property
     def is_found(self) -> Array:
         """Return for each variant whether it has diameters with which it holds, (variants, 1)."""
-        return np.ones((self.diameter.shape[1], 1), dtype=bool) if self.held is None else self.held[:, None].astype(bool)
+        return (
+            np.ones((self.diameter.shape[1], 1), dtype=bool) if self.held is None else self.held[:, None].astype(bool)
+        )
 
     @cached_property
     def neighbours(self) -> list[tuple[float | str | None, ...]]:

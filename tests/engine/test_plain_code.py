@@ -11,6 +11,7 @@ import pytest
 from diecut_report.api import Block, Chapter, Inputs, Mechanism, Quantity
 from diecut_report.contract.place import Misdeclared
 from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.engine.printing.items import section_items
 
 
 class Peg(Block):
@@ -62,3 +63,21 @@ def test_parts_that_meet_are_told_by_their_number() -> None:
 def test_an_index_is_needed_for_each_part(clash: Any, words: str) -> None:
     with pytest.raises(Misdeclared, match=f"step meet: .*{words}.*must return an"):
         calculated(clash=clash)
+
+
+def test_a_truth_value_is_printed_as_yes_or_no_and_what_serves_others_alone_is_not() -> None:
+    chapter = Chapter("Row")
+    for id, answer in (("held", True), ("lost", False)):
+        chapter.computed(id, id[0], "1", f"Whether it is {id}", lambda width, answer=answer: width > 0.1 if answer else width > 1,
+                         takes=("width",), method="compared")  # fmt: skip
+    chapter.computed(
+        "place", "i", "1", "Number of the place", lambda width: 2.0, takes=("width",), method="counted", printed=False
+    )
+    chapter.computed("wide", "w", "1", "Whether each is wide", lambda place: np.asarray(place) > 0.15, takes=("pegs.place",),
+                     method="compared", over="pegs")  # fmt: skip
+    mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
+    calc = calculate(mechanism, {"width": 0.5, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)})
+    (section,) = section_items(calc)
+    assert [item.get("id") for item in section["items"]] == ["held", "lost", None]
+    assert [item["result"]["text"] for item in section["items"][:2]] == ["yes", "no"]
+    assert [row[-1] for row in section["items"][2]["rows"]] == ["no", "yes", "yes"]

@@ -77,10 +77,8 @@ def test_repeated_parts_have_values_of_their_own() -> None:
 
 def test_the_printed_numbers_give_the_printed_result() -> None:
     printed = item(geared(teeth=17), "factor")
-    assert (
-        "Rows of the table: z_1 = 15, Y_1 = 0.29; z_2 = 20, Y_2 = 0.32. Factors of teeth: Book one; Book two"
-        in printed["note"]
-    )
+    assert printed["table_rows"] == "Rows of the table: z_1 = 15, Y_1 = 0.29; z_2 = 20, Y_2 = 0.32."
+    assert (printed["series"], printed["note"]) == ("Factors of teeth", "Factors of teeth: Book one; Book two")
     again = eval_json(printed["substituted"])
     assert again == pytest.approx(0.302) and printed["result"]["text"] == "0.302"
     assert set(symbols(printed["equation"])) == {"Y_1", "Y_2", "z", "z_1", "z_2"}
@@ -96,10 +94,8 @@ def test_a_value_at_a_row_is_printed_as_this_row(teeth: float, factor: str) -> N
 
 def test_the_numbers_stand_in_the_tables_unit() -> None:
     printed = item(geared(), "lift")
-    assert (
-        "φ_1 = 0°, h_1 = 0 mm; φ_2 = 90°, h_2 = 10 mm. Lifts of a cam: Drawing (one source: measured there)"
-        in printed["note"]
-    )
+    assert printed["table_rows"] == "Rows of the table: φ_1 = 0°, h_1 = 0 mm; φ_2 = 90°, h_2 = 10 mm."
+    assert printed["note"] == "Lifts of a cam: Drawing (one source: measured there)"
     assert {leaf[2] for leaf in leaves(printed["substituted"])} == {"deg", "mm"}
     assert eval_json(printed["substituted"]) == pytest.approx(4e-2 / 9)  # at 40°
 

@@ -159,7 +159,7 @@ def test_comparison_is_a_chapter_of_its_own_after_the_mechanisms(
 def test_comparison_stands_in_contents_sources_and_checks(rendering: Rendering) -> None:
     document = rendering.material.document
     assert ("m-F", "F", "Both drives compared", 1) in document.contents
-    assert ("900", "A source of the comparison alone.") in document.sources
+    assert ("[3]", "A source of the comparison alone.") in document.sources
     assert ("F", "compared") in [(row.chapter, row.id) for row in document.checks]
 
 
@@ -217,6 +217,8 @@ def test_chapter_without_exports_says_nothing_of_files(chapters: dict[str, Print
 
 
 def test_sources_stand_by_the_alphabet_whatever_their_capitals(plain: Data) -> None:
-    plain["mechanisms"]["cylinder"]["sources"] = [{"id": name, "citation": name} for name in ("Shigley", "iwis", "Hertz")]
+    plain["mechanisms"]["cylinder"]["sources"] = [
+        {"id": name, "citation": name} for name in ("Shigley", "iwis", "Hertz")
+    ]
     names = [name for name, _ in Rendering(plain).material.document.sources]
     assert [name for name in names if name in ("Hertz", "iwis", "Shigley")] == ["Hertz", "iwis", "Shigley"]

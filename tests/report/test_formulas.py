@@ -295,7 +295,10 @@ def test_a_branch_is_shown_with_its_condition_once_and_named_after_that() -> Non
 
 def test_a_branch_whose_condition_is_that_one_is_one_is_named_alone() -> None:
     said = SaidOnce(_equations()[0], Catalogue("en"))
-    flag = {"condition": ["cmp", "==", A, ["num", "1"]], "condition_substituted": ["cmp", "==", ["qty", "1", "1"], ["num", "1"]]}
+    flag = {
+        "condition": ["cmp", "==", A, ["num", "1"]],
+        "condition_substituted": ["cmp", "==", ["qty", "1", "1"], ["num", "1"]],
+    }
     assert said.condition(flag | {"words": "the roller is in a slot"}) is None
     assert said.condition(flag) is not None
 
@@ -328,7 +331,16 @@ def _links(item: dict[str, object]) -> str:
 def test_what_is_copied_or_nothing_is_said_once() -> None:
     taken = {"equation": ["sym", "y"], "substituted": ["qty", "1.3354", "K"], "result": {"text": "1.34", "unit": "K"}}
     assert _links(taken) == "x = y = 1.34 K"
-    other_unit = {"equation": ["sym", "y"], "substituted": ["qty", "10.47", "rad/s"], "result": {"text": "100", "unit": "rpm"}}
+    other_unit = {
+        "equation": ["sym", "y"],
+        "substituted": ["qty", "10.47", "rad/s"],
+        "result": {"text": "100", "unit": "rpm"},
+    }
     assert _links(other_unit) == "x = y = 10.47 rad/s = 100 r/min"
-    nothing = {"equation": ["num", "0"], "substituted": None, "bridge": {"text": "0", "unit": "rad"}, "result": {"text": "0", "unit": "deg"}}
+    nothing = {
+        "equation": ["num", "0"],
+        "substituted": None,
+        "bridge": {"text": "0", "unit": "rad"},
+        "result": {"text": "0", "unit": "deg"},
+    }
     assert _links(nothing) == "x = 0°"

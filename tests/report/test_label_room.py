@@ -257,8 +257,16 @@ def test_a_name_does_not_cover_other_marks() -> None:
 @pytest.mark.usefixtures("style")
 def test_the_name_of_an_area_covers_no_line_within_it() -> None:
     x = np.linspace(0.0, 10.0, 100)
-    lines = [Line(x, 5 + 4 * np.sin(3 * x) * share, "") for share in (0.2, 0.4, 0.6, 0.8)] + [Line(x, 0 * x + level, "") for level in (1, 2, 3, 4)]
-    panel = PanelData(title="T", unit="1", across=Across("x", "x", "1", 0.0, 10.0), lines=lines, fills=[Line(x, 0 * x + 9.0, "whole tension")])
+    lines = [Line(x, 5 + 4 * np.sin(3 * x) * share, "") for share in (0.2, 0.4, 0.6, 0.8)] + [
+        Line(x, 0 * x + level, "") for level in (1, 2, 3, 4)
+    ]
+    panel = PanelData(
+        title="T",
+        unit="1",
+        across=Across("x", "x", "1", 0.0, 10.0),
+        lines=lines,
+        fills=[Line(x, 0 * x + 9.0, "whole tension")],
+    )
     assert LabelLayout(panel, framed(panel, 182.0, 96.0)).outside == [0]
 
 

@@ -61,8 +61,8 @@ def test_no_line_ends_between_a_letter_and_its_number() -> None:
 
 @pytest.mark.parametrize(
     "text",
-    ["a bearing A or B, method C", "a V-belt and K factors", "5 m, 10⁻³ m², 3 N·m/rad", "in m/s, 1/h, r/min, J/(kg·K) or 0.3°/m", "Gent A. N. and Johnson P. L.",
-     "write (f) there", "C45E+N and NU2208E", "x-axis", "I.5", "the sector's arm"],
+    ["a bearing A or B, method C", "a V-belt and K factors", "5 m, 10⁻³ m², 3 N·m/rad", "in m/s, 1/h, r/min, J/(kg·K) or 0.3°/m",
+     "Gent A. N. and Johnson P. L.", "write (f) there", "C45E+N and NU2208E", "x-axis", "I.5", "the sector's arm"],
 )  # fmt: skip
 def test_letters_that_are_no_symbols(text: str) -> None:
     assert prose(text) == text.replace("'", "&#39;")

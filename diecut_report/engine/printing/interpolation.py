@@ -9,7 +9,7 @@ from diecut_report.contract.binding import bound
 from diecut_report.contract.part_steps import Interpolated
 from diecut_report.engine.printing.substitution import MOST_DIGITS, Elsewhere, Substitution
 from diecut_report.expressions import Node
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import shortest, with_unit
 from diecut_report.standards import sources_told
 
@@ -39,8 +39,8 @@ class BetweenRows(Substitution):
         rows = [Node("sym", (symbol,)) for number in (1, 2) for symbol in self._symbols(number)]
         return self.step.between.through(self._marked(self.step.of), *rows)
 
-    def told(self) -> str:
-        """Return in words the two rows, and where the table comes from."""
+    def told(self) -> dict[str, str]:
+        """Return in words the two rows, and the table with where it comes from."""
         rows = (
             ", ".join(
                 f"{symbol} = {with_unit(text, own.unit)}"
@@ -48,8 +48,8 @@ class BetweenRows(Substitution):
             )
             for number, row in enumerate(self.rows, 1)
         )
-        told = {"rows": "; ".join(rows), "sources": sources_told(self.step.table)}
-        return Phrase("Rows of the table: {rows}. {sources}", told)
+        told = Phrase("Rows of the table: {rows}.", rows="; ".join(rows))
+        return {"table_rows": told, "series": phrase(self.step.table.title), "note": sources_told(self.step.table)}
 
     def unit_of(self, declared: str, *, angle: bool) -> str:
         """Return the table's unit."""

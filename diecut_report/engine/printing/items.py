@@ -153,14 +153,13 @@ def _yes_or_no(calc: Calculation, step: Value, part: Bound) -> Item:
     """Whether a condition holds, with the one that does: itself or its opposite."""
     held = bool(calc[step.id][0, 0])
     substitution = Substitution(calc, part, lambda name: value_at(calc, name, None))
-    symbolic, numeric = _sides(substitution, held)
-    return _head(step) | _answer(symbolic, numeric, held=held)
+    return _head(step) | _answer(*_sides(substitution, held), held=held)
 
 
 def _answer(symbolic: Any = None, numeric: Any = None, *, held: bool) -> Item:
     """Yes or no, with the condition that says so where there is one."""
     condition = {"condition": symbolic, "condition_substituted": numeric} if symbolic else {}
-    result = {"text": "yes" if held else "no", "unit": "1"}
+    result = Item(text="yes" if held else "no", unit="1")
     return {"type": "choice", "words": "", "equation": None, "substituted": None, "result": result} | condition
 
 
@@ -191,7 +190,7 @@ def _formula(calc: Calculation, part: Bound, step: Step, axis: str | None, elsew
     if takes and numeric is None:
         item["note"] = methods.EQUAL_TERMS
     if isinstance(substitution, BetweenRows):
-        item["note"] = joined(filter(None, (item.get("note"), substitution.told())), " ")
+        item = substitution.told() | item
     return (
         item | bridged(substitution, numeric, target, result) | conversions(substitution, numeric) | {"result": result}
     )
@@ -277,13 +276,9 @@ def _computed(calc: Calculation, step: Computed | ComputedCurve | CurvePeriod) -
         return _head(step) | _answer(held=bool(calc[step.id][0, 0]))
     else:
         result = step_shown(calc, step, value_at(calc, step.id, calc.axis.get(step.id)))
-    found = _head(step) | {"type": "found", "relation": None, "method": method, "result": result}
-    return found | ({"chosen": True} if _is_chosen(step) else {})
-
-
-def _is_chosen(step: Step) -> bool:
-    """Whether plain code chose it in the place of an input that may be given."""
-    return isinstance(step, Computed) and bool(step.lacks)
+    is_chosen = isinstance(step, Computed) and step.lacks  # in the place of an input that may be given
+    chosen = {"chosen": True} if is_chosen else {}
+    return _head(step) | {"type": "found", "relation": None, "method": method, "result": result} | chosen
 
 
 def _made(calc: Calculation, step: MadeCurve) -> Item:

@@ -47,6 +47,8 @@ class FormulaItemKeys(ResultingKeys):
     type: Literal["formula"] = always("`formula`.")
     equation: Tree = always(f"The formula, {TREE}.")
     substituted: Tree | None = always("The same with numbers; null where there are none to put in.")
+    table_rows: str = sometimes("Of a number between two rows of a table: these rows.")
+    series: str = sometimes("The table that it is taken from.")
     bridge: ShownKeys = sometimes("The result in the unit that the numbers give, before it is converted.")
     conversions: list[ConversionKeys] = sometimes("Quantities that go in in another unit.")
     where: list[DefinitionKeys] = sometimes("What names in it stand for.")
