@@ -75,3 +75,9 @@ def test_phases_over_time_do_not_tell_their_time_once_more() -> None:
     over_time, over_angle = Tables("A", Catalogue("en")).of_phases({"moves": phase, "turns": turned})
     assert [unit for _, _, unit in over_time.columns] == ["", "", "ms", "ms", "ms"]
     assert [unit for _, _, unit in over_angle.columns] == ["", "", "°", "°", "°", "ms"]
+
+
+def test_the_head_of_a_column_leaves_out_what_is_explained_behind_a_semicolon() -> None:
+    column = {"title": "Side of the pulley; outside is on the back", "symbol": "", "unit": "1"}
+    table = Tables("A", Catalogue("en")).of_item({"title": "Pulleys", "columns": [column], "rows": [["inside"]]})
+    assert table.columns[0][0] == "Side of the pulley"
