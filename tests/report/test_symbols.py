@@ -51,3 +51,9 @@ def test_prose(text: str, html: str) -> None:
 def test_no_line_ends_between_a_letter_and_its_number() -> None:
     assert prose("angle, at φ = 180°") == "angle, at <i class=sy>φ</i>\u00a0=\u00a0180°"
     assert prose("a = b") == "<i class=sy>a</i> = <i class=sy>b</i>"
+
+
+def test_a_long_text_before_a_symbol_ends_where_a_line_may() -> None:
+    long = "Here the radius of the profile that is ground is, as the paper says,"
+    assert prose(f"{long} ρ") == f"<span>{long}</span> <i class=sy>ρ</i>"
+    assert prose("The radius is ρ") == "The radius is <i class=sy>ρ</i>"
