@@ -162,7 +162,10 @@ class _Filler:
     def _rows(self, outputs: Data) -> dict[str, QuantityRow]:
         """All outputs as lines, those of repeated parts counted."""
         nth = counted(outputs)
-        return {name: quantity_row(row, self.decimal, self._nth(row, nth.get(name)), self.tables.names) for name, row in outputs.items()}
+        return {
+            name: quantity_row(row, self.decimal, self._nth(row, nth.get(name)), self.tables.names)
+            for name, row in outputs.items()
+        }
 
     def _key_results(self, rows: dict[str, QuantityRow]) -> list[QuantityRow]:
         return [rows[name] for name, row in self.mechanism["outputs"].items() if row.get("key")] or list(rows.values())

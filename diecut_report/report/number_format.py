@@ -15,7 +15,9 @@ _RAISED = str.maketrans("0123456789-", f"{RAISED}⁻")
 _NUMBER = re.compile(r"([+-]?)(\d+)(?:\.(\d+))?(?:[eE]([+-]?\d+))?")
 _SPACED_FROM = 5  # digits: 10 000, but 1200
 # A long whole number of a sentence with its unit, and none that is a name: EN 10083.
-_LONG = re.compile(r"(?<![\w.,])\d{5,}(?=(?:[.,]\d+)?[ \u00a0](?:[kMG]?N|[kMG]?Pa|k?W|k?J|[mµ]?m|kg|s|h|r/min|1/h|1/s|K)(?!\w))")
+_LONG = re.compile(
+    r"(?<![\w.,])\d{5,}(?=(?:[.,]\d+)?[ \u00a0](?:[kMG]?N|[kMG]?Pa|k?W|k?J|[mµ]?m|kg|s|h|r/min|1/h|1/s|K)(?!\w))"
+)
 
 
 def parts(text: str) -> tuple[str, str, str, int] | None:

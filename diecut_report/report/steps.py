@@ -127,7 +127,9 @@ class PrintedSteps:
             condition=condition,
             definitions=tuple(self.said.definitions(item)),
             words=words,
-            text="" if item.get("equation") or item["type"] in WORDLESS else in_words(item["result"]["text"], self.tables.names),
+            text=""
+            if item.get("equation") or item["type"] in WORDLESS
+            else in_words(item["result"]["text"], self.tables.names),
             notes=tuple(self._notes(item, notes)),
             changed=item.get("changed", ""),
         )

@@ -217,6 +217,8 @@ def test_chapter_without_exports_says_nothing_of_files(chapters: dict[str, Print
 
 
 def test_sources_stand_by_the_alphabet_whatever_their_capitals(plain: Data) -> None:
-    plain["mechanisms"]["cylinder"]["sources"] = [{"id": name, "citation": name} for name in ("Shigley", "iwis", "Hertz")]
+    plain["mechanisms"]["cylinder"]["sources"] = [
+        {"id": name, "citation": name} for name in ("Shigley", "iwis", "Hertz")
+    ]
     names = [name for name, _ in Rendering(plain).material.document.sources]
     assert [name for name in names if name in ("Hertz", "iwis", "Shigley")] == ["Hertz", "iwis", "Shigley"]

@@ -295,7 +295,10 @@ def test_a_branch_is_shown_with_its_condition_once_and_named_after_that() -> Non
 
 def test_a_branch_whose_condition_is_that_one_is_one_is_named_alone() -> None:
     said = SaidOnce(_equations()[0], Catalogue("en"))
-    flag = {"condition": ["cmp", "==", A, ["num", "1"]], "condition_substituted": ["cmp", "==", ["qty", "1", "1"], ["num", "1"]]}
+    flag = {
+        "condition": ["cmp", "==", A, ["num", "1"]],
+        "condition_substituted": ["cmp", "==", ["qty", "1", "1"], ["num", "1"]],
+    }
     assert said.condition(flag | {"words": "the roller is in a slot"}) is None
     assert said.condition(flag) is not None
 

@@ -36,7 +36,12 @@ def test_a_name_keeps_its_form_and_a_choice_is_said_in_words(row: Data, text: st
 def test_a_result_that_is_the_name_of_a_part_is_printed_as_it_is_typed() -> None:
     found = {"value": "main_b", "display": {"text": "main_b", "unit": "1"}}
     assert value_in_words(found, {"main_b"}) == "main_b" and value_in_words(found) == "main b"
-    item = {"description": "Bearing of the least life", "symbol": "B_L", "source": "", "result": {"text": "main_b", "unit": "1"}}
+    item = {
+        "description": "Bearing of the least life",
+        "symbol": "B_L",
+        "source": "",
+        "result": {"text": "main_b", "unit": "1"},
+    }
     assert value_row(item, "F.21", None, "", ".", {"main_b"}).value == "main_b"
 
 

@@ -61,6 +61,8 @@ def test_a_long_list_is_cut_into_blocks_that_stay_whole_on_a_sheet() -> None:
 
 def test_a_letter_means_what_its_step_prints_and_not_what_a_chart_draws_with_it() -> None:
     made = mechanism()
-    made["curves"] = {"drawn": {"symbol": "a_c", "description": "Acceleration with another law", "display_unit": "1"}} | made["curves"]
+    made["curves"] = {
+        "drawn": {"symbol": "a_c", "description": "Acceleration with another law", "display_unit": "1"}
+    } | made["curves"]
     made["sections"][0]["items"][0]["id"] = "acceleration"
     assert symbol_rows(made)[0].meaning == "Acceleration"

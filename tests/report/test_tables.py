@@ -62,7 +62,9 @@ def test_rounding_beside_great_values_is_printed_as_zero() -> None:
 
 
 @pytest.mark.parametrize(
-    "curves", [(curve(*range(10, 350, 10), jump=2.0),), (curve(100.2, jump=2.0), curve())], ids=["too many", "not shared"]
+    "curves",
+    [(curve(*range(10, 350, 10), jump=2.0),), (curve(100.2, jump=2.0), curve())],
+    ids=["too many", "not shared"],
 )
 def test_pieces_that_are_too_many_or_not_shared_are_not_told_apart(curves: tuple[dict[str, Any], ...]) -> None:
     assert angles(*curves) == [20.0 * k for k in range(18)]
