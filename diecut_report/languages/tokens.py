@@ -13,7 +13,10 @@ _POWERS = re.compile(r"(?<=\bpolynomial )[0-9]+")
 
 
 def worded(text: str) -> str:
-    """Return a text input as words: ``stainless_304`` → stainless 304, ``polynomial_345`` → polynomial 3-4-5, ``crank_rocker`` → crank-rocker; other texts as they are."""
+    """Return a text input as words: ``stainless_304`` → stainless 304; other texts as they are.
+
+    ``polynomial_345`` → polynomial 3-4-5, ``crank_rocker`` → crank-rocker.
+    """
     if not _TOKEN.fullmatch(text):
         return text
     words = _JOINED.sub("crank-", text.replace("_", " "))

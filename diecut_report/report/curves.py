@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from itertools import pairwise
+from collections.abc import Mapping, Sequence
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -11,8 +10,9 @@ from numpy.typing import NDArray
 
 Data = Mapping[str, Any]
 Array = NDArray[Any]
-CURVE_ROWS = 12  # of a table of curves without breakpoints
-MOST_PIECES = 8  # for which a table has the ends and the middle of each: with more it would grow too long
+CURVE_ROWS = 18  # of a table of curves: of a turn each twentieth degree
+MOST_JUMPS = 8  # of which a table tells: with more it would grow too long
+SIDES: tuple[Literal["left", "right"], ...] = ("left", "right")
 
 ROUNDING = 1e-5  # of a curve's greatest value; where a root is taken of rounding, it grows to about a millionth
 
@@ -66,36 +66,23 @@ def through_pole(x: Array, y: Array) -> tuple[Array, Array]:
     return np.insert(x, change + 1, places), np.insert(y, change + 1, 0.0)
 
 
-def table_places(over: Data, members: Sequence[Data]) -> Iterator[CurvePlace]:
-    """Rows of a table of curves: each smooth piece's ends, the middle and as many beside it as there is room for.
+def table_places(over: Data, members: Sequence[Data]) -> list[CurvePlace]:
+    """Rows of a table of curves: at even steps of the samples; a jump adds two, before and after it.
 
-    A jump gives two rows, before and after it. Pieces that are too many are not told apart.
+    Of curves that jump at many places, or at different ones, no jump is told.
     """
-    x, breaks = np.asarray(over["values"], dtype=float), members[0].get("breakpoints", [])
-    if len(breaks) >= MOST_PIECES or any(curve.get("breakpoints", []) != breaks for curve in members):
+    x, breaks = over["values"], members[0].get("breakpoints", [])
+    if len(breaks) >= MOST_JUMPS or any(curve.get("breakpoints", []) != breaks for curve in members):
         breaks = []
-    count = max(1, CURVE_ROWS // (len(breaks) + 1) - 1) | 1  # an odd number has the middle
-    yield CurvePlace(float(x[0]), "values", 0)
-    for piece, (start, end) in enumerate(pairwise([x[0], *breaks, 2 * x[-1] - x[-2]])):
-        if piece:
-            yield CurvePlace(start, "left", piece - 1)
-        if piece and any(_jumps(curve, piece - 1) for curve in members):
-            yield CurvePlace(start, "right", piece - 1)
-        yield from (CurvePlace(float(x[index]), "values", index) for index in _within(x, start, end, count))
+    jumps = [index for index in range(len(breaks)) if any(_jumps(curve, index) for curve in members)]
+    sides = [CurvePlace(breaks[index], side, index) for index in jumps for side in SIDES]
+    even = [CurvePlace(float(x[number]), "values", number) for number in range(0, len(x), max(1, len(x) // CURVE_ROWS))]
+    margin = 1e-9 * float(np.ptp(x))
+    clear = [each for each in even if all(abs(each.x - breaks[index]) > margin for index in jumps)]
+    return sorted(clear + sides, key=lambda place: place.x)  # of equal ones the left side stays the first
 
 
 def _jumps(curve: Data, index: int) -> bool:
     """Whether a curve jumps at a breakpoint by more than rounding."""
     jump = abs(curve["right"][index] - curve["left"][index])
     return bool(jump > ROUNDING * max(map(abs, curve["values"])))
-
-
-def _within(x: Array, start: float, end: float, count: int) -> list[int]:
-    """So many samples between the ends of a piece, about equally far apart; fewer where it has fewer."""
-    margin = 1e-9 * float(np.ptp(x))
-    inside = np.nonzero((x > start + margin) & (x < end - margin))[0]
-    if not len(inside):
-        return []
-    sought = start + (end - start) * np.arange(1, count + 1) / (count + 1)
-    nearest = np.abs(x[inside] - sought[:, None]).argmin(axis=1)
-    return [int(index) for index in inside[np.unique(nearest)]]

@@ -13,7 +13,12 @@ Data = Mapping[str, Any]
 def given_names(mechanism: Data, mechanisms: Collection[str]) -> frozenset[str]:
     """Return the names among the inputs of a mechanism: those of its parts, and of the ``mechanisms`` that it takes."""
     rows = mechanism.get("inputs", {}).values()
-    return frozenset(text for row in rows for text in _texts(row["value"]) if is_name(row) or text in mechanisms)
+    return frozenset(
+        text
+        for row in rows
+        for text in _texts(row["value"])
+        if is_name(row) or (text in mechanisms and not _is_choice(row, text))
+    )
 
 
 def is_name(row: Data) -> bool:
@@ -31,6 +36,11 @@ def value_in_words(row: Data, names: Collection[str] = ()) -> str:
 def in_words(text: str, names: Collection[str]) -> str:
     """Return a found text as words, unless it is one of the names: bearing main_b is called so wherever it stands."""
     return text if text in names else worded(text)
+
+
+def _is_choice(row: Data, text: str) -> bool:
+    """Whether an input is a word that was typed, such as a role, and no mechanism, though one may be called so."""
+    return row.get("origin") == "given" and row.get("text") == text
 
 
 def _texts(value: Any) -> list[str]:

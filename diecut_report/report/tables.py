@@ -41,7 +41,7 @@ class Tables:
 
     def of_item(self, item: Data) -> PrintedTable:
         """A table of the calculation."""
-        columns = [(c["title"], symbol(c["symbol"]), pretty(c["unit"])) for c in item["columns"]]
+        columns = [(_head(c["title"]), symbol(c["symbol"]), pretty(c["unit"])) for c in item["columns"]]
         rows = [[number(text, self.decimal) for text in row] for row in item["rows"]]
         return PrintedTable(item["title"], *in_halves(columns, rows), self._number())
 
@@ -56,7 +56,7 @@ class Tables:
         ]
 
     def _curves(self, axis: Data, members: list[Data]) -> PrintedTable:
-        columns = [(c["description"], symbol(c["symbol"]), pretty(c["display_unit"])) for c in (axis, *members)]
+        columns = [(_head(c["description"]), symbol(c["symbol"]), pretty(c["display_unit"])) for c in (axis, *members)]
         rows = [
             [self._abscissa(axis, place.x), *(self._sample(curve, place) for curve in members)]
             for place in table_places(axis, members)
@@ -176,6 +176,11 @@ def _is_choice(row: Data) -> bool:
     """Whether what was typed is a word of the contract, which the shown one says in words."""
     typed = str(row.get("text") or "")
     return row["value"] == typed and typed.replace("_", "").isalnum() and typed.islower() and not typed.isdigit()
+
+
+def _head(description: str) -> str:
+    """A description as the head of a column: what it explains behind a semicolon stands where the quantity is given."""
+    return description.partition(";")[0]
 
 
 def in_halves(columns: list[Column], rows: list[list[str]]) -> tuple[list[Column], list[list[str]]]:

@@ -25,8 +25,8 @@ class Pulley(Block):
     side: Annotated[
         Literal["inside", "outside"],
         Text(
-            "Whether the pulley lies inside the belt's loop or outside it, on the belt's back; the driving or the cylinder's pulley "
-            "outside carries load there and needs a belt toothed on both sides"
+            "Side of the belt's loop on which the pulley lies; outside is on the belt's back: there the driving or the cylinder's pulley "
+            "needs a belt toothed on both sides"
         ),
     ]
     role: Annotated[

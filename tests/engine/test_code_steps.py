@@ -155,7 +155,9 @@ def test_formulas_of_rows_are_shown_with_the_part_that_is_named_and_the_table_ho
     assert doubled["note"] == "Shown for: right."
     table = next(item for item in section["items"] if item["type"] == "table")
     assert table["rows"] == [["left", "3", "6"], ["right", "6", "12"]]
-    assert all(item.get("id") != "worst" for item in section["items"])  # the index from 0, which says nothing to a reader
+    assert all(
+        item.get("id") != "worst" for item in section["items"]
+    )  # the index from 0, which says nothing to a reader
 
 
 def test_a_check_over_named_parts_tells_the_name() -> None:

@@ -50,8 +50,9 @@ def test_names_are_those_of_parts_and_of_mechanisms_that_are_taken() -> None:
         "loads.0.name": named("crank"),
         "loads.0.type": named("gear", "type"),
         "drives": named("", "") | {"value": ["feeder"]},
+        "pulleys.0.role": named("cylinder", "role"),  # a word that one of the mechanisms is called by, too
     }
-    assert given_names({"inputs": inputs}, {"feeder": {}, "gear_1": {}}) == {"crank", "feeder"}
+    assert given_names({"inputs": inputs}, {"feeder": {}, "gear_1": {}, "cylinder": {}}) == {"crank", "feeder"}
 
 
 def test_a_name_that_is_a_word_of_the_catalogue_is_not_translated(plain: Data) -> None:

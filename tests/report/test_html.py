@@ -148,3 +148,12 @@ def test_language_without_a_catalogue_is_refused(results: dict[str, Any]) -> Non
     results["project"]["language"] = "xx"
     with pytest.raises(UnknownLanguage):
         Rendering(results)
+
+
+def test_a_description_stands_in_an_element_of_its_own_before_another_one() -> None:
+    """A page engine that finds no room for the second one breaks the text before it at its first blank: Mean | torque at the shaft key."""
+    bare = re.compile(r"(?<!<span>)\{\{ \w+\.description\|prose \}\}(?:\{%[^%]*%\})* ?<span")
+    pages = [
+        page for page in html.folder().glob("*.j2") if page.name != "notebook.html.j2"
+    ]  # which is never set in sheets
+    assert [(page.name, found[0]) for page in pages for found in bare.finditer(page.read_text("utf-8"))] == []

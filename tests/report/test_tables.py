@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 import math
-from itertools import pairwise
 from typing import Any
 
 import pytest
@@ -37,24 +36,12 @@ def angles(*curves: dict[str, Any]) -> list[float]:
     return [round(math.degrees(place.x), 6) for place in table_places(TURN, curves)]
 
 
-def test_a_curve_without_breakpoints_has_a_row_for_each_twelfth_of_the_turn() -> None:
-    assert angles(curve()) == [30.0 * k for k in range(12)]
+def test_a_table_of_curves_stands_at_even_steps() -> None:
+    assert angles(curve()) == angles(curve(38.8465, 42.97, 55.695)) == [20.0 * k for k in range(18)]
 
 
-@pytest.mark.parametrize(
-    "breaks", [(200.0,), (38.8465, 42.97, 55.695), (19, 58.6, 154, 203, 254, 339.8, 342.4), (0.7, 1.6)]
-)
-def test_each_smooth_piece_has_its_ends_and_its_middle(breaks: tuple[float, ...]) -> None:
-    found = angles(curve(*breaks))
-    assert found == sorted(found)
-    assert len(set(found)) <= 16
-    for start, end in pairwise([0.0, *breaks, 360.0]):
-        inside = [x for x in found if start < x < end]
-        assert start in found and any(abs(x - (start + end) / 2) <= 0.25 + 1e-9 for x in inside)
-
-
-def test_a_piece_without_samples_has_its_ends_alone() -> None:
-    assert [x for x in angles(curve(100.1, 100.4)) if 100 < x < 101] == [100.1, 100.4]
+def test_a_jump_stands_twice_and_takes_the_place_of_a_step() -> None:
+    assert angles(curve(40.0, 55.5, jump=2.0))[:6] == [0.0, 20.0, 40.0, 40.0, 55.5, 55.5]
 
 
 def test_a_jump_has_a_row_before_and_one_after_it() -> None:
@@ -63,9 +50,9 @@ def test_a_jump_has_a_row_before_and_one_after_it() -> None:
 
 
 @pytest.mark.parametrize("rounding", [0.0, 1e-7, -1e-7])
-def test_a_breakpoint_without_a_jump_has_one_row(rounding: float) -> None:
+def test_a_breakpoint_without_a_jump_has_no_row(rounding: float) -> None:
     table = Tables("A", Catalogue("en")).of_curves({"angle": TURN, "force": curve(100.2, jump=rounding)})[0]
-    assert [row[1] for row in table.rows if row[0] == "100.2"] == ["5"]
+    assert [row[1] for row in table.rows if row[0] == "100.2"] == []
 
 
 def test_rounding_beside_great_values_is_printed_as_zero() -> None:
@@ -75,10 +62,12 @@ def test_rounding_beside_great_values_is_printed_as_zero() -> None:
 
 
 @pytest.mark.parametrize(
-    "curves", [(curve(*range(10, 350, 10)),), (curve(100.2), curve())], ids=["too many", "not shared"]
+    "curves",
+    [(curve(*range(10, 350, 10), jump=2.0),), (curve(100.2, jump=2.0), curve())],
+    ids=["too many", "not shared"],
 )
 def test_pieces_that_are_too_many_or_not_shared_are_not_told_apart(curves: tuple[dict[str, Any], ...]) -> None:
-    assert angles(*curves) == [30.0 * k for k in range(12)]
+    assert angles(*curves) == [20.0 * k for k in range(18)]
 
 
 def test_phases_over_time_do_not_tell_their_time_once_more() -> None:
@@ -88,3 +77,9 @@ def test_phases_over_time_do_not_tell_their_time_once_more() -> None:
     over_time, over_angle = Tables("A", Catalogue("en")).of_phases({"moves": phase, "turns": turned})
     assert [unit for _, _, unit in over_time.columns] == ["", "", "ms", "ms", "ms"]
     assert [unit for _, _, unit in over_angle.columns] == ["", "", "°", "°", "°", "ms"]
+
+
+def test_the_head_of_a_column_leaves_out_what_is_explained_behind_a_semicolon() -> None:
+    column = {"title": "Side of the pulley; outside is on the back", "symbol": "", "unit": "1"}
+    table = Tables("A", Catalogue("en")).of_item({"title": "Pulleys", "columns": [column], "rows": [["inside"]]})
+    assert table.columns[0][0] == "Side of the pulley"

@@ -17,11 +17,8 @@ Array = NDArray[Any]
 SIZE = 8.0
 AWAY = 14.0  # from a mark to its name, for which a thin line leads there, points
 DASHES_DIFFER = 4  # so many lines are told apart by their dashes alone; more are named at the lines
-OVER_CURVE, OVER_NOTE = (
-    8.0,
-    3.0,
-)  # how much each point counts that a text covers: of a curve, of what is noted beside it
-OVER_MARK = 9.0  # of which three points hide a mark
+# how much each point counts that a text covers: of a curve, of a mark or a line across, of a level or an edge of an area
+OVER_CURVE, OVER_MARK, OVER_NOTE = 8.0, 13.0, 3.0
 AIR = 1.0
 WIDE_ENOUGH = 4.0  # between a line's name and the other lines, points
 IN_THE_WAY = 24.0  # what a text would cover: three points of a line; it stands in the legend then
@@ -47,11 +44,10 @@ class LabelLayout:
         self.panel, self.frame = panel, frame
         self.texts: list[LabelText] = []
         self.lines = [sampled(frame.points(line.x, line.y)) for line in panel.lines]
-        marks = self._marks()
-        self.notes = np.concatenate([self._noted(), marks])
+        marks, notes = self._marks(), self._noted()
+        self.notes = np.concatenate([marks, notes])
         curves = np.concatenate([np.empty((0, 2)), *self.lines])
-        counts = [len(curves), len(self.notes) - len(marks), len(marks)]
-        weights = np.repeat([OVER_CURVE, OVER_NOTE, OVER_MARK], counts)
+        weights = np.repeat([OVER_CURVE, OVER_MARK, OVER_NOTE], [len(curves), len(marks), len(notes)])
         self.labels = Labels(np.concatenate([curves, self.notes]), (2, 2, frame.width - 2, frame.height - 2), weights)
         self._spans()
         self.tags = self._tags()
@@ -66,20 +62,21 @@ class LabelLayout:
         """Return whether a text stands in the diagram and covers nothing."""
         return any(each.text == text and not each.solid for each in self.texts)
 
-    def _noted(self) -> Array:
-        """Points of levels, vertical lines and edges of areas."""
+    def _marks(self) -> Array:
+        """Points of marks and of vertical lines, which a text would hide, or cut in two."""
         frame, panel = self.frame, self.panel
-        levels = [np.array([[0, y], [frame.width, y]]) for y in (frame.points(0, note.y)[1] for note in panel.levels)]
         uprights = [
             np.array([[x, 0], [x, frame.height]]) for x in (frame.points(note.x, 0)[0] for note in panel.verticals)
         ]
-        edges = [frame.points(area.x, area.y) for area in panel.fills]
-        return np.concatenate([np.empty((0, 2)), *map(sampled, [*levels, *uprights, *edges])])
+        marks = [frame.points(note.x, note.y) + np.array([[-3, -3], [3, 3]]) for note in panel.marks]
+        return np.concatenate([np.empty((0, 2)), *map(sampled, [*uprights, *marks])])
 
-    def _marks(self) -> Array:
-        """Points of the marks, which are hidden by what covers them as a line is."""
-        marks = [self.frame.points(note.x, note.y) + np.array([[-2, -2], [2, 2]]) for note in self.panel.marks]
-        return np.concatenate([np.empty((0, 2)), *map(sampled, marks)])
+    def _noted(self) -> Array:
+        """Points of levels and edges of areas."""
+        frame, panel = self.frame, self.panel
+        levels = [np.array([[0, y], [frame.width, y]]) for y in (frame.points(0, note.y)[1] for note in panel.levels)]
+        edges = [frame.points(area.x, area.y) for area in panel.fills]
+        return np.concatenate([np.empty((0, 2)), *map(sampled, [*levels, *edges])])
 
     def _write(
         self, text: str, places: Iterator[tuple[float, float]], of: tuple[float, float] | None = None, most: float = np.inf,
