@@ -13,7 +13,7 @@ from typing import Any, NamedTuple
 from matplotlib.backends.backend_mixed import MixedModeRenderer
 from matplotlib.backends.backend_svg import FigureCanvasSVG, RendererSVG
 from matplotlib.colors import rgb2hex
-from matplotlib.font_manager import FontProperties, fontManager, get_font, ttfFontProperty
+from matplotlib.font_manager import FontProperties, get_font, ttfFontProperty
 from matplotlib.textpath import TextToPath
 
 Size = tuple[float, float, float]
@@ -71,22 +71,16 @@ MEASURE = TextMeasure()
 class TextWriter(RendererSVG):
     """Writes a figure as SVG; the letters of a formula that look the same and stand on one line in one element."""
 
-    def __init__(self, width: float, height: float, file: Any, **given: Any) -> None:
-        super().__init__(width, height, file, **given)  # type: ignore[no-untyped-call]
-        self._text2path = MEASURE
+    def get_text_width_height_descent(self, s: str, prop: FontProperties, ismath: Any) -> Size:
+        """Width, height and what is below the line."""
+        return MEASURE.get_text_width_height_descent(s, prop, ismath)
 
-    def _get_font_height_metrics(self, prop: FontProperties) -> Size:
-        """The heights of a font above and below the line, and between lines, as the engine asks for them."""
-        size = prop.get_size_in_points()
-        above, below, between = _heights(_family(prop))
-        return above * size, below * size, between * size
-
-    def _draw_text_as_text(
-        self, gc: Any, x: float, y: float, s: str, prop: FontProperties, angle: float, ismath: Any, mtext: Any = None
-    ) -> None:
+    def draw_text(
+        self, gc: Any, x: float, y: float, s: str, prop: FontProperties, angle: float, ismath: Any = False, mtext: Any = None
+    ) -> None:  # fmt: skip
         """Write a text; the engine writes a plain one."""
         if not ismath:
-            super()._draw_text_as_text(gc, x, y, s, prop, angle, ismath, mtext)  # type: ignore[no-untyped-call]
+            super().draw_text(gc, x, y, s, prop, angle, ismath, mtext)  # type: ignore[no-untyped-call]
             return
         turn = f" rotate({_short(-angle)})" if angle else ""
         look = f"fill: {rgb2hex(gc.get_rgb())}"
@@ -133,14 +127,6 @@ def _face(file: str) -> str:
     found = ttfFontProperty(get_font(file))
     slant = "font-style: italic; " if found.style == "italic" else ""
     return f"{slant}font-size: {{}}px; font-family: '{found.name}'"
-
-
-@cache
-def _heights(family: str) -> Size:
-    """What the letters of a font take above and below the line, and between lines, in font sizes."""
-    font: Any = get_font(fontManager._find_fonts_by_props(FontProperties(family=family)))
-    table, units = font.get_sfnt_table("OS/2"), font.get_sfnt_table("head")["unitsPerEm"]
-    return table["sTypoAscender"] / units, -table["sTypoDescender"] / units, table["sTypoLineGap"] / units
 
 
 def _short(value: float) -> str:
