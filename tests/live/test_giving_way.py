@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import threading
 import time
 from collections.abc import Callable
@@ -14,7 +15,7 @@ from httpx import ASGITransport, AsyncClient
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import UserError
-from diecut_report.live import application, reports
+from diecut_report.live import application, reports, server
 from diecut_report.live import session as live_session
 from diecut_report.live.application import LiveApplication
 from diecut_report.live.session import LiveSession
@@ -93,6 +94,19 @@ def test_a_report_that_is_never_made_is_given_up(monkeypatch: pytest.MonkeyPatch
     monkeypatch.setattr(reports, "PATIENCE", 0.05)  # an interpreter takes longer to begin
     with pytest.raises(UserError, match=r"not made within 0\.05 s"):
         asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made({}, "html"), 60))
+
+
+def test_full_passes_over_what_stays_do_not_stop_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = list[int]()
+    monkeypatch.setattr(server._Server, "run", lambda *_, **__: kept.append(gc.get_freeze_count()))
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    session = LiveSession(file, Discovery([]))
+    try:
+        server.serve(LiveApplication(session, (), None), 0, lambda _: None)
+    finally:
+        gc.unfreeze()
+    assert kept[0] > 10_000
 
 
 def endless(*_: object) -> None:
