@@ -530,17 +530,19 @@
 
   function placed(shape, node, now, dot) {
     if (shape.role === "ground" && shape.shape === "polyline") { node.setAttribute("d", grounded(now, dot)); return; }
+    if (shape.shape === "label") { node.setAttribute("x", now[0]); node.setAttribute("y", -now[1]); return; }
     if (shape.shape === "rigid") { node.setAttribute("transform", "translate(" + now[0] + " " + -now[1] + ") rotate(" + -now[2] + ")"); return; }
     if (shape.shape === "polyline") { node.setAttribute("points", now.map(function (value, at) { return at % 2 ? -value : value; }).join(" ")); return; }
     node.setAttribute("cx", now[0]); node.setAttribute("cy", -now[1]); node.setAttribute("r", shape.shape === "circle" ? now[2] : dot);
   }
 
   /* The nodes of shapes, drawn where they stand still; those that move are told to ``moves``. */
-  function drawn(shapes, sheet, dot, moves) {
+  function drawn(shapes, sheet, dot, moves, letter) {
     shapes.forEach(function (shape) {
-      var name = shape.shape === "rigid" ? "g" : shape.role === "ground" && shape.shape === "polyline" ? "path" : shape.shape === "polyline" ? (shape.closed ? "polygon" : "polyline") : "circle";
+      var name = shape.shape === "rigid" ? "g" : shape.shape === "label" ? "text" : shape.role === "ground" && shape.shape === "polyline" ? "path" : shape.shape === "polyline" ? (shape.closed ? "polygon" : "polyline") : "circle";
       var node = svg(name, shape.role ? { "class": "m-" + shape.role } : {});
       sheet.append(node);
+      if (shape.text) { node.setAttribute("class", "m-label " + shape.anchor); node.setAttribute("font-size", letter); node.append(shape.text); }
       if (shape.shapes) { drawn(shape.shapes, node, dot, moves); }
       if (shape.numbers) { placed(shape, node, shape.numbers, dot); } else { moves.push([shape, node]); }
     });
@@ -549,10 +551,13 @@
   function mover(moving, box) {
     var places = data.rows[moving.places], dot = Math.max(moving.room[2], moving.room[3]) / 90, moves = [];
     var sheet = svg("svg", { viewBox: moving.room.join(" "), role: "img", "aria-label": moving.title, "class": "moving" });
-    drawn(moving.shapes, sheet, dot, moves);
+    drawn(moving.shapes, sheet, dot, moves, moving.letter);
     box.append(sheet);
+    var timed = moving.shapes.map(function (shape, at) { return [shape.during, sheet.children[at]]; }).filter(function (pair) { return pair[0]; });
+    if (moving.shapes.some(function (shape) { return shape.text; })) { sheet.classList.add("labelled"); }
     groups[moving.group].members.push({ range: moving.across.range, at: function (x) {
       var k = 1;
+      timed.forEach(function (pair) { pair[1].classList.toggle("m-on", x >= pair[0][0] && x < pair[0][1]); });
       while (k < places.length - 1 && places[k] < x) { k += 1; }
       var share = Math.max(0, Math.min(1, (x - places[k - 1]) / (places[k] - places[k - 1] || 1)));
       moves.forEach(function (pair) {
@@ -597,14 +602,26 @@
     var figure = document.getElementById("fig-" + moving.figure), box = make("div", { "class": "reading large" }), group = groups[moving.group];
     figure.querySelector(".fig").after(box);
     mover(moving, box);
+    if (moving.shapes.some(function (shape) { return shape.text; })) { inPlace(figure, box); } // with all its words it says what the printed one does
     slider(moving, box);
     player(group, moving.across.range, box);
     move(group, group.place);
   }
 
+  /* What is read stands in the place of what was printed, which a button shows. */
+  function inPlace(figure, box) {
+    var button = make("button", { type: "button", "class": "as-printed", "aria-pressed": "false" }, words.printed);
+    box.after(button);
+    button.addEventListener("click", function () {
+      var printed = figure.classList.toggle("printed");
+      button.setAttribute("aria-pressed", String(printed));
+    });
+    figure.classList.add("read");
+  }
+
   function readable(number) {
     var figure = document.getElementById("fig-" + number), svg = figure.querySelector(".fig"), panels = data.figures[number].panels, isBeside = data.figures[number].beside;
-    var box = make("div", { "class": "reading" }), button = make("button", { type: "button", "class": "as-printed", "aria-pressed": "false" }, words.printed);
+    var box = make("div", { "class": "reading" });
     var tall = isBeside ? 130 : Math.max(130, Math.min(240, svg.clientHeight / panels.length - 30));
     figure.insertBefore(box, isBeside ? svg.nextSibling : svg);
     panels.forEach(function (panel, index) {
@@ -612,12 +629,7 @@
       if (!panels[index + 1] || panels[index + 1].group !== panel.group) { slider(panel, box); beside(groups[panel.group], box); }
     });
     if (!isBeside) {
-      box.after(button);
-      button.addEventListener("click", function () {
-        var printed = figure.classList.toggle("printed");
-        button.setAttribute("aria-pressed", String(printed));
-      });
-      figure.classList.add("read");
+      inPlace(figure, box);
     }
     panels.forEach(function (panel) {
       move(groups[panel.group], groups[panel.group].place);

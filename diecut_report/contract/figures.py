@@ -172,7 +172,8 @@ class Drawing(Figure):
     ``scaled_by`` names the optional input without which the shapes have relative lengths (``unit`` is then a pure number).
     A ``schematic`` one is not to scale: its coordinates only say what stands beside what.
     ``moving`` gives polylines, circles, points and what is ``rigid`` at a place of the curves' abscissa ``over``, always the same ones
-    in the same order: on a screen they move with the cursor of the curves.
+    in the same order: on a screen they move with the cursor of the curves. Labels may stand among them; a shape
+    with ``"during": [start, end]`` is filled while the cursor is between these places. A machine without that abscissa has the drawing alone.
     """
 
     build: Callable[[View], list[Shape]]

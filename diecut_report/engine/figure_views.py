@@ -175,6 +175,8 @@ def _moving(calc: Calculation, drawing: Drawing) -> dict[str, Any]:
     """What moves in a drawing at places of its abscissa; what it asks for is told by the drawing itself."""
     if drawing.moving is None:
         return {}
+    if drawing.over not in calc.domains and any(step.id == drawing.over for _, step in calc.mechanism.steps):
+        return {}  # this machine is without what it moves over
     curve_named(calc, drawing.over, drawing.over)
     places = frame_places(calc.domains[drawing.over])
     view = MachineView(calc, places)

@@ -16,6 +16,7 @@ from diecut_report.languages.phrases import Phrase
 FRAMES = 72  # places of a turn, beside the ends of its pieces; a screen draws straight on between them
 BEFORE = 1e-9  # of the abscissa: so far before the end of a piece its curves are still those of the piece
 MOVABLE = ("polyline", "circle", "point")
+STANDING = ("label",)  # what may stand beside them
 
 
 def frame_places(domain: Domain) -> tuple[float, ...]:
@@ -48,13 +49,15 @@ def _form(shape: Shape) -> tuple[Any, ...]:
     """What must not change from place to place."""
     if shape["shape"] == "rigid":
         return "rigid", shape["shapes"]
+    if shape["shape"] in STANDING:
+        return shape["shape"], shape["text"], shape["anchor"], *shape["at"]
     return shape["shape"], shape.get("role"), shape.get("closed"), len(shape.get("points", ()))
 
 
 def _is_movable(shape: Shape) -> bool:
     if shape["shape"] == "rigid":
         return all(own["shape"] in MOVABLE for own in shape["shapes"])
-    return shape["shape"] in MOVABLE
+    return shape["shape"] in (*MOVABLE, *STANDING)
 
 
 def _moved(shapes: Sequence[Shape]) -> Shape:

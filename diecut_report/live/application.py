@@ -25,7 +25,7 @@ from diecut_report.live.page import assets, page
 from diecut_report.live.page_data import page_data
 from diecut_report.live.pictures_of_run import Pictures
 from diecut_report.live.reports import LiveReports
-from diecut_report.live.session import LiveMachine, LiveSession
+from diecut_report.live.session import LiveMachine, LiveSession, in_time
 
 Found = TypeVar("Found")
 SETTLED, STEP = 60, 20  # milliseconds: an editor may write a file in several steps
@@ -190,7 +190,8 @@ class LiveApplication:
 
         def made() -> dict[str, Any]:
             machine = self.session.machine
-            return {"none": True} if machine is None else make(machine)
+            with in_time(self.session.file):
+                return {"none": True} if machine is None else make(machine)
 
         return made
 
@@ -198,7 +199,7 @@ class LiveApplication:
         machine = self.session.machine
         if machine is None:
             return Response(say("There is no machine to report of yet; see the faults of the file."), 409)
-        results = await self._done(machine.run.document)
+        results = await self._done(self._of_last(lambda last: last.run.document()))
         made = await self.reports.made(results, request.path_params["form"])
         return Response(made.content, media_type=made.media_type, headers=made.headers)
 

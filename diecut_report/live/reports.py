@@ -14,6 +14,7 @@ from diecut_report.results.results_file import encoded, results_text
 
 MEDIA_TYPES = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
 NAME = "report"
+PATIENCE = 900.0  # seconds for a report; while one is made the next waits
 
 
 class MadeReport(NamedTuple):
@@ -66,10 +67,16 @@ class LiveReports:
         process = await asyncio.create_subprocess_exec(*command, *options, cwd=folder, stdin=asyncio.subprocess.DEVNULL,
                                                        stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE)  # fmt: skip
         try:
-            _, told = await process.communicate()
+            async with asyncio.timeout(PATIENCE):
+                _, told = await process.communicate()
         except asyncio.CancelledError:
             process.kill()
             raise
+        except TimeoutError:
+            process.kill()
+            await process.wait()
+            words = "The report was not made within {seconds} s, and was given up."
+            raise UserError(Problem(Phrase(words, seconds=f"{PATIENCE:g}"))) from None
         files = list((folder / "made").glob(f"*.{form}"))
         if not files:
             raise UserError(Problem(told.decode(errors="replace").strip() or phrase("The report was not made.")))

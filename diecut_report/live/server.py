@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import errno
+import gc
 import secrets
 import socket
 from collections.abc import Callable
@@ -25,6 +26,8 @@ def serve(application: LiveApplication, port: int, ready: Callable[[str], None])
         guarded = Guard(application.starlette, own, token)
         settings = uvicorn.Config(guarded, log_level="critical", access_log=False, server_header=False, date_header=False,
                                   timeout_graceful_shutdown=ENDING, lifespan="on", ws="none")  # fmt: skip
+        gc.collect()
+        gc.freeze()  # program and first machine stay to the end: each full pass over them would stop the page
         listening.listen()
         ready(f"http://{HOST}:{own}/{token}/")
         _Server(settings, application).run(sockets=[listening])

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
 from typing import Any
@@ -19,10 +20,12 @@ from diecut_report.files import write
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity
 from diecut_report.results.warm_press import WarmPress, WarmRun
+from diecut_report.study.execution.time_limit import Overran, limited
 
 Data = dict[str, Any]
 LONGEST = 100  # letters of a number that is typed on the page
 MOST_EDITS = 1_000
+PATIENCE = 120.0  # seconds that the machine may be calculated, or something of it made: a plugin may never come back
 
 
 @dataclass(frozen=True)
@@ -163,7 +166,8 @@ class LiveSession:
         if self.tree is None:
             return
         try:
-            machine = self._made(self.tree)
+            with in_time(self.file):
+                machine = self._made(self.tree)
         except UserError as error:
             self._failed(error.problems)
         except PluginError as error:
@@ -190,6 +194,17 @@ class LiveSession:
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)
         self.serial += 1
+
+
+@contextmanager
+def in_time(file: Path) -> Iterator[None]:
+    """Let what runs within take so long at most; UserError with the place in the plugin that does not come back."""
+    try:
+        with limited(PATIENCE):
+            yield
+    except Overran as cause:
+        words = Phrase("it did not come back within {seconds} s ({said})", seconds=f"{PATIENCE:g}", said=said(cause))
+        raise UserError(Problem(words, str(file))) from cause
 
 
 def _chosen(asked: DesignChoice, typed: str) -> str:

@@ -16,6 +16,10 @@ from diecut_report.report.reader_pool import X_DIGITS, Y_DIGITS, ReaderRows, rou
 Data = Mapping[str, Any]
 Points = NDArray[Any]
 AIR = 0.03  # around all that is ever drawn, of its greater side
+LETTER, WIDE = (
+    0.024,
+    0.56,
+)  # the size of labels, of that side, and how wide a letter of them is in the mean, of that size
 
 
 def moving_data(chapter: str, number: str, figure: Data, curves: Data, pool: ReaderRows) -> dict[str, Any]:
@@ -29,13 +33,16 @@ def moving_data(chapter: str, number: str, figure: Data, curves: Data, pool: Rea
         "across": {"title": tidy(over["description"]), "symbol": over["symbol"], "unit": pretty(shown), "range": ends},
         "places": pool.row(places / unit(shown).factor, X_DIGITS),
         "room": _room(moving["shapes"]),
-        "shapes": [_shape(shape, pool) for shape in moving["shapes"]],
+        "letter": rounded([_letter(moving["shapes"])])[0],
+        "shapes": [{**_shape(shape, pool), **_during(shape, shown)} for shape in moving["shapes"]],
     }  # fmt: skip
 
 
 def _shape(shape: Data, pool: ReaderRows) -> Data:
     """A shape: its own numbers where it stands still, else those at each place, one that does not change once."""
-    kept = {key: shape[key] for key in ("shape", "role", "closed") if shape.get(key)}
+    kept = {key: shape[key] for key in ("shape", "role", "closed", "anchor") if shape.get(key)}
+    if "text" in shape:
+        kept["text"] = tidy(shape["text"])
     if "shapes" in shape:
         kept["shapes"] = [_shape(own, pool) for own in shape["shapes"]]
     if "moves" not in shape:
@@ -44,6 +51,11 @@ def _shape(shape: Data, pool: ReaderRows) -> Data:
     if "shapes" in shape:
         columns[2] = np.degrees(columns[2])
     return kept | {"rows": [pool.row(row[:1] if (row == row[0]).all() else row, Y_DIGITS) for row in columns]}
+
+
+def _during(shape: Data, shown: str) -> Data:
+    """Between which places of the abscissa a shape is filled."""
+    return {"during": [to_display(end, shown) for end in shape["during"]]} if "during" in shape else {}
 
 
 def _standing(shape: Data) -> list[float | None]:
@@ -61,10 +73,28 @@ def _own(shape: Data) -> list[float]:
 
 def _room(shapes: Sequence[Data]) -> list[float | None]:
     """Left, top, width and height (downwards) of all that is drawn at any place, with some air."""
-    ends = np.concatenate([end for shape in shapes for end in _ends(shape)])
-    low, high = ends.min(axis=0), ends.max(axis=0)
+    size = _letter(shapes)
+    ends = [end for shape in shapes for end in _ends(shape)] + [_written(shape, size) for shape in _labels(shapes)]
+    low, high = np.concatenate(ends).min(axis=0), np.concatenate(ends).max(axis=0)
     air = AIR * float((high - low).max())
     return rounded([low[0] - air, -high[1] - air, *(high - low + 2 * air)])
+
+
+def _labels(shapes: Sequence[Data]) -> list[Data]:
+    return [shape for shape in shapes if shape["shape"] == "label"]
+
+
+def _letter(shapes: Sequence[Data]) -> float:
+    """The size of labels."""
+    ends = np.concatenate([end for shape in shapes for end in _ends(shape)])
+    return LETTER * float((ends.max(axis=0) - ends.min(axis=0)).max())
+
+
+def _written(shape: Data, size: float) -> Points:
+    """The corners of a label."""
+    wide, (x, y) = WIDE * size * len(shape["text"]), shape["at"]
+    left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[shape["anchor"]] * wide
+    return np.array([[left, y - size / 2], [left + wide, y + size / 2]])
 
 
 def _ends(shape: Data) -> list[Points]:

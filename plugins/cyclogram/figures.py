@@ -98,6 +98,19 @@ def rows(view: View) -> list[Shape]:
     return [*_shades(timing, y), *_scale(timing, y), *shapes]
 
 
+def at_angle(view: View, angle: float) -> list[Shape]:
+    """The rows with a line across all of them at an angle of the main shaft; the bars are filled while it passes them."""
+    still, scale = view.once(rows), view.prepared("timing").period / WIDTH
+    heights = [y for shape in still if shape["shape"] == "polyline" for _, y in shape["points"]]
+    shapes = [shape | {"during": _ends(shape, scale)} if shape.get("role") == "outline" else shape for shape in still]
+    return [*shapes, polyline([(angle / scale, max(heights)), (angle / scale, min(heights))], "mark")]
+
+
+def _ends(bar: Shape, scale: float) -> list[float]:
+    places = [x * scale for x, _ in bar["points"]]
+    return [min(places), max(places)]
+
+
 def rings(view: View) -> list[Shape]:
     """A ring for each line, the common period once round, clockwise from the top."""
     timing: Timing = view.prepared("timing")
@@ -197,6 +210,8 @@ FIGURES = (
         caption="When each mechanism does what, over the common period of the main shaft; below, for each interlock, what must be held "
         "(brackets) within what holds it (light), with the least margins at the start and at the end. Shaded: dwell.",
         build=rows,
+        moving=at_angle,
+        over="main_angle",
         schematic=True,
     ),
     Drawing(

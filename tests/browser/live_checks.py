@@ -43,7 +43,7 @@ def live(tmp_path: Path) -> Iterator[Live]:
     yield made
     if made.process.poll() is None:
         made.process.kill()
-        made.process.communicate()
+        made.process.communicate(timeout=30)
 
 
 class Tab:

@@ -45,7 +45,8 @@ def test_what_is_rigid_lies_turned_and_then_shifted_in_a_still_drawing() -> None
 
 @pytest.mark.parametrize("frames", [
     [SPOKE, [*SPOKE, *SPOKE]], [SPOKE, [polyline([(0.0, 0.0), (1.0, 0.0), (2.0, 0.0)], "body")]], [SPOKE, [circle((0.0, 0.0), 1.0, "body")]],
-    [[rigid(SPOKE)], [rigid([circle((0.0, 0.0), 1.0)])]], [[label((0.0, 0.0), "A")]], [[rigid([label((0.0, 0.0), "A")])]],
+    [[rigid(SPOKE)], [rigid([circle((0.0, 0.0), 1.0)])]],
+    [[label((0.0, 0.0), "A")], [label((0.0, 0.0), "B")]], [[label((0.0, 0.0), "A")], [label((1.0, 0.0), "A")]], [[rigid([label((0.0, 0.0), "A")])]],
 ])  # fmt: skip
 def test_what_changes_but_for_its_place_is_refused_in_words(frames: list[list[dict[str, Any]]]) -> None:
     with pytest.raises(Undrawable, match="must be the same polyline, circle, point, rigid at each place"):

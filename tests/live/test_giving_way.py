@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import asyncio
+import gc
 import threading
 import time
 from collections.abc import Callable
@@ -13,7 +14,9 @@ import pytest
 from httpx import ASGITransport, AsyncClient
 
 from diecut_report.config.discovery import Discovery
-from diecut_report.live import application
+from diecut_report.errors import UserError
+from diecut_report.live import application, reports, server
+from diecut_report.live import session as live_session
 from diecut_report.live.application import LiveApplication
 from diecut_report.live.session import LiveSession
 from tests.configs import EXAMPLES
@@ -60,6 +63,54 @@ def test_a_table_in_another_folder_is_read_again_when_it_changes(tmp_path: Path)
 
     asyncio.run(asyncio.wait_for(told(), 60))
     assert session.faults[0].file == str(table)
+
+
+def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    session = LiveSession(file, Discovery([]))
+    made = LiveApplication(session, (), None)
+    monkeypatch.setattr(live_session, "PATIENCE", 0.2)
+
+    async def told() -> tuple[int, bytes]:
+        with monkeypatch.context() as patch:
+            patch.setattr(LiveSession, "_made", endless)
+            patch.setattr(application, "effect", endless)
+            await made._done(session.read)
+            assert session.machine is not None and "did not come back within 0.2 s" in str(session.faults[0].message)
+            transport = ASGITransport(made.starlette)
+            async with AsyncClient(transport=transport, base_url="http://page") as page:
+                answer = await page.get("/effect", params={"input": "knife.depth"})
+        await made._done(session.read)
+        return answer.status_code, answer.content
+
+    status, content = asyncio.run(asyncio.wait_for(told(), 60))
+    assert status == 422 and b"did not come back within 0.2 s" in content and not session.faults
+
+
+def test_a_report_that_is_never_made_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
+    monkeypatch.setattr(reports, "PATIENCE", 0.05)  # an interpreter takes longer to begin
+    with pytest.raises(UserError, match=r"not made within 0\.05 s"):
+        asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made({}, "html"), 60))
+
+
+def test_full_passes_over_what_stays_do_not_stop_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    kept = list[int]()
+    monkeypatch.setattr(server._Server, "run", lambda *_, **__: kept.append(gc.get_freeze_count()))
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    session = LiveSession(file, Discovery([]))
+    before = gc.get_freeze_count()
+    server.serve(LiveApplication(session, (), None), 0, lambda _: None)
+    assert kept[0] > before
+
+
+def endless(*_: object) -> None:
+    """A plugin that does not come back."""
+    while True:
+        time.sleep(0.01)
 
 
 def test_an_effect_gives_way_to_a_change_and_is_made_again_after_it(

@@ -4,8 +4,14 @@ from __future__ import annotations
 
 from pathlib import Path
 
+import numpy as np
+import pytest
+
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
 from tests.configs import HEAD, problems, saved
 
 PLUGIN = """
@@ -45,6 +51,37 @@ def test_a_line_without_a_known_way_is_reported_without_the_figure_of_ways(tmp_p
     assert main(["report", str(saved(tmp_path, HEAD + LINES)), *more]) == 0
     page = (tmp_path / "out" / "press.html").read_text("utf-8")
     assert "Cyclogram, once round" in page and "Ways and slack" not in page
+
+
+def test_a_line_across_all_rows_follows_the_angle_and_the_bars_that_it_passes_are_filled(tmp_path: Path) -> None:
+    """The feeder carries from 30° to 120°; of the period of 360° a twelfth and a third."""
+    saved(tmp_path, PLUGIN, "small_feeder.py")
+    config = load_config(saved(tmp_path, HEAD + LINES), Discovery([tmp_path]))
+    [figure] = [
+        each for each in document(compute(config, lambda _: None))["mechanisms"]["cyc"]["figures"] if "moving" in each
+    ]
+    shapes, places = figure["moving"]["shapes"], np.array(figure["moving"]["places"])
+    [cursor] = [np.array(shape["moves"]) for shape in shapes if "moves" in shape]
+    assert cursor[:, 0] == pytest.approx(places / (2 * np.pi) * 8) and cursor[:, 0] == pytest.approx(cursor[:, 2])
+    heights = [y for shape in shapes if shape["shape"] == "polyline" and "points" in shape for _, y in shape["points"]]
+    assert set(cursor[:, 1]) == {max(heights)} and set(cursor[:, 3]) == {min(heights)}
+    filled = [shape["during"] for shape in shapes if "during" in shape]
+    assert np.degrees(filled) == pytest.approx(np.array([[30, 120], [120, 360], [0, 30]]))
+    assert [shape["text"] for shape in shapes if shape["shape"] == "label"][5:7] == [
+        "feeder.carrying",
+        "feeder.returning",
+    ]
+
+
+def test_a_cyclogram_of_lines_at_other_rates_than_the_press_stands_still(tmp_path: Path) -> None:
+    saved(tmp_path, PLUGIN, "small_feeder.py")
+    config = load_config(
+        saved(tmp_path, HEAD + LINES.replace("small_feeder}", "small_feeder, rate: 5000}")), Discovery([tmp_path])
+    )
+    figures = document(compute(config, lambda _: None))["mechanisms"]["cyc"]["figures"]
+    assert "cyclogram" in [each["id"] for each in figures if each.get("shapes")] and not any(
+        "moving" in each for each in figures
+    )
 
 
 def test_a_curve_in_place_of_its_name_is_told(tmp_path: Path) -> None:

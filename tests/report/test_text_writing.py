@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import inspect
 import re
 from io import StringIO
 from xml.etree import ElementTree
@@ -12,10 +13,28 @@ from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
 
 from diecut_report.report.figures.style import canvas, written
-from diecut_report.report.figures.text_writing import TextCanvas, TextMeasure
+from diecut_report.report.figures.text_writing import TextCanvas, TextMeasure, TextWriter
 from diecut_report.report.pdf_figures import FigurePicture
 
 TEXTS = ("die", "c = 164.9 mm", r"$R_{\mathrm{b}}$ = 70 mm", r"Displacement $S$, mm", r"$\varphi$")
+
+
+@pytest.mark.parametrize("own", [TextMeasure, TextWriter, TextCanvas])
+def test_only_what_the_drawing_engine_offers_is_put_in_the_place_of_its_own(own: type) -> None:
+    """What begins with a low line the engine may rename in any version, and then a figure would be written in another way unnoticed."""
+    known = {name for base in own.__mro__[1:] for name in vars(base)}
+    private = [name for name in vars(own) if name.startswith("_") and not name.startswith("__") and name in known]
+    hidden = re.findall(r"(?:self|font_?manager|renderer|super\(\))\._(?!_)\w+", inspect.getsource(own), re.IGNORECASE)
+    assert private == [] and set(hidden) <= {f"self.{name}" for name in vars(own)}
+
+
+@pytest.mark.usefixtures("style")
+def test_texts_are_drawn_by_the_call_that_is_replaced(monkeypatch: pytest.MonkeyPatch) -> None:
+    """Where the engine drew a formula in another way than by ``draw_text``, its letters would come one by one."""
+    drawn: list[str] = []
+    monkeypatch.setattr(TextMeasure, "placed", lambda _, s, prop: drawn.append(s) or [])
+    written(_labelled("$S$ = 2"), "Title")
+    assert drawn == ["$S$ = 2"]
 
 
 def _labelled(text: str, *, turned: float = 0.0) -> Figure:
@@ -82,8 +101,6 @@ def test_a_turned_formula_is_turned_about_its_place() -> None:
 @pytest.mark.usefixtures("style")
 def test_heights_of_lines_are_those_of_the_drawing_engine() -> None:
     from matplotlib.backends.backend_svg import RendererSVG
-
-    from diecut_report.report.figures.text_writing import TextWriter
 
     figure = _labelled("die\nsecond line")
     figure.dpi = 72  # as where a figure is written

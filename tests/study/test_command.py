@@ -312,7 +312,7 @@ def test_progress_on_a_terminal(tmp_path: Path) -> None:
         except OSError:  # the program has closed its end
             break
     os.close(parent)
-    assert shown.wait() == 0
+    assert shown.wait(timeout=60) == 0
     assert b"6/6" in told
     assert b"0 of 6 fail" in told
     assert b"summary" in told

@@ -71,7 +71,7 @@ def cluster(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Iterator[Cluster
     finally:
         for process in reversed(made.started):
             process.kill()
-            process.wait()
+            process.wait(timeout=60)
 
 
 @pytest.mark.nightly

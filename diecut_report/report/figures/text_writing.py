@@ -102,7 +102,7 @@ class TextCanvas(FigureCanvasSVG):
         """Write the figure into an open text file."""
         dpi, self.figure.dpi = self.figure.dpi, 72
         width, height = self.figure.get_size_inches()
-        writer = TextWriter(width * 72, height * 72, filename, image_dpi=dpi, metadata=metadata)
+        writer = TextWriter(width * 72, height * 72, filename, image_dpi=dpi, metadata=metadata)  # type: ignore[no-untyped-call]
         renderer: Any = MixedModeRenderer(self.figure, width, height, dpi, writer)  # type: ignore[no-untyped-call]
         self.figure.draw(renderer)
         renderer.finalize()
