@@ -46,6 +46,7 @@ class _Search:
         self.axis, self.edges = axis, edges
         self.sound: set[str] = set()  # curves that were searched
         self.ends: dict[str, Array] = {}  # of quantities, just inside of each piece, where rounding decides nothing
+        self._asked: dict[str, Deciding] = {}
         self.pieces = calc.table(axis).pieces()
         own = np.flatnonzero(~np.isin(self.pieces.variant, list(calc.flaws)))
         size = max(1, BLOCK // (self.pieces.intervals + 1))
@@ -72,7 +73,9 @@ class _Search:
 
     def asked(self, curve: str) -> Deciding:
         """Return what makes a curve jump."""
-        return asked(tuple(self.calc.curves.items()), self.axis, curve)
+        if curve not in self._asked:
+            self._asked[curve] = asked(tuple(self.calc.curves.items()), self.axis, curve)
+        return self._asked[curve]
 
     def coming(self, curve: str) -> list[str]:
         """Return the curve, and those that will be asked for."""
