@@ -1,7 +1,8 @@
 """A press calculated again and again, as while somebody changes a number: only what depends on the change is calculated anew.
 
 ``WarmPress`` remembers the calculations of the last few machines. A mechanism whose inputs, numbers and what others give it
-alike, are the same as before is not calculated a second time, and nothing is printed before it is asked for:
+alike, are the same as before is not calculated a second time, and nothing is printed before it is asked for. A curve that it
+takes is the same where all that it follows from is, though the mechanism that gives it was calculated anew:
 
     press = WarmPress()
     run = press.calculate(config)       # UserError in words where the machine is impossible, as of any calculation
