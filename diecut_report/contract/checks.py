@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Iterator, Sequence
 from dataclasses import dataclass, replace
+from functools import lru_cache
 from typing import Literal
 
 import numpy as np
@@ -82,6 +83,7 @@ class Check:
         beyond = np.inf if self.fails_beyond is None else self.fails_beyond
         return np.full(np.shape(utilisation), True) if self.severity == "fail" else np.asarray(utilisation) > beyond
 
+    @lru_cache(maxsize=4096)  # noqa: B019  # checks are declared once; what is known of each is kept by the object that it is
     def of_part(self, index: int, name: str) -> Check:
         """Return the check of one part alone."""
         own = self.part_id.format(id=self.id, name=name)

@@ -54,9 +54,10 @@ class CurveSampler:
         self.known: dict[str, Array] = {axis: x}
 
     def __getitem__(self, name: str) -> Array:
-        if name not in self.known:
-            self.known[name] = self._compute(name)
-        return self.known[name]
+        found = self.known.get(name)
+        if found is None:
+            found = self.known[name] = self._compute(name)
+        return found
 
     def over(self, name: str) -> Array:
         """Return a curve, or a number, at each of the places."""

@@ -80,6 +80,8 @@ class Counted(Phrase):
 
 def filled(template: str, values: Mapping[str, str]) -> str:
     """Return a template with its values in; a place without a value stands as it is."""
+    if "{" not in template:
+        return template
 
     def said(place: re.Match[str]) -> str:
         name = place[1]

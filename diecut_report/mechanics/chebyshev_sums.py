@@ -27,11 +27,11 @@ def _summed(terms: Array, piece: Array, x: Array) -> Array:
     after, here = np.zeros((2, *x.shape))
     own = terms.take(piece, axis=1)
     for coefficients in own[:0:-1]:
-        np.multiply(twice, here, out=product)
-        np.subtract(product, after, out=after)
-        after += coefficients
+        np.multiply(twice, here, product)  # named arguments take as long as a few places
+        np.subtract(product, after, after)
+        np.add(after, coefficients, after)
         after, here = here, after
-    np.multiply(x, here, out=product)
+    np.multiply(x, here, product)
     product -= after
     product += own[0]
     return product

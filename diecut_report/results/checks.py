@@ -122,7 +122,7 @@ def _compared(calc: Calculation, check: Check) -> Array:
     sides = [side for pair in pairs for side in pair]
     if any(side.shape != (calc.count, 1) for side in sides):
         sides = list(np.broadcast_arrays(*sides, np.empty((calc.count, 1)))[:-1])
-    found = np.moveaxis(np.array(sides).reshape(len(pairs), 2, calc.count, -1), 0, 2)
+    found = np.array(sides).reshape(len(pairs), 2, calc.count, -1).transpose(1, 2, 0, 3)
     return found if check.index is None else found[..., [check.index]]
 
 
@@ -282,8 +282,10 @@ def _margin(margin: float, display: str, texts: list[dict[str, str]]) -> dict[st
     if abs(float(texts[0]["text"])) < NOTHING_BESIDE * abs(float(texts[1]["text"])):
         return texts[1]
     seen = Decimal(texts[1]["text"]) - Decimal(texts[0]["text"])
-    told = [shown(margin, display, digits) for digits in MARGIN_DIGITS]
-    found = next((each for each in told if seen.quantize(number := Decimal(each["text"])) == number), told[-1])
+    for digits in MARGIN_DIGITS:
+        found = shown(margin, display, digits)
+        if seen.quantize(number := Decimal(found["text"])) == number:
+            break
     return found | {"text": _no_finer(found["text"], seen)}
 
 

@@ -1,7 +1,8 @@
 """A press calculated again and again, as while somebody changes a number: only what depends on the change is calculated anew.
 
 ``WarmPress`` remembers the calculations of the last few machines. A mechanism whose inputs, numbers and what others give it
-alike, are the same as before is not calculated a second time, and nothing is printed before it is asked for:
+alike, are the same as before is not calculated a second time, and nothing is printed before it is asked for. A curve that it
+takes is the same where all that it follows from is, though the mechanism that gives it was calculated anew:
 
     press = WarmPress()
     run = press.calculate(config)       # UserError in words where the machine is impossible, as of any calculation
@@ -26,7 +27,7 @@ from typing import Any
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.contract.inputs import Block, flatten
+from diecut_report.contract.inputs import SI, Block, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, CurveHandle, calculate
 from diecut_report.engine.chosen_units import ChosenUnits
@@ -76,6 +77,8 @@ def _same(one: Any, other: Any) -> bool:
         return len(one) == len(other) and all(map(_same, one, other))
     if isinstance(one, CurveHandle):
         return same_curve(one, other)
+    if isinstance(one, SI):
+        return all(_same(getattr(one, part), getattr(other, part)) for part in ("value", "unit", "told"))
     if isinstance(one, float):
         return one == other and math.copysign(1, one) == math.copysign(1, other)
     return one is other or bool(one == other)
@@ -86,6 +89,7 @@ class WarmPress:
 
     def __init__(self) -> None:
         self._known: dict[str, list[Remembered]] = {}
+        self.judged: dict[str, tuple[type[Block], Data, Block]] = {}  # for each instance what was found valid last
 
     def calculate(self, config: Config, tell: Tell = lambda _: None) -> WarmRun:
         """Calculate a configuration; UserError where the machine is impossible.
@@ -120,6 +124,17 @@ class WarmRun(Run):
         self.press, self._tell = press, tell
         self.remembered: dict[str, Remembered] = {}
         super().__init__(config, lambda _: None)
+
+    def _validated(self, name: str, instance: Instance, data: Data) -> bool:
+        """What was found valid is not judged a second time."""
+        model, known, block = self.press.judged.get(name, (None, None, None))
+        if block is not None and model is instance.model and _same(known, data):
+            self.blocks[name] = block
+            return True
+        is_valid = super()._validated(name, instance, data)
+        if is_valid:
+            self.press.judged[name] = instance.model, data, self.blocks[name]
+        return is_valid
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         chosen = self.chosen_units(instance.name)

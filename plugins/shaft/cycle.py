@@ -102,8 +102,10 @@ class Cycle:
         )
 
     def _component(self, name: str, share: Array, middle: Array, rows: Array) -> Array:
-        found = [_value(each, share, middle, rows, self.places.shape[1]) for each in self.given[name]]
-        return np.stack([np.broadcast_to(each, share.shape) for each in found])
+        found = np.empty((len(self.given[name]), *share.shape))
+        for row, each in zip(found, self.given[name], strict=True):
+            row[...] = _value(each, share, middle, rows, self.places.shape[1])
+        return found
 
     def _balanced(self, torque: Array) -> Array:
         """The torques with that of the load that balances them, which stands as 0."""

@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from dataclasses import dataclass
-from functools import cached_property
-from typing import Any
+from functools import cached_property, lru_cache
+from typing import Any, NamedTuple
 
 import numpy as np
 from numpy.typing import NDArray
@@ -14,7 +14,9 @@ from diecut_report.mechanics.beams import Bent, Loading, Supports
 from diecut_report.plugins.shaft.body import Body
 
 Array = NDArray[Any]
+KEPT = 32  # shafts that are remembered: where a press is calculated again, it is mostly with other loads
 WITHIN = np.linspace(0, 1, 5)  # of a piece, where the greatest deflection is looked for over the cycle
+FINE = np.linspace(0, 1, 101)  # of a piece, where the greatest deflection is looked for at its instant
 
 
 @dataclass(frozen=True)
@@ -55,6 +57,11 @@ class ElasticShaft:
         """Return what unit loads bend at these places and some between them."""
         return self.by_unit_loads(between(self.x, WITHIN))
 
+    @cached_property
+    def closely(self) -> Bent:
+        """Return what unit loads bend at these places and many between them."""
+        return self.by_unit_loads(between(self.x, FINE))
+
     def by_unit_loads(self, x: Array) -> Bent:
         """Return the deflection lines at places that hold all others, for a unit force, and for a unit couple, at the place of
         each load (places, variants, loads)."""
@@ -66,6 +73,7 @@ class ElasticShaft:
         found = beams.bent(x[:, chosen], self.stiffness_of(x)[:, chosen], loading, supports)
         return Bent(x, found.deflection[:, like], found.slope[:, like])
 
+    @cached_property
     def critical(self) -> beams.Critical:
         """Return the critical speed with its bounds."""
         chosen, like = self._unlike
@@ -92,6 +100,39 @@ class ElasticShaft:
         geometry = np.concatenate([self.x, self.stiffness_of(self.x), *masses, self.places, own])
         _, first, like = np.unique(geometry, axis=1, return_index=True, return_inverse=True)
         return first, like.ravel()
+
+
+class _Alone(NamedTuple):
+    """Hold a single shaft as a key: equal are those that are the same to the last bit."""
+
+    shaft: ElasticShaft
+    content: tuple[Any, ...]
+
+    def __eq__(self, other: object) -> bool:
+        return isinstance(other, _Alone) and self.content == other.content
+
+    def __hash__(self) -> int:
+        return hash(self.content)
+
+
+def remembered(shaft: ElasticShaft) -> ElasticShaft:
+    """Return a shaft, of a single variant the one that is the same to the last bit and known already, with all that was found of it."""
+    if len(shaft.modulus) != 1:
+        return shaft
+    parts = (*vars(shaft.body).values(), *vars(shaft.supports).values(), *(vars(shaft)[name] for name in NUMBERS))
+    return _kept(_Alone(shaft, tuple(map(_content, parts))))
+
+
+NUMBERS = ("places", "masses", "modulus", "density")
+
+
+def _content(part: Any) -> Any:
+    return (part.shape, part.dtype.str, part.tobytes()) if isinstance(part, np.ndarray) else part
+
+
+@lru_cache(maxsize=KEPT)
+def _kept(alone: _Alone) -> ElasticShaft:
+    return alone.shaft
 
 
 def between(x: Array, shares: Array) -> Array:

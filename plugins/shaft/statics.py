@@ -14,10 +14,9 @@ from diecut_report.mechanics import beams
 from diecut_report.mechanics.beams import SAME_PLACE, Bent, Loading, Supports
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import SPARSE, Cycle, Instants, looked_at_first
-from diecut_report.plugins.shaft.elastic import ElasticShaft, between
+from diecut_report.plugins.shaft.elastic import ElasticShaft
 
 Array = NDArray[Any]
-FINE = np.linspace(0, 1, 101)  # of a piece, where the greatest deflection is looked for at its instant
 PROVED = 24  # instants at which the deflection line is proved by its energy
 
 
@@ -194,8 +193,7 @@ class Statics:
         window = np.clip(near[:, None] + np.arange(1 - SPARSE, SPARSE), 0, count - 1)
         chosen = self.at_instants(window).instant_of_deflection
         instant = np.take_along_axis(window, chosen[:, None], axis=1)[:, 0]
-        fine = self.elastic.by_unit_loads(between(self.x, FINE)).deflection
-        return np.max(self.at_instant(instant)._resultant(fine), axis=(0, 2)), instant
+        return np.max(self.at_instant(instant)._resultant(self.elastic.closely.deflection), axis=(0, 2)), instant
 
     @property
     def instant_of_deflection(self) -> Array:

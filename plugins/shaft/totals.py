@@ -21,7 +21,7 @@ def numbers(statics: Statics) -> dict[str, Array]:
     slope = statics.slopes(np.stack([statics.supports.first, statics.supports.second]))
     locating = np.sum(statics.loads.axial_force, axis=0)
     bounds = statics.cycle.bounds("axial_force", np.ones((1, *statics.cycle.places.shape)))
-    critical = statics.elastic.critical()
+    critical = statics.elastic.critical
     return {
         "reaction_a": np.max(reactions[0], axis=1),
         "reaction_b": np.max(reactions[1], axis=1),

@@ -14,7 +14,7 @@ from diecut_report.mechanics.beams import Loading, Supports
 from diecut_report.plugins.shaft import formulas, totals
 from diecut_report.plugins.shaft.body import Body
 from diecut_report.plugins.shaft.cycle import Cycle, Instants, side_by_side
-from diecut_report.plugins.shaft.elastic import ElasticShaft
+from diecut_report.plugins.shaft.elastic import ElasticShaft, remembered
 from diecut_report.plugins.shaft.material_point import worst_points
 from diecut_report.plugins.shaft.statics import Sides, Statics
 
@@ -72,7 +72,9 @@ class UnderLoad:
         elastic = ElasticShaft(
             Body(**vars(body) | arrays), supports, cycle.places, cycle.mass, self.elastic[rows], self.density[rows]
         )
-        return Statics(elastic, cycle, loads, supports.first if self.at_a else supports.second, self.shear[rows])
+        return Statics(
+            remembered(elastic), cycle, loads, supports.first if self.at_a else supports.second, self.shear[rows]
+        )
 
     @cached_property
     def numbers(self) -> dict[str, Array]:

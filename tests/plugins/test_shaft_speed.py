@@ -7,7 +7,7 @@ import pytest
 
 from diecut_report.mechanics.beams import Supports
 from diecut_report.plugins.shaft.body import NO_NOTCH, Body
-from diecut_report.plugins.shaft.elastic import ElasticShaft
+from diecut_report.plugins.shaft.elastic import ElasticShaft, remembered
 from diecut_report.plugins.shaft.material_point import Points
 
 PLACES, INSTANTS = 5, 300
@@ -50,6 +50,13 @@ def test_variants_of_one_body_among_others_have_the_numbers_of_each_alone() -> N
     diameters = [0.04, 0.05, 0.04, 0.03, 0.05]
     together = shaft(diameters)
     alone = [shaft([each]) for each in diameters]
-    assert together.critical().speed == pytest.approx([each.critical().speed[0] for each in alone], rel=1e-12)
+    assert together.critical.speed == pytest.approx([each.critical.speed[0] for each in alone], rel=1e-12)
     for index, each in enumerate(alone):
         np.testing.assert_allclose(together.at_joints.slope[:, index], each.at_joints.slope[:, 0], rtol=1e-12)
+
+
+def test_a_body_that_is_the_same_is_known_already() -> None:
+    known = remembered(shaft([0.04]))
+    assert remembered(shaft([0.04])) is known
+    assert remembered(shaft([0.05])) is not known
+    assert remembered(together := shaft([0.04, 0.05])) is together

@@ -104,8 +104,51 @@ def test_other_units_are_shown_anew(tmp_path: Path) -> None:
 
 
 @pytest.mark.parametrize(
+    ("name", "share", "calculated"),
+    [
+        ("drive.carriage_clearance", 1.01, ["drive", "timing", "train", "consistency"]),
+        ("drive.cutting_force_per_length", 1.02, None),
+    ],
+)
+def test_a_curve_that_is_as_it_was_leaves_who_takes_it(
+    full_press: tuple[WarmPress, Config], name: str, share: float, calculated: list[str] | None
+) -> None:
+    """The drive is calculated anew, its curves of unit motion, and those of torque where no force has changed, are the same."""
+    press, start = full_press
+    config = changed(start, f"mechanisms.{name}", share * find_given(start, name))
+    names: list[str] = []
+    run, cold = press.calculate(config, names.append), WarmPress().calculate(config)
+    assert names == calculated or calculated is None
+    assert run.checks == cold.checks
+    for own in run.calculations:
+        shown = ([each.outputs(own), each.curves(own)] for each in (run, cold))
+        assert len({results_text({"": parts}) for parts in shown}) == 1
+
+
+@pytest.fixture(scope="module")
+def full_press() -> tuple[WarmPress, Config]:
+    press, config = WarmPress(), load_config(PRESS, DISCOVERY)
+    press.calculate(config)
+    return press, config
+
+
+def find_given(config: Config, name: str) -> float:
+    found = given(config, find_input(config, f"mechanisms.{name}"))
+    assert found is not None
+    return found
+
+
+@pytest.mark.parametrize(
     ("one", "other"),
-    [(0.0, -0.0), (1, 1.0), (1, True), ((1.0, None), (1.0,)), ((1.0, 0.0), (1.0, -0.0)), ({"a": 1.0}, {"b": 1.0})],
+    [
+        (SI(0.0, "m", "a.b"), SI(-0.0, "m", "a.b")),
+        (0.0, -0.0),
+        (1, 1.0),
+        (1, True),
+        ((1.0, None), (1.0,)),
+        ((1.0, 0.0), (1.0, -0.0)),
+        ({"a": 1.0}, {"b": 1.0}),
+    ],
 )
 def test_inputs_that_are_only_nearly_the_same_are_others(tmp_path: Path, one: Any, other: Any) -> None:
     calculation = WarmPress().calculate(loaded(tmp_path, LEVER)).calculations["a"]

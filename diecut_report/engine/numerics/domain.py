@@ -171,7 +171,8 @@ class Domain:
         period, middles = self.period_of(rows), self.middles_of(rows)
         piece = self.middle_piece_of(middle * period, rows)
         is_each = np.shape(middle) == np.shape(share) and middles.shape[1] < share.shape[1]
-        return share * period, np.take_along_axis(middles, piece, axis=1), (middles, piece) if is_each else None
+        own = middles[0].take(piece) if len(middles) == 1 else np.take_along_axis(middles, piece, axis=1)
+        return share * period, own, (middles, piece) if is_each else None
 
     def middles_of(self, rows: Array | None) -> Array:
         """Return the middle of each piece of variants (default all), shape (rows, pieces)."""

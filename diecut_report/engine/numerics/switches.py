@@ -46,6 +46,8 @@ class _Search:
         self.axis, self.edges = axis, edges
         self.sound: set[str] = set()  # curves that were searched
         self.ends: dict[str, Array] = {}  # of quantities, just inside of each piece, where rounding decides nothing
+        self._asked: dict[str, Deciding] = {}
+        self._names: dict[str, list[str]] = {}  # for each curve, what decides in it
         self.pieces = calc.table(axis).pieces()
         own = np.flatnonzero(~np.isin(self.pieces.variant, list(calc.flaws)))
         size = max(1, BLOCK // (self.pieces.intervals + 1))
@@ -72,7 +74,9 @@ class _Search:
 
     def asked(self, curve: str) -> Deciding:
         """Return what makes a curve jump."""
-        return asked(tuple(self.calc.curves.items()), self.axis, curve)
+        if curve not in self._asked:
+            self._asked[curve] = asked(tuple(self.calc.curves.items()), self.axis, curve)
+        return self._asked[curve]
 
     def coming(self, curve: str) -> list[str]:
         """Return the curve, and those that will be asked for."""
@@ -81,7 +85,7 @@ class _Search:
 
     def _prepare(self, curve: str) -> None:
         """Compute what decides in this curve and the coming ones on the grid, with them, as it is a part of them."""
-        names = dict.fromkeys(name for each in self.coming(curve) for name in self._deciding(self.asked(each)))
+        names = dict.fromkeys(name for each in self.coming(curve) for name in self._deciding_in(each))
         new = [name for name in names if name not in self.ends and self.is_curve(name)]
         if new:
             table = self.calc.table(self.axis)
@@ -89,6 +93,11 @@ class _Search:
             ends = np.stack([self.pieces.left, self.pieces.right], axis=1)
             found = table.curves(new).at(self.pieces.inside(ends, slice(None)))
             self.ends |= zip(new, found, strict=True)
+
+    def _deciding_in(self, curve: str) -> list[str]:
+        if curve not in self._names:
+            self._names[curve] = list(self._deciding(self.asked(curve)))
+        return self._names[curve]
 
     def _deciding(self, question: Deciding) -> Iterator[str]:
         """The quantities that decide, and that flags follow from."""

@@ -72,13 +72,19 @@ class PieceRows:
         inside = np.minimum(places + towards, 1 - NARROW)
         if not places.size:
             return np.zeros(places.shape)
+        if places.shape[1] == 1:  # as a search for a root or an extreme asks, again and again
+            return self._in_pieces(piece := self._piece_of(inside, machine), self._shares(places, piece))
         found = np.empty(places.shape)
         ends = self._piece_of(np.stack([inside.min(axis=1), inside.max(axis=1)], axis=1), machine)
         alike = (ends[:, 0] == ends[:, 1]) & np.isfinite(inside).all(axis=1)
         for rows in filter(len, (np.flatnonzero(alike), np.flatnonzero(~alike))):
             piece = ends[rows, :1] if alike[rows].all() else self._piece_of(inside[rows], machine[rows])
-            found[rows] = self._in_pieces(piece, 2 * (places[rows] - self.low[piece]) / self.width[piece] - 1)
+            found[rows] = self._in_pieces(piece, self._shares(places[rows], piece))
         return found
+
+    def _shares(self, places: Array, piece: Array) -> Array:
+        """Where places lie in their pieces, from -1 to 1."""
+        return 2 * (places - self.low[piece]) / self.width[piece] - 1
 
     def _piece_of(self, inside: Array, machine: Array) -> Array:
         """The piece that each place (rows, points) lies in."""
