@@ -16,6 +16,7 @@ ADDED = {  # by the version of the form; a test holds them against its hashes
     "1.2": "`value` of a place, `over` of an extreme or a mean",
     "1.3": "`form_version`; `influence` of the file and of `report`",
     "1.4": "`taken` of a table, `chosen` of a printed quantity",
+    "1.5": "`table_rows` and `series` of a formula",
 }
 HISTORY = "\n".join(f"| {version} | {told} |" for version, told in ADDED.items())
 INTRODUCTION = f"""\

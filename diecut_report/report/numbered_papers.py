@@ -10,6 +10,7 @@ from diecut_report.report.translated import NUMBERS, SAID
 
 Data = Mapping[str, Any]
 PAPER = re.compile(r"\d{3}")
+BRACKETS = re.compile(r"\((\[\d+\])\)")  # about the brackets of a number
 CITING = SAID | {"source", "text", "note", "absent"}
 """Keys of results whose texts may name a source."""
 
@@ -55,4 +56,4 @@ class _Numbered:
         return self._text(part) if isinstance(part, str) else self.walk(part)
 
     def _text(self, text: str) -> str:
-        return self.named.sub(lambda found: self.papers[found[0]], text)
+        return BRACKETS.sub(r"\1", self.named.sub(lambda found: self.papers[found[0]], text))

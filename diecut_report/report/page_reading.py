@@ -46,7 +46,12 @@ def _needed_style() -> Any:
 
 
 def read_page(source: str, fetcher: URLFetcher, *, is_own: bool) -> HTML:
-    """Return the page of a source; one that is not the program's own (``is_own``), or not well-formed, is read by the rules of HTML."""
+    """Return the page of a source; one that is not the program's own (``is_own``), or not well-formed, is read by the rules of HTML.
+
+    The space before a symbol stands for itself: where only a space at a text's end has no room, the page engine breaks the text at its first
+    place.
+    """
+    source = source.replace(f" {SYMBOL}", f"<span> </span>{SYMBOL}")
     if is_own:
         try:
             return ReadPage(fromstring(well_formed(source)), fetcher)

@@ -73,7 +73,7 @@ def test_what_is_printed_gives_the_result() -> None:
     items = {item.get("id"): item for section in section_items(calc) for item in section["items"]}
     for name, wanted in forms(200.0).items():
         assert eval_json(items[name]["substituted"]) == pytest.approx(1000 * wanted, rel=1e-3)
-        assert "n_1 = 100 r/min, F_" in items[name]["note"]
+        assert "n_1 = 100 r/min, F_" in items[name]["table_rows"]
     assert items["log_x"]["result"] == {"text": "1.699", "unit": "kN"}  # 2 − lg 2
 
 

@@ -17,7 +17,7 @@ def test_papers_stand_by_their_number_and_nothing_else_changes() -> None:
         "sources": sources,
         "sections": [{"items": [item]}],
         "curves": curves,
-        "assumptions": ["the press of 000", "003."],
+        "assumptions": ["the press (000)", "003."],
     }
     found = numbered({"mechanisms": {"m": mechanism}, "config": {"file": "000"}})
     assert [source["id"] for source in found["mechanisms"]["m"]["sources"]] == ["[2]", "ISO 76", "[1]"]
@@ -27,7 +27,7 @@ def test_papers_stand_by_their_number_and_nothing_else_changes() -> None:
         "symbol": "I_000",
         "text": "as I_000 (figure 3 of [1]): 10 000 h, 0.003 mm, 5,003",
     }
-    assert found["mechanisms"]["m"]["assumptions"] == ["the press of [1]", "[2]."]
+    assert found["mechanisms"]["m"]["assumptions"] == ["the press [1]", "[2]."]
     assert found["config"] == {"file": "000"}
 
 

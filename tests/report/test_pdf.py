@@ -218,3 +218,13 @@ def test_the_print_page_reads_the_same_as_xml_and_as_html(plain: dict[str, Any],
 def test_a_page_that_is_not_xml_is_read_as_html() -> None:
     page = read_page("<html><p>a<p>b \x01", URLFetcher(), is_own=True)
     assert [node.tag for node in page.etree_element.iter("p")] == ["p", "p"]
+
+
+def test_the_space_before_a_symbol_stands_for_itself() -> None:
+    """Else the page engine breaks the text at its first place where only that space has no room."""
+    page = read_page("<html><p>pressed with <i class=sy>P</i> there</p></html>", URLFetcher(), is_own=True)
+    (paragraph,) = page.etree_element.iter("p")
+    assert (paragraph.text, [(part.tag, part.text) for part in paragraph]) == (
+        "pressed with",
+        [("span", " "), ("i", "P")],
+    )
