@@ -331,10 +331,10 @@ def test_a_link_is_replaced_and_not_what_it_points_to(tmp_path: Path) -> None:
 
 
 def test_a_report_of_a_broken_plugin_is_written_all_the_same(tmp_path: Path) -> None:
-    text = LEVER + "  x: {kind: breaks_in_calculation}\n  b: {kind: lever, force: 1, arm: '${x.result}'}\n"
+    text = LEVER + "  broken: {kind: breaks_in_calculation}\n  b: {kind: lever, force: 1, arm: '${broken.result}'}\n"
     written = pipeline.report(saved(tmp_path, text), ALL, silent, tmp_path, ("html",)).written
     html = written[0].read_text("utf-8")
-    assert "the plugin fell over" in html and "It refers to x" in html
+    assert "the plugin fell over" in html and "It refers to broken" in html
 
 
 def test_a_report_tells_of_a_broken_comparison(tmp_path: Path) -> None:

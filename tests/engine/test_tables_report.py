@@ -34,7 +34,7 @@ def test_the_report_prints_rows_sources_and_the_line_between(tmp_path: Path, plu
     assert outcome.broken == ()
     assert text.count("From “Bearings” for 6204<") == 1  # of the bore and of the capacity together
     assert text.count("Bearings: List one; List two") == 1
-    plain = re.sub("<[^>]*>", "", text)
+    plain = re.sub("<[^>]*>", "", text).replace("\u00a0", " ")
     assert "Rows of the table: z1 = 15, Y1 = 0.29; z2 = 20, Y2 = 0.32." in plain
     assert plain.count("Factors of teeth: Book one; Book two") == 1
 
