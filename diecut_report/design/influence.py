@@ -99,16 +99,16 @@ def tornados(
     if not inputs:
         words = phrase("nothing is given as a number that is not zero, so nothing has an influence.")
         raise UserError(Problem(words, config.tree.file))
-    steps = [tolerances.get(each) or _step(each, share) for each in inputs]
+    ends = [_ends(each, tolerances.get(each) or _step(each, share)) for each in inputs]
     asked = [quantity(config, name) for name in names]
-    made = _beside(config, inputs, steps, asked)
+    made = _beside(config, inputs, ends, asked)
     if not made.exists[0]:
         raise UserError(Problem(made.reasons[0], config.tree.file))
     asked = asked or [quantity(config, name) for name in _governing(made)]
     for number in asked:
         _require_value(config, made, number)
     left = 0 if defaults else sum(1 for each in standing if each.today and each.asked.path not in own)
-    return [replace(_tornado(made, each, inputs, steps), at_default=left) for each in asked]
+    return [replace(_tornado(made, each, inputs, ends), at_default=left) for each in asked]
 
 
 def require_scatter(design: DesignInput) -> None:
@@ -129,15 +129,31 @@ def _step(design: DesignInput, share: float) -> float:
     return max(1.0, float(round(size))) if design.is_whole else size
 
 
+def _ends(design: DesignInput, step: float) -> tuple[float, float]:
+    """The input lowered and raised, not beyond the range that its declaration has: no machine there says anything of this one.
+
+    Towards an end that does not belong to the range it goes half the way; of listed numbers the next ones are taken.
+    """
+    today = design.today or 0.0
+    if listed := [value * design.meta.parsed_unit.factor for value in design.meta.listed]:
+        near = STILL * abs(today)
+        return (max((each for each in listed if each < today - near), default=today),
+                min((each for each in listed if each > today + near), default=today))  # fmt: skip
+    low, high = design.bounds
+    found = np.array([max(today - step, low), min(today + step, high)])
+    lowered, raised = np.where(design.allows(found), found, (found + today) / 2)
+    return float(lowered), float(raised)
+
+
 def _beside(
-    config: Config, inputs: Sequence[DesignInput], steps: Sequence[float], asked: Sequence[AskedNumber]
+    config: Config, inputs: Sequence[DesignInput], ends: Sequence[tuple[float, float]], asked: Sequence[AskedNumber]
 ) -> VariedMachines:
     """Today's machine, then for each input the one with less and the one with more of it."""
     count = 1 + 2 * len(inputs)
     given = {}
-    for index, (design, step) in enumerate(zip(inputs, steps, strict=True)):
+    for index, (design, pair) in enumerate(zip(inputs, ends, strict=True)):
         column = np.full(count, design.today)
-        column[1 + 2 * index : 3 + 2 * index] += (-step, step)
+        column[1 + 2 * index : 3 + 2 * index] = pair
         given[design.asked] = column
     return varied(config, given, count, [each.asked for each in asked if each.asked is not None])
 
@@ -154,19 +170,13 @@ def _governing(made: VariedMachines) -> list[str]:
 
 
 def _tornado(
-    made: VariedMachines, asked: AskedNumber, inputs: Sequence[DesignInput], steps: Sequence[float]
+    made: VariedMachines, asked: AskedNumber, inputs: Sequence[DesignInput], ends: Sequence[tuple[float, float]]
 ) -> Tornado:
     values = made.values(asked.column)
     today = float(values[0])
     bars = [
-        InputEffect(
-            each,
-            (each.today or 0.0) - step,
-            (each.today or 0.0) + step,
-            float(values[1 + 2 * i]),
-            float(values[2 + 2 * i]),
-        )
-        for i, (each, step) in enumerate(zip(inputs, steps, strict=True))
+        InputEffect(each, lowered, raised, float(values[1 + 2 * i]), float(values[2 + 2 * i]))
+        for i, (each, (lowered, raised)) in enumerate(zip(inputs, ends, strict=True))
     ]
     moving = [each for each in bars if each.reach(today) > STILL * abs(today)]
     return Tornado(asked, today, tuple(sorted(moving, key=lambda each: -each.reach(today))), len(bars) - len(moving))

@@ -10,7 +10,11 @@ import pytest
 from scipy.stats import beta, norm
 
 from diecut_report.cli.main import main
-from tests.configs import GOOD, HEAD, saved
+from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import load_config
+from diecut_report.design.design_inputs import DesignInput, given_numbers, numbers_at_default
+from diecut_report.design.influence import _ends
+from tests.configs import EXAMPLE, GOOD, HEAD, saved
 
 Capture = pytest.CaptureFixture[str]
 TEXT = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, teeth: 20, allowable_moment: 210 N*m}\n"
@@ -107,3 +111,28 @@ def test_inputs_at_their_default_are_told_and_changed_on_demand(tmp_path: Path, 
     assert influence(press, "--of", "a.moment", "--by", "5", "--defaults") == 0
     out = capfd.readouterr().out.splitlines()
     assert "  a.arm    95 mm … 105 mm: 190 N·m … 210 N·m" in out and "--defaults" not in out[-1]
+
+
+@pytest.mark.parametrize(
+    ("name", "share", "ends"),
+    [
+        ("train.vbelt.efficiency", 0.1, (0.855, 1.0)),  # 0.95, at most 1
+        ("train.vbelt.efficiency", 1.0, (0.475, 1.0)),  # more than 0
+        ("crankshaft.reliability", 0.01, (0.95, 0.999)),  # 0.99, of a list
+        ("bearings.service_factor", 0.1, (1.0, 1.1)),  # at least 1, which it is
+        ("gear_key.key_count", 1.0, (1.0, 2.0)),  # 1 or 2
+        ("drive.crank_length", 0.1, (0.09, 0.11)),
+    ],
+)
+def test_an_input_is_changed_within_its_own_range(
+    press_inputs: dict[str, DesignInput], name: str, share: float, ends: tuple[float, float]
+) -> None:
+    design = press_inputs[name]
+    assert design.today is not None
+    assert _ends(design, share * design.today) == pytest.approx(ends)
+
+
+@pytest.fixture(scope="module")
+def press_inputs() -> dict[str, DesignInput]:
+    config = load_config(EXAMPLE, Discovery([]))
+    return {each.name: each for each in (*given_numbers(config), *numbers_at_default(config))}
