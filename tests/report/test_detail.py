@@ -288,7 +288,8 @@ def test_every_output_of_the_press_is_on_paper(press_sheets: Path) -> None:
         words = _dense(text)  # formulas set their spaces otherwise
         for data in results["mechanisms"].values():
             told = _told(data)
-            missing = [name for name, text in told.items() if _dense(_shown(text)) not in words]
+            forms = {name: {_dense(_shown(text)), _dense(text)} for name, text in told.items()}  # main_b is called so
+            missing = [name for name, texts in forms.items() if not any(text in words for text in texts)]
             assert missing == [], detail
 
 
