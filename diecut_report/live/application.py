@@ -108,9 +108,8 @@ class LiveApplication:
             await self._read_where_changed()
 
     async def _read_where_changed(self) -> None:
-        if await asyncio.to_thread(
-            self.session.is_stale
-        ):  # beside the one thread, where an effect would give way to each look
+        # beside the one thread, on which an effect would give way to each look
+        if await asyncio.to_thread(self.session.is_stale):
             self._is_reading = True
             await self._tell()
             try:

@@ -8,7 +8,6 @@ from markupsafe import Markup, escape
 
 from diecut_report.report.number_format import tidy
 
-LONG = 40  # letters before a symbol, which may fill a line
 LONGEST_WHOLE = 26  # letters of a source that stands in one line
 _SIGNS = "=<>≤≥≈≠−+√"
 SYMBOL = re.compile(r"(?P<before>[|\[\d]*)(?P<base>[^\W\d_]+[′']*)(?:_(?P<below>.*?))?(?P<after>[′'|\]]*)")
@@ -77,16 +76,6 @@ def prose(sentence: str) -> Markup:
         if found[7] and any(first <= found.start() < end for first, end in units):
             continue
         base = next(filter(None, (found[1], *found.groups()[2:])))
-        parts += [_before_symbol(text[start : found.start()]), symbol(f"{base}_{found[2]}" if found[2] else base)]
+        parts += [escape(text[start : found.start()]), symbol(f"{base}_{found[2]}" if found[2] else base)]
         start = found.end()
     return Markup("").join([*parts, escape(text[start:])])
-
-
-def _before_symbol(text: str) -> Markup:
-    """What stands before a symbol; a long text in an element of its own, with its last blank behind that.
-
-    A page engine that finds no room for the symbol breaks the text before it at its first blank otherwise: Mean | torque at the shaft M.
-    """
-    if len(text) < LONG or not text.endswith(" "):
-        return escape(text)
-    return Markup("<span>{}</span> ").format(text[:-1])

@@ -66,9 +66,3 @@ def test_no_line_ends_between_a_letter_and_its_number() -> None:
 )  # fmt: skip
 def test_letters_that_are_no_symbols(text: str) -> None:
     assert prose(text) == text.replace("'", "&#39;")
-
-
-def test_a_long_text_before_a_symbol_ends_where_a_line_may() -> None:
-    long = "Here the radius of the profile that is ground is, as the paper says,"
-    assert prose(f"{long} ρ") == f"<span>{long}</span> <i class=sy>ρ</i>"
-    assert prose("The radius is ρ") == "The radius is <i class=sy>ρ</i>"

@@ -27,7 +27,7 @@ TEXT_WIDTH = 9638  # twentieths of a point: A4 with margins of 20 mm
 EMU = 12700  # to a point
 WIDEST, HIGHEST = TEXT_WIDTH / 20, 620.0  # of a picture, points
 FIELD_END = '<w:r><w:fldChar w:fldCharType="end"/></w:r>'
-_TAG = re.compile(r"(<i class=sy>|</i>|<sub>|</sub>|</?span>)")
+_TAG = re.compile(r"(<i class=sy>|</i>|<sub>|</sub>)")
 
 Inline = str  # runs and what else stands in a line, as XML
 
