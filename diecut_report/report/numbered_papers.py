@@ -47,6 +47,8 @@ class _Numbered:
     def _part(self, key: str, part: Any) -> Any:
         if key in NUMBERS:
             return part
+        if key == "inputs":  # but for its description, a line is the user's own: "drawing 003" is no paper
+            return {name: row | {"description": self._text(row["description"])} for name, row in part.items()}
         if key == "sources":
             return [{**source, "id": self.papers.get(source["id"], source["id"])} for source in part]
         if key not in CITING:

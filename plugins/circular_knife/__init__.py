@@ -36,6 +36,9 @@ MECHANISM = Mechanism(
         "greater there than at φ_1, which raises the greatest torque only where the friction is below about 0.1.",
     ),
     sources=(
+        Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "
+               "of the pressure cylinder of a flat-bed type die-cutting machine. 2024. "
+               "doi: 10.32403/1998-6912-2024-2-69-140-150."),
         Source("001", "Uhryn Ya. M. Analytical study of the process of cutting board with a circular knife. Naukovi zapysky (Scientific Papers) "
                "1999, No. 1, section of printing machine building, UDC 686.12 (in Ukrainian; only the first page survives)."),
     ),

@@ -17,6 +17,7 @@ def test_papers_stand_by_their_number_and_nothing_else_changes() -> None:
         "sources": sources,
         "sections": [{"items": [item]}],
         "curves": curves,
+        "inputs": {"load": {"description": "Line load (000)", "note": "drawing 003, sheet 4", "text": "003"}},
         "assumptions": ["the press (000)", "003."],
     }
     found = numbered({"mechanisms": {"m": mechanism}, "config": {"file": "000"}})
@@ -28,6 +29,11 @@ def test_papers_stand_by_their_number_and_nothing_else_changes() -> None:
         "text": "as I_000 (figure 3 of [1]): 10 000 h, 0.003 mm, 5,003",
     }
     assert found["mechanisms"]["m"]["assumptions"] == ["the press [1]", "[2]."]
+    assert found["mechanisms"]["m"]["inputs"]["load"] == {
+        "description": "Line load [1]",
+        "note": "drawing 003, sheet 4",
+        "text": "003",
+    }
     assert found["config"] == {"file": "000"}
 
 
