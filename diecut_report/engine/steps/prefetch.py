@@ -15,11 +15,8 @@ Asking = Reduction | Crossings | Accumulated | Derivative
 SIGNS = {"max": (1.0,), "min": (-1.0,), "abs_max": (1.0, -1.0), "range": (1.0, -1.0)}
 
 
-def look(calc: Calculation, steps: Sequence[Step]) -> None:
+def look(calc: Calculation, first: Asking, steps: Sequence[Step]) -> None:
     """Note, before the first of these steps, the curves that it and the coming ones ask for, and search their extremes together."""
-    first = steps[0]
-    if not isinstance(first, Asking):
-        return
     axis = calc.axis[first.of]
     if first.of not in calc.ahead.get(axis, ()) or isinstance(first, Crossings):
         coming = [step for step in _computable(calc, steps, axis) if isinstance(step, Asking)]

@@ -83,9 +83,9 @@ def calculate(
         for i, step in enumerate(steps):
             if step.id not in calc.steps or isinstance(step, Words | Phase | Listing):
                 continue
-            prefetch.look(calc, facts.remaining(calc, steps[i:]) if calc.withheld else steps[i:])
             try:
                 if isinstance(step, prefetch.Asking):
+                    prefetch.look(calc, step, facts.remaining(calc, steps[i:]) if calc.withheld else steps[i:])
                     smooth_pieces.require(calc, step.id, step.of)
                 RUN[type(step)](calc, step)
             except KeyError as missing:
