@@ -47,8 +47,8 @@ class _Numbered:
     def _part(self, key: str, part: Any) -> Any:
         if key in NUMBERS:
             return part
-        if key == "inputs":  # but for its description, a line is the user's own: "drawing 003" is no paper
-            return {name: row | {"description": self._text(row["description"])} for name, row in part.items()}
+        if key == "inputs":
+            return self._inputs(part)
         if key == "sources":
             return [{**source, "id": self.papers.get(source["id"], source["id"])} for source in part]
         if key not in CITING:
@@ -56,6 +56,12 @@ class _Numbered:
         if isinstance(part, list):
             return [self._text(each) if isinstance(each, str) else self.walk(each) for each in part]
         return self._text(part) if isinstance(part, str) else self.walk(part)
+
+    def _inputs(self, part: Any) -> Any:
+        """Inputs of a mechanism by their names, or those that were changed: but for its description a line is the user's own."""
+        if isinstance(part, Mapping):
+            return dict(zip(part, self._inputs([*part.values()]), strict=True))
+        return [{key: self._text(text) if key == "description" else text for key, text in row.items()} for row in part]
 
     def _text(self, text: str) -> str:
         return BRACKETS.sub(r"\1", self.named.sub(lambda found: self.papers[found[0]], text))

@@ -40,3 +40,10 @@ def test_papers_stand_by_their_number_and_nothing_else_changes() -> None:
 def test_results_without_papers_stay_as_they_are() -> None:
     results = {"mechanisms": {"m": {"sources": [{"id": "ISO 76", "citation": "I"}], "summary": "100 of 000"}}}
     assert numbered(results) is results
+
+
+def test_inputs_that_were_changed_keep_what_was_typed() -> None:
+    sources = [{"id": "003", "citation": "C"}]
+    row = {"path": "m.load", "description": "Line load (003)", "new": "drawing 003", "note": "003"}
+    found = numbered({"mechanisms": {"m": {"sources": sources}}, "changes": {"inputs": [row]}})
+    assert found["changes"]["inputs"] == [row | {"description": "Line load [1]"}]
