@@ -4,17 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, replace
-from typing import Literal
+from typing import Any, Literal
 
 import numpy as np
 
 from diecut_report.config.loader import Config
 from diecut_report.design.design_inputs import DesignInput, given_numbers, numbers_at_default
 from diecut_report.design.questions import AskedNumber, quantity
-from diecut_report.design.varied_machines import CHECKS, UTILISATION, VariedMachines, varied
+from diecut_report.design.varied_machines import CHECKS, NO_RESERVE, UTILISATION, VariedMachines, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.results.summary import may_govern, weight
 
 Distribution = Literal["normal", "uniform"]
 MOST_CHECKS = 5  # governing checks that are looked at where nothing is asked
@@ -159,14 +160,15 @@ def _beside(
 
 
 def _governing(made: VariedMachines) -> list[str]:
-    """The check of each mechanism that is used most today, the most used of all first."""
-    used: dict[str, tuple[float, str]] = {}
+    """The check that governs each mechanism today, by the rules of the results; the one that governs the machine first."""
+    checks: dict[str, list[dict[str, Any]]] = {}
     for name in made.checks:
         home, _, own = name.partition(".")
-        ratio = float(made.check(name, UTILISATION)[0])
-        if np.isfinite(ratio) and ratio > used.get(home, (-1.0, ""))[0]:
-            used[home] = ratio, f"{home}{CHECKS}{own}"
-    return [name for _, name in sorted(used.values(), reverse=True)[:MOST_CHECKS]]
+        if np.isfinite(ratio := float(made.check(name, UTILISATION)[0])):
+            known = {"id": f"{home}{CHECKS}{own}", "class": "", "status": made.check(name)[0], "utilisation": ratio}
+            checks.setdefault(home, []).append(known | {"presumed": bool(made.check(name, NO_RESERVE)[0])})
+    used = [max(filter(may_govern, own), key=weight, default=None) for own in checks.values()]
+    return [found["id"] for found in sorted(filter(None, used), key=weight, reverse=True)[:MOST_CHECKS]]
 
 
 def _tornado(

@@ -14,7 +14,7 @@ from diecut_report.contract.inputs import Quantity
 from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.errors import PluginError
 from diecut_report.expressions import Array
-from diecut_report.results.checks import checks_of, judged
+from diecut_report.results.checks import checks_of, is_sized, judged
 from diecut_report.results.press_run import Tell
 from diecut_report.results.unchecked import is_of_machine
 from diecut_report.study.definition.base_inputs import Input
@@ -26,6 +26,9 @@ from diecut_report.study.storage.description import ResultColumn
 CHECKS = ".checks."
 AT_LIMIT = 1e-9
 STATUS, UTILISATION, SLACK, MARGIN, SIZE = ".status", ".utilisation", ".slack", ".margin", ".size"
+NO_RESERVE = (
+    ".no_reserve"  # 1 where a check judges what the program sized to its limit, or what the calculation presumes
+)
 
 
 @dataclass(frozen=True)
@@ -66,7 +69,7 @@ class VariedMachines:
         return np.full(self.count, np.nan) if found is None else found.astype(float)
 
     def check(self, name: str, what: str = STATUS) -> Array:
-        """Return of a check its status, utilisation, margin, the size of its greater side, or its slack: margin by size."""
+        """Return of a check its status, utilisation, margin, size of the greater side, slack (margin by size), or whether it shows no reserve."""
         home, _, own = name.partition(".")
         found = self.rows.columns.get(f"{home}{CHECKS}{own}{what}")
         return (
@@ -166,7 +169,8 @@ def _slack(made: CalculatedVariants) -> dict[str, Array]:
             size = np.maximum(np.abs(demand), np.abs(limit))
             with np.errstate(all="ignore"):
                 share = np.where(size > 0, (limit - demand) / size, 0.0)
-            for what, values in ((SLACK, share), (MARGIN, limit - demand), (SIZE, size)):
+            shows_none = np.full(share.shape, float(is_sized(calc.given, check) or check.presumed))
+            for what, values in ((SLACK, share), (MARGIN, limit - demand), (SIZE, size), (NO_RESERVE, shows_none)):
                 column = np.where(there, values, np.nan)
                 found[f"{name}{CHECKS}{check.id}{what}"] = np.broadcast_to(column, (made.count,))
     return found

@@ -13,6 +13,7 @@ from markupsafe import Markup
 import diecut_report.report.figures  # noqa: F401  # before Matplotlib, for its settings
 from diecut_report import __version__
 from diecut_report.config import yaml_tree
+from diecut_report.languages.phrases import capital
 from diecut_report.languages.speech import localised, said, say, say_counted, spoken_language
 from diecut_report.optimisation import charts, texts
 from diecut_report.optimisation.front import columns_shown
@@ -61,8 +62,9 @@ def _filled(found: OptimisationResult, kind: str) -> str:
         style=Markup(style), version=__version__, title=_title(found), figure=partial(_figure, kind), figures=_figures(found),
         asked=questions.asked(found.stored), heads=[titled(column) for column in columns_shown(found.front)],
         goals=[goal.told for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
-        counts=texts.counts(found), suggested=texts.suggested(found), today=texts.today(found), held=_held(found),
-        rechecked=list(texts.recheck_lines(found)), conflict=list(texts.conflict_lines(found, found.conflict)) if found.conflict else [],
+        counts=capital(texts.counts(found)), suggested=capital(texts.suggested(found)), today=capital(texts.today(found, named)),
+        held=_held(found), rechecked=[capital(line) for line in texts.recheck_lines(found)],
+        conflict=list(texts.conflict_lines(found, found.conflict)) if found.conflict else [],
         words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, say=say, counted=_counted,
         files=_files(found), localised=localised, value_told=value_told,
         example=int(found.front.variants[found.front.suggested or 0]) if found.conflict is None else found.conflict.nearest,

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
@@ -114,8 +114,8 @@ def suggested(found: OptimisationResult) -> str:
     return Phrase("a suggestion: {number} ({why})", number=number, why=phrase(front.why))
 
 
-def today(found: OptimisationResult) -> str:
-    """Return what today's machine has of the objectives."""
+def today(found: OptimisationResult, name: Callable[[StoredColumn], str] = called) -> str:
+    """Return what today's machine has of the objectives, each by its ``name``."""
     if found.front.today is None:
         return ""
     signs = [1.0 if goal.is_less else -1.0 for goal in found.front.objectives]
@@ -123,7 +123,7 @@ def today(found: OptimisationResult) -> str:
     told = [
         Phrase(
             "{name} {value}",
-            name=called(goal.column),
+            name=name(goal.column),
             value=quantity(value, goal.column) if math.isfinite(value) else "–",
         )
         for goal, value in goals_

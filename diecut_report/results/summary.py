@@ -39,14 +39,15 @@ def governing(mechanisms: Data) -> Data | None:
 
     Self-tests do not govern, nor, unless it fails, what the program sized to its limit or what the calculation presumes.
     """
-    checks = [(name, check) for name, data in mechanisms.items() for check in data["checks"] if _may_govern(check)]
+    checks = [(name, check) for name, data in mechanisms.items() for check in data["checks"] if may_govern(check)]
     if not checks:
         return None
     name, check = max(checks, key=lambda pair: weight(pair[1]))
     return {"mechanism": name, "check": check["id"]}
 
 
-def _may_govern(check: Data) -> bool:
+def may_govern(check: Data) -> bool:
+    """Return whether a check may govern, see ``governing``."""
     shows_reserve = not (check.get("sized_to_limit", False) or check.get("presumed", False))
     return check["status"] in RANK and check["class"] != SELF_TEST and (shows_reserve or check["status"] != "pass")
 

@@ -54,6 +54,13 @@ def test_the_governing_checks_are_looked_at_by_themselves(press: Path, capfd: Ca
     assert bars["mechanisms.a.allowable_moment"] == pytest.approx((200 / 189, 200 / 231))
 
 
+def test_what_the_calculation_presumes_is_not_looked_at_by_itself(capfd: Capture) -> None:
+    knife = EXAMPLE.with_name("circular_knife.yaml")
+    assert main(["influence", str(knife), "--format", "json"]) == 0
+    (tornado,) = found(capfd)["tornados"]
+    assert tornado["name"] == "knife.checks.reach.utilisation"  # shear_resistance stands at 1 whatever the machine is
+
+
 @pytest.mark.parametrize(
     ("distribution", "probability"),
     [("uniform", (105 - 80) / (120 - 80)), ("normal", norm.cdf((105 - 100) / (20 / 3)))],
