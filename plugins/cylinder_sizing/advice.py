@@ -4,8 +4,6 @@ from __future__ import annotations
 
 from math import pi
 
-from scipy.optimize import brentq
-
 from diecut_report.api import Phrase, joined, phrase, told
 from diecut_report.plugins.cylinder_sizing import beam
 
@@ -73,8 +71,7 @@ def against_deflection(
     )
     if not beyond(generatrix) < 0 < beyond(span):
         return stiffer
-    return Phrase(
-        "set bearing_span to at most {brentq}; or {stiffer}",
-        brentq=told(brentq(beyond, generatrix, span), "mm", up=False),
-        stiffer=stiffer,
-    )
+    from scipy.optimize import brentq  # slow to import, and not needed where nothing fails
+
+    longest = told(brentq(beyond, generatrix, span), "mm", up=False)
+    return Phrase("set bearing_span to at most {longest}; or {stiffer}", longest=longest, stiffer=stiffer)

@@ -7,7 +7,6 @@ from dataclasses import dataclass
 from math import ceil, isfinite
 
 import numpy as np
-from scipy.optimize import brentq
 
 from diecut_report.api import Phrase, joined, outward, phrase, told
 from diecut_report.plugins.damper import formulas as f
@@ -175,6 +174,8 @@ def _hardness(modulus: float) -> float:
         return softest
     if modulus >= f.gent_modulus(hardest):
         return hardest
+    from scipy.optimize import brentq  # slow to import, and not needed where nothing fails
+
     return float(brentq(lambda hardness: f.gent_modulus(hardness) - modulus, softest, hardest))
 
 
