@@ -202,9 +202,9 @@ def _series(calc: Calculation, curve: str) -> tuple[Array, Array]:
     """
     wide = calc.domains[calc.axis[curve]].widths > 0
     values = np.where(wide[:, :, None], calc.on_search_grid(curve), 0)
-    from scipy.fft import dct  # slow to import, and not needed where nothing is integrated
-
-    series = np.moveaxis(dct(values[:, :, ::-1], type=1, axis=2), 2, 0) / (values.shape[2] - 1)
+    # SciPy's cosine transform gives the same to the last bit, and takes longer to import than all integrals of a press
+    mirrored = np.concatenate([values[:, :, ::-1], values[:, :, 1:-1]], axis=2)
+    series = np.moveaxis(np.fft.rfft(mirrored).real, 2, 0) / (values.shape[2] - 1)
     series[[0, -1]] /= 2
     return values, series
 
