@@ -8,7 +8,7 @@ from diecut_report.languages.catalogues import program_catalogue
 
 ENGLISH: dict[str, str] = {
     # numbers and formulas
-    "decimal": ".", "if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not", "at": "at",
+    "decimal": ".", "if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not", "at": "at", "from_nought": "from 0 to {end}",
     "mean": "mean", "rms": "rms", "range": "range", "first": "first", "last": "last",
     # title block
     "calculation": "Calculation", "document": "Document", "revision": "Revision", "date": "Date", "sheet": "Sheet", "of": "of",
