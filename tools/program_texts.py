@@ -23,7 +23,7 @@ from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.quantities.units import _table
 from diecut_report.report.i18n import COUNTED, ENGLISH, one
 from diecut_report.results import document, mechanism, reference_origins, unchecked
-from diecut_report.standards import standard_ids, standard_series, standard_series_by
+from diecut_report.standards import StandardSeries, standard_ids, standard_series, standard_series_by
 
 ROOT = Path(__file__).parents[1]
 CONSTANTS = (*methods.METHODS.values(), methods.EQUAL_TERMS, "True", "False", *tables.SERIES_WORDS.values(), tables.AS_GIVEN, tables.AMONG,
@@ -36,14 +36,15 @@ CONSTANTS = (*methods.METHODS.values(), methods.EQUAL_TERMS, "True", "False", *t
 JOINING = ("joined", "named")
 COUNTING = ("Counted", "say_counted")
 SOURCES = (*EQUATIONS.values(),
-           "eq.", "Fig.", "table", "chart", "charts", "after", "before", "corrected", "solved", "exact", "input", "key", "energy", "statics",
+           "eq.", "Fig.", "table", "chart", "charts", "after", "before", "corrected", "solved", "exact", "input", "energy", "statics",
            "geometry", "kinematics", "dynamics", "mechanics", "this method", "closed form", "conservation of energy", "dead centre",
            "heat conduction", "inequality of the means", "involute teeth of 20°", "law of cosines", "linear damage", "loop", "maker",
            "maker's catalogue", "material", "motion laws", "power", "practice", "reference", "simply supported beam", "parabola",
            "strength of materials", "symmetry", "timing", "vibration", "virtual work", "block with clamped ends", "and", "erratum",
            "in general", "to the first order", "over the full turn", "both dead centres", "overlap once only", "with the unbalance",
            "for n dampers", "for whole teeth", "the source's unit", "at the dead centre", "first paper", "second", "conclusion", "idlers",
-           "method B", "method C", "corrigendum", "series", "catalogue", "SKF catalogue", "Duhamel's integral", "at")  # fmt: skip
+           "method B", "method C", "corrigendum", "series", "R40 series", "catalogue", "SKF catalogue", "Duhamel's integral", "at",
+           "Castigliano", "Euler", "Euler–Bernoulli", "Grashof", "Hertz", "Hooke", "Saint-Venant")  # fmt: skip
 """Words of what is said of sources, beside names of authors and standards."""
 
 
@@ -98,18 +99,22 @@ def _sources() -> Iterator[ProgramText]:
 def _standards() -> Iterator[ProgramText]:
     """The titles of the standard series and tables."""
     for form in ("values", "from", "table"):
-        yield from (ProgramText(standard_series(id).title, note=f"standard series {id}") for id in standard_ids(form))
+        yield from (text for id in standard_ids(form) for text in _series(standard_series(id)))
     for id in standard_ids("by"):
-        yield from (ProgramText(each.title, note=f"standard series {id}") for each in standard_series_by(id).values())
+        yield from (text for each in standard_series_by(id).values() for text in _series(each))
+
+
+def _series(series: StandardSeries) -> Iterator[ProgramText]:
+    """What a standard series is, and what its published tables are called."""
+    of = f"standard series {series.id}"
+    yield from (ProgramText(text, note=of) for text in (series.title, *series.sources) if is_text(text))
 
 
 def _papers() -> Iterator[ProgramText]:
-    """The papers that the built-in mechanisms follow, which are in Ukrainian: their numbers begin with two zeros."""
+    """What the built-in mechanisms cite: works by their own titles, with words of the program's own."""
     discovery = Discovery()
     for kind in discovery.origins:
-        for source in discovery.mechanism(kind).sources:
-            if source.id.startswith("00"):
-                yield ProgramText(source.citation, context=PAPER)
+        yield from (ProgramText(source.citation, context=PAPER) for source in discovery.mechanism(kind).sources)
 
 
 def _press() -> Iterator[str]:

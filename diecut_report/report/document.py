@@ -124,7 +124,12 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         governing=_governing(results, checks),
         checks=checks,
         unchecked=[row for row in every if row.status == "not_checked"],
-        notes=[*_doubts(chapters, words), *_shown(whole, words), *_notes(every, words), *followed_line(results, words)],
+        notes=[
+            *_doubts(chapters, words),
+            *_shown(whole, words),
+            *_notes(every, words),
+            *followed_line(results, words, every),
+        ],
         failures=_failures(checks),
         press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
         chapters=chapters,

@@ -8,7 +8,7 @@ from diecut_report.languages.catalogues import program_catalogue
 
 ENGLISH: dict[str, str] = {
     # numbers and formulas
-    "decimal": ".", "if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not", "at": "at",
+    "decimal": ".", "if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not", "at": "at", "from_nought": "from 0 to {end}",
     "mean": "mean", "rms": "rms", "range": "range", "first": "first", "last": "last",
     # title block
     "calculation": "Calculation", "document": "Document", "revision": "Revision", "date": "Date", "sheet": "Sheet", "of": "of",
@@ -86,7 +86,7 @@ ENGLISH: dict[str, str] = {
     "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",
     "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
     "of_curve": "of {curve}", "series": "Series", "looked_up": "From “{table}” for {choice}",
-    "figure": "Figure", "table": "Table", "formula": "Formula",
+    "figure": "Figure", "fig": "Fig.", "table": "Table", "formula": "Formula",
     "as_formula": "as ({number})", "as_formula_with": "as ({number}) with {letters}", "letter_for": "{new} for {old}",
     "as_chapter": "Formulas, assumptions and symbols are those of chapter {letter}: a number in brackets tells where a formula stands.",
     "defaults": "Left at its default", "defaults_told": "as in chapter {letter}",

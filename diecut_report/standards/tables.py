@@ -6,7 +6,7 @@ from collections.abc import Mapping
 from dataclasses import dataclass
 from types import MappingProxyType
 
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import Phrase, joined, phrase
 
 
 class StandardFault(ValueError):
@@ -119,7 +119,7 @@ class StandardTable:
 
 def sources_told(taken_from: StandardTable | StandardSeries) -> str:
     """Return in one line what a table or series is and where it comes from."""
-    told = Phrase("{title}: {sources}", title=phrase(taken_from.title), sources=phrase("; ".join(taken_from.sources)))
+    told = Phrase("{title}: {sources}", title=phrase(taken_from.title), sources=joined(taken_from.sources, "; "))
     if not taken_from.only_source:
         return told
     return Phrase("{told} (one source: {reason})", told=told, reason=phrase(taken_from.only_source))

@@ -138,8 +138,8 @@ def body(
             Phrase("notch {i} ({kind})", i=i + 1, kind=phrase(kind.replace("_", " ")))
             for i, kind in enumerate(types or ())
         ),
-        "bearing A",
-        "bearing B",
+        phrase("bearing A"),
+        phrase("bearing B"),
         *(Phrase("load {name}", name=name) for name in names),
     )
     places = [
