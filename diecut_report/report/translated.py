@@ -82,7 +82,8 @@ class _Mechanism:
             "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
             "figures": [self.drawn(figure) for figure in data.get("figures", ())],
             "sources": [
-                {**self.walk(source), "id": self.words.source(source["id"], self.home)} for source in data.get("sources", ())
+                {**self.walk(source), "id": self.words.source(source["id"], self.home)}
+                for source in data.get("sources", ())
             ],
         }
         return {**self.walk({key: part for key, part in data.items() if key not in own}), **own}

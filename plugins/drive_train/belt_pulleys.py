@@ -69,10 +69,10 @@ def pitch_advice(pitch: float, fewest: float) -> str:
 IS_MARKED = bind(common.is_positive, quantity="cylinder_pulley_there")
 
 listed = Chapter("Toothed belt: pulleys of the list",
-                 text="The first pulley of the list is the driving one; the one with role: cylinder is fixed to the cylinder (κ = 1, else −1). "
+                 text="The first pulley of the list is the driving one; one may be fixed to the cylinder (κ = 1, else −1). "
                       "Teeth (τ = 1) have all pulleys inside the loop, and the cylinder's; any other outside pulley runs on the back of the belt "
-                      "and is smooth. The y axis points up, and the die lies below the cylinder: the belt passes over the cylinder's pulley with "
-                      "engagement: away, below it with engagement: die.", needs=("toothed_belt", PULLEYS),
+                      "and is smooth. The y axis points up, and the die lies below the cylinder: the belt passes over the cylinder's pulley where "
+                      "this engages away from the die, below it where it engages on the die's side.", needs=("toothed_belt", PULLEYS),
                  absent=f"not calculated: {PULLEYS} is not given")
 listed.value("pulley_teeth", "n_z", "1", "Teeth of the circumference", bind(teeth_around, radius=f"{PULLEYS}.radius", pitch=PITCH), source="geometry",
              digits=6, output=False)
