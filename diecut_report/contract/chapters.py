@@ -284,9 +284,15 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
         self.add(kind(id=id, **given))
 
 
+MISSING = "{missing}"  # in the words of a chapter that is left out: the keys that are not given
+
+
 @dataclass(eq=False)
 class Chapter(Steps):
-    """Declare a chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are."""
+    """Declare a chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are.
+
+    ``{missing}`` in it stands for the keys that are not given.
+    """
 
     title: str
     text: str = field(default="", kw_only=True)

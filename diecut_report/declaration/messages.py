@@ -5,6 +5,7 @@ from __future__ import annotations
 import re
 from collections.abc import Collection, Iterator
 
+from diecut_report.contract.chapters import MISSING
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.steps import Choice, Clash, Computed, CurvePeriod, Require, Words
 from diecut_report.declaration.names import DeclaredNames
@@ -70,7 +71,7 @@ def _unfilled(mechanism: Mechanism) -> Iterator[Fault]:
     """Texts with ``{id}`` that are printed as they stand."""
     words = "{braced} stands in braces in {field}, where nothing is filled in; write it without, or say it in a message or consequence"
     for place, subject, field, text in _plain(mechanism):
-        found = NAMED.search(text)
+        found = NAMED.search(text.replace(MISSING, "") if field == "absent" else text)
         if found:
             yield Fault(place, subject, Phrase(words, braced=found[0], field=field))
 

@@ -120,6 +120,12 @@ def named(parts: Sequence[str], between: str) -> str:
     )
 
 
+def keys_listed(keys: Sequence[str]) -> str:
+    """Return keys as a sentence names them: one, one and another, one, another and a third."""
+    *most, last = keys
+    return named((named(most, ", "), last) if most else (last,), " and ")
+
+
 def wording(text: Phrase) -> Wording:
     """Return how a phrase was made, as plain data."""
     values = {name: wording(value) if isinstance(value, Phrase) else value for name, value in text.values.items()}

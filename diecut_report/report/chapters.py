@@ -28,6 +28,7 @@ from diecut_report.report.steps import PrintedSteps
 from diecut_report.report.symbol_list import SymbolRow, symbol_rows, symbols_at
 from diecut_report.report.tables import Tables
 from diecut_report.report.told_before import ToldBefore
+from diecut_report.report.zero_diagrams import without_zero_diagrams
 from diecut_report.results.plugin_checks import found_check, is_doubtful
 
 Data = Mapping[str, Any]
@@ -69,6 +70,7 @@ class _Filler:
         self, part: PrintedChapter, mechanism: Data, equations: Equations, words: Catalogue, stem: str, told: ToldBefore | None,
     ) -> None:  # fmt: skip
         self.stem, self.told, self.is_full = stem, told, told is None
+        mechanism = without_zero_diagrams(mechanism, words)
         self.placed = placed(part.letter, mechanism)
         self.rows = rows_of(self.placed, paired=not self.is_full)
         self.part, self.mechanism, self.words = part, mechanism, words
@@ -102,7 +104,7 @@ class _Filler:
         ]
         part.loose = [] if part.sections else [row_item(row) for row in self.rows]
         self._results(mechanism["outputs"])
-        self._phases(mechanism.get("phases", {}), mechanism.get("phases_absent", {}))
+        self._phases(mechanism.get("phases", {}), _told_here(mechanism))
         if mechanism["checks"] or "between" not in mechanism:
             self._head("checks")
         part.warnings = mechanism["warnings"]
@@ -267,3 +269,10 @@ class _Filler:
     def _touched(self, erratum: Data) -> str:
         rows = self.mechanism["outputs"] | self.mechanism["values"] | self.mechanism["curves"]
         return ", ".join(rows[key]["description"] if key in rows else key for key in erratum["touches"])
+
+
+def _told_here(mechanism: Data) -> Data:
+    """The phases that there are not, but those whose chapter says so under the same title."""
+    titles = {part["title"] for part in mechanism["absent"]}
+    phases = mechanism.get("phases_absent", {})
+    return {name: phase for name, phase in phases.items() if phase["description"] not in titles}

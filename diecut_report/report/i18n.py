@@ -97,7 +97,7 @@ ENGLISH: dict[str, str] = {
     "dxf": "{title} in mm: polylines through {n} points each on the layers PROFILE and PITCH_CURVE, the axis on CENTER",
     "dxf_profile": "{title} in mm: a polyline through {n} points on the layer PROFILE, the axis on CENTER",
     "csv": "{title} as a table of {n} rows: {columns}",
-    "drawing_scale": "scale bar", "positive": "positive", "negative": "negative",
+    "zero_everywhere": "{names}: 0 everywhere.", "drawing_scale": "scale bar", "positive": "positive", "negative": "negative",
     # changes
     "changes_since": "Changes since {name}", "changes_since_revision": "Changes since revision {name}",
     "changes_of": "Changes from {old} to {new}", "before": "Before", "after": "Now",

@@ -6,20 +6,46 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 
 Data = Mapping[str, Any]
+Column = tuple[Any, ...]  # the names of its lines, its title, symbol and unit, its texts
 MOST = 8  # columns of a table that is put together, the first one among them
 LONGEST_LIST = 12  # numbers in a line
 
 
-def brought_together(section: Data) -> list[Data | None]:
-    """Return the steps of a section in their places; none where a table went into a later one, or says nothing new."""
+def brought_together(section: Data, told: set[Column]) -> list[Data | None]:
+    """Return the steps of a section in their places; none where a table went into a later one, or says nothing new.
+
+    ``told`` are the columns that the chapter has printed already, each with the lines that it stands beside; those that follow are put to them.
+    """
     items: list[Data | None] = list(section["items"])
     for place, item in enumerate(items):
-        if item is not None and item["type"] == "table" and _is_said(item, section["items"][:place]):
-            items[place] = None
+        if item is not None and item["type"] == "table":
+            items[place] = None if _is_said(item, section["items"][:place]) else _with_new_columns(item, told)
     for place, item in enumerate(items):
         if item is not None and item["type"] == "table":
             _move_on(items, place, section["title"])
     return [_listed(item) if item is not None and item["type"] == "table" else item for item in items]
+
+
+def _with_new_columns(table: Data, told: set[Column]) -> Data | None:
+    """A table without the columns that stand in an earlier one beside the same lines; none where all do. One that is declared stays whole."""
+    if "id" in table:
+        return table
+    texts = [*zip(*table["rows"], strict=True)]
+    columns = [
+        (texts[0], column["title"], column["symbol"], column["unit"], text)
+        for column, text in zip(table["columns"], texts, strict=True)
+    ]
+    is_single = texts[0] == ("1",)  # what it follows from stands in the formula before it
+    new = [
+        k
+        for k, column in enumerate(columns)
+        if not k or (column not in told and (not is_single or column[1] == table["title"]))
+    ]
+    told.update(columns)
+    if len(new) == 1:
+        return None
+    rows = [[row[k] for k in new] for row in table["rows"]]
+    return {**table, "columns": [table["columns"][k] for k in new], "rows": rows}
 
 
 def _is_said(table: Data, before: Sequence[Data]) -> bool:

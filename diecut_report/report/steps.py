@@ -15,7 +15,7 @@ from diecut_report.report.left_out import gathered_notes
 from diecut_report.report.model import Heading, Item, PrintedSection
 from diecut_report.report.number_format import quantity
 from diecut_report.report.said_once import SaidOnce
-from diecut_report.report.section_tables import brought_together
+from diecut_report.report.section_tables import Column, brought_together
 from diecut_report.report.tables import Tables
 from diecut_report.report.told_before import Reference, ToldBefore
 from diecut_report.report.value_rows import ValueRow, listed_row, value_row
@@ -47,6 +47,7 @@ class PrintedSteps:
         self.formulas = 0
         self.given: dict[str, str] = {}  # the numbers of the steps by the symbols that they give
         self.said = SaidOnce(equations, words)
+        self.columns: set[Column] = set()  # that tables have told
 
     def section(self, index: int, section: Data, heading: Heading) -> PrintedSection:
         """A section with its figures."""
@@ -55,7 +56,7 @@ class PrintedSteps:
             self.told.begin(section["items"])
         steps = [_PrintedStep(item) for item in figures_at(self.figures, Place(index, BEFORE))]
         for place, item in enumerate(
-            section["items"] if self.told is None else gathered_notes(brought_together(section))
+            section["items"] if self.told is None else gathered_notes(brought_together(section, self.columns))
         ):
             steps += [] if item is None else list(self._step(item, notes))
             steps += [_PrintedStep(each) for each in figures_at(self.figures, Place(index, place))]

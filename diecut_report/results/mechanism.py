@@ -9,6 +9,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.source_hashes import plugin_code
+from diecut_report.contract.chapters import MISSING, Chapter
 from diecut_report.contract.input_lists import list_titles
 from diecut_report.contract.result_names import ResultName, count_name, named, pattern, place_name, result_names
 from diecut_report.contract.steps import SILENT, Crossings, Step
@@ -17,7 +18,7 @@ from diecut_report.engine.figure_views import figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.engine.shown_units import declared_unit, unit_for
 from diecut_report.engine.steps import facts
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import Phrase, keys_listed, phrase
 from diecut_report.quantities.formatting import place_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of
@@ -108,7 +109,9 @@ IDLE = "not checked, though {key} is given: what it limits is not calculated"
 def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data]:
     """Return what is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
     unmade = [s for s in calc.mechanism.chapters if not calc.given.issuperset(s.needs)]
-    left_out = [{"title": s.title, "text": words} for s in unmade if (words := facts.unmet(calc, s.needs) or s.absent)]
+    left_out = [
+        {"title": s.title, "text": words} for s in unmade if (words := facts.unmet(calc, s.needs) or _why(calc, s))
+    ]
     checks = checks_of(calc)
     made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
     idle = [
@@ -117,6 +120,14 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
         if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
     ]
     return left_out + idle
+
+
+def _why(calc: Calculation, chapter: Chapter) -> str:
+    """What is said of a chapter that is left out, with the keys that are not given where it names them."""
+    if MISSING not in chapter.absent:
+        return chapter.absent
+    keys = [key for key in chapter.needs if key not in calc.given]
+    return Phrase(chapter.absent, missing=keys_listed(keys))
 
 
 def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Provenance]) -> bool:

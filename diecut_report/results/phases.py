@@ -10,7 +10,7 @@ from diecut_report.contract.steps import Phase
 from diecut_report.engine import Calculation
 from diecut_report.engine.phases import intervals, period_of, phases_of, speed_of
 from diecut_report.engine.shown_units import declared_unit
-from diecut_report.languages.phrases import Phrase, named
+from diecut_report.languages.phrases import Phrase, keys_listed
 from diecut_report.mechanics.timing.intervals import Interval
 from diecut_report.quantities.formatting import place_shown, shown
 from diecut_report.quantities.units import unit
@@ -79,6 +79,6 @@ def phases_absent(calc: Calculation) -> Data:
         missing = [key for key in (*chapter.needs, *step.needs) if key not in calc.given]
         if name not in found or len(missing) < len(found[name]["missing"]):
             words = "does not apply to this machine"
-            words = Phrase("{keys} not given", keys=named(missing, " and ")) if missing else words
+            words = Phrase("{keys} not given", keys=keys_listed(missing)) if missing else words
             found[name] = {"description": step.description, "missing": missing, "text": words}
     return found

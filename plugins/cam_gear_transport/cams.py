@@ -11,7 +11,7 @@ from diecut_report.plugins.cam_gear_transport.inputs import CAMS, TORQUE
 
 # fmt: off
 
-NO_CAMS = "not calculated: arm_length, roller_radius, arm_angle_1 and arm_angle_2 are not all given"
+NO_CAMS = "not calculated: {missing} not given"
 LOADED = (*TORQUE, "roller_width")
 
 OTHER_ARM = (
@@ -179,7 +179,7 @@ loads_chapter = Chapter("Forces on the rollers",
                              "push, outwards, so the cam of the left arm turns the sector clockwise and that of the right arm counter-clockwise. "
                              "The force stands square to the profile, at the pressure angle from the roller's motion. A preload of the rollers is "
                              "not included.", needs=(*CAMS, *TORQUE),
-                        absent="not calculated: the cams and conveyor_mass with sprocket_teeth and chain_pitch are not all given")
+                        absent="not calculated: {missing} not given")
 loads_chapter.value("rocker_moment", "M_3", "N*m", "Moment about O₃ that the cams give the rocker", loads.rocker_moment, source="statics",
                     output=False)
 loads_chapter.value("effective_modulus", "E*", "GPa", "Modulus of the contact", contact.effective_modulus_alike, source="Hertz",

@@ -12,7 +12,7 @@ from diecut_report.plugins.cam_gear_transport.inputs import GRIPPED, SHEET, TORQ
 # fmt: off
 
 conveyor = Chapter("Motion of the sheet", text="The gear drives the conveyor's sprocket; one cycle makes one step.", needs=SHEET,
-                   absent="not calculated: sprocket_teeth and chain_pitch are not both given")
+                   absent="not calculated: {missing} not given")
 conveyor.value("sheet_step", "S", "mm", "Step of the conveyor in a cycle", formulas.sheet_step, source="this method")
 conveyor.value("sheet_position", "x", "mm", "Position of the sheet from its dwell", bind(formulas.travel, angle="gear_angle"), source="kinematics")
 conveyor.value("sheet_velocity", "V", "m/s", "Velocity of the sheet",
@@ -28,14 +28,14 @@ conveyor.words("sheet_gentler", advice.gentler_sheet,
 
 grippers = Chapter("Hold of the grippers",
                    text="The grippers must hold the sheet against its own inertia; air and the friction of what it slides on are left out.",
-                   needs=GRIPPED, absent="not calculated: sprocket_teeth, chain_pitch, grammage and the sheet's size are not all given")
+                   needs=GRIPPED, absent="not calculated: {missing} not given")
 grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", gripping.sheet_mass, source="geometry")
 grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", gripping.sheet_force, source="mechanics")
 grippers.words("cycles_fewer", advice.gentler_grip, ("cycles_per_hour", "sheet_force", "gripper_force"), output=False, needs=("gripper_force",))
 rest = Chapter("Rest of the sheet within a tolerance",
                text="The sheet rests as long as it is no farther than e from where it stands in the dwell: so long before and after the dwell as its "
                     "product of both distances beyond e is negative.", needs=(*SHEET, "rest_tolerance"),
-               absent="not calculated: rest_tolerance, sprocket_teeth and chain_pitch are not all given")
+               absent="not calculated: {missing} not given")
 rest.require("tolerance_below_step", lambda rest_tolerance, sheet_step: 2 * rest_tolerance < sheet_step, key="rest_tolerance",
              message="is {rest_tolerance}, but must be less than half the step {sheet_step}")
 rest.value("rest_excess", "Π_e", "mm**2", "Product of the distances beyond the tolerance, from where the sheet rested and where it will",
@@ -47,7 +47,7 @@ rest.phase("rest", "rest", "Rest of the sheet within the tolerance", "disc_angle
 torques = Chapter("Torque",
                   text="Without losses: the conveyor's mass alone is moved, and the sector with its rocker where their inertia is given. The fixed "
                        "cams do no work, for the rollers move along them; so the disc gives the power that gear and sector take.", needs=TORQUE,
-                  absent="not calculated: sprocket_teeth, chain_pitch and conveyor_mass are not all given")
+                  absent="not calculated: {missing} not given")
 torques.value("gear_torque", "M_1", "N*m", "Torque at the gear's shaft", loads.gear_torque, source="statics")
 torques.value("tooth_force", "F_t", "N", "Tangential force between the teeth of sector and gear", loads.tooth_force, source="statics")
 torques.value("drive_torque", "M_2", "N*m", "Torque at the disc's shaft",

@@ -118,7 +118,7 @@ sliding.words("pv_advice", advice.against_glazing, ("shoe_radius", "shoe_width",
 heat = Chapter("Heat of the engagement",
                text="The driving shaft keeps its speed; the driven side starts from rest and is run up by M_a. The clutch slips the slower the "
                     "faster the driven side runs, and all friction work becomes heat.", needs=("driven_inertia", "speed"),
-               absent="heat, slip time and temperature are not calculated: they need driven_inertia and speed")
+               absent="not calculated: {missing} not given")
 heat.value("accelerating_torque", "M_a", "N*m", "Torque that runs up the driven side",
            lambda design_torque, load_torque_at_engagement: design_torque - load_torque_at_engagement, source="statics")
 heat.value("slip_time", "t_s", "s", "Time in which the clutch slips", f.slip_time, source="energy")
@@ -158,7 +158,7 @@ temperature.value("lining_temperature_rise", "ΔT", "K", "Greatest rise of the l
                   lambda engagement_temperature_rise: engagement_temperature_rise, lacks=("cooling",), source="this method")
 
 warming = Chapter("Mean temperature", needs=("driven_inertia", "speed", "cooling"),
-                  absent="the mean temperature over many engagements is not calculated: it needs driven_inertia, speed and the block cooling")
+                  absent="not calculated: {missing} not given")
 warming.value("mean_temperature_rise", "ΔT_m", "K", "Mean rise of the drum above the surroundings",
               bind(lambda lining_power, heat_transfer_coefficient, area: lining_power / (heat_transfer_coefficient * area),
                    heat_transfer_coefficient="cooling.heat_transfer_coefficient", area="cooling.area"), source="energy")

@@ -64,7 +64,7 @@ energy.value("energy_residual", "r_E", "1", "Difference of energy and work, rela
 clearance = Chapter("Window of the carriages",
                     text="The carriages pass while the lower edge of the turned flat leaves their clearance over the die: R(1 − cos(α − θ)) ≥ c_r "
                          "on both sides of the flat's lowest position.", needs=("carriage_clearance", "segment_height"),
-                    absent="not calculated: carriage_clearance and segment_height are not both given")
+                    absent="not calculated: {missing} not given")
 clearance.require("clearance_below_flat", lambda carriage_clearance, segment_height: carriage_clearance <= segment_height, key="carriage_clearance",
                   message="is {carriage_clearance}, but the flat leaves no more than the segment's height {segment_height}")
 clearance.value("clear_rotation", "θ_c", "deg", "Rotation of the cylinder up to which the clearance is left",

@@ -61,6 +61,22 @@ def next_marked(is_cylinder: Any) -> Any:
     return found
 
 
+OFF = ("pulley_teeth_off", "has_teeth")
+FARTHEST = "of the toothed pulley that is farthest from whole teeth"
+UNPRINTED: Any = {"printed": False, "digits": 6, "output": False}  # for messages alone
+
+
+def of_farthest(values: Any, off: Any, teeth: Any) -> Any:
+    """Of each machine the value of the toothed pulley that is farthest from whole teeth."""
+    farthest = np.argmax(np.where(teeth > 0, off, -1.0), axis=1)[:, None]
+    return np.take_along_axis(np.broadcast_to(values, off.shape), farthest, axis=1)
+
+
+def any_marked(is_cylinder: Any) -> Any:
+    """Of each machine 1 where one of its pulleys is marked, else -1."""
+    return is_cylinder.max(axis=1, keepdims=True)
+
+
 def pitch_advice(pitch: float, fewest: float) -> str:
     """The pitch that puts enough teeth into mesh."""
     return Phrase("a pitch of at most {pitch}", pitch=told(pitch * fewest / FEWEST_IN_MESH, 'mm', up=False))
@@ -69,10 +85,10 @@ def pitch_advice(pitch: float, fewest: float) -> str:
 IS_MARKED = bind(common.is_positive, quantity="cylinder_pulley_there")
 
 listed = Chapter("Toothed belt: pulleys of the list",
-                 text="The first pulley of the list is the driving one; the one with role: cylinder is fixed to the cylinder (κ = 1, else −1). "
+                 text="The first pulley of the list is the driving one; one may be fixed to the cylinder (κ = 1, else −1). "
                       "Teeth (τ = 1) have all pulleys inside the loop, and the cylinder's; any other outside pulley runs on the back of the belt "
-                      "and is smooth. The y axis points up, and the die lies below the cylinder: the belt passes over the cylinder's pulley with "
-                      "engagement: away, below it with engagement: die.", needs=("toothed_belt", PULLEYS),
+                      "and is smooth. The y axis points up, and the die lies below the cylinder: the belt passes over the cylinder's pulley where "
+                      "this engages away from the die, below it where it engages on the die's side.", needs=("toothed_belt", PULLEYS),
                  absent=f"not calculated: {PULLEYS} is not given")
 listed.value("pulley_teeth", "n_z", "1", "Teeth of the circumference", bind(teeth_around, radius=f"{PULLEYS}.radius", pitch=PITCH), source="geometry",
              digits=6, output=False)
@@ -84,20 +100,17 @@ listed.clash("one_cylinder_pulley", next_marked, ("is_cylinder_pulley",), key=f"
              message="pulleys {part} and {other} both have role: cylinder, but one is fixed to the cylinder; give the others role: other")
 listed.total("pulley_teeth_off_max", "Δz_max", "1", "Greatest difference of the toothed pulleys", "max", of="pulley_teeth_off", among="has_teeth",
              source="this method", output=False)
-listed.value("is_farthest", "φ_z", "1", "Above 0: the pulley with this difference",
-             lambda has_teeth, pulley_teeth_off, pulley_teeth_off_max: np.minimum(has_teeth, pulley_teeth_off - pulley_teeth_off_max + 1e-09),
-             output=False, source="this method")
-listed.total("farthest_radius", "r_f", "mm", "Its radius", "min", of=f"{PULLEYS}.radius", among="is_farthest", digits=6, output=False)
-listed.total("farthest_teeth", "n_f", "1", "Its teeth", "min", of="pulley_teeth", among="is_farthest", digits=6, output=False)
-listed.total("farthest_whole_radius", "r_zf", "mm", "Its radius with whole teeth", "min", of="pulley_whole_radius", among="is_farthest", digits=6,
-             output=False)
+listed.computed("farthest_radius", "r_f", "mm", "Its radius", of_farthest, (f"{PULLEYS}.radius", *OFF), FARTHEST, **UNPRINTED)
+listed.computed("farthest_teeth", "n_f", "1", "Its teeth", of_farthest, ("pulley_teeth", *OFF), FARTHEST, **UNPRINTED)
+listed.computed("farthest_whole_radius", "r_zf", "mm", "Its radius with whole teeth", of_farthest, ("pulley_whole_radius", *OFF), FARTHEST,
+                **UNPRINTED)
 listed.part("first_radius", "r_1st", "mm", "Radius of the first pulley, which drives", of=f"{PULLEYS}.radius", index=0, digits=6, output=False)
 listed.value("driving_teeth_off", "Δz_p", "1", "Difference of the first pulley from the driving one, in teeth",
              bind(teeth_apart, radius="first_radius", other="driving_pulley_pitch_radius", pitch=PITCH), source="this method", output=False)
 listed.value("driven_whole_radius", "r_dz", "mm", "Radius r_d with the nearest whole number of teeth",
              bind(whole_radius, radius="toothed_belt.driven_radius", pitch=PITCH), digits=6, source="geometry", output=False)
-listed.total("cylinder_pulley_there", "κ_max", "1", "Whether the list has the cylinder's pulley: 1, else −1", "max", of="is_cylinder_pulley",
-             output=False)
+listed.computed("cylinder_pulley_there", "κ_max", "1", "Whether the list has the cylinder's pulley: 1, else −1", any_marked, ("is_cylinder_pulley",),
+                "the greatest mark of its pulleys", printed=False, output=False)
 listed.total("cylinder_pulley_radius", "r_c", "mm", "Radius of the cylinder's pulley in the list", "sum", of=f"{PULLEYS}.radius",
              among="is_cylinder_pulley", digits=6, output=False)
 listed.value("cylinder_teeth_off", "Δz_d", "1", "Difference of it from r_d, in teeth",

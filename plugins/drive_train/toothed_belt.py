@@ -157,11 +157,12 @@ path.lookup("pulley_side", "σ", "1", "Side of the pulley: inside 1, outside −
             source="this method", output=False)
 path.add(MARKS)
 path.value("signed_radius", "r_σ", "mm", "Radius, negative outside", bind(belt_path.signed, side="pulley_side", size=f"{PULLEYS}.radius"),
-           output=False, source="geometry")
-path.neighbour("next_pulley_x", "x′", "mm", "The next pulley's place along x", of=f"{PULLEYS}.x", output=False)
-path.neighbour("next_pulley_y", "y′", "mm", "The next pulley's place along y", of=f"{PULLEYS}.y", output=False)
-path.neighbour("next_signed_radius", "r_σ′", "mm", "The next pulley's radius, negative outside", of="signed_radius", output=False)
-path.value("pulley_distance", "d", "mm", "Distance to the next pulley", bind(belt_path.center_distance, **PLACES), output=False, source="geometry")
+           output=False, source="geometry", digits=6)
+path.neighbour("next_pulley_x", "x′", "mm", "The next pulley's place along x", of=f"{PULLEYS}.x", digits=6, output=False)
+path.neighbour("next_pulley_y", "y′", "mm", "The next pulley's place along y", of=f"{PULLEYS}.y", digits=6, output=False)
+path.neighbour("next_signed_radius", "r_σ′", "mm", "The next pulley's radius, negative outside", of="signed_radius", digits=6, output=False)
+path.value("pulley_distance", "d", "mm", "Distance to the next pulley", bind(belt_path.center_distance, **PLACES), output=False, source="geometry",
+           digits=6)
 path.require("tangents", bind(belt_path.has_tangent, center_distance="pulley_distance", **RADII), key=PULLEY,
              message="pulleys {part} and {next} have no common tangent: their axes are only {pulley_distance} apart, so they touch or overlap, or "
                      "one lies within the other; move them apart or make them smaller")
@@ -171,7 +172,7 @@ path.clash("pulleys_counter_clockwise", belt_path.clockwise, LAYOUT, key=PULLEYS
            message="pulleys {part} to {other} are listed clockwise, so the signed wraps do not sum to 360°; reverse their order, so that the belt "
                    "meets them counter-clockwise")
 path.value("straight_runs", "l", "mm", "Straight run to the next pulley", bind(belt_path.run_length, center_distance="pulley_distance", **RADII),
-           source="geometry")
+           source="geometry", digits=6)
 path.value("run_direction", "θ", "deg", "Direction of the run", bind(belt_path.run_direction, center_distance="pulley_distance", **PLACES, **RADII),
            source="geometry", output=False)
 path.neighbour("direction_before", "θ_before", "deg", "Direction of the run before the pulley", of="run_direction", shift=-1, output=False)
@@ -196,7 +197,7 @@ path.clash("runs_clear", belt_path.pierced, LAYOUT, key=PULLEY,
 
 length = Chapter("Toothed belt: length and teeth in mesh", needs=("toothed_belt", PULLEYS), absent=f"not calculated: {PULLEYS} is not given")
 length.value("belt_arcs", "s", "mm", "Belt on the pulley", bind(belt_path.arc, radius=f"{PULLEYS}.radius", wrap="wraps"), source="geometry",
-             output=False)
+             output=False, digits=6)
 length.total("straight_length", "Σl", "mm", "All straight runs", "sum", of="straight_runs", digits=6)
 length.total("arc_length", "Σs", "mm", "All arcs", "sum", of="belt_arcs", digits=6)
 length.value("toothed_belt_length", "L_b", "mm", "Length of the toothed belt's path",

@@ -68,7 +68,7 @@ def _while(rising: bool, symbol: str, words: str) -> Steps:
 
 
 settling = Chapter("Settling after the motion", needs=(*RATE, "rest_tolerance"),
-                   absent="not calculated: cycles_per_hour and rest_tolerance are not both given",
+                   absent="not calculated: {missing} not given",
                    text="The link rests once it stays within the tolerance of its input; what is not followed to its end is not told.")
 settling.value("settle_excess", "Π_z", "rad**2", "Square of the deflection above that of the tolerance",
                lambda deflection, rest_tolerance: deflection ** 2 - rest_tolerance ** 2, units=(("mass", "m**2"),), output=False)

@@ -31,7 +31,7 @@ torque.value("energy_residual", "r_E", "1", "Work over a turn to the energy of a
 
 contact_chapter = Chapter("Contact of roller and slot",
                           text="A cylindrical roller on the plane flank of the slot, both of one material; the load is even over the roller's width.",
-                          needs=("driven_inertia", "roller_width"), absent="not calculated: driven_inertia and roller_width are not both given")
+                          needs=("driven_inertia", "roller_width"), absent="not calculated: {missing} not given")
 contact_chapter.value("effective_modulus", "E*", "GPa", "Modulus of the contact", contact.effective_modulus_alike, source="Hertz")
 contact_chapter.value("contact_pressure", "p_H", "MPa", "Greatest contact pressure",
                       bind(contact.contact_pressure, force="roller_force_peak", effective_radius="roller_radius", length="roller_width"),

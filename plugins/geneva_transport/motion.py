@@ -107,7 +107,7 @@ motion_chapter.value("wheel_speed_max", "ω_2,max", "rad/s", "Greatest angular s
 motion_chapter.value("wheel_acceleration_max", "ε_2,max", "rad/s**2", "Greatest angular acceleration of the wheel",
                      bind(formulas.rate_of_rate, ratio="acceleration_peak"), source="kinematics")
 
-conveyor = Chapter("Motion of the sheet", needs=CONVEYOR_NEEDS, absent="not calculated: sprocket_teeth and chain_pitch are not both given")
+conveyor = Chapter("Motion of the sheet", needs=CONVEYOR_NEEDS, absent="not calculated: {missing} not given")
 conveyor.value("travel_radius", "r_c", "mm", "Way of the conveyor for each radian of the wheel", formulas.travel_radius, source="000, Fig. 1")
 conveyor.value("sheet_step", "S", "mm", "Step of the conveyor for each turn of the crank",
                lambda sprocket_teeth, chain_pitch, gear_ratio, slots: sprocket_teeth * chain_pitch * gear_ratio / slots, source="000, Fig. 1")
@@ -127,7 +127,7 @@ conveyor.value("sheet_acceleration_entry", "a_e", "m/s**2", "Jump of the sheet's
 
 grippers = Chapter("Hold of the grippers",
                    text="The grippers must hold the sheet against its own inertia; air and the friction of what it slides on are left out.",
-                   needs=GRIPPED, absent="not calculated: sprocket_teeth, chain_pitch, grammage and the sheet's size are not all given")
+                   needs=GRIPPED, absent="not calculated: {missing} not given")
 grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", gripping.sheet_mass, source="geometry")
 grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", gripping.sheet_force, source="mechanics")
 grippers.words("crank_slower_for_grippers", advice.slower_crank, ("crank_speed", "sheet_force", "gripper_force"), output=False,
@@ -135,7 +135,7 @@ grippers.words("crank_slower_for_grippers", advice.slower_crank, ("crank_speed",
 rest = Chapter("Rest of the sheet within a tolerance",
                text="The sheet rests as long as it is no farther than e from where it stands in the dwell.",
                needs=(*CONVEYOR_NEEDS, "rest_tolerance"),
-               absent="not calculated: rest_tolerance, sprocket_teeth and chain_pitch are not all given")
+               absent="not calculated: {missing} not given")
 rest.require("tolerance_below_step", lambda rest_tolerance, sheet_step: 2 * rest_tolerance < sheet_step, key="rest_tolerance",
              message="is {rest_tolerance}, but must be less than half the step {sheet_step}")
 rest.value("rest_wheel_angle", "ψ_e", "deg", "Angle of the wheel from the middle of its motion at which the sheet comes within the tolerance",

@@ -79,7 +79,7 @@ for needs, lacks in ((("output_turns_per_sheet",), ()), (("crank_speed",), ("out
 
 conveyor = Chapter("Inertia of the conveyor", needs=CONVEYOR,
                    text="The wheel moves the conveyor's mass on the way that it makes for each radian.",
-                   absent="not calculated: conveyor_mass, travel_radius and wheel_inertia are not all given")
+                   absent="not calculated: {missing} not given")
 conveyor.value("conveyor_inertia", "J_m", "kg*m**2", "Inertia of the conveyor's mass at the wheel's shaft",
                lambda conveyor_mass, travel_radius: conveyor_mass * travel_radius**2, source="energy")
 conveyor.value("inertia_error", "Δ_J", "%", "Difference of the inertia that the wheel is calculated with, relative",

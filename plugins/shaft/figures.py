@@ -4,7 +4,21 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chart, Drawing, Panel, Phrase, Plot, Series, Shape, View, chart_panel, level, line, mark
+from diecut_report.api import (
+    Chart,
+    Drawing,
+    Panel,
+    Phrase,
+    Plot,
+    Series,
+    Shape,
+    View,
+    chart_panel,
+    level,
+    line,
+    mark,
+    phrase,
+)
 from diecut_report.plugins.shaft.drawing import shaft
 
 ALONG = Plot(
@@ -56,7 +70,7 @@ def _places(view: View) -> list[Shape]:
         if found is None or safety[i] < found[0]:
             least[round(x[i], 9)] = (safety[i], names[i])
     shown = [
-        (place, min(each, TOLD), Phrase("{place}, above", place=name) if each > TOLD else name)
+        (place, min(each, TOLD), Phrase("{place}, above", place=phrase(name)) if each > TOLD else name)
         for place, (each, name) in least.items()
     ]
     stems = np.array([end for place, height, _ in shown for end in ((place, 0.0), (place, height), (place, np.nan))])

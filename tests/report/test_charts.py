@@ -133,6 +133,16 @@ def test_a_panel_names_in_its_legend_only_what_the_first_does_not() -> None:
     assert before[:5] == first.told[:5] and second.told == before[5:]
 
 
+def test_a_legend_beside_the_title_is_not_said_again() -> None:
+    turn = [line([0, 1], [0, 1], "left"), line([0, 1], [1, 0], "right")]
+    first, second = (
+        Diagram(each, 400, 60) for each in diagrams(chart("x", "x", [panel("y", "N", TURN, lines=turn)] * 2), {}, WORDS)
+    )
+    assert first.legend and first.legend.beside
+    second.follow(first)
+    assert second.legend is None
+
+
 def test_legend_stands_beside_a_short_title_and_in_rows_where_it_is_long() -> None:
     assert legend([], 400, 50) is None
     short = legend(["coupler", "rocker"], 400, 50)

@@ -133,6 +133,12 @@ def test_drawing_to_scale_is_not_stretched() -> None:
     assert sheet.scale.across == sheet.scale.upwards
 
 
+@pytest.mark.parametrize(("unit", "has_bar"), [("mm", True), ("N", True), ("1", False)])
+def test_a_drawing_without_a_unit_has_no_scale_bar(unit: str, has_bar: bool) -> None:
+    sheet = _sheet(drawing("x", "x", [circle((0, 0), 1.0)], unit))
+    assert bool([text for text in sheet.axes.texts if text.get_text().endswith(unit)]) is has_bar
+
+
 def test_round_things_stay_round_in_a_stretched_schematic() -> None:
     tall = box((0, 0), (1, 0.2), "one", "two", "three", "four", "five")
     sheet = _sheet(drawing("x", "x", [tall, circle((3, 0), 0.3)], "1", schematic=True))

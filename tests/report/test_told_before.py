@@ -117,24 +117,49 @@ def table(title: str, rows: list[list[str]], *symbols: str) -> Data:
 def test_tables_of_the_same_parts_are_one_where_the_last_of_them_stood() -> None:
     length = step("length", "l", ["*", ["sym", "a"], ["sym", "b"]])
     items = [table("Width", [["1", "5"], ["2", "6"]], "b"), length, table("Length", [["1", "7"], ["2", "8"]], "l")]
-    found = brought_together({"title": "Sizes", "items": items})
+    found = brought_together({"title": "Sizes", "items": items}, set())
     assert found[0] is None and found[1] is length and found[2] is not None
     assert found[2]["rows"] == [["1", "5", "7"], ["2", "6", "8"]] and found[2]["title"] == "Sizes"
 
 
 def test_tables_of_other_parts_stay_apart() -> None:
     items = [table("Width", [["a", "5"]], "b"), table("Length", [["b", "7"]], "l")]
-    assert brought_together({"title": "Sizes", "items": items}) == items
+    assert brought_together({"title": "Sizes", "items": items}, set()) == items
 
 
 def test_a_table_of_the_one_part_that_the_formula_shows_is_left_out() -> None:
     length = step("Length", "l", ["*", ["sym", "a"], ["sym", "b"]])
-    assert brought_together({"title": "", "items": [length, table("Length", [["1", "7"]], "l")]}) == [length, None]
+    assert brought_together({"title": "", "items": [length, table("Length", [["1", "7"]], "l")]}, set()) == [length, None]
 
 
 def test_one_quantity_of_numbered_parts_stands_in_a_line() -> None:
-    [found] = brought_together({"title": "", "items": [table("Length", [["1", "7"], ["2", "8"]], "l")]})
+    [found] = brought_together({"title": "", "items": [table("Length", [["1", "7"], ["2", "8"]], "l")]}, set())
     assert found is not None and found["type"] == "listed"
+
+
+def test_a_table_holds_no_column_that_an_earlier_one_of_the_same_lines_has() -> None:
+    told: set[Any] = set()
+    first = table("Width", [["1", "5"], ["2", "6"]], "b")
+    again = table("Width", [["1", "5", "9"], ["2", "6", "8"]], "b", "c")
+    brought_together({"title": "", "items": [first]}, told)
+    [found] = brought_together({"title": "", "items": [again]}, told)
+    assert found is not None and [column["symbol"] for column in found["columns"]] == ["", "c"]
+    assert found["rows"] == [["1", "9"], ["2", "8"]]
+    assert brought_together({"title": "", "items": [again]}, told) == [None]
+
+
+def test_a_column_of_other_lines_or_numbers_is_another_one() -> None:
+    told: set[Any] = set()
+    brought_together({"title": "", "items": [table("Width", [["a", "5"]], "b")]}, told)
+    for other in (table("Width", [["b", "5"]], "b"), table("Width", [["a", "6"]], "b")):
+        assert brought_together({"title": "", "items": [other]}, told) == [other]
+
+
+def test_of_a_single_part_its_quantity_stands_in_a_line() -> None:
+    columns = table("Ratio so far", [["1", "3", "3"]], "i", "Πi")
+    columns["columns"][1]["title"] = "Ratio"
+    [found] = brought_together({"title": "", "items": [columns]}, set())
+    assert found is not None and found["type"] == "listed" and found["rows"] == [["1", "3"]]
 
 
 # figures

@@ -112,6 +112,11 @@ def test_no_english_word_is_left(small: dict[str, Any]) -> None:
     assert left_over(small, page) == {}
 
 
+def test_papers_in_ukrainian_are_cited_in_ukrainian(small: dict[str, Any]) -> None:
+    assert "Лойзик В. В." in in_ukrainian(small)
+    assert "Loizyk" not in " ".join(visible(in_ukrainian(small)))
+
+
 def test_numbers_have_a_decimal_comma(small: dict[str, Any]) -> None:
     numbers = [
         found for line in visible(in_ukrainian(small)) for found in re.findall(r"(?<![\w.])\d+[.,]\d+(?![\w.])", line)

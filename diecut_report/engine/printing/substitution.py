@@ -121,6 +121,7 @@ class Substitution:
         self.numbers: dict[str, Node] = {}  # as what each quantity was put in
         self._displays: dict[str, str] = {}
         self.in_degrees = False  # whether angles stand in degrees in all of it
+        self.shares = {name for node in walk(part.formula.tree) for name in _beside_a_number(node)}
 
     def symbolic(self) -> Node:
         """Return the expression in the plugin's symbols."""
@@ -250,6 +251,7 @@ class Substitution:
         declared, value = self.calc.step_or_input(name), self.value_of(name)
         own = self.display(name)
         display = own if self.is_copy else self.unit_of(own, angle=angle)
+        display = "1" if leaf.args[0] in self.shares and unit(display).si == "1" else display
         text = self._text(name, unit(display).from_si(value), digits)
         is_zero = digits <= TRUSTED and is_nothing(value, declared.unit)
         self.numbers[name] = Node("qty", ("0" if is_zero else text, display))
@@ -270,6 +272,13 @@ class Substitution:
 
     def _unit(self, name: str) -> str:
         return number_unit(self.calc, name, self.calc.step_or_input(name), self.value_of(name))
+
+
+def _beside_a_number(node: Node) -> list[str]:
+    """What a comparison holds against a plain number: 0.99 < 0.995, not 99 % < 0.995."""
+    _, *sides = node.args if node.op == "cmp" else ("",)
+    is_number = any(side.op == "num" and float(side.args[0]) for side in sides)
+    return [side.args[0] for side in sides if side.op == "sym"] if is_number else []
 
 
 QUANTITY = re.compile(r"(\d+(?:\.\d+)?) (\S+)")  # a constant that is named by what it is: 254 mm

@@ -103,8 +103,8 @@ class Diagram:
         return Diagram(replace(self.panel, verticals=kept), self.frame.width, self.frame.height)
 
     def follow(self, first: Diagram) -> None:
-        """Leave away of a legend in rows what the first diagram's legend names already, line by line and area by area."""
-        if self.legend is None or self.legend.beside:
+        """Leave away of a legend what the first diagram's legend names already, line by line and area by area."""
+        if self.legend is None:
             return
         are_lines_told = self.tags == first.tags[: len(self.tags)]
         are_areas_told = self.areas == first.areas[: len(self.areas)]

@@ -54,7 +54,7 @@ class DrawingSheet:
         for write in self.texts:
             write(labels)
         self.boxes += labels.taken
-        if not self.schematic:
+        if not self.schematic and pretty(self.unit):
             self._scale_bar()
         left, bottom, right, top = (pick(box[i] for box in self.boxes) for i, pick in enumerate((min, min, max, max)))
         left, bottom, right, top = left - 4, bottom - 4, right + 4, top + 4
