@@ -7,6 +7,7 @@ from itertools import groupby
 from typing import Any, NamedTuple
 
 from diecut_report.languages.tokens import worded
+from diecut_report.quantities.display import is_nothing
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import BEFORE, Place, Row, figures_at
 from diecut_report.report.given_names import in_words
@@ -170,6 +171,7 @@ class PrintedSteps:
             yield f"{self.words['method']}: {method}"
         if residual and residual["text"] != UNPRINTED_RESIDUAL:
             key = "residual" if item["type"] == "found" else "checked_to"
+            key += "_rounded" if is_nothing(float(residual["text"]), residual["unit"]) else ""
             yield self.words.say(key, residual=quantity(residual["text"], residual["unit"], self.decimal))
 
     def _looked_up(self, item: Data) -> str:

@@ -11,8 +11,8 @@ import diecut_report.report.pdf  # noqa: F401 - figures wait where reports are s
 from diecut_report.report.page_engine import HTML
 
 STYLE = (
-    "@page { size: 100mm 101mm; margin: 0 } body { margin: 0 } html { font: 10mm/10mm sans-serif } p, h2 { margin: 0; font-size: 4mm; line-height: 10mm }"
-    "h2 { break-after: avoid } figure { margin: 0; break-inside: avoid }"
+    "@page { size: 100mm 101mm; margin: 0 } body { margin: 0 } html { font: 4mm/10mm sans-serif } p, h2 { margin: 0 }"
+    "h2 { font-size: 4mm; break-after: avoid } figure { margin: 0; break-inside: avoid }"
 )
 
 
