@@ -14,7 +14,7 @@ from diecut_report.report.given_names import in_words
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.left_out import gathered_notes
 from diecut_report.report.model import Heading, Item, PrintedSection
-from diecut_report.report.number_format import quantity
+from diecut_report.report.number_format import is_words, quantity
 from diecut_report.report.said_once import SaidOnce
 from diecut_report.report.section_tables import brought_together
 from diecut_report.report.tables import Tables
@@ -171,7 +171,7 @@ class PrintedSteps:
             yield f"{self.words['method']}: {method}"
         if residual and residual["text"] != UNPRINTED_RESIDUAL:
             key = "residual" if item["type"] == "found" else "checked_to"
-            key += "_rounded" if is_nothing(float(residual["text"]), residual["unit"]) else ""
+            key += "_rounded" if _is_rounding(residual) else ""
             yield self.words.say(key, residual=quantity(residual["text"], residual["unit"], self.decimal))
 
     def _looked_up(self, item: Data) -> str:
@@ -179,6 +179,11 @@ class PrintedSteps:
         if item["table"]:
             return self.words.say("looked_up", table=item["table"], choice=worded(item["key"]))
         return f"{item['by']}: {worded(item['key'])}"
+
+
+def _is_rounding(residual: Data) -> bool:
+    """Return whether what is left of an equation is but the rounding of the computer."""
+    return not is_words(residual["text"]) and is_nothing(float(residual["text"]), residual["unit"])
 
 
 def _is_chosen(item: Data) -> bool:

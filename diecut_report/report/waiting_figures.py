@@ -13,10 +13,9 @@ from diecut_report.report.page_engine import block_layout
 
 WAITS = "waits"
 BARRIER = "section"  # a chapter does not begin before the figures of the one before it
-GOES_ON: Any = {"break": "any", "page": None}
-NO_ROOM = (None, None, GOES_ON, [], False)
-
 Laid = tuple[Any, ...]  # block, where it goes on, how the next page begins, margins, whether they meet, lines left
+GOES_ON: Any = {"break": "any", "page": None}
+NO_ROOM: Laid = (None, None, GOES_ON, [], False)
 
 
 class BlockPlace(NamedTuple):
