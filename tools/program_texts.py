@@ -26,8 +26,8 @@ from diecut_report.results import document, mechanism, reference_origins, unchec
 from diecut_report.standards import StandardSeries, standard_ids, standard_series, standard_series_by
 
 ROOT = Path(__file__).parents[1]
-CONSTANTS = (*methods.METHODS.values(), methods.EQUAL_TERMS, "True", "False", *tables.SERIES_WORDS.values(), tables.AS_GIVEN, tables.AMONG,
-             mechanism.IDLE,
+CONSTANTS = (*methods.METHODS.values(), methods.EQUAL_TERMS, methods.TO_ROUNDING, "True", "False", *tables.SERIES_WORDS.values(),
+             tables.AS_GIVEN, tables.AMONG, mechanism.IDLE,
              reference_origins.FOLLOWS, *unchecked.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
              "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated",
              "Taken at {place}, in the middle of its smooth piece; it is the same in all of it.",

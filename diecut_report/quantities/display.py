@@ -27,6 +27,7 @@ UNIT_STEPS = {"deg": 0.01, "%": 0.01}  # of these units alone: a small angle in 
 FEWEST, FEWEST_OF_LENGTH = 3, 2  # digits of what is smaller than these steps allow for: 26 µm
 SHORT = 2  # digits of a number that stands as it is, however small: 0.05 mm
 NOTHING = 1e-7  # of a unit: what is less is the rounding of the computer
+ROUNDED = 1e-12  # of a pure number: what is left of a difference or a ratio of equal ones
 NEVER_SMALL = frozenset(
     ("m", "rad", "s", "N", "N*m", "W", "J", "Pa", "kg", "m/s", "m/s**2", "rad/s", "rad/s**2", "K", "1/s")
 )
@@ -65,6 +66,8 @@ def _is_short(number: float) -> bool:
 def is_nothing(value: float, unit_text: str) -> bool:
     """Return whether an SI value is so small in its unit that it is but the rounding of the computer."""
     own = unit(unit_text)
+    if own.text == "1":
+        return abs(value) < ROUNDED
     return (own.si in NEVER_SMALL or own.text == "%") and abs(value) < NOTHING * own.factor
 
 

@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.report.carried import CarriedFile, carried_files
 from diecut_report.report.changes import PrintedChanges, marked, printed_changes
+from diecut_report.report.declared_letters import DeclaredLetters, declared_letters
 from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations
 from diecut_report.report.house_style import HouseStyle
@@ -62,6 +63,11 @@ class Material:
     def said(self) -> Mapping[str, Any]:
         """The results with their texts in the report's language, and papers by their numbers."""
         return numbered(translated(self.results, self.catalogues))
+
+    @cached_property
+    def letters(self) -> DeclaredLetters:
+        """The lone letters that are symbols, and the configuration's own names."""
+        return declared_letters(self.results)
 
     @cached_property
     def changes(self) -> PrintedChanges | None:

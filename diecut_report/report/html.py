@@ -20,7 +20,7 @@ from diecut_report.report.model import Item
 from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_blocks
-from diecut_report.report.symbols import cited, pieces, prose, symbol
+from diecut_report.report.symbols import cited, letters_declared, own_words, pieces, prose, symbol
 from diecut_report.report.value_lines import in_lines
 
 if TYPE_CHECKING:
@@ -41,6 +41,7 @@ SCRIPTS = ("uplot/uPlot.iife.min.js", "level_names.js", "reader.js")
 FORMS = {"screen": "woff2", "print": "truetype"}  # a page engine would unpack the smaller form at each report
 FILTERS: dict[str, Callable[..., Any]] = {
     "prose": prose,
+    "own_words": own_words,
     "cited": cited,
     "symbol": symbol,
     "tidy": tidy,
@@ -131,7 +132,7 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     house = material.house
     environment = _environment() if house is None else house.environment(folder(), FILTERS)
     style += f"\n{house.css}" if house else ""
-    with in_words(house):
+    with in_words(house), letters_declared(*material.letters):
         made = environment.get_template("report.html.j2").render(
         doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(*scripts),
         math=medium, figure=medium.figure, failed=material.failed, abreast=material.are_abreast, frame=medium.frame, logo=material.logo,

@@ -85,6 +85,7 @@ ENGLISH: dict[str, str] = {
     # items
     "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",
     "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
+    "residual_rounded": "relation met up to the rounding of the computer", "checked_to_rounded": "verified up to the rounding of the computer",
     "of_curve": "of {curve}", "series": "Series", "looked_up": "From “{table}” for {choice}",
     "figure": "Figure", "fig": "Fig.", "table": "Table", "formula": "Formula",
     "as_formula": "as ({number})", "as_formula_with": "as ({number}) with {letters}", "letter_for": "{new} for {old}",

@@ -13,6 +13,7 @@ with no_compiler():
     from pydyf import PDF, Array, Dictionary, Object, Stream, String
     from weasyprint import HTML, Attachment
     from weasyprint.html import UA_STYLESHEET
+    from weasyprint.layout import block as block_layout
     from weasyprint.urls import FatalURLFetchingError, URLFetcher
 
 __all__ = [
@@ -26,6 +27,7 @@ __all__ = [
     "Stream",
     "String",
     "URLFetcher",
+    "block_layout",
     "fetching_refused",
 ]
 

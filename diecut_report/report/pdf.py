@@ -17,12 +17,13 @@ from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
 from diecut_report.report.model import Item
-from diecut_report.report.page_engine import Attachment, URLFetcher, fetching_refused
+from diecut_report.report.page_engine import Attachment, URLFetcher, block_layout, fetching_refused
 from diecut_report.report.page_reading import read_page
 from diecut_report.report.pdf_archive import Archive
 from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.pdf_math import Letters, Picture
 from diecut_report.report.sheet_frames import SheetBlocks, sheet_blocks
+from diecut_report.report.waiting_figures import waiting_figures
 
 BESIDE_WIDTH = 33.0  # em of a formula that stands beside its description
 BESIDE_LETTERS = 60  # of a description of two lines beside a formula
@@ -30,6 +31,9 @@ NARROW_WIDTH = 22.0  # em of a formula beside which a description has more room
 ROOMY_LETTERS = 100  # of such a description
 SMALLER = 0.85  # of the letters of a source
 BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, which WeasyPrint finds in its cache
+
+
+block_layout.block_level_layout = waiting_figures(block_layout.block_level_layout)
 
 
 class Paper:

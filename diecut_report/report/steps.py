@@ -7,13 +7,14 @@ from itertools import groupby
 from typing import Any, NamedTuple
 
 from diecut_report.languages.tokens import worded
+from diecut_report.quantities.display import is_nothing
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import BEFORE, Place, Row, figures_at
 from diecut_report.report.given_names import in_words
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.left_out import gathered_notes
 from diecut_report.report.model import Heading, Item, PrintedSection
-from diecut_report.report.number_format import quantity
+from diecut_report.report.number_format import is_words, quantity
 from diecut_report.report.said_once import SaidOnce
 from diecut_report.report.section_tables import Column, brought_together
 from diecut_report.report.tables import Tables
@@ -171,6 +172,7 @@ class PrintedSteps:
             yield f"{self.words['method']}: {method}"
         if residual and residual["text"] != UNPRINTED_RESIDUAL:
             key = "residual" if item["type"] == "found" else "checked_to"
+            key += "_rounded" if _is_rounding(residual) else ""
             yield self.words.say(key, residual=quantity(residual["text"], residual["unit"], self.decimal))
 
     def _looked_up(self, item: Data) -> str:
@@ -178,6 +180,11 @@ class PrintedSteps:
         if item["table"]:
             return self.words.say("looked_up", table=item["table"], choice=worded(item["key"]))
         return f"{item['by']}: {worded(item['key'])}"
+
+
+def _is_rounding(residual: Data) -> bool:
+    """Return whether what is left of an equation is but the rounding of the computer."""
+    return not is_words(residual["text"]) and is_nothing(float(residual["text"]), residual["unit"])
 
 
 def _is_chosen(item: Data) -> bool:

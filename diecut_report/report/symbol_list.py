@@ -39,7 +39,7 @@ class SymbolRow(NamedTuple):
 
 def symbol_rows(mechanism: Data) -> list[SymbolRow]:
     """The symbols that stand in a chapter's formulas, in the order of the alphabet, Latin letters first."""
-    used = set(_used(mechanism["sections"]))
+    used = set(used_symbols(mechanism["sections"]))
     printed = {item["id"] for section in mechanism["sections"] for item in section["items"] if "id" in item}
     rows = [(name, row) for group in GROUPS for name, row in mechanism[group].items()]
     known: dict[str, Data] = {}
@@ -101,7 +101,7 @@ def _order(name: str) -> tuple[bool, str, str]:
     return not letter[:1].isascii(), letter.casefold(), letter
 
 
-def _used(sections: list[Data]) -> Iterator[str]:
+def used_symbols(sections: list[Data]) -> Iterator[str]:
     """The symbols of results and of formulas."""
     for section in sections:
         for item in section["items"]:

@@ -3,6 +3,10 @@
 from __future__ import annotations
 
 import re
+from collections.abc import Collection, Iterator
+from contextlib import contextmanager
+from contextvars import ContextVar
+from typing import NamedTuple
 
 from markupsafe import Markup, escape
 
@@ -67,13 +71,50 @@ def cited(source: str) -> Markup:
     return prose(f"{kept} · {rest}" if rest else kept)
 
 
+class _Letters(NamedTuple):
+    """The lone letters that a report declares as symbols, and what finds its own names that hold such letters."""
+
+    symbols: frozenset[str]
+    names: re.Pattern[str] | None
+
+
+_letters: ContextVar[_Letters | None] = ContextVar("letters", default=None)
+
+
+@contextmanager
+def letters_declared(symbols: Collection[str], names: Collection[str]) -> Iterator[None]:
+    """Set within sentences no other lone letters as symbols than these, and none within these names; without this, all that look like one."""
+    own = sorted((re.escape(name) for name in names if re.search(_LETTER, name)), key=len, reverse=True)
+    found = re.compile(rf"(?<!\w)(?:{'|'.join(own)})(?!\w)") if own else None
+    token = _letters.set(_Letters(frozenset(symbols), found))
+    try:
+        yield
+    finally:
+        _letters.reset(token)
+
+
+def lone_letters(text: str) -> list[str]:
+    """Return the letters of a sentence that look like symbols."""
+    return re.findall(_LETTER, text)
+
+
+def own_words(text: str) -> Markup:
+    """A user's own words as HTML: of their letters none is a symbol that has no index and stands beside no sign."""
+    with letters_declared((), ()):
+        return prose(text)
+
+
 def prose(sentence: str) -> Markup:
     """A sentence as HTML, its symbols set as symbols."""
     text = _EQUAL.sub("\u00a0\\1\u00a0", tidy(sentence))
-    units = [found.span() for found in _UNITS.finditer(text)]
+    letters = _letters.get()
+    taken = [found.span() for found in _UNITS.finditer(text)]
+    taken += [found.span() for found in letters.names.finditer(text)] if letters and letters.names else []
     parts, start = [], 0
     for found in _IN_TEXT.finditer(text):
-        if found[7] and any(first <= found.start() < end for first, end in units):
+        if found[7] and any(first <= found.start() < end for first, end in taken):
+            continue
+        if found[7] and letters and found[7] not in letters.symbols:
             continue
         base = next(filter(None, (found[1], *found.groups()[2:])))
         parts += [escape(text[start : found.start()]), symbol(f"{base}_{found[2]}" if found[2] else base)]

@@ -38,9 +38,10 @@ def printed(quantity: str, declared: str) -> str:
         ("2.2e-14 %", "%", "0 %"),
         ("0.95266 kg", "kg", "0.953 kg"),
         ("1.3351 K", "K", "1.34 K"),
-        ("3.596e-16", "1", "3.596e-16 1"),  # a residual is not zero
+        ("3.596e-16", "1", "0 1"),  # what rounding left; a note beside it says so
         ("3596 1/h", "1/h", "3596 1/h"),
-        ("5e-324", "1", "4.941e-324 1"),
+        ("5e-324", "1", "0 1"),
+        ("3.596e-9", "1", "3.596e-9 1"),  # a residual that is more
         ("0.000198 m/s", "m/s", "0.198 mm/s"),
         ("0.0275 m/s", "m/s", "27.5 mm/s"),
     ],

@@ -80,3 +80,16 @@ def test_chapters_can_be_told_apart_by_their_titles(printed: ReportDocument) -> 
 
 def test_every_symbol_of_the_list_has_a_letter(printed: ReportDocument) -> None:
     assert all(any(map(str.isalpha, row.name)) for part in printed.chapters for row in part.symbols)
+
+
+def test_what_is_but_rounding_is_said_so(example: Example) -> None:
+    results = json.loads(example.told)
+    noted = set()
+    for name, data in results["mechanisms"].items():
+        for item in (item for section in data["sections"] for item in section["items"]):
+            text, told = item.get("result", {}).get("text", ""), data["outputs"].get(item.get("id"))
+            assert "e-" not in text or float(text) > 1e-12, (name, item["id"])
+            if text == "0" and "rounding" in item.get("note", ""):
+                noted.add((name, item["id"]))
+            assert not (text == "0" and told and told["value"]) or (name, item["id"]) in noted
+    assert {("drive", "energy_residual"), ("crankshaft", "energy_difference")} <= noted

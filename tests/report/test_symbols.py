@@ -4,7 +4,9 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.report.symbols import prose, symbol
+from diecut_report.report.declared_letters import declared_letters
+from diecut_report.report.symbols import letters_declared, own_words, prose, symbol
+from tests.report.made_results import sample
 
 
 @pytest.mark.parametrize(
@@ -66,3 +68,24 @@ def test_no_line_ends_between_a_letter_and_its_number() -> None:
 )  # fmt: skip
 def test_letters_that_are_no_symbols(text: str) -> None:
     assert prose(text) == text.replace("'", "&#39;")
+
+
+def test_a_letter_of_a_user_s_own_words_is_no_symbol() -> None:
+    assert own_words("layout b, sheet Z of the drawing") == "layout b, sheet Z of the drawing"
+    assert own_words("from R_b = 20 mm") == "from <i class=sy>R</i><sub>b</sub>\u00a0=\u00a020 mm"
+
+
+def test_only_declared_letters_are_symbols_and_none_of_a_name() -> None:
+    with letters_declared({"k", "R"}, {"k", "shaft k", "drive"}):
+        assert prose("pulleys Z to E") == "pulleys Z to E"
+        assert prose("bearing k holds R, k = 3") == "bearing k holds <i class=sy>R</i>, <i class=sy>k</i>\u00a0=\u00a03"
+    with letters_declared({"k"}, {"shaft k"}):
+        assert prose("k of shaft k") == "<i class=sy>k</i> of shaft k"
+
+
+def test_letters_of_a_report_are_those_of_its_quantities_with_or_without_index() -> None:
+    results = sample()
+    letters = declared_letters(results)
+    declared = {row["symbol"] for data in results["mechanisms"].values() for row in data.get("outputs", {}).values()}
+    assert {symbol[:1] for symbol in declared if symbol[1:2] in ("", "_") and symbol[:1].isalpha()} <= letters.symbols
+    assert set(results["mechanisms"]) <= letters.names

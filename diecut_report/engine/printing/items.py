@@ -64,7 +64,7 @@ def section_items(calc: Calculation) -> list[dict[str, Any]]:
     chapters: dict[str, dict[str, Any]] = {}
     for section, step in calc.mechanism.active(calc.given):
         chapter = chapters.setdefault(section.title, {"title": section.title, "text": section.text, "items": []})
-        chapter["items"] += tables.once(chapter["items"], items(calc, step))
+        chapter["items"] += tables.once(chapter["items"], [*methods.said_rounded(calc, items(calc, step))])
         if isinstance(step, Value | Choice | Accumulated | Derivative) and calc.axis.get(step.id) in calc.domains:
             place = place_shown(calc, calc.axis[step.id], False)
             chapter["shown"] = [*(at for at in chapter.get("shown", []) if at != place), place]

@@ -28,7 +28,7 @@ from diecut_report.report.office.wordml import (
 )
 from diecut_report.report.printed_tables import PartsTable, PrintedTable
 from diecut_report.report.record_tables import RecordTable
-from diecut_report.report.symbols import prose
+from diecut_report.report.symbols import own_words, prose
 from diecut_report.report.value_rows import ValueRow
 
 if TYPE_CHECKING:
@@ -120,7 +120,7 @@ class WordBody:
             found = [
                 rich(prose(row.description)),
                 rich(row.symbol),
-                rich(prose(row.value)) if row.wordy else run(row.value),
+                rich(own_words(row.value)) if row.wordy else run(row.value),
                 run(row.unit),
             ]
             return [*found, *([rich(row.at)] if is_placed else []), *([small(prose(row.source))] if sourced else [])]

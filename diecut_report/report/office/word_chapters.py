@@ -16,7 +16,7 @@ from diecut_report.report.office.wordml import Inline, TableColumn, bold, key, n
 from diecut_report.report.record_tables import RecordTable
 from diecut_report.report.scope import FULL
 from diecut_report.report.symbol_list import SymbolRow
-from diecut_report.report.symbols import prose
+from diecut_report.report.symbols import own_words, prose
 
 HASH = 12  # letters of a hash
 
@@ -93,7 +93,7 @@ def _default(row: QuantityRow) -> Inline:
     """An input that is left alone: its key where it is a choice, else its symbol."""
     name = rich(prose(row.description)) + run(" ")
     if row.wordy:
-        return name + key(row.key) + run(" ") + rich(prose(row.value))
+        return name + key(row.key) + run(" ") + rich(own_words(row.value))
     sign = rich(row.symbol) + run(" = ") if row.symbol else ""
     return name + sign + run(joined(row.value, row.unit))
 
@@ -111,11 +111,11 @@ def _inputs(body: WordBody, rows: Sequence[QuantityRow]) -> None:
     def cells(row: QuantityRow) -> list[Inline]:
         description = rich(prose(row.description)) + (new_line() + key(row.key) if row.key else "")
         said = " ".join(filter(None, (row.typed, row.origin)))
-        told = small(said) + (new_line() + small(prose(row.note)) if row.note else "")
+        told = small(said) + (new_line() + small(own_words(row.note)) if row.note else "")
         return [
             description,
             rich(row.symbol),
-            rich(prose(row.value)) if row.wordy else run(row.value),
+            rich(own_words(row.value)) if row.wordy else run(row.value),
             run(row.unit),
             told,
         ]

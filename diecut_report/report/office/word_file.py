@@ -16,6 +16,7 @@ from diecut_report.report.office.word_body import WordBody
 from diecut_report.report.office.word_logo import logo
 from diecut_report.report.office.word_styles import describe, parsed, set_page, set_styles
 from diecut_report.report.scope import BRIEF, FULL
+from diecut_report.report.symbols import letters_declared
 
 if TYPE_CHECKING:
     from docx.document import Document as WordDocument
@@ -34,7 +35,8 @@ def word_file(material: Material) -> bytes:
     body = WordBody(document.words, material.rasters, material.why_not_drawn, partial(_embedded, made))
     if found := material.results["config"].get("logo"):
         logo(body, found, document.project["organisation"], partial(_embedded_svg, made))
-    _write(body, material)
+    with letters_declared(*material.letters):
+        _write(body, material)
     _fill(made, body)
     content = BytesIO()
     made.save(content)
