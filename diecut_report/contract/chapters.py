@@ -289,10 +289,7 @@ MISSING = "{missing}"  # in the words of a chapter that is left out: the keys th
 
 @dataclass(eq=False)
 class Chapter(Steps):
-    """Declare a chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are.
-
-    ``{missing}`` in it stands for the keys that are not given.
-    """
+    """Declare a chapter of the calculation; ``absent`` says in words what it lacks: ``{missing}`` are the needed keys not given."""
 
     title: str
     text: str = field(default="", kw_only=True)

@@ -43,7 +43,7 @@ def _is_flat(panel: Data, curves: Data) -> bool:
 
 def _noted(sections: Sequence[Data], notes: Sequence[tuple[Data, Data]]) -> list[Data]:
     """The sections with each note behind the last step that its figure shows."""
-    found = [{**section, "items": list(section["items"])} for section in sections]
+    found: list[Data] = [{**section, "items": list(section["items"])} for section in sections]
     for figure, note in notes:
         places = [
             (section, index + 1)
