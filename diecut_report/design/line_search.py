@@ -24,7 +24,7 @@ JUMP = 1e-2  # share of a bracket's first difference that is left in one so narr
 ZOOM = np.linspace(0, 1, 11)
 ZOOMS = 6
 EIGHTHS, HALF = np.arange(1, 8) / 8, np.array([0.5])  # of a pair of neighbours
-END_ROUNDS = 4  # how often it is looked closer at an end of what exists: to a 4096th of the first pair
+HALVED = 5  # how often the distances of such neighbours are halved at most
 MOST_CELLS = 12  # such ends that are looked at closer
 
 
@@ -116,13 +116,13 @@ def greatest(function: Function, x: Array, values: Array) -> tuple[float, float]
     return float(x[best]), float(values[best])
 
 
-def looked_closer(function: Function, x: Array, values: Array) -> tuple[Array, Array]:
+def looked_closer(function: Function, x: Array, values: Array, rounds: int = 1) -> tuple[Array, Array]:
     """Return ascending numbers and values with more of them where a pair of roots, or the end of what exists, may hide.
 
-    Towards each such end they stand closer and closer: much may happen there, and all that exists may lie between two of the numbers.
+    Towards each such end they stand closer with each round: much may happen there, and all that exists may lie between two of the numbers.
     """
     cells = np.unique(np.concatenate([_edges(values), _lows(values)])).astype(int)
-    for _ in range(END_ROUNDS):
+    for _ in range(rounds):
         if not len(cells):
             break
         x, values = _with_more(function, x, values, cells)
@@ -130,9 +130,16 @@ def looked_closer(function: Function, x: Array, values: Array) -> tuple[Array, A
     return x, values
 
 
-def halved(function: Function, x: Array, values: Array, cells: Array) -> tuple[Array, Array]:
-    """Return ascending numbers and values with one more in the middle of each of these pairs of neighbours."""
-    return _with_more(function, x, values, cells, HALF) if len(cells) else (x, values)
+def without_gaps(function: Function, x: Array, values: Array) -> tuple[Array, Array]:
+    """Return ascending numbers and values with more of them between neighbours that are not below zero, as long as one there is."""
+    for _ in range(HALVED):
+        cells = np.flatnonzero((values[1:] >= 0) & (values[:-1] >= 0))
+        before = int((~(values >= 0)).sum())
+        if len(cells):
+            x, values = _with_more(function, x, values, cells, HALF)
+        if int((~(values >= 0)).sum()) == before:
+            break
+    return x, values
 
 
 def _with_more(

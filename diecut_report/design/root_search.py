@@ -10,6 +10,7 @@ from diecut_report.design.line_search import Function, crossings, greatest, look
 from diecut_report.expressions import Array
 
 SAME_PLACE = 1e-8  # relative: two roots that are no further apart are one
+ROUNDS = 4  # towards an end of what exists: to a 4096th of the distance between two numbers
 NEARER = 60  # machines about today's value, as far as the nearest root that was found
 
 
@@ -20,7 +21,7 @@ def roots(
 
     It is searched between ascending numbers with their values, and closer about today's, so that the nearest root is not missed.
     """
-    x, values = looked_closer(function, x, values)
+    x, values = looked_closer(function, x, values, ROUNDS)
     places, jumps = _crossed(function, x, values, today)
     more = _about(today, places, x, allows) if places else _about_the_nearest(function, x, values)
     if not len(more):

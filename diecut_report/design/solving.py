@@ -11,7 +11,7 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
 from diecut_report.design.answers import Answer, FoundValue, Range, Role
 from diecut_report.design.design_inputs import DesignInput
-from diecut_report.design.line_search import crossings, greatest, halved, looked_closer
+from diecut_report.design.line_search import crossings, greatest, looked_closer, without_gaps
 from diecut_report.design.proved_machine import proved
 from diecut_report.design.questions import DesignQuestion, needed
 from diecut_report.design.root_search import roots
@@ -25,7 +25,6 @@ POINTS = 33  # of the range, at which a machine is calculated before roots are s
 WIDER = 3.0  # the range reaches from today's value divided by this to so many times it
 MOST_WHOLE = 400  # whole numbers that are all tried
 PASSING_CLOSE = 1e-6  # relative width at which the limit of what passes is known: more is not typed
-HALVED = 1  # how often the distances of machines are halved where what is asked holds
 SAME = 1e-12  # relative: what differs by less does not vary
 
 
@@ -207,8 +206,7 @@ class _RangeSearch:
         ends: dict[float, float] = {}
         if not self.design.is_whole:
             x, held = looked_closer(self._held, x, held)
-            for _ in range(HALVED):  # what holds at both ends may not between them
-                x, held = halved(self._held, x, held, np.flatnonzero((held[1:] >= 0) & (held[:-1] >= 0)))
+            x, held = without_gaps(self._held, x, held)
             ends = {each.at: each.inside for each in crossings(self._held, x, held, PASSING_CLOSE)}
         places = self._ends(x, held >= 0, ends)
         found = self._judged(places)
