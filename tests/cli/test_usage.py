@@ -21,7 +21,7 @@ WRONG = {
     ("calc", "x.yaml", "y.yaml"): "Помилка: Зайві аргументи (y.yaml).",
     ("variants", "x", "--format", "doc"): "Помилка: Хибне значення '--format': `doc` — не одне з: 'table', 'csv', 'json', 'xlsx'.",
     ("variants", "x", "--top", "many"): "Помилка: Хибне значення '--top': `many` — не ціле число.",
-    ("influence", "KNIFE", "--tolerance", "knife.depth"): "Помилка: Хибне значення --tolerance: 'knife.depth' — не INPUT=SIZE, як-от drive.crank_length=0.1 mm",
+    ("influence", "KNIFE", "--tolerance", "knife.depth=-1"): "Помилка: Хибне значення --tolerance: knife.depth: -1 не більше за нуль",
     ("variants", "x", "--top", "0"): "Помилка: Хибне значення '--top': 0 поза межами x>=1.",
 }  # fmt: skip
 
