@@ -22,7 +22,7 @@ _OPEN = re.compile(r"/proc/(self|thread-self|\d+)(/task/\d+)?/fd")
 TEMPORARY = ".*.part"  # what a killed run may leave behind
 NOTHING = phrase("Nothing was written; make room and try again.")
 KEPT = phrase("What was finished is kept: make room, then continue with --resume.")
-
+STORED = ("study.json", "study.yaml", "base.yaml", "tables", "variants")  # in the folder of a study
 
 MISNAMED = {
     errno.EACCES, errno.EPERM, errno.EROFS, errno.ENOTDIR, errno.EEXIST, errno.EISDIR, errno.ENAMETOOLONG, errno.ENOENT, errno.ELOOP,
@@ -42,6 +42,7 @@ def write_all(files: Mapping[Path, bytes], keep: Path | None, *, through: bool =
             with in_words(path, NOTHING):
                 place = _place(path)
                 _refuse_config(path, keep)
+                _refuse_stored(place)
                 ready.append((stack.enter_context(_beside(place, content, through)), place, path))
         for temporary, place, path in ready:
             with in_words(path, NOTHING):
@@ -77,6 +78,17 @@ def _refuse_config(path: Path, keep: Path | None) -> None:
     if keep is not None and path.exists() and keep.exists() and path.samefile(keep):
         words = phrase("This is the configuration itself; it would be written over. Choose another place with -o.")
         raise UserError(Problem(words, str(path)))
+
+
+def _refuse_stored(place: Path) -> None:
+    """Refuse what a study has stored: its results follow from it, and are lost where it is written over."""
+    for folder in place.parents:
+        inner = place.relative_to(folder).parts[0]
+        if inner in STORED and (folder / "variants").is_dir() and (folder / "study.json").is_file():
+            words = phrase(
+                "This belongs to the stored results of a study, which would be damaged. Choose another place with -o."
+            )
+            raise UserError(Problem(words, str(place)))
 
 
 @contextmanager

@@ -204,14 +204,14 @@ def influence(
 
     Exit codes: 0 told, 2 bad input, 3 a plugin broke.
     """
-    from diecut_report.design.influence import tornados, within_tolerances
+    from diecut_report.design.influence import by_input, tornados, within_tolerances
     from diecut_report.design.influence_text import data, lines, page
 
     with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
         progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
-        sizes = dict(_tolerance(loaded, each) for each in tolerances)
+        sizes = by_input(_tolerance(loaded, each) for each in tolerances)
         progress(phrase("changing one input after the other"))
         found = tornados(loaded, names, share, sizes, defaults=defaults)
         progress(phrase("drawing machines within tolerances"))

@@ -193,6 +193,7 @@ def variants(folder: Path, where: str | None, sort: str | None, top: int | None,
     from diecut_report.study.analysis.answers import Notation
     from diecut_report.study.analysis.query import answer, answer_workbook, unfinished
     from diecut_report.study.analysis.question import Request
+    from diecut_report.study.storage.state import refuse_sources
 
     _refuse_idle(form, file, {"--units": units, "--separator": separator, "--decimal": decimal})
     asked, notation = (
@@ -201,6 +202,8 @@ def variants(folder: Path, where: str | None, sort: str | None, top: int | None,
     )
     if not quiet:
         tell(unfinished(folder))
+    if file is not None:
+        refuse_sources(folder, file)
     if form == "xlsx":
         write_all({Path(str(file)): answer_workbook(folder, asked, notation, transposed=transpose)}, folder / RESULTS)
         return PASSED
@@ -234,11 +237,13 @@ def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...]
     from diecut_report.config.discovery import Discovery
     from diecut_report.files import write_all
     from diecut_report.study.analysis.taken_config import taken_config
+    from diecut_report.study.storage.state import refuse_sources
 
     folder, _, number = variant.rpartition("#")
     if not folder or not number.isdecimal():
         words = "{variant} names no variant; give the folder of a study and a number, as in build/study#17."
         raise click.UsageError(say(words, variant=repr(variant)))
+    refuse_sources(Path(folder), file)
     found = taken_config(Path(folder), int(number), Discovery(folders), digits)
     write_all({file: found.content}, Path(folder) / RESULTS, through=True)
     if not quiet:

@@ -29,7 +29,7 @@ SENTENCES: Mapping[re.Pattern[str], str] = {
         (r"No such command '(?P<name>[^']*)'\. (?:Did you mean|\(Possible commands:) (?P<near>[^?)]*)[?)]\.?",
          phrase("No such command '{name}' (did you mean {near}?).")),
         (r"Missing command\.", phrase("Missing command.")),
-        (r"Invalid value for (?P<name>'[^']*'(?: / '[^']*')*): (?P<why>.*)", phrase("Invalid value for {name}: {why}")),
+        (r"Invalid value for (?P<name>'[^']*'(?: / '[^']*')*|-[\w-]+): (?P<why>.*)", phrase("Invalid value for {name}: {why}")),
         (r"Option '(?P<name>[^']*)' requires an argument\.", phrase("Option '{name}' requires an argument.")),
         (r"Option '(?P<name>[^']*)' does not take a value\.", phrase("Option '{name}' does not take a value.")),
         (r"Got unexpected extra arguments? \((?P<given>.*)\)\.?", phrase("Got unexpected extra arguments ({given}).")),

@@ -142,9 +142,22 @@ def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
         home[path[-1]] = parse(f"value: {value}\n", tree.file).data["value"]
     found = parse(text, tree.file)
     if found.data != expected:
-        raise UserError(_problem(tree, next(iter(values)), SHARED))
+        shared = {tree.position(path) for path in _differing(found.data, expected)}
+        culprit = next((path for path in values if tree.position(path) in shared), next(iter(values)))
+        raise UserError(_problem(tree, culprit, SHARED))
     found.name = tree.name
     return found
+
+
+def _differing(one: Any, other: Any, path: KeyPath = ()) -> Iterator[KeyPath]:
+    """The paths of the single values in which two trees of plain data differ."""
+    is_block = isinstance(one, dict | list) and type(one) is type(other) and len(one) == len(other)
+    if not is_block:
+        yield from () if one == other else (path,)
+        return
+    for key in one if isinstance(one, dict) else range(len(one)):
+        if isinstance(one, list) or key in other:
+            yield from _differing(one[key], other[key], (*path, key))
 
 
 def _problem(tree: Tree, path: KeyPath, words: str) -> Problem:

@@ -21,7 +21,9 @@ from diecut_report.design.design_inputs import DesignInput, design_input
 from diecut_report.design.may_be_freed import nothing_free, untried
 from diecut_report.design.mending import MendingPath
 from diecut_report.design.proved_machine import ProvedMachine, proved
+from diecut_report.design.single_changes import single_change
 from diecut_report.design.typed_changes import fewer, passes, rounded
+from diecut_report.design.varied_machines import downstream
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import phrase
@@ -87,7 +89,7 @@ def mended(
         return Mended(before)
     advice = advised(config, before.checks("fail"))
     advice.leave_out(lambda path: path in kept or bool(only and path not in only))
-    further = [each.name for each, _ in advice.numbers.values() if not is_stepped(each)]
+    further = [each.name for each in advice.others.values() if not is_stepped(each)]
     inputs = changeable(config, numbers, kept, further) if numbers or not only else []
     choices = changeable_choices(config, free, kept)
     begun = dict(advice.choices.values()) | advice.stepped
@@ -115,6 +117,7 @@ def _searched(path: MendingPath, choices: Sequence[ChangeableChoice], tell: Tell
     try:
         if len(path.inputs):
             path.go(tell)
+            path = _with_single_change(path, tell)
             path = path if path.passes else _again(path, tell)
         if not path.passes and choices:
             path = with_choices(path, choices, tell)
@@ -151,6 +154,25 @@ def _shortest(
     machine = proved(config.tree, {each.stands: each.after for each in changes}, discovery)
     left = tuple(name for name, _ in machine.checks("fail"))
     return Mended(before, tuple(changes), machine if not left else None, left, None, len(run.inputs), run.spent.count)
+
+
+def _with_single_change(path: MendingPath, tell: Tell) -> MendingPath:
+    """The search begun anew where one input alone mends the machine with less: of those that it changed, or of all where it mends nothing."""
+    run, today = _machines(path), np.zeros(len(path.inputs))
+    changed = np.flatnonzero(path.share).tolist()
+    if path.passes and len(changed) < 2:
+        return path
+    tell(phrase("trying to change one input alone"))
+    failing = {name.split(".")[0] for name in run(today[None]).failing(0)}
+    among = changed if path.passes else range(len(path.inputs))
+    among = [each for each in among if failing <= set(downstream(run.config, path.inputs[each].asked.instance))]
+    for base in [today] if path.passes or not changed else [today, path.share]:
+        found = single_change(run, base, among, path.merit if path.passes else math.inf)
+        if found is not None:
+            other = MendingPath(run, path.inputs, found)
+            other.go(tell)
+            return other
+    return path
 
 
 def _again(path: MendingPath, tell: Tell) -> MendingPath:

@@ -12,6 +12,7 @@ from diecut_report.design.proved_machine import ProvedMachine
 from diecut_report.design.questions import DesignQuestion
 from diecut_report.languages.phrases import Counted, Phrase, phrase
 
+ALSO = 12  # further values that a text names
 Role = Literal["root", "lower", "upper", "extreme", "today", "nearest"]
 
 
@@ -91,9 +92,19 @@ def _found(answer: Answer) -> Iterator[str]:
     for low, high in answer.ranges:
         yield Phrase("it holds from {low} to {high}", low=_side(low), high=_side(high))
     if not answer.ranges:
-        for each in answer.found[1:]:
-            words = "also {input} = {typed}: {asked} is {value}"
-            yield Phrase(words, input=design.name, typed=each.typed, asked=asked.name, value=asked.told(each.reached))
+        yield from _also(answer)
+
+
+def _also(answer: Answer) -> Iterator[str]:
+    """The other values, of which a text names the nearest."""
+    design, asked, others = answer.design, answer.question.quantity, answer.found[1:]
+    for each in others[:ALSO]:
+        words = "also {input} = {typed}: {asked} is {value}"
+        yield Phrase(words, input=design.name, typed=each.typed, asked=asked.name, value=asked.told(each.reached))
+    if len(others) > ALSO:
+        one = "and {n} more value; --format json has all of them"
+        many = "and {n} more values; --format json has all of them"
+        yield Counted(len(others) - ALSO, one, many)
 
 
 def _side(found: FoundValue) -> str:

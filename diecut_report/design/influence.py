@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass, replace
 from typing import Any, Literal
 
@@ -101,7 +101,7 @@ def tornados(
         words = phrase("nothing is given as a number that is not zero, so nothing has an influence.")
         raise UserError(Problem(words, config.tree.file))
     ends = [_ends(each, tolerances.get(each) or _step(each, share)) for each in inputs]
-    asked = [quantity(config, name) for name in names]
+    asked = list({each.column: each for each in (quantity(config, name) for name in names)}.values())
     made = _beside(config, inputs, ends, asked)
     if not made.exists[0]:
         raise UserError(Problem(made.reasons[0], config.tree.file))
@@ -110,6 +110,17 @@ def tornados(
         _require_value(config, made, number)
     left = 0 if defaults else sum(1 for each in standing if each.today and each.asked.path not in own)
     return [replace(_tornado(made, each, inputs, ends), at_default=left) for each in asked]
+
+
+def by_input(sizes: Iterable[tuple[DesignInput, float]]) -> dict[DesignInput, float]:
+    """Return tolerances by their inputs; UserError in words where one is given twice, maybe by another name that refers to it."""
+    found: dict[str, tuple[DesignInput, float]] = {}
+    for design, size in sizes:
+        if design.asked.path in found:
+            words = "{input} is given more than one tolerance; leave one of them."
+            raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
+        found[design.asked.path] = design, size
+    return dict(found.values())
 
 
 def require_scatter(design: DesignInput) -> None:

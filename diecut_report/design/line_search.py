@@ -23,6 +23,9 @@ CLOSE = 1e-9  # relative width at which a bracket is closed
 JUMP = 1e-2  # share of a bracket's first difference that is left in one so narrow: the function jumps there
 ZOOM = np.linspace(0, 1, 11)
 ZOOMS = 6
+EIGHTHS, HALF = np.arange(1, 8) / 8, np.array([0.5])  # of a pair of neighbours
+HALVED = 5  # how often the distances of such neighbours are halved at most
+MOST_CELLS = 12  # such ends that are looked at closer
 
 
 @dataclass(frozen=True)
@@ -113,25 +116,53 @@ def greatest(function: Function, x: Array, values: Array) -> tuple[float, float]
     return float(x[best]), float(values[best])
 
 
-def looked_closer(function: Function, x: Array, values: Array) -> tuple[Array, Array]:
-    """Return ascending numbers and values with more of them where a pair of roots, or the end of what exists, may hide."""
+def looked_closer(function: Function, x: Array, values: Array, rounds: int = 1) -> tuple[Array, Array]:
+    """Return ascending numbers and values with more of them where a pair of roots, or the end of what exists, may hide.
+
+    Towards each such end they stand closer with each round: much may happen there, and all that exists may lie between two of the numbers.
+    """
+    cells = np.unique(np.concatenate([_edges(values), _lows(values)])).astype(int)
+    for _ in range(rounds):
+        if not len(cells):
+            break
+        x, values = _with_more(function, x, values, cells)
+        cells = _edges(values)[:MOST_CELLS]
+    return x, values
+
+
+def without_gaps(function: Function, x: Array, values: Array) -> tuple[Array, Array]:
+    """Return ascending numbers and values with more of them between neighbours that are not below zero, as long as one there is."""
+    for _ in range(HALVED):
+        cells = np.flatnonzero((values[1:] >= 0) & (values[:-1] >= 0))
+        before = int((~(values >= 0)).sum())
+        if len(cells):
+            x, values = _with_more(function, x, values, cells, HALF)
+        if int((~(values >= 0)).sum()) == before:
+            break
+    return x, values
+
+
+def _with_more(
+    function: Function, x: Array, values: Array, cells: Array, shares: Array = EIGHTHS
+) -> tuple[Array, Array]:
+    more = (x[cells] + shares[:, None] * (x[cells + 1] - x[cells])).ravel()
+    joined, place = np.unique(np.concatenate([x, more]), return_index=True)
+    return joined, np.concatenate([values, function(more)])[place]
+
+
+def _edges(values: Array) -> Array:
+    """The pairs of neighbours of which one alone has a value."""
     exists = np.isfinite(values)
-    edges = np.flatnonzero(exists[1:] != exists[:-1])
-    size = np.abs(values)
-    inner = np.arange(1, len(x) - 1)
+    return np.flatnonzero(exists[1:] != exists[:-1])
+
+
+def _lows(values: Array) -> Array:
+    """The pairs of neighbours beside a value that is nearest to zero, and may reach it between them."""
+    size, inner = np.abs(values), np.arange(1, len(values) - 1)
     with np.errstate(invalid="ignore"):
-        alike = (np.sign(values[inner - 1]) == np.sign(values[inner])) & (
-            np.sign(values[inner]) == np.sign(values[inner + 1])
-        )
+        signs = np.sign(values)
+        alike = (signs[inner - 1] == signs[inner]) & (signs[inner] == signs[inner + 1])
         rise = np.maximum(size[inner - 1], size[inner + 1]) - size[inner]
         is_lowest = (size[inner] <= size[inner - 1]) & (size[inner] <= size[inner + 1])
-        low = inner[
-            alike & is_lowest & (size[inner] <= rise)
-        ]  # else it is too far from zero to reach it between the points
-    cells = np.unique(np.concatenate([edges, low - 1, low])).astype(int)
-    if not len(cells):
-        return x, values
-    more = (x[cells] + np.arange(1, 8)[:, None] / 8 * (x[cells + 1] - x[cells])).ravel()
-    joined, found = np.concatenate([x, more]), np.concatenate([values, function(more)])
-    order = np.argsort(joined)
-    return joined[order], found[order]
+        low = inner[alike & is_lowest & (size[inner] <= rise)]  # else it is too far from zero to reach it
+    return np.concatenate([low - 1, low])

@@ -11,7 +11,15 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import InfluenceSettings
 from diecut_report.config.yaml_tree import KeyPath
 from diecut_report.design.design_inputs import DesignInput, design_input
-from diecut_report.design.influence import Chance, Tolerances, Tornado, require_scatter, tornados, within_tolerances
+from diecut_report.design.influence import (
+    Chance,
+    Tolerances,
+    Tornado,
+    by_input,
+    require_scatter,
+    tornados,
+    within_tolerances,
+)
 from diecut_report.design.questions import quantity
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase
@@ -31,7 +39,7 @@ def influenced(config: Config) -> Data | None:
     asked = config.report.influence
     if asked is None:
         return None
-    sizes = dict(_tolerance(config, name, str(size)) for name, size in (asked.tolerances or {}).items())
+    sizes = _sizes(config, asked)
     for index, name in enumerate(asked.of):
         _asked(config, index, name)
     found = _placed(config, ("of",), lambda: tornados(config, asked.of, asked.by, sizes, defaults=asked.defaults))
@@ -53,7 +61,18 @@ def misnamed(config: Config) -> list[Problem]:
             find()
         except UserError as fault:
             problems += fault.problems
+    if not problems:
+        try:
+            _sizes(config, asked)
+        except UserError as fault:
+            problems += fault.problems
     return problems
+
+
+def _sizes(config: Config, asked: InfluenceSettings) -> dict[DesignInput, float]:
+    """All inputs that scatter, and how far."""
+    sizes = [_tolerance(config, name, str(size)) for name, size in (asked.tolerances or {}).items()]
+    return _placed(config, ("tolerances",), lambda: by_input(sizes))
 
 
 def _asked(config: Config, index: int, name: str) -> object:

@@ -11,10 +11,11 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
 from diecut_report.design.answers import Answer, FoundValue, Range, Role
 from diecut_report.design.design_inputs import DesignInput
-from diecut_report.design.line_search import crossings, greatest, looked_closer
+from diecut_report.design.line_search import crossings, greatest, looked_closer, without_gaps
 from diecut_report.design.proved_machine import proved
 from diecut_report.design.questions import DesignQuestion, needed
-from diecut_report.design.typed_answers import typed_answers
+from diecut_report.design.root_search import roots
+from diecut_report.design.typed_answers import REACHED, typed_answers
 from diecut_report.design.varied_machines import VariedMachines, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
@@ -24,7 +25,6 @@ POINTS = 33  # of the range, at which a machine is calculated before roots are s
 WIDER = 3.0  # the range reaches from today's value divided by this to so many times it
 MOST_WHOLE = 400  # whole numbers that are all tried
 PASSING_CLOSE = 1e-6  # relative width at which the limit of what passes is known: more is not typed
-SAME_PLACE = 1e-8  # relative: two roots that are no further apart are one
 SAME = 1e-12  # relative: what differs by less does not vary
 
 
@@ -161,16 +161,17 @@ class _RangeSearch:
         if self.design.is_whole:
             exact = np.abs(off) <= SAME * max(abs(value), 1e-300)
             return self._judged([(float(each), "root") for each in x[exact]]), []
-        x, off = looked_closer(self._off, x, off)
-        on = [float(each) for each in x[off == 0]]
-        places: list[float] = []
-        jumps: list[float] = []
-        for run in _existing(off):
-            for each in crossings(self._off, x[run], off[run]):
-                (jumps if each.is_jump else places).append(each.at)
-        found = [each for each in places if all(abs(each - one) > SAME_PLACE * abs(one) for one in on)]
-        judged = self._judged([(each, "root") for each in sorted([*on, *found])])
-        return [each for each in judged if not (self.passing and each.failing)], jumps
+        places, jumps = roots(self._off, x, off, self.design.today, self.design.allows)
+        judged = self._judged([(each, "today" if each == self.design.today else "root") for each in places])
+        true = [
+            each for each in judged if self.missed(np.array(each.reached)) <= REACHED
+        ]  # else it stands beside a jump
+        return [each for each in true if not (self.passing and each.failing)], jumps
+
+    def missed(self, y: Array) -> Array:
+        """Return by how much of the value, or of the range that is taken, each misses it."""
+        known = [each for each, _ in self.known.values() if math.isfinite(each)]
+        return np.abs(y - self.question.value) / max(abs(self.question.value), float(np.ptp(known)))
 
     def _off(self, x: Array) -> Array:
         return self._along(x)[0] - self.question.value
@@ -205,6 +206,7 @@ class _RangeSearch:
         ends: dict[float, float] = {}
         if not self.design.is_whole:
             x, held = looked_closer(self._held, x, held)
+            x, held = without_gaps(self._held, x, held)
             ends = {each.at: each.inside for each in crossings(self._held, x, held, PASSING_CLOSE)}
         places = self._ends(x, held >= 0, ends)
         found = self._judged(places)
@@ -283,12 +285,6 @@ class _RangeSearch:
 def _always_failing(made: VariedMachines) -> tuple[str, ...]:
     """The checks that fail in every machine that can be calculated."""
     return tuple(name for name in made.checks if (made.check(name)[made.exists] == "fail").all())
-
-
-def _existing(values: Array) -> list[slice]:
-    """The runs of neighbours that all have a value."""
-    edges = np.flatnonzero(np.diff(np.concatenate([[False], np.isfinite(values), [False]]).astype(int)))
-    return [slice(int(first), int(last)) for first, last in zip(edges[::2], edges[1::2], strict=True)]
 
 
 def _between(refined: dict[float, float], low: float, high: float) -> float:

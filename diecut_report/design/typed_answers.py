@@ -12,7 +12,8 @@ from diecut_report.design.questions import DesignQuestion
 from diecut_report.design.varied_machines import VariedMachines
 from diecut_report.expressions import Array
 
-EXACT = 9  # digits of a root
+EXACT, ALL = 9, 17  # digits of a root; of one beside a jump
+REACHED = 1e-5  # share of its size by which a root as it is typed may miss the value
 FEW = 5  # digits of the end of a range
 SAME_END = 1e-6  # share of an end by which a rounded one may lie beyond it, where it holds all the same
 SAME_EXTREME = 2e-5  # share of an extreme that rounding the input may take from it
@@ -32,6 +33,9 @@ class Searched(Protocol):
     def holds(self, made: VariedMachines, y: Array) -> Array:
         """Return how far what is asked holds, not below zero where it does."""
 
+    def missed(self, y: Array) -> Array:
+        """Return by what share of its size each misses the value that is asked for."""
+
 
 def typed_answers(search: Searched, places: list[tuple[float, Role]]) -> list[FoundValue]:
     """Return for each place what is typed there, all calculated in one run."""
@@ -43,12 +47,12 @@ def typed_answers(search: Searched, places: list[tuple[float, Role]]) -> list[Fo
     x = np.array([value for _, value in (*rows, *beyond)])
     made = search.machines(x)
     y = made.values(search.question.quantity.column)
-    held = search.holds(made, y) >= 0
+    held, missed = search.holds(made, y) >= 0, search.missed(y)
     owner = np.array([number for number, _ in (*rows, *beyond)])
     found = []
     for number, (value, role) in enumerate(places):
         own = np.flatnonzero(owner[: len(rows)] == number)
-        best = _chosen(own, x, y, held, value, role)
+        best = _chosen(own, x, y, held, missed, value, role)
         text = texts[number][best - own[0]]
         outside = np.flatnonzero(owner[len(rows) :] == number) + len(rows)
         failing = tuple(made.failing(int(best))) if search.passing else ()
@@ -60,13 +64,16 @@ def typed_answers(search: Searched, places: list[tuple[float, Role]]) -> list[Fo
 def _candidates(design: DesignInput, value: float, role: Role) -> list[str]:
     """What may be typed, the best first."""
     exact = design.typed(value, EXACT)
-    if design.is_whole or role in ("root", "today") or value == design.today:
+    if design.is_whole or role == "today" or value == design.today:
         return [exact]
-    if role in ("lower", "upper"):
-        few = [design.typed(value, FEW), *(design.typed_inwards(value, n, up=role == "lower") for n in (FEW, EXACT))]
-    else:
-        few = [design.typed(value, digits) for digits in (3, 4, 5, 6, 7)] if role == "extreme" else []
-    return [text for text in dict.fromkeys([*few, exact]) if design.allows(np.array(_number(design, text)))]
+    inwards = [design.typed_inwards(value, EXACT, up=up) for up in (True, False)]
+    few = {
+        "root": [exact, *inwards, design.typed(value, ALL)],  # beside a jump rounding may fall over its edge
+        "lower": [design.typed(value, FEW), design.typed_inwards(value, FEW, up=True), inwards[0], exact],
+        "upper": [design.typed(value, FEW), design.typed_inwards(value, FEW, up=False), inwards[1], exact],
+        "extreme": [*(design.typed(value, digits) for digits in (3, 4, 5, 6, 7)), exact],
+    }.get(role, [exact])
+    return [text for text in dict.fromkeys(few) if design.allows(np.array(_number(design, text)))]
 
 
 def _number(design: DesignInput, text: str) -> float:
@@ -76,7 +83,7 @@ def _number(design: DesignInput, text: str) -> float:
         return float("nan")
 
 
-def _chosen(own: Array, x: Array, y: Array, held: Array, value: float, role: Role) -> int:
+def _chosen(own: Array, x: Array, y: Array, held: Array, missed: Array, value: float, role: Role) -> int:
     """The first of the candidates that is as good as the exact one, which is the last."""
     exact = int(own[-1])
     if role in ("lower", "upper"):
@@ -85,6 +92,8 @@ def _chosen(own: Array, x: Array, y: Array, held: Array, value: float, role: Rol
         good = held[own] & (near | inside)
     elif role == "extreme":
         good = held[own] & (np.abs(y[own] - y[exact]) <= SAME_EXTREME * abs(y[exact]))
+    elif role == "root":
+        good = missed[own] <= REACHED
     else:
         return exact
     return int(own[np.argmax(good)]) if good.any() else exact

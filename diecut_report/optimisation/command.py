@@ -64,6 +64,7 @@ def run(
     """Search, or go on with the search of a folder; then prove, tell and draw what was found."""
     study = _asked(file, directory, where)
     _refuse_huge(study, agreed)
+    _refuse_unknown(study, reports)
     search = run_search(study, directory, where, resume=resume, tell=shown)
     with search.store.lock(), ExitStack() as open_ones:
         with in_its_language(study, where):  # columns have their titles in the language of the documents
@@ -97,6 +98,16 @@ def _refuse_huge(study: Study, agreed: bool) -> None:
     if count > LARGEST and not agreed:
         words = Phrase("are {n}, more than {most}; give fewer, or --yes.", n=f"{count:,}", most=f"{LARGEST:,}")
         raise UserError(Problem(words, str(study.file), path="optimise.evaluations"))
+
+
+def _refuse_unknown(study: Study, reports: Sequence[str]) -> None:
+    """Refuse the number of a machine that is never tried."""
+    assert study.optimise is not None
+    last = study.optimise.evaluations - 1
+    for number in (int(name) for name in reports if name.isdecimal()):
+        if number > last:
+            words = "there is no machine {number}; those that are tried are numbered from 0 to {last}."
+            raise UserError(Problem(Phrase(words, number=number, last=last), str(study.file), path="--report"))
 
 
 def _files(found: OptimisationResult, csv: str, where: Where) -> dict[Path, bytes]:

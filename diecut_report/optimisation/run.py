@@ -14,6 +14,7 @@ from pathlib import Path
 
 import numpy as np
 
+from diecut_report.config import yaml_tree
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.given_files import refuse_unreadable_name
@@ -176,7 +177,7 @@ class _Run:
             return
         objectives = asked_of(self.study).objectives
         costs = generation.costs_of(tried.columns, objectives, len(exists))[exists]
-        for objective, values in zip(objectives, np.abs(costs.T), strict=True):
+        for index, (objective, values) in enumerate(zip(objectives, np.abs(costs.T), strict=True)):
             there = values[np.isfinite(values)]
             if not len(there) or np.ptp(there) <= STILL * there.max():
                 words = "has no value" if not len(there) else "is the same"
@@ -185,7 +186,15 @@ class _Run:
                     "another objective, or vary what it follows from.",
                     name=objective.output, words=phrase(words), n=len(values),
                 )  # fmt: skip
-                raise UserError(Problem(what, str(self.study.file), path="optimise.objectives"))
+                raise UserError(_of_objective(self.study, index, what))
+
+
+def _of_objective(study: Study, index: int, words: str) -> Problem:
+    """A problem of an objective, with its place in the study."""
+    home = ("optimise",) if "objectives" in study.data["optimise"] else ()
+    key = (*home, "objectives", index)
+    line, column = yaml_tree.parse(study.text, str(study.file)).position(key)
+    return Problem(words, str(study.file), line, column, ".".join(map(str, key)))
 
 
 def _is_same(known: Mapping[str, Array], values: Mapping[str, Values], numbers: Array) -> bool:

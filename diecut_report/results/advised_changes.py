@@ -11,40 +11,50 @@ from typing import Literal
 
 QUANTITY = r"[-+]?\d[\d.]*(?:e[-+]?\d+)?(?: ?[^\s,;:()]+)?"
 SET = re.compile(rf"\bset (?P<key>[a-z]\w*) to (?:(?P<sign>at least|at most) )?(?P<value>{QUANTITY}|true|false)")
+BETWEEN = re.compile(rf"\bset (?P<key>[a-z]\w*) to between (?P<value>{QUANTITY}) and (?P<other>{QUANTITY})")
 BESIDE = re.compile(rf"\bwith an? (?P<key>[a-z]\w*) of (?P<sign>at least|at most) (?P<value>{QUANTITY})")
 CHOSEN = re.compile(r"\((?P<key>[a-z]\w*): (?P<value>true|false|[a-z]\w*)\)")
 OTHER_WAY = re.compile(r"[,;] or (?:set|leave|take|make)\b|; or ")
 NONE: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 END = re.compile(r"[.,;:]+$")
 
-Sign = Literal["at least", "at most", "to"]
+Sign = Literal["at least", "at most", "to", "between"]
 
 
 @dataclass(frozen=True)
 class AdvisedChange:
-    """Hold what is advised: a key of the mechanism, a value as text, and whether it is a bound."""
+    """Hold what is advised: a key of the mechanism, a value as text, and whether it is a bound; ``other`` is the second of two."""
 
     key: str
     sign: Sign
     value: str
+    other: str = ""
 
 
 def advised_changes(
     message: str, keys: Container[str], texts: Mapping[str, tuple[str, ...]] = NONE
-) -> list[AdvisedChange]:
-    """Return what a message advises by its first way, of several; nothing where it names no key of these with a value.
+) -> list[list[AdvisedChange]]:
+    """Return what a message advises, each of its ways by itself, the first one first; none where it names no key of these with a value.
 
     ``texts`` are the texts that keys may have, by the key: one of them may be advised as a number is.
     """
-    ways = (SET, *(_set_text(key, own) for key, own in texts.items() if own))
-    starts = [found.start() for pattern in ways if (found := pattern.search(message))]
+    patterns = (SET, BETWEEN, *(_set_text(key, own) for key, own in texts.items() if own))
+    starts = [found.start() for pattern in patterns if (found := pattern.search(message))]
     if not starts:
         chosen = CHOSEN.search(message)
         is_known = chosen is not None and chosen["key"] in keys
-        return [AdvisedChange(chosen["key"], "to", chosen["value"])] if chosen and is_known else []
-    rest = message[min(starts) :]
-    other = OTHER_WAY.search(rest)
-    return list(_changes(rest[: other.start()] if other else rest, keys, (*ways, BESIDE)))
+        return [[AdvisedChange(chosen["key"], "to", chosen["value"])]] if chosen and is_known else []
+    ways = (list(_changes(way, keys, (*patterns, BESIDE))) for way in _ways(message[min(starts) :]))
+    return [way for way in ways if way]
+
+
+def _ways(advice: str) -> Iterator[str]:
+    """The parts of an advice of which one is enough."""
+    start = 0
+    for other in OTHER_WAY.finditer(advice):
+        yield advice[start : other.start()]
+        start = other.start() + 1
+    yield advice[start:]
 
 
 @cache
@@ -58,5 +68,12 @@ def _changes(way: str, keys: Container[str], patterns: Iterable[re.Pattern[str]]
     for pattern in patterns:
         for found in pattern.finditer(way):
             if found["key"] in keys:
-                sign: Sign = "at least" if found["sign"] == "at least" else "at most" if found["sign"] else "to"
-                yield AdvisedChange(found["key"], sign, END.sub("", found["value"]))
+                yield _change(found.groupdict())
+
+
+def _change(found: Mapping[str, str | None]) -> AdvisedChange:
+    key, value = found["key"] or "", END.sub("", found["value"] or "")
+    if other := found.get("other"):
+        return AdvisedChange(key, "between", value, END.sub("", other))
+    sign: Sign = "at least" if found["sign"] == "at least" else "at most" if found["sign"] else "to"
+    return AdvisedChange(key, sign, value)

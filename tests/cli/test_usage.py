@@ -9,7 +9,9 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.cli.usage import worded
 from diecut_report.languages.phrases import Phrase
+from tests.configs import EXAMPLE
 
+KNIFE = EXAMPLE.with_name("circular_knife.yaml")
 WRONG = {
     ("calc",): "Помилка: Бракує аргументу `CONFIG`.",
     ("solve", "x.yaml"): "Помилка: Бракує параметра `--vary`.",
@@ -19,13 +21,14 @@ WRONG = {
     ("calc", "x.yaml", "y.yaml"): "Помилка: Зайві аргументи (y.yaml).",
     ("variants", "x", "--format", "doc"): "Помилка: Хибне значення '--format': `doc` — не одне з: 'table', 'csv', 'json', 'xlsx'.",
     ("variants", "x", "--top", "many"): "Помилка: Хибне значення '--top': `many` — не ціле число.",
+    ("influence", "KNIFE", "--tolerance", "knife.depth=-1"): "Помилка: Хибне значення --tolerance: knife.depth: -1 не більше за нуль",
     ("variants", "x", "--top", "0"): "Помилка: Хибне значення '--top': 0 поза межами x>=1.",
 }  # fmt: skip
 
 
 @pytest.mark.parametrize("given", WRONG)
 def test_wrong_usage_is_told_in_ukrainian(given: tuple[str, ...], capfd: pytest.CaptureFixture[str]) -> None:
-    assert main(["--language", "uk", *given]) == 2
+    assert main(["--language", "uk", *(each.replace("KNIFE", str(KNIFE)) for each in given)]) == 2
     said = capfd.readouterr().err.splitlines()
     assert said[-1] == WRONG[given]
     if len(said) > 1:

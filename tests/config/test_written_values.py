@@ -76,6 +76,12 @@ def test_what_cannot_be_written_is_refused_in_words(path: KeyPath, words: str) -
     assert words in str(error.value)
 
 
+def test_of_several_values_that_one_is_named_which_cannot_be_written() -> None:
+    with pytest.raises(UserError) as error:
+        written(parse(TEXT, "f"), {("plain",): "1 mm", ("anchored",): "9", ("last",): "2"})
+    assert str(error.value).startswith("f:4:11: anchored: stands in a part that an anchor")
+
+
 def test_the_published_press_differs_in_one_line_alone() -> None:
     tree = load(EXAMPLE)
     made = written(tree, {("mechanisms", "drive", "crank_length", "value"): "110 mm"})

@@ -26,9 +26,9 @@ def test_a_report_says_that_its_advice_gives_a_pass(tmp_path: Path, capfd: pytes
     results = json.loads((tmp_path / "press.json").read_text("utf-8"))
     advice = results["summary"]["advice"]
     assert advice["failing"] == [] and advice["error"] is None
-    assert [each["path"] for each in advice["changes"]] == ["clutch.shoe_radius"]
+    assert [each["path"] for each in advice["changes"]] == ["clutch.shoe_width"]
     (line,) = followed_line(results, Catalogue("en"))
-    assert line.startswith("Followed together, the advice of the failing checks gives a pass: clutch.shoe_radius ")
+    assert line.startswith("Followed together, the advice of the failing checks gives a pass: clutch.shoe_width ")
     assert line.rstrip(".") in (tmp_path / "press.html").read_text("utf-8")
     assert main(["verify", str(tmp_path / "press.html"), "--numbers"]) == 0
 

@@ -97,6 +97,10 @@ def test_the_page_has_figures_and_no_scripts(press: Path, tmp_path: Path, capfd:
         (["--of", "a.momemt"], "did you mean 'moment'?"),
         (["--tolerance", "a.arm"], "'a.arm' is not INPUT=SIZE"),
         (["--tolerance", "a.arm=1 kg"], "a.arm: 1 kg is a mass"),
+        (
+            ["--tolerance", "a.arm=1 mm", "--tolerance", "mechanisms.a.arm=2 mm"],
+            "a.arm is given more than one tolerance; leave one of them",
+        ),
         (["--tolerance", "a.arm=-1 mm"], "-1 mm is not above zero"),
         (["--tolerance", "a.teeth=1"], "a.teeth is a whole number"),
         (["--by", "0"], "--by"),

@@ -9,6 +9,7 @@ import pytest
 from scipy.optimize import brentq
 
 from diecut_report.design.line_search import crossings, greatest, looked_closer
+from diecut_report.design.root_search import roots
 from diecut_report.expressions import Array
 
 X = np.linspace(0.1, 4.0, 20)
@@ -69,3 +70,37 @@ def test_the_greatest_value_is_found_inside_and_at_an_end(function: object, plac
         float(counted(np.array([place]))[0]), abs=1e-8
     )
     assert counted.calls <= 9
+
+
+def test_roots_beside_the_end_of_what_exists_are_found() -> None:
+    def pole(x: Array) -> Array:
+        return np.where((x > 1.9), np.log(np.maximum(x - 1.9, 1e-300)) + 7.0, np.nan)  # zero at 1.9 + e⁻⁷
+
+    places, jumps = roots(Counted(pole), X, pole(X), None, np.isfinite)
+    assert places == pytest.approx([1.9 + np.exp(-7)]) and jumps == []
+
+
+def test_a_root_of_machines_that_exist_between_two_points_alone_is_found() -> None:
+    def island(x: Array) -> Array:
+        return np.where(np.abs(x - 2.0) < 4e-3, x - 2.003, np.nan)
+
+    x = np.sort(np.append(X, 2.0))  # today's value exists
+    assert roots(Counted(island), x, island(x), 2.0, np.isfinite)[0] == pytest.approx([2.003])
+
+
+def test_a_value_that_is_kept_is_told_by_its_ends() -> None:
+    def steps(x: Array) -> Array:
+        return np.floor(x) - 2.0
+
+    counted = Counted(steps)
+    places, jumps = roots(counted, X, steps(X), 0.5, np.isfinite)
+    assert places == pytest.approx([2.0, 3.0], rel=1e-8) and jumps == [] and counted.calls < 30
+    assert steps(np.array(places)).tolist() == [0.0, 0.0]
+
+
+def test_the_nearest_of_many_roots_is_found() -> None:
+    def saw(x: Array) -> Array:
+        return x * 40 % 1.0 - 0.4
+
+    places, _ = roots(Counted(saw), X, saw(X), 2.0, np.isfinite)
+    assert min(places, key=lambda each: abs(each - 2.0)) == pytest.approx(2.01)

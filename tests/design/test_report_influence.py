@@ -69,6 +69,10 @@ def test_without_names_the_governing_checks_are_looked_at(tmp_path: Path) -> Non
         ("{tolerances: {a.arn: 1 mm}}", "report.influence.tolerances.a.arn: a.arn 'arn' is not an input of a"),
         ("{tolerances: {a.arm: 1 kg}}", "report.influence.tolerances.a.arm: 1 kg is a mass"),
         ("{tolerances: {a.arm: -1 mm}}", "report.influence.tolerances.a.arm: a.arm: -1 mm is not above zero"),
+        (
+            "{tolerances: {a.arm: 1 mm, mechanisms.a.arm: 2 mm}}",
+            "report.influence.tolerances: a.arm is given more than one tolerance",
+        ),
         ("{tolerances: [1 mm]}", "report.influence.tolerances: must be written as keys and sizes"),
         ("{by: 0}", "report.influence.by: 0"),
         ("{share: 1}", "report.influence.share: is an unknown key"),

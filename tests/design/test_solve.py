@@ -6,6 +6,7 @@ import json
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 from scipy.optimize import brentq
 
@@ -13,6 +14,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.design.design_inputs import design_input
 from diecut_report.design.proved_machine import proved
+from diecut_report.design.varied_machines import varied
 from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 
 KNIFE = EXAMPLE.with_name("circular_knife.yaml")
@@ -136,3 +138,41 @@ def test_a_knife_is_solved_as_by_machines_calculated_one_by_one(capfd: Capture) 
     places = [each["value"] for each in answer["solutions"]]
     assert places == pytest.approx([brentq(over, place * 0.99, place * 1.01, xtol=1e-9) for place in places], rel=1e-6)
     assert places
+
+
+DAMPER = (
+    HEAD
+    + """\
+  damper: {kind: damper, mass: 104 kg, inertia: 0.74 kg*m**2, rolling_radius: 105.5 mm, velocity: 0.6 m/s, shore_hardness: 70,
+           dynamic_stiffness_factor: 1.5, ring_width: 60 mm, pad_height: 60 mm, loss_tangent: 0.15}
+"""
+)
+
+
+def test_the_end_of_a_step_is_typed_so_that_it_answers(tmp_path: Path, capfd: Capture) -> None:
+    press = saved(tmp_path, DAMPER)  # the length is rounded up to steps, between which it jumps
+    answer = found(capfd, solve(press, "damper.shore_hardness", "damper.adopted_length = 60 mm", "--format", "json"))
+    assert [each["reached"] for each in answer["solutions"]] == [0.06] * len(answer["solutions"])
+    longer = f"{answer['solutions'][0]['value'] + 1e-6} "
+    beyond = proved(load_config(press, DISCOVERY).tree, {("mechanisms", "damper", "shore_hardness"): longer}, DISCOVERY)
+    assert beyond.outputs["damper.adopted_length"] > 0.06
+    assert solve(press, "damper.shore_hardness", "damper.adopted_length = 75 mm") == 0
+    assert "holds today already: damper.adopted_length is 75 mm" in capfd.readouterr().out
+
+
+def test_what_does_not_hold_between_two_machines_of_the_search_is_no_range(tmp_path: Path, capfd: Capture) -> None:
+    press = saved(tmp_path, DAMPER)
+    more = ("--from", "60 kg", "--to", "2000 kg", "--format", "json")
+    answer = found(capfd, solve(press, "damper.mass", "damper.peak_force <= 3500 N", *more))
+    config = load_config(press, DISCOVERY)
+    mass = design_input(config, "damper.mass").asked
+    for low, high in answer["ranges"]:
+        x = np.linspace(low["value"], high["value"], 200)
+        assert (varied(config, {mass: x}, 200).values("damper.peak_force") <= 3500 * (1 + 1e-9)).all()
+
+
+def test_a_text_names_the_nearest_of_many_values(tmp_path: Path, capfd: Capture) -> None:
+    press = saved(tmp_path, DAMPER)
+    assert solve(press, "damper.shore_hardness", "damper.peak_force = 3562 N", "--from", "40") == 0
+    out = capfd.readouterr().out.splitlines()
+    assert len([line for line in out if line.startswith("  also")]) <= 12

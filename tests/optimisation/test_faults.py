@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -25,6 +26,7 @@ REFUSED = [  # the block, what is varied, what is told
     ("{objectives: [{maximise: mechanisms.a.grade}]}", VARY + "  mechanisms.a.grade: [fine, coarse]\n",
      "mechanisms.a.grade is a text, a choice or a yes/no, which is neither small nor great"),
     ("{objectives: [{}]}", VARY, "optimise.objectives.0: names no outputs; give minimise or maximise"),
+    ("{objectives: [{minimise: a.moment}, {maximise: a.moment}]}", VARY, "optimise.objectives.1: a.moment is an objective already"),
     ("{}", VARY, "optimise.objectives: is missing; name what is to be small or great"),
     (f"{{{GOALS}, evaluations: 0}}", VARY, "optimise.evaluations: 0 is out of range; allowed: ≥ 1"),
     (f"{{{GOALS}, population: 3}}", VARY, "optimise.population: 3 is out of range; allowed: ≥ 4"),
@@ -75,6 +77,7 @@ def test_an_objective_that_does_not_vary_leaves_nothing_behind(tmp_path: Path, c
     assert optimised(search_file(tmp_path, vary=vary, goals="[{minimise: a.moment}]"), tmp_path / "out") == 2
     told = capfd.readouterr().err
     assert "a.moment is the same in all 30 machines that were tried first" in told and not (tmp_path / "out").exists()
+    assert re.search(r"search\.yaml:\d+:\d+: optimise\.objectives\.0: ", told)
 
 
 def test_where_no_machine_is_allowed_the_conflict_and_the_nearest_are_told(tmp_path: Path, capfd: Any) -> None:
@@ -123,3 +126,6 @@ def test_what_goes_on_with_a_search_is_named_so(tmp_path: Path, capfd: Any) -> N
 def test_a_machine_that_is_not_named_is_refused(tmp_path: Path, capfd: Any) -> None:
     assert optimised(search_file(tmp_path), tmp_path / "out", "--report", "best") == 2
     assert "'best' is neither the number of a machine nor one of: suggested, front." in capfd.readouterr().err
+    assert optimised(search_file(tmp_path), tmp_path / "out", "--report", "3,120") == 2
+    assert "there is no machine 120; those that are tried are numbered from 0 to 119." in capfd.readouterr().err
+    assert not (tmp_path / "out").exists()

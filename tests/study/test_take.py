@@ -56,3 +56,27 @@ def test_what_cannot_be_taken_is_told(
 ) -> None:
     assert main(["take", f"{folder}{number}", "-o", str(tmp_path / "never.yaml")]) == 2
     assert words in capfd.readouterr().err and not (tmp_path / "never.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    "name", ["base.yaml", "study.json", "study.yaml", "variants/part-00000.parquet", "variants/x.csv"]
+)
+def test_what_the_study_has_stored_is_not_written_over(
+    folder: Path, capfd: pytest.CaptureFixture[str], name: str
+) -> None:
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    assert main(["take", f"{folder}#4", "-o", str(folder / name)]) == 2
+    assert main(["variants", str(folder), "--format", "csv", "-o", str(folder / name)]) == 2
+    told = capfd.readouterr().err
+    assert told.count("Choose another place with -o.") == 2
+    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before
+
+
+def test_what_the_study_was_made_of_is_not_written_over(
+    folder: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    base = tmp_path / "my_press.yaml"
+    base.write_bytes((folder / "base.yaml").read_bytes())
+    assert main(["take", f"{folder}#4", "-o", str(base)]) == 2
+    assert "of which the study was made; it would be written over" in capfd.readouterr().err
+    assert base.read_bytes() == (folder / "base.yaml").read_bytes()

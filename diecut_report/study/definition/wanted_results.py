@@ -91,9 +91,16 @@ class ResultReader:
 
     def objectives(self, given: list[dict[str, Any]], home: tuple[str, ...] = ()) -> tuple[Objective, ...]:
         """Return the objectives in their order; ``home`` is the block that they stand in."""
-        return tuple(
-            made for i, entry in enumerate(given) if (made := self._objective((*home, "objectives", i), entry))
-        )
+        found: list[Objective] = []
+        for index, entry in enumerate(given):
+            key: tuple[str | int, ...] = (*home, "objectives", index)
+            made = self._objective(key, entry)
+            if made and made.output in {each.output for each in found}:
+                words = "{name} is an objective already; name each number once, to be small or to be great."
+                self._report(key, Phrase(words, name=made.output))
+            elif made:
+                found.append(made)
+        return tuple(found)
 
     def reports(self, given: Any, count: int | None, has_objectives: bool) -> Reports:
         """Return which variants get a full report; ``count`` is that of the sample, None where it is not known."""

@@ -111,6 +111,18 @@ def copies(folder: Path, description: Description) -> dict[Path, StudySource]:
     return {folder / name: source for name, source in files.items()}
 
 
+def refuse_sources(folder: Path, target: Path) -> None:
+    """Refuse to write over what the study was made of: a file with the content of its copy of study, base or table."""
+    if not target.is_file():
+        return
+    for source in copies(folder, read_description(folder, sealed=False)).values():
+        if source.content is not None and source.content == target.read_bytes():
+            words = (
+                "This is {file}, of which the study was made; it would be written over. Choose another place with -o."
+            )
+            raise UserError(Problem(Phrase(words, file=source.file), str(target)))
+
+
 def kept(folder: Path) -> dict[str, Path]:
     """The copies of the base and the tables by their names in the study; UserError where a copy is not as it was."""
     description = read_description(folder, sealed=False)  # each copy is proved by its own hash
