@@ -94,6 +94,7 @@ class _Filler:
         given = ChapterInputs(self.words, self.tables, self.told)
         part.inputs, part.defaults, part.input_parts = given.of(mechanism["inputs"])
         part.are_defaults_told = given.are_told
+        part.partners, part.taken = given.partners, given.taken
         part.figures = [(each.number, each.figure) for each in self.placed]
         part.halves = frozenset(each.number for row in self.rows if len(row.figures) > 1 for each in row.figures)
         part.sections = [

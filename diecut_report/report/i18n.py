@@ -90,7 +90,7 @@ ENGLISH: dict[str, str] = {
     "figure": "Figure", "table": "Table", "formula": "Formula",
     "as_formula": "as ({number})", "as_formula_with": "as ({number}) with {letters}", "letter_for": "{new} for {old}",
     "as_chapter": "Formulas, assumptions and symbols are those of chapter {letter}: a number in brackets tells where a formula stands.",
-    "defaults": "Left at its default", "defaults_told": "as in chapter {letter}",
+    "defaults": "Left at its default", "defaults_told": "as in chapter {letter}", "partners": "Mechanisms that it found", "taken_from": "From {name}",
     "where": "where", "shown_at": "Curves are shown at {places}.",
     "not_drawn": "This figure could not be drawn.", "not_written": "{title} could not be written: {error}",
     "curves_note": "Some rows of the curves; a place that stands twice is a jump, before and after it. Extremes lie between the rows and "
