@@ -81,7 +81,7 @@ ENGLISH: dict[str, str] = {
     "file": "File", "content": "Content",
     "phases": "Phases", "phase": "Phase", "role": "Role", "from": "From", "to": "To", "length": "Length", "time": "Time",
     "role_working": "working", "role_rest": "at rest", "role_moving": "moving", "role_window": "room for another part",
-    "phase_absent": "{description}: {text}.",
+    "phase_absent": "{description}: {text}.", "phase_of_parts": "{text}: {parts}, taken together.", "phase_same": "{text}: the same as “{parts}”.",
     # items
     "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",
     "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
