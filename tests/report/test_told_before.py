@@ -127,7 +127,10 @@ def test_a_column_that_a_full_table_tells_is_not_told_again() -> None:
     later = table("Sizes", [["1", "a", "5"], ["2", "h", "6"]], "t", "s")
     told = brought_together({"title": "", "items": [first, later, table("Sizes", [["1", "a"], ["2", "h"]], "t")]})
     assert told[0] == first and told[2] is None and told[1] is not None
-    assert [column["symbol"] for column in told[1]["columns"]] == ["", "s"] and told[1]["rows"] == [["1", "5"], ["2", "6"]]
+    assert [column["symbol"] for column in told[1]["columns"]] == ["", "s"] and told[1]["rows"] == [
+        ["1", "5"],
+        ["2", "6"],
+    ]
 
 
 def test_tables_of_other_parts_stay_apart() -> None:
