@@ -17,6 +17,7 @@ ADDED = {  # by the version of the form; a test holds them against its hashes
     "1.3": "`form_version`; `influence` of the file and of `report`",
     "1.4": "`taken` of a table, `chosen` of a printed quantity",
     "1.5": "`table_rows` and `series` of a formula",
+    "1.6": "`parts` of a phase",
 }
 HISTORY = "\n".join(f"| {version} | {told} |" for version, told in ADDED.items())
 INTRODUCTION = f"""\

@@ -16,7 +16,8 @@ Cell = float | str | None
 class ListedColumn(NamedTuple):
     """Hold a column of a listing: its id in the results, what it is, its symbol and display unit; texts have no unit.
 
-    ``digits`` are the significant digits of its numbers; 0 leaves them to the unit: to what can be made or measured, all alike.
+    ``digits`` are the significant digits of its numbers; 0 leaves them to the unit: to what can be made or measured, all alike. A column
+    that is not ``printed``, such as keys beside their words, stands in the results alone.
     """
 
     id: str
@@ -24,6 +25,7 @@ class ListedColumn(NamedTuple):
     symbol: str = ""
     unit: str = "1"
     digits: int = 0
+    printed: bool = True
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

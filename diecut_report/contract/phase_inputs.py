@@ -29,6 +29,10 @@ class GivenPhase(Protocol):
     def role(self) -> str:
         """Return what it is: working, rest, moving or window."""
 
+    @property
+    def description(self) -> str:
+        """Return what it is called in words, a text that is translated wherever it stands."""
+
     def period(self, row: int | None = None) -> float:
         """Return the period of its abscissa, SI, of one of the variants."""
 

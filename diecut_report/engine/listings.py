@@ -71,9 +71,11 @@ def _is_same(cell: Cell, value: Any) -> bool:
 
 def printed(calc: Calculation, step: Listing) -> list[Data]:
     """Return a listing as a table of the calculation, the rows that were taken marked in a column of their own; none where it has no rows."""
-    columns = [{"title": each.description, "symbol": each.symbol, "unit": each.unit} for each in step.heads]
+    columns = [
+        {"title": each.description, "symbol": each.symbol, "unit": each.unit} for each in step.heads if each.printed
+    ]
     found = rows(calc, step)
-    lines = [[_text(cell, head) for cell, head in zip(row, step.heads, strict=True)] for row in found]
+    lines = [[_text(cell, head) for cell, head in zip(row, step.heads, strict=True) if head.printed] for row in found]
     if taken := _taken(calc, step, found):
         columns = [{"title": TAKEN, "symbol": "", "unit": "1"}, *columns]
         lines = [[MARK if number in taken else "", *line] for number, line in enumerate(lines)]

@@ -14,6 +14,7 @@ from diecut_report.contract.phase_inputs import TakenWhole
 from diecut_report.contract.phases import PREFIX
 from diecut_report.contract.steps import Abscissa, Phase
 from diecut_report.engine.calculation import Calculation
+from diecut_report.languages.phrases import phrase
 from diecut_report.mechanics.timing.intervals import TOUCHING, Interval, Intervals, complement, merged
 from diecut_report.quantities.units import unit
 
@@ -43,6 +44,11 @@ class PhaseHandle(TakenWhole):
     def role(self) -> str:
         """Return what it is: working, rest, moving or window."""
         return self.declared.role
+
+    @property
+    def description(self) -> str:
+        """Return what it is called in words."""
+        return phrase(self.declared.description)
 
     @property
     def phase_unit(self) -> str:

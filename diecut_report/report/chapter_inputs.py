@@ -1,4 +1,4 @@
-"""The inputs of a chapter: in lines, in tables of repeated parts, and those at their defaults in a paragraph."""
+"""The inputs of a chapter: in lines, in tables of repeated parts, and those at their defaults or taken from others in paragraphs."""
 
 from __future__ import annotations
 
@@ -12,6 +12,7 @@ from diecut_report.report.printed_tables import PartsTable
 from diecut_report.report.record_tables import RecordTable
 from diecut_report.report.repeated_parts import FEWEST_GIVEN, gathered
 from diecut_report.report.tables import Tables
+from diecut_report.report.taken_inputs import TakenGroup, is_partner, is_taken, taken_groups
 from diecut_report.report.told_before import ToldBefore
 
 Data = Mapping[str, Any]
@@ -24,6 +25,8 @@ class ChapterInputs:
         self.words, self.tables, self.told = words, tables, told
         self.is_full, self.decimal = told is None, words["decimal"]
         self.are_told = False
+        self.partners: list[QuantityRow] = []
+        self.taken: list[TakenGroup] = []
 
     def of(self, inputs: Data) -> tuple[list[QuantityRow], list[QuantityRow], list[PartsTable | RecordTable]]:
         """Return the inputs line by line, what is left at its default, and tables of those of repeated parts."""
@@ -35,11 +38,20 @@ class ChapterInputs:
             ]
             left |= {key for name in alone for key, _ in parts.columns[name].values()}
             lists[place] = parts.without(alone)
+        taken = set() if self.is_full else self._take(single)
         return (
-            [self._input(key, row) for key, row in single.items() if key not in left],
+            [self._input(key, row) for key, row in single.items() if key not in left | taken],
             self._defaults(_each_once(self._input(key, row) for key, row in inputs.items() if key in left)),
             [table for parts in lists if parts.columns for table in self.tables.of_records(parts)],
         )
+
+    def _take(self, inputs: Data) -> set[str]:
+        """Gather what nobody typed: mechanisms that were found, and what is taken from them. Return their keys."""
+        found = {key: row for key, row in inputs.items() if is_partner(row)}
+        given = {key: row for key, row in inputs.items() if is_taken(row)}
+        self.partners = [self._input(key, row) for key, row in found.items()]
+        self.taken = taken_groups((row["path"], self._input(key, row)) for key, row in given.items())
+        return found.keys() | given.keys()
 
     def _defaults(self, rows: list[QuantityRow]) -> list[QuantityRow]:
         """Inputs that are left alone: those that an earlier chapter of the kind does not tell with the same value."""

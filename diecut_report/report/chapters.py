@@ -96,6 +96,7 @@ class _Filler:
         given = ChapterInputs(self.words, self.tables, self.told)
         part.inputs, part.defaults, part.input_parts = given.of(mechanism["inputs"])
         part.are_defaults_told = given.are_told
+        part.partners, part.taken = given.partners, given.taken
         part.figures = [(each.number, each.figure) for each in self.placed]
         part.halves = frozenset(each.number for row in self.rows if len(row.figures) > 1 for each in row.figures)
         part.sections = [
@@ -193,7 +194,16 @@ class _Filler:
     def _phases(self, phases: Data, absent: Data) -> None:
         """When the mechanism does what, a table for each abscissa; and what is not known of it."""
         self.part.phases = self.tables.of_phases(phases)
-        self.part.phases_absent = [self.words.say("phase_absent", **told) for told in absent.values()]
+        wholes = [(each["description"], each["parts"]) for each in phases.values() if each.get("parts")]
+        self.part.phases_absent = [
+            self.words.say(
+                "phase_of_parts" if len(parts) > 1 else "phase_same",
+                text=text,
+                parts=self.words.listed([phases[name]["description"] for name in parts]),
+            )
+            for text, parts in wholes
+        ]
+        self.part.phases_absent += [self.words.say("phase_absent", **told) for told in absent.values()]
         if phases or absent:
             self._head("phases")
 

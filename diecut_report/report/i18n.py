@@ -81,7 +81,7 @@ ENGLISH: dict[str, str] = {
     "file": "File", "content": "Content",
     "phases": "Phases", "phase": "Phase", "role": "Role", "from": "From", "to": "To", "length": "Length", "time": "Time",
     "role_working": "working", "role_rest": "at rest", "role_moving": "moving", "role_window": "room for another part",
-    "phase_absent": "{description}: {text}.",
+    "phase_absent": "{description}: {text}.", "phase_of_parts": "{text}: {parts}, taken together.", "phase_same": "{text}: the same as “{parts}”.",
     # items
     "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",
     "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
@@ -90,7 +90,7 @@ ENGLISH: dict[str, str] = {
     "figure": "Figure", "fig": "Fig.", "table": "Table", "formula": "Formula",
     "as_formula": "as ({number})", "as_formula_with": "as ({number}) with {letters}", "letter_for": "{new} for {old}",
     "as_chapter": "Formulas, assumptions and symbols are those of chapter {letter}: a number in brackets tells where a formula stands.",
-    "defaults": "Left at its default", "defaults_told": "as in chapter {letter}",
+    "defaults": "Left at its default", "defaults_told": "as in chapter {letter}", "partners": "Mechanisms that it found", "taken_from": "From {name}",
     "where": "where", "shown_at": "Curves are shown at {places}.",
     "not_drawn": "This figure could not be drawn.", "not_written": "{title} could not be written: {error}",
     "curves_note": "Some rows of the curves; a place that stands twice is a jump, before and after it. Extremes lie between the rows and "

@@ -165,6 +165,8 @@ class PrintedChapter:
     between: list[PrintedChapter] = field(default_factory=list)
     inputs: list[QuantityRow] = field(default_factory=list)
     defaults: list[QuantityRow] = field(default_factory=list)  # inputs that a standard report tells in a paragraph
+    partners: list[QuantityRow] = field(default_factory=list)  # mechanisms that it found by itself
+    taken: list[Any] = field(default_factory=list)  # groups of what it takes from others by itself
     input_parts: list[PartsTable | RecordTable] = field(default_factory=list)
     key_results: list[QuantityRow] = field(default_factory=list)
     outputs: list[QuantityRow] = field(default_factory=list)

@@ -66,7 +66,7 @@ class Tables:
     def of_phases(self, phases: Data) -> list[PrintedTable]:
         """When a mechanism does what: a line for each interval, a table for each abscissa."""
         groups: dict[str, list[Data]] = {}
-        for phase in phases.values():
+        for phase in (each for each in phases.values() if not each.get("parts")):  # what is but others together
             groups.setdefault(phase["abscissa"], []).append(phase)
         return [self._phases(members) for members in groups.values()]
 

@@ -11,7 +11,7 @@ from diecut_report.engine import Calculation
 from diecut_report.engine.phases import intervals, period_of, phases_of, speed_of
 from diecut_report.engine.shown_units import declared_unit
 from diecut_report.languages.phrases import Phrase, keys_listed
-from diecut_report.mechanics.timing.intervals import Interval
+from diecut_report.mechanics.timing.intervals import Interval, composed
 from diecut_report.quantities.formatting import place_shown, shown
 from diecut_report.quantities.units import unit
 
@@ -41,7 +41,17 @@ def phases(calc: Calculation) -> Data:
                     "intervals": [_shown(interval, display, more) | _lasts(interval, speed) for interval in held],
                 },
             }
-    return found
+    return _with_parts(found)
+
+
+def _with_parts(phases: Data) -> Data:
+    """The phases, those that are nothing but others together with these."""
+    sets = {
+        name: frozenset((each["role"], each["abscissa"], *ends) for ends in each["intervals"])
+        for name, each in phases.items()
+    }
+    whole = composed(sets)
+    return {name: each | ({"parts": list(whole[name])} if name in whole else {}) for name, each in phases.items()}
 
 
 def _shown(interval: Interval, display: str, more: int) -> dict[str, str]:

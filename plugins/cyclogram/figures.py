@@ -84,8 +84,10 @@ def rows(view: View) -> list[Shape]:
     timing: Timing = view.prepared("timing")
     shapes, y, period = [], 0.0, view["main_period"]
     for each in timing.lines:
-        for name in each.phases:
-            shapes.append(label((-0.2, y), f"{each.name}.{name}", "right"))
+        shapes.append(label((-0.2, y), Phrase("{name}:", name=each.name), "right"))
+        y -= HIGH
+        for name in each.told:
+            shapes.append(label((-0.2, y), each.words[name], "right"))
             shapes += _bars(each.on_main_shaft(name, timing.common, None), period, y, "outline")
             y -= HIGH
         y -= HIGH / 2

@@ -15,7 +15,7 @@ Rows = Iterator[tuple[Cell, ...]]
 TURN = 2 * pi
 
 PHASES = (
-    ListedColumn("phase", "Phase"), ListedColumn("role", "Role"),
+    ListedColumn("phase", "Key of the phase", printed=False), ListedColumn("what", "Phase"), ListedColumn("role", "Role"),
     ListedColumn("start", "from", "Φ_1", "deg"), ListedColumn("end", "to", "Φ_2", "deg"),
     ListedColumn("start_time", "from", "t_1", "ms"), ListedColumn("end_time", "to", "t_2", "ms"), ListedColumn("time", "Time", "Δt", "ms"),
 )  # fmt: skip
@@ -42,10 +42,11 @@ def phases(given: Mapping[str, Any]) -> Rows:
     """Return each interval of each phase over the common period, as angle and as time."""
     timing: Timing = given["timing"]
     for line in timing.lines:
-        for name in line.phases:
+        for name, words in line.told.items():
+            what = Phrase("{line}: {phase}", line=line.name, phase=words)
             for start, end in line.on_main_shaft(name, timing.common, None):
                 times = (timing.time(start), timing.time(end), timing.time(end - start))
-                yield (f"{line.name}.{name}", ROLES.get(line.roles[name], line.roles[name]), start, end, *times)
+                yield (f"{line.name}.{name}", what, ROLES.get(line.roles[name], line.roles[name]), start, end, *times)
 
 
 def margins(given: Mapping[str, Any]) -> Rows:

@@ -5,13 +5,14 @@ from __future__ import annotations
 from collections.abc import Mapping
 from dataclasses import dataclass, replace
 from fractions import Fraction
+from functools import cached_property
 from math import pi
 from typing import Any
 
 import numpy as np
 
 from diecut_report.api import GivenMechanism, GivenPhase, Phrase, Refusal, joined
-from diecut_report.mechanics.timing.intervals import Intervals
+from diecut_report.mechanics.timing.intervals import Intervals, composed
 from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
 from diecut_report.plugins.cyclogram.passing import Stretch
 
@@ -38,6 +39,7 @@ class LineOnShaft:
     torque_curve: str
     phases: Mapping[str, OwnPhase]
     roles: Mapping[str, str]  # working, rest, moving or window; what the sheet passes is moving
+    words: Mapping[str, str]  # what they are called; a stretch that the sheet passes is called as it was typed
 
     @property
     def name(self) -> str:
@@ -49,6 +51,22 @@ class LineOnShaft:
         """Return the periods of its phases in turns of the main shaft."""
         every = {1, *(phase.every for phase in self.phases.values())}
         return tuple(map(self.line.period_turns, sorted(every)))
+
+    @cached_property
+    def told(self) -> dict[str, str]:
+        """Return in words the phases of which no interval is told twice: what holds others together stands for them, of equal ones the last."""
+        whole = composed({
+            name: frozenset((self.roles[name], phase.every, *ends) for ends in phase.intervals)
+            for name, phase in self.phases.items()
+        })  # fmt: skip
+        parts = {part for each in whole.values() for part in each}
+        return {name: self._told(whole.get(name, ()), name) for name in self.phases if name not in parts}
+
+    def _told(self, parts: tuple[str, ...], name: str) -> str:
+        """What a phase is called; of one that is the same as another, both."""
+        if len(parts) != 1:
+            return self.words[name]
+        return Phrase("{phase} ({other})", phase=self.words[name], other=self.words[parts[0]])
 
     def on_main_shaft(self, phase: str, common: Fraction, number: int | None) -> Intervals:
         """Return a phase, or one of its intervals alone, over the common period (rad)."""
@@ -79,6 +97,7 @@ def lines_of(given: Mapping[str, Any]) -> tuple[LineOnShaft, ...]:
                 given["lines.torque_curve"][index],
                 {**_own_phases(phases), **ways},
                 {**{name: phase.role for name, phase in phases.items()}, **dict.fromkeys(ways, "moving")},
+                {**{name: phase.description for name, phase in phases.items()}, **{name: name for name in ways}},
             )
         )
     automatic = [str(index) for index, each in enumerate(found) if each.is_auto]

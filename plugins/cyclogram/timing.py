@@ -151,9 +151,11 @@ class Timing:
         return found if np.isfinite(found) else np.nan
 
     def name_of(self, side: tuple[int, str, int | None]) -> str:
-        """Return how the configuration names a phase."""
-        line, phase, number = side
-        return ".".join([self.drawn[line].name, phase, *([] if number is None else [str(number)])])
+        """Return a phase in words, with its line, and with the number of the interval that alone is meant."""
+        index, phase, number = side
+        line = self.drawn[index]
+        told = Phrase("“{phase}” of {line}", phase=line.words[phase], line=line.name)
+        return told if number is None else Phrase("{told}, interval {number}", told=told, number=number)
 
     def trial(self, index: int) -> Timing | None:
         """Return the timing with an offset to be found that an interlock depends on: the automatic one, else its later line's.

@@ -11,7 +11,7 @@ TIMES = (
     ListedColumn("what", "What"), ListedColumn("time", "At the productivity", "t", "ms"),
     ListedColumn("actual_time", "At the rate that the gears give", "t_a", "ms"),
 )  # fmt: skip
-MARGIN_START, MARGIN_END, PHASE_TIME = 5, 6, 6  # columns of the cyclogram's tables
+PHASE, MARGIN_START, MARGIN_END, PHASE_TIME = 1, 5, 6, 7  # columns of the cyclogram's tables
 
 
 def lines_out_of_step(drives: tuple[str, ...], single_position: bool, timing: GivenMechanism) -> float:
@@ -48,7 +48,7 @@ def _times(timing: GivenMechanism) -> Iterator[tuple[str, float | None]]:
     yield phrase("sheet"), timing.number("sheet_time")
     yield phrase("common period"), timing.number("period_time")
     for row in timing.listing("main_phases"):
-        yield str(row[0]), _number(row[PHASE_TIME])
+        yield phrase(str(row[PHASE])), _number(row[PHASE_TIME])
     for row in timing.listing("margins"):
         yield Phrase("{row}, margin at the start", row=row[0]), _number(row[MARGIN_START])
         yield Phrase("{row}, margin at the end", row=row[0]), _number(row[MARGIN_END])

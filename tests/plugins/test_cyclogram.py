@@ -278,11 +278,11 @@ def test_a_failed_interlock_says_by_how_much_and_what_would_do() -> None:
     check = check_of(press("feeder", locks("cutting passing", "feeder", cutting="5 ms")), "interlock_cutting")
     assert check["status"] == "fail"
     for words in (
-        "drive.cutting does not lie within feeder.dwell: the margins are",
+        "“Cutting” of drive does not lie within “Dwell of gear and sheet” of feeder: the margins are",
         "3° (5 ms) are required",
         "The best offset of feeder is 141.0056",
         "no offset holds all",
-        "feeder.dwell must be 213.7°",
+        "“Dwell of gear and sheet” of feeder must be 213.7°",
         "press.productivity does not help: angles decide",
     ):
         assert words in check["message"]
@@ -297,7 +297,10 @@ def test_an_interlock_at_a_fixed_offset_is_told_the_best_one() -> None:
 
 def test_a_dwell_of_the_length_that_is_needed_holds_the_cutting() -> None:
     run = linked({"timing": {"kind": "cyclogram"} | keys_of("feeder", locks("cutting", "feeder"))})
-    assert "feeder.dwell must be 207.7°" in check_of(run.calculations["timing"], "interlock_cutting")["message"]
+    assert (
+        "“Dwell of gear and sheet” of feeder must be 207.7°"
+        in check_of(run.calculations["timing"], "interlock_cutting")["message"]
+    )
     data = yaml.safe_load(TEXT)["mechanisms"]["feeder"] | {"dwell_angle": "207.662 deg"}
     run = linked({"feeder": data, "timing": {"kind": "cyclogram"} | keys_of("feeder", locks("cutting", "feeder"))})
     assert 0 <= degrees(number(run.calculations["timing"], "best_margin")) < 1e-3

@@ -67,9 +67,10 @@ def test_a_line_across_all_rows_follows_the_angle_and_the_bars_that_it_passes_ar
     assert set(cursor[:, 1]) == {max(heights)} and set(cursor[:, 3]) == {min(heights)}
     filled = [shape["during"] for shape in shapes if "during" in shape]
     assert np.degrees(filled) == pytest.approx(np.array([[30, 120], [120, 360], [0, 30]]))
-    assert [shape["text"] for shape in shapes if shape["shape"] == "label"][5:7] == [
-        "feeder.carrying",
-        "feeder.returning",
+    assert [shape["text"] for shape in shapes if shape["shape"] == "label"][5:8] == [
+        "feeder:",
+        "A sheet is carried",
+        "Back without a sheet",
     ]
 
 

@@ -54,13 +54,22 @@ TIMES = {
 def test_the_phases_on_the_main_shaft_are_those_of_the_method() -> None:
     table = rows("cross", "main_phases")
     for phase, wanted in PHASES.items():
-        found = [(degrees(row[2]), degrees(row[3])) for row in table if row[0] == phase]
+        found = [(degrees(row[3]), degrees(row[4])) for row in table if row[0] == phase]
         assert [edge for each in found for edge in each] == pytest.approx(
             [e for each in wanted for e in each], abs=2e-4
         )
     for phase, times in TIMES.items():
-        assert [1000 * row[6] for row in table if row[0] == phase] == pytest.approx(times, abs=2e-4)
-    assert {row[1] for row in table if row[0] == "cross.passing"} == {"moving"}
+        assert [1000 * row[7] for row in table if row[0] == phase] == pytest.approx(times, abs=2e-4)
+    assert {row[2] for row in table if row[0] == "cross.passing"} == {"moving"}
+
+
+def test_a_phase_is_told_in_words_and_none_twice() -> None:
+    table = rows("cross", "main_phases")
+    told = {row[0]: row[1] for row in table}
+    assert told["drive.cutting"] == "drive: Cutting" and told["cross.passing"] == "cross: passing"
+    assert "drive.cutting_forward" not in told and "drive.carriage_window_outer" not in told
+    places = [(row[0].split(".")[0], row[2], *row[3:5]) for row in table]
+    assert len(places) == len(set(places))
 
 
 def test_all_offsets_that_leave_the_margins_are_told() -> None:

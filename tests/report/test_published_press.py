@@ -93,3 +93,21 @@ def test_what_is_but_rounding_is_said_so(example: Example) -> None:
                 noted.add((name, item["id"]))
             assert not (text == "0" and told and told["value"]) or (name, item["id"]) in noted
     assert {("drive", "energy_residual"), ("crankshaft", "energy_difference")} <= noted
+
+
+def test_what_a_mechanism_takes_by_itself_is_said_in_short(printed: ReportDocument) -> None:
+    chapters = {part.name: part for part in printed.chapters}
+    found = chapters["consistency"]
+    assert len(found.inputs) < 8 and {"drive", "train"} <= {row.key for row in found.partners}
+    assert {"timing", "drive", "clutch"} <= {group.home for group in found.taken}
+    told = {(group.home, row.key) for group in found.taken for row in group.rows}
+    assert ("drive", "stroke") in told and len(told) > 30
+    assert not any(part.taken or part.partners for part in printed.chapters if not part.between and part is not found)
+
+
+def test_a_phase_that_is_others_together_is_told_in_one_line(printed: ReportDocument) -> None:
+    drive = next(part for part in printed.chapters if part.name == "drive")
+    (table,) = drive.phases
+    places = [tuple(row[2:4]) for row in table.rows]
+    assert len(places) == len(set(places)) > 8
+    assert len([text for text in drive.phases_absent if "together" in text or "разом" in text]) == 2

@@ -6,7 +6,7 @@ may lie beyond the period. All functions take and give such sets in one unit (ra
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 
 Interval = tuple[float, float]
 Intervals = tuple[Interval, ...]
@@ -55,6 +55,18 @@ def complement(intervals: Intervals, period: float) -> Intervals:
         return ((0.0, period),)
     starts = [start for start, _ in intervals[1:]] + [intervals[0][0] + period]
     return merged(zip((end for _, end in intervals), starts, strict=True), period)
+
+
+def composed(sets: Mapping[str, frozenset[Hashable]]) -> dict[str, tuple[str, ...]]:
+    """Return, of named sets of any things, those that are nothing but others together, with these; of equal ones each holds those before it."""
+    names = list(sets)
+    found = {}
+    for place, name in enumerate(names):
+        others = [*names[:place], *(each for each in names[place + 1 :] if sets[each] != sets[name])]
+        parts = tuple(each for each in others if sets[each] and sets[each] <= sets[name])
+        if parts and frozenset().union(*(sets[each] for each in parts)) == sets[name]:
+            found[name] = parts
+    return found
 
 
 def union(one: Intervals, other: Intervals, period: float) -> Intervals:

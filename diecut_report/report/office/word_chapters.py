@@ -81,6 +81,15 @@ def _given(body: WordBody, part: PrintedChapter) -> None:
         body.listed(rich(prose(text)) for text in part.assumptions)
     _head(body, part.parts.get("inputs"))
     _inputs(body, part.inputs)
+    if part.partners:
+        found = run(" · ").join(
+            (key(row.key) + run(": ") if row.key != row.value else run("")) + run(row.value) for row in part.partners
+        )
+        body.say(bold(body.words["partners"]) + run(": ") + found, "Why")
+    for group in part.taken:
+        basis = f" ({group.basis}): " if group.basis else ": "
+        rows = run(" · ").join(map(_taken, group.rows))
+        body.say(bold(body.words.say("taken_from", name=group.home)) + run(basis) + rows, "Why")
     if part.defaults or part.are_defaults_told:
         told = [run(body.words.say("defaults_told", letter=part.told_in))] if part.are_defaults_told else []
         told += map(_default, part.defaults)
@@ -96,6 +105,20 @@ def _default(row: QuantityRow) -> Inline:
         return name + key(row.key) + run(" ") + rich(own_words(row.value))
     sign = rich(row.symbol) + run(" = ") if row.symbol else ""
     return name + sign + run(joined(row.value, row.unit))
+
+
+def _taken(row: QuantityRow) -> Inline:
+    """An input that is taken from another mechanism, with its id there."""
+    sign = rich(row.symbol) if row.symbol else run(row.value)
+    value = sign if row.wordy else (sign + run(" = ") if row.symbol else run("")) + run(joined(row.value, row.unit))
+    return (
+        rich(prose(row.description))
+        + run(" ")
+        + key(row.key)
+        + run(" ")
+        + value
+        + run(f" ({row.origin})" if row.origin else "")
+    )
 
 
 def _inputs(body: WordBody, rows: Sequence[QuantityRow]) -> None:

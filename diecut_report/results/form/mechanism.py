@@ -102,6 +102,7 @@ class PhaseKeys(ClosedKeys):
     period: float = always("The period of the abscissa, SI.")
     unit: str = always("The SI unit of the abscissa.")
     intervals: list[list[float]] = always("Its intervals, each `[begin, end]`, SI; an end may lie in the next period.")
+    parts: list[str] = sometimes("The phases that it is nothing but together.")
     display: ShownPhaseKeys = always("As it is printed.")
 
 

@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.mechanics.timing import intervals
-from diecut_report.mechanics.timing.intervals import Intervals
+from diecut_report.mechanics.timing.intervals import Intervals, composed
 from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
 from tests.examples import examples
 from tests.mechanics.timing.example_press import COMMON, in_degrees, phase
@@ -120,3 +120,14 @@ def test_an_offset_and_every_second_turn_are_counted_on_the_main_shaft() -> None
         pytest.approx((7.0 - 2 * 3.141592653589793, 7.5 - 2 * 3.141592653589793)),
         pytest.approx((7.0, 7.5)),
     )
+
+
+def test_a_set_that_is_others_together_is_told_with_these() -> None:
+    sets = {
+        "a": frozenset({1}),
+        "b": frozenset({2}),
+        "both": frozenset({1, 2}),
+        "again": frozenset({2}),
+        "other": frozenset({2, 3}),
+    }
+    assert composed(sets) == {"both": ("a", "b", "again"), "again": ("b",)}
