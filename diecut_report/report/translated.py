@@ -82,7 +82,10 @@ class _Mechanism:
             "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
             "figures": [self.drawn(figure) for figure in data.get("figures", ())],
             "sources": [
-                {**self.walk(source), "id": self.words.source(source["id"], self.home)}
+                {
+                    "id": self.words.source(source["id"], self.home),
+                    "citation": self.words.paper(source["citation"], self.home),
+                }
                 for source in data.get("sources", ())
             ],
         }

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import pytest
+from markupsafe import Markup
 
 from diecut_report.report.symbols import prose, symbol
 
@@ -66,3 +67,9 @@ def test_no_line_ends_between_a_letter_and_its_number() -> None:
 )  # fmt: skip
 def test_letters_that_are_no_symbols(text: str) -> None:
     assert prose(text) == text.replace("'", "&#39;")
+
+
+def test_no_line_breaks_within_a_ratio_or_a_sum_in_brackets() -> None:
+    text = Markup(prose("The angle |dθ/dφ|, and/or r·cos(φ + τ) of crank/rocker.")).striptags()
+    assert "dθ/\u2060dφ" in text and "(φ\u00a0+\u00a0τ)" in text
+    assert "and/or" in text and "crank/rocker" in text

@@ -129,7 +129,10 @@ def test_tables_of_other_parts_stay_apart() -> None:
 
 def test_a_table_of_the_one_part_that_the_formula_shows_is_left_out() -> None:
     length = step("Length", "l", ["*", ["sym", "a"], ["sym", "b"]])
-    assert brought_together({"title": "", "items": [length, table("Length", [["1", "7"]], "l")]}, set()) == [length, None]
+    assert brought_together({"title": "", "items": [length, table("Length", [["1", "7"]], "l")]}, set()) == [
+        length,
+        None,
+    ]
 
 
 def test_one_quantity_of_numbered_parts_stands_in_a_line() -> None:
