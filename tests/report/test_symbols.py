@@ -2,8 +2,9 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
-from markupsafe import Markup
 
 from diecut_report.report.symbols import prose, symbol
 
@@ -70,6 +71,6 @@ def test_letters_that_are_no_symbols(text: str) -> None:
 
 
 def test_no_line_breaks_within_a_ratio_or_a_sum_in_brackets() -> None:
-    text = Markup(prose("The angle |dθ/dφ|, and/or r·cos(φ + τ) of crank/rocker.")).striptags()
+    text = re.sub("<[^>]*>", "", prose("The angle |dθ/dφ|, and/or r·cos(φ + τ) of crank/rocker."))
     assert "dθ/\u2060dφ" in text and "(φ\u00a0+\u00a0τ)" in text
     assert "and/or" in text and "crank/rocker" in text
