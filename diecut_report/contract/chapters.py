@@ -158,11 +158,11 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
 
     def computed(
         self, id: str, symbol: str, unit: str, description: str, function: Callable[..., Any], takes: tuple[str, ...], method: str,
-        *, over: str = "", is_text: bool = False, printed: bool = True, **options: Unpack[Options],
+        *, over: str = "", is_text: bool = False, **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a number that plain code finds, where no closed formula tells it: see ``Computed``."""
         own = {"function": function, "takes": takes, "method": method, "over": over}
-        self._give(Computed, id, symbol, unit, description, options, **own, is_text=is_text, printed=printed)
+        self._give(Computed, id, symbol, unit, description, options, **own, is_text=is_text)
 
     def curve_period(
         self, id: str, symbol: str, unit: str, description: str, given: str, otherwise: str, **options: Unpack[Options]
@@ -289,10 +289,7 @@ MISSING = "{missing}"  # in the words of a chapter that is left out: the keys th
 
 @dataclass(eq=False)
 class Chapter(Steps):
-    """Declare a chapter of the calculation: steps under a title; ``absent`` says in words what is missing when its needs are.
-
-    ``{missing}`` in it stands for the keys that are not given.
-    """
+    """Declare a chapter of the calculation: steps under a title; ``absent`` says in words what is missing (``{missing}``: which keys)."""
 
     title: str
     text: str = field(default="", kw_only=True)
