@@ -54,6 +54,7 @@ MEANINGS = {
     "first": "the number of the first part of those",
     "named_by": 'the text input with the parts\' names: `"bearings.name"`',
     "whole": "a count, an integer in the results",
+    "printed": "whether reports show it; what is not serves messages, or how numbers are found, and may have the symbol of what it is taken for",
     "units": 'other units, each with the input beside which it holds: `(("mass", "N"),)`',
 }
 

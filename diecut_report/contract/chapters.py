@@ -158,11 +158,11 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
 
     def computed(
         self, id: str, symbol: str, unit: str, description: str, function: Callable[..., Any], takes: tuple[str, ...], method: str,
-        *, over: str = "", is_text: bool = False, printed: bool = True, **options: Unpack[Options],
+        *, over: str = "", is_text: bool = False, **options: Unpack[Options],
     ) -> None:  # fmt: skip
         """Declare a number that plain code finds, where no closed formula tells it: see ``Computed``."""
         own = {"function": function, "takes": takes, "method": method, "over": over}
-        self._give(Computed, id, symbol, unit, description, options, **own, is_text=is_text, printed=printed)
+        self._give(Computed, id, symbol, unit, description, options, **own, is_text=is_text)
 
     def curve_period(
         self, id: str, symbol: str, unit: str, description: str, given: str, otherwise: str, **options: Unpack[Options]

@@ -26,6 +26,7 @@ class Options(TypedDict, total=False):
     first: int
     named_by: str
     whole: bool
+    printed: bool
     units: tuple[tuple[str, str], ...]
 
 

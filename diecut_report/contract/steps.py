@@ -23,7 +23,7 @@ class Step:
     ``needs=("engagement=away",)``. ``exists`` is a condition on numbers: where it does not hold the quantity is absent. ``source_symbol`` is the
     source's letter, where another. ``whole`` marks a count, an integer in the results. ``units`` are other units, each with the input beside which
     it holds: (("mass", "N"),). A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from
-    ``first`` on, or with ``named_by``, the text input of the parts' names (``bearings.name``), after them: ``NAME_ID``.
+    ``first`` on, or with ``named_by``, the text input of the parts' names: ``NAME_ID``. What is not ``printed`` serves messages or other steps.
     """
 
     id: str
@@ -42,6 +42,7 @@ class Step:
     named_by: str = ""
     whole: bool = False
     units: tuple[tuple[str, str], ...] = ()
+    printed: bool = True
     at: str = placed()
 
 
@@ -173,8 +174,8 @@ class Computed(Step):
     """Declare a number found by plain code where no closed formula tells it; ``method`` says in words how.
 
     ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of curve inputs (``Curve``).
-    It gives an array of shape (variants, 1), SI; of shape (variants, parts) where it gives a row for the list ``over``, or for what ``PartNames``
-    declares; or with ``is_text`` a text for each variant. Truth values are printed as yes and no; what is not ``printed``, not at all.
+    It gives an array of shape (variants, 1), SI; (variants, parts) for a row over the list ``over``, or over what ``PartNames`` declares; or with
+    ``is_text`` a text for each variant. Truth values are printed as yes and no.
     """
 
     function: Callable[..., Any]
@@ -182,7 +183,6 @@ class Computed(Step):
     method: str
     over: str = ""
     is_text: bool = False
-    printed: bool = True
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -73,7 +73,7 @@ def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Pr
             when, is_points = names.known[key.path][0].when, key.meta is POINTS
             yield key.meta.symbol, Printed(key.path, key.meta.at, when, is_points=is_points)
     for number, (_, step) in enumerate(mechanism.steps):
-        if step.symbol and not isinstance(step, SILENT) and names.kinds(step.id) != {"text"}:
+        if step.symbol and step.printed and not isinstance(step, SILENT) and names.kinds(step.id) != {"text"}:
             yield step.symbol, Printed(step.id, step.at, names.when(number), step)
 
 

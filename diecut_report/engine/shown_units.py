@@ -12,7 +12,7 @@ from diecut_report.contract.inputs import Quantity
 from diecut_report.contract.steps import Step
 from diecut_report.expressions import Array
 from diecut_report.quantities.display import easy_unit
-from diecut_report.quantities.formatting import shown
+from diecut_report.quantities.formatting import author_digits, shown
 
 if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
@@ -45,7 +45,8 @@ def _unit_of(calc: Calculation, name: str, declared: str, value: float) -> str:
 
 def step_shown(calc: Calculation, step: Step, value: float) -> dict[str, str]:
     """Return a number that a step gives as text, in its unit."""
-    return shown(value, _unit_of(calc, step.id, step.unit, value), step.digits)
+    display = _unit_of(calc, step.id, step.unit, value)
+    return shown(value, display, author_digits(value, display, step.digits))
 
 
 def number_unit(calc: Calculation, name: str, declared: Step | Quantity, value: float) -> str:

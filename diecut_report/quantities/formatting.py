@@ -63,7 +63,7 @@ def shortest(value: float, digits: int = 6) -> str:
 def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
     """Return an SI value as text in a display unit: of its digits those that mean something, rounding of the computer as zero.
 
-    Where its author asks for other than the usual number of digits, they all stand of an angle and of a pure number.
+    Where other than the usual number of digits is asked for, they all stand.
     """
     if is_nothing(value, unit_text):
         return {"text": "0", "unit": unit_text}
@@ -96,15 +96,13 @@ def given_shown(value: float, unit_text: str) -> dict[str, str]:
 
 
 def shown_digits(value: float, unit_text: str, digits: int = DIGITS) -> int:
-    """Return with how many significant digits an SI value is shown, of which an author asks for so many: of an angle or a ratio all.
+    """Return with how many significant digits an SI value is shown, of which so many are asked for."""
+    return meant_digits(value, unit_text, digits) if digits == DIGITS else digits
 
-    What can be made or measured only so finely has no more of them.
-    """
-    return (
-        digits
-        if digits != DIGITS and finest_step(unit(unit_text).si) is None
-        else meant_digits(value, unit_text, digits)
-    )
+
+def author_digits(value: float, unit_text: str, digits: int) -> int:
+    """Return how many of the digits that a plugin asks for are shown: of an angle or a pure number all, of a length none finer than it is made."""
+    return digits if finest_step(unit(unit_text).si) is None else meant_digits(value, unit_text, digits)
 
 
 def with_unit(text: str, display: str) -> str:

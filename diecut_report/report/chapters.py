@@ -98,7 +98,7 @@ class _Filler:
         part.are_defaults_told = given.are_told
         part.partners, part.taken = given.partners, given.taken
         part.figures = [(each.number, each.figure) for each in self.placed]
-        part.halves = frozenset(each.number for row in self.rows if len(row.figures) > 1 for each in row.figures)
+        part.pairs = tuple(tuple(each.number for each in row.figures) for row in self.rows if len(row.figures) > 1)
         part.sections = [
             self.steps.section(index, section, self._head("", section["title"]))
             for index, section in enumerate(mechanism["sections"])

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
@@ -22,6 +22,7 @@ from diecut_report.report.typeset import Typesetter
 
 if TYPE_CHECKING:
     from diecut_report.report.figures.raster import Raster
+    from diecut_report.report.figures.sizes import Size
     from diecut_report.report.figures.style import Svg
 
 Data = Mapping[str, Any]
@@ -111,6 +112,9 @@ class Material:
                 except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
                     if all(fault.number != number for fault in self.faults):
                         self.faults.append(DrawingFault(chapter.name, number, figure, cause))
+            for number in _left_alone(chapter.pairs, found):
+                curves = calculated[chapter.name]["curves"]
+                found[number] = draw(dict(chapter.figures)[number], curves, self.words, number, self._whole)
         for number, figure in self.document.influence.figures if self.document.influence else ():
             found[number] = self._sized(draw, number, figure, {})
         return found
@@ -119,12 +123,18 @@ class Material:
         """A figure in the size of its place; one whose texts take more than half the width has it alone."""
         from diecut_report.report.figures.sizes import WIDEST_HALF, Size
 
-        detail = self.document.detail
         if number in self.document.halves:
             made: Any = draw(figure, curves, self.words, number, Size.HALF)
             if made.width <= WIDEST_HALF:
                 return made  # type: ignore[no-any-return]
-        return draw(figure, curves, self.words, number, {BRIEF: Size.SKETCH, FULL: Size.LARGE}.get(detail, Size.LOW))
+        return draw(figure, curves, self.words, number, self._whole)
+
+    @property
+    def _whole(self) -> Size:
+        """The size of a figure that stands alone."""
+        from diecut_report.report.figures.sizes import Size
+
+        return {BRIEF: Size.SKETCH, FULL: Size.LARGE}.get(self.document.detail, Size.LOW)
 
     def are_abreast(self, pair: tuple[Item, ...]) -> bool:
         """Whether two figures have room side by side."""
@@ -141,3 +151,12 @@ class Material:
         figure = dict(pair for chapter in self.document.chapters for pair in chapter.figures)[number]
         told: str = figure.get("error", "")
         return told or next(fault.words for fault in self.faults if fault.number == number)
+
+
+def _left_alone(pairs: Sequence[tuple[str, ...]], drawn: Mapping[str, Any]) -> Iterator[str]:
+    """The figures drawn over half the width of which the other one of a pair has no room beside it."""
+    from diecut_report.report.figures.sizes import WIDEST_HALF
+
+    for pair in pairs:
+        narrow = [number for number in pair if number in drawn and drawn[number].width <= WIDEST_HALF]
+        yield from narrow if len(narrow) < len([number for number in pair if number in drawn]) else ()

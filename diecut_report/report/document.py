@@ -89,7 +89,7 @@ class ReportDocument:
     @property
     def halves(self) -> frozenset[str]:
         """The numbers of the figures that stand side by side."""
-        return frozenset(number for part in self.chapters for number in part.halves)
+        return frozenset(number for part in self.chapters for pair in part.pairs for number in pair)
 
     @property
     def sized(self) -> list[CheckRow]:

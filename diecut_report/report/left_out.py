@@ -19,8 +19,11 @@ def gathered_notes(items: Sequence[Data | None]) -> list[Data | None]:
 
 
 def under_heading(absent: Sequence[Data], heading: str) -> list[Data]:
-    """Return why parts are absent, without the words of the heading that stands above them."""
-    return [dict(told, text=told["text"].removeprefix(f"{heading.lower()}: ")) for told in absent]
+    """Return why parts are absent, without the words of the heading that stands above them; those for one reason in one line."""
+    titles: dict[str, list[str]] = {}
+    for told in absent:
+        titles.setdefault(told["text"].removeprefix(f"{heading.lower()}: "), []).append(told["title"])
+    return [{"title": "; ".join(named), "text": text} for text, named in titles.items()]
 
 
 def _said(item: Data | None) -> str:

@@ -177,7 +177,7 @@ class PrintedChapter:
     phases: list[PrintedTable] = field(default_factory=list)
     phases_absent: list[str] = field(default_factory=list)
     figures: list[tuple[str, Data]] = field(default_factory=list)
-    halves: frozenset[str] = frozenset()  # the numbers of figures that stand side by side
+    pairs: tuple[tuple[str, ...], ...] = ()  # the numbers of figures that stand side by side
     loose: list[Item] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
     absent: list[Data] = field(default_factory=list)

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,11 +16,12 @@ from diecut_report.report.symbols import symbol
 
 Data = Mapping[str, Any]
 MOST_PARTS = 4  # that have room beside each other
+SHORT = 18  # letters of a note that has room below a value
 
 
 @dataclass(frozen=True)
 class RecordRow:
-    """A quantity of all parts; ``note`` is what is to be said of each of them alike."""
+    """A quantity of all parts; ``note`` is what is to be said of them, in lines."""
 
     description: str
     symbol: Markup
@@ -50,22 +51,33 @@ def record_rows(
     parts: Parts, cell: Callable[[Data, Callable[[Data], str]], TableCell], told: Callable[[Data], str]
 ) -> tuple[list[str], list[RecordRow]]:
     """Return the heads of the columns and the lines; ``told`` says where a value comes from."""
-    heads, rows = [str(number) for number in parts.numbers], []
+    heads = [str(number) for number in parts.numbers]
+    lines = []
     for quantity, first in parts.heads:
         given = [parts.columns[quantity].get(number) for number in parts.numbers]
         names = {str(each[1]["value"]): None for each in given if each} if quantity in NAMING else {}
         if len(names) == len(given):
             heads = list(names)
-            continue
-        cells = [cell(each[1], told) if each else TableCell(DASH) for each in given]
-        rows.append(_row(quantity, first, cells, len([each for each in given if each])))
-    return heads, rows
+        else:
+            lines.append((quantity, first, [cell(each[1], told) if each else TableCell(DASH) for each in given]))
+    return heads, [_row(*line, heads) for line in lines]
 
 
-def _row(quantity: str, first: Data, cells: list[TableCell], given: int) -> RecordRow:
-    """A line; what is said of all its values alike is said once."""
-    notes = {cell.note for cell in cells if cell.text != DASH}
-    shared = notes.pop() if len(notes) == 1 and given else ""
-    kept = [TableCell(cell.text, "", cell.wordy, cell.changed) for cell in cells] if shared else cells
+def _row(quantity: str, first: Data, cells: list[TableCell], heads: list[str]) -> RecordRow:
+    """A line, and behind it what is to be said of its values: of all alike once, at length of each with its name."""
+    said = [(head, cell.note) for head, cell in zip(heads, cells, strict=True) if cell.text != DASH]
+    notes = {note for _, note in said}
+    if len(notes) == 1:
+        note = notes.pop()
+    else:
+        is_long = any(len(note) > SHORT for note in notes)
+        note = "\n".join(_named(said)) if is_long else ""
+    kept = [TableCell(cell.text, "", cell.wordy, cell.changed) for cell in cells] if note else cells
     unit = pretty(first["display"]["unit"])
-    return RecordRow(first["description"], symbol(first["symbol"]), unit, quantity, kept, shared)
+    return RecordRow(first["description"], symbol(first["symbol"]), unit, quantity, kept, note)
+
+
+def _named(said: Sequence[tuple[str, str]]) -> Iterator[str]:
+    """What is said of each value behind the names of those of which it is said."""
+    for note in dict.fromkeys(note for _, note in said if note):
+        yield f"{', '.join(head for head, other in said if other == note)}: {note}"

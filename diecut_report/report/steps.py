@@ -49,6 +49,7 @@ class PrintedSteps:
         self.given: dict[str, str] = {}  # the numbers of the steps by the symbols that they give
         self.said = SaidOnce(equations, words)
         self.columns: set[Column] = set()  # that tables have told
+        self.reason = ""  # of the branch that is named beside the step before
 
     def section(self, index: int, section: Data, heading: Heading) -> PrintedSection:
         """A section with its figures."""
@@ -124,8 +125,10 @@ class PrintedSteps:
     def _item(self, item: Data, notes: set[str], number: str) -> Item:
         source = item["source"] if len(item["source"]) <= LONGEST_SOURCE else ""
         condition, words = self.said.condition(item), item.get("words", "")
-        if words and item.get("condition") and condition is None:  # a branch whose reason was told
-            source, words = " · ".join(filter(None, (source, words))), ""
+        reason = words if words and item.get("condition") and condition is None else ""
+        if reason:  # which was told; it is named beside the first of the steps that follow
+            source, words = " · ".join(filter(None, (source, reason if reason != self.reason else ""))), ""
+        self.reason = reason
         return Item(
             item["type"],
             number=number,

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from markupsafe import Markup, escape
 
-from diecut_report.report.number_format import tidy
+from diecut_report.report.number_format import tidy as tidied
 
 LONGEST_WHOLE = 26  # letters of a source that stands in one line
 _SIGNS = "=<>≤≥≈≠−+√"
@@ -31,6 +31,8 @@ _IN_TEXT = re.compile(
     rf"|({_LETTER})"
 )
 _EQUAL = re.compile(r"(?<=\w) ([=≤≥<>≈]) (?=[−\d])")  # φ = 180°, which no line's end cuts
+_RATIO = re.compile(r"(?<=\bd[^\W\d_])/(?=d[^\W\d_](?!\w))|(?<=</i>)/(?=d<i)|(?<=[²³>])/(?=\()")  # dθ/dφ, h²/(2·tan τ)
+_SUM = re.compile(r"(\([^()\s]{1,12}) ([+−]) ([^()\s]{1,12}\))")  # (φ + τ)
 _UNIT = r"[kMmµcd]?(?:N|W|Pa|J|g|m|s|K|h|rad|V|A|min|Hz)[²³]?"
 _UNITS = re.compile(rf"(?:°|(?<![\w·/])(?:1|r|{_UNIT}))(?:[·/]\(?{_UNIT}\)?)+(?![\w·/])")
 
@@ -104,6 +106,11 @@ def own_words(text: str) -> Markup:
         return prose(text)
 
 
+def tidy(sentence: str) -> str:
+    """A sentence in print; no line's end cuts a sum in brackets."""
+    return _SUM.sub("\\1\u00a0\\2\u00a0\\3", tidied(sentence))
+
+
 def prose(sentence: str) -> Markup:
     """A sentence as HTML, its symbols set as symbols."""
     text = _EQUAL.sub("\u00a0\\1\u00a0", tidy(sentence))
@@ -119,4 +126,4 @@ def prose(sentence: str) -> Markup:
         base = next(filter(None, (found[1], *found.groups()[2:])))
         parts += [escape(text[start : found.start()]), symbol(f"{base}_{found[2]}" if found[2] else base)]
         start = found.end()
-    return Markup("").join([*parts, escape(text[start:])])
+    return Markup(_RATIO.sub("/\u2060", "".join([*parts, escape(text[start:])])))

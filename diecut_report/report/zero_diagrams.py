@@ -41,7 +41,7 @@ def _is_flat(panel: Data, curves: Data) -> bool:
     return bool(rows) and all(is_nothing(value, panel["unit"]) for row in rows for value in row if value is not None)
 
 
-def _noted(sections: Sequence[Data], notes: Sequence[tuple[Data, Data]]) -> list[Data]:
+def _noted(sections: Sequence[Data], notes: Sequence[tuple[Data, Data]]) -> Sequence[Data]:
     """The sections with each note behind the last step that its figure shows."""
     found: list[Data] = [{**section, "items": list(section["items"])} for section in sections]
     for figure, note in notes:

@@ -19,7 +19,7 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.engine.shown_units import declared_unit, unit_for
 from diecut_report.engine.steps import facts
 from diecut_report.languages.phrases import Phrase, keys_listed, phrase
-from diecut_report.quantities.formatting import place_shown, shown
+from diecut_report.quantities.formatting import author_digits, place_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of
 from diecut_report.results.curves import curves
@@ -226,5 +226,5 @@ def _number(step: Step, value: Any, display: str) -> Data:
     return (
         {"value": round(value) if step.whole else float(value), "unit": unit(step.unit).si}
         | said
-        | {"display": shown(float(value), display, step.digits)}
+        | {"display": shown(float(value), display, author_digits(float(value), display, step.digits))}
     )

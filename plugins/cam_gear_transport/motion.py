@@ -33,7 +33,7 @@ FALL = {"sweep": "sector_sweep", "time": "time_return"}
 sector = Chapter("Motion of the sector",
                  text="The disc angle counts from the start of the dwell. γ is the sector's angle relative to the disc, counter-clockwise, 0 at "
                       "the start of the dwell; k is the share of the rise or return that has passed, in the dwell that of the rise's middle, where "
-                      "it is as fast. φ_m and k_m hold for a whole phase and are shown in its middle, all other quantities at the one φ that is "
+                      "it is as fast. φ_m holds for a whole phase and is shown in its middle, all other quantities at the one φ that is "
                       "named.")
 sector.abscissa("disc_angle", "φ", "deg", "Disc angle from the start of the dwell", 2 * np.pi, shown_at="gear_power_peak_at", speed="disc_speed")
 sector.breakpoints("phases", "disc_angle", "dwell_angle", "angle_stop", "angle_start")
@@ -50,17 +50,19 @@ sector.choice("law_share", "k", "1", "Share of the rise or return that has passe
               bind(formulas.share_since, start="angle_stop", time="time_return"),
               bind(formulas.share_since, start="angle_start", time="time_stop")), source="003 eq. 2", output=False)
 sector.value("law_joint", "j", "1", "Joint of the law: changes its sign where the law's formula changes", ByText("motion_law", JOINT, k="law_share"),
-             output=False, source="motion laws")
-sector.crossings("law_break", "φ_j", "deg", "Disc angle at which the law's formula changes, or a phase begins", of="law_joint", output=False)
+             output=False, source="motion laws", printed=False)
+sector.crossings("law_break", "φ_j", "deg", "Disc angle at which the law's formula changes, or a phase begins", of="law_joint", output=False,
+                 printed=False)
 sector.breakpoints("law_breaks", "disc_angle", "law_break")
 sector.value("law_position", "f", "1", "Law of motion: position at k", ByText("motion_law", POSITION, k="law_share"), source="motion laws",
              output=False)
 sector.value("law_velocity", "f′", "1", "Law of motion: velocity at k", ByText("motion_law", VELOCITY, k="law_share"), source="motion laws",
              output=False)
 sector.value("law_middle", "k_m", "1", "Share k in the middle of the present phase (or part of it)", lambda law_share: law_share,
-             source="this method", output=False, per_piece=True)
-sector.value("law_side", "k_i", "1", "Share k just inside its piece: where the law's acceleration jumps, this tells the side",
-             lambda law_share, law_middle: law_share + 1e-12 * (law_middle - law_share), output=False, source="this method")
+             source="this method", output=False, per_piece=True, printed=False)
+sector.value("law_side", "k", "1", "Share k just inside its piece: where the law's acceleration jumps, this tells the side",
+             lambda law_share, law_middle: law_share + 1e-12 * (law_middle - law_share), output=False, source="this method",
+             printed=False)
 sector.value("law_acceleration", "f″", "1", "Law of motion: acceleration at k", ByText("motion_law", ACCELERATION, k="law_side"),
              source="motion laws", output=False)
 sector.choice("sector_angle", "γ", "deg", "Angle of the sector relative to the disc",

@@ -109,8 +109,8 @@ listed.value("driving_teeth_off", "Δz_p", "1", "Difference of the first pulley 
              bind(teeth_apart, radius="first_radius", other="driving_pulley_pitch_radius", pitch=PITCH), source="this method", output=False)
 listed.value("driven_whole_radius", "r_dz", "mm", "Radius r_d with the nearest whole number of teeth",
              bind(whole_radius, radius="toothed_belt.driven_radius", pitch=PITCH), digits=6, source="geometry", output=False)
-listed.computed("cylinder_pulley_there", "κ_max", "1", "Whether the list has the cylinder's pulley: 1, else −1", any_marked, ("is_cylinder_pulley",),
-                "the greatest mark of its pulleys", printed=False, output=False)
+listed.computed("cylinder_pulley_there", "κ_max", "1", "Whether the list has the cylinder's pulley: 1, else −1", any_marked,
+                ("is_cylinder_pulley",), "the greatest mark of its pulleys", printed=False, output=False)
 listed.total("cylinder_pulley_radius", "r_c", "mm", "Radius of the cylinder's pulley in the list", "sum", of=f"{PULLEYS}.radius",
              among="is_cylinder_pulley", digits=6, output=False)
 listed.value("cylinder_teeth_off", "Δz_d", "1", "Difference of it from r_d, in teeth",

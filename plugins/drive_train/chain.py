@@ -138,4 +138,5 @@ balance.value("power_missing", "ΔP", "W", "Power missing in the balance",
               lambda shaft_1_power, losses_total, power_output: abs(shaft_1_power - losses_total - power_output), output=False)
 balance.value("power_rounding", "[ΔP]", "W", "Power that rounding may take",
               lambda shaft_1_power, losses_total, driving_mean, braking_mean, output_speed:
-                  1e-12 * (abs(shaft_1_power) + losses_total + (driving_mean + braking_mean) * output_speed), output=False)
+                  1e-12 * (abs(shaft_1_power) + losses_total + (driving_mean + braking_mean) * output_speed), output=False,
+              printed=False)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any
 
 import numpy as np
@@ -12,7 +13,7 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.contract.inputs import flatten
 from diecut_report.engine import calculate
-from diecut_report.engine.printing.items import section_items
+from diecut_report.engine.printing.items import items, section_items
 from diecut_report.report.chapters import chapter as chapter_of
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
@@ -62,8 +63,9 @@ def test_the_moments_of_the_drive_add_up_where_they_are_shown() -> None:
 
 
 def test_what_is_taken_in_the_middle_of_a_piece_is_marked_with_its_place(run: Any) -> None:
-    chapter = chapters(run.calculations["feeder"])["Motion of the sector"]
-    item = next(item for item in chapter["items"] if item["id"] == "law_middle")
+    calc = run.calculations["feeder"]
+    assert items(calc, calc.steps["law_middle"]) == []  # which serves how numbers are found
+    [item] = items(calc, replace(calc.steps["law_middle"], printed=True))
     assert Linear()(item["equation"]) == "k(φ = 260°)"
     assert item["note"].startswith("Taken at φ = 260°")
 

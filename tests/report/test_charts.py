@@ -87,6 +87,11 @@ def test_notes_keep_clear_of_lines(build: Any) -> None:
             assert not ((np.abs(points[:, 0] - text.x) < wide) & (np.abs(points[:, 1] - text.y) < high)).any(), text
 
 
+def test_the_title_of_an_axis_begins_with_a_capital() -> None:
+    figure = chart("x", "x", [panel("y", "N", ("knife angle", "φ", "deg"), lines=[line([0, 1], [0, 1], "F")])])
+    assert diagrams(figure, {}, WORDS)[0].across.title == "Knife angle"
+
+
 # telling lines apart
 def test_eight_lines_have_eight_strokes() -> None:
     assert len({(str(dashes), width) for _, dashes, width in STROKES}) == len(STROKES) == 8

@@ -8,6 +8,7 @@ import re
 import subprocess
 from html import unescape
 from pathlib import Path
+from types import SimpleNamespace
 from typing import Any
 
 import pytest
@@ -19,6 +20,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.languages.tokens import worded
 from diecut_report.report import Rendering, html, render_html
+from diecut_report.report.context import _left_alone
 from diecut_report.report.figure_places import BEFORE, Place, placed, sketch
 from diecut_report.report.number_format import number
 from diecut_report.report.scope import scope
@@ -334,3 +336,12 @@ def _reach(sheet: Path) -> float:
     body = image.crop((0, top, image.width, image.height)).point(lambda grey: 255 * (grey < 200))
     box = body.getbbox()
     return 0.0 if box is None else box[3] / body.height
+
+
+def test_of_a_pair_without_room_beside_each_other_each_has_the_whole_width() -> None:
+    drawn = {
+        "A.1": SimpleNamespace(width=200.0),
+        "A.2": SimpleNamespace(width=400.0),
+        "A.3": SimpleNamespace(width=200.0),
+    }
+    assert list(_left_alone([("A.1", "A.2"), ("A.3", "A.4")], drawn)) == ["A.1"]

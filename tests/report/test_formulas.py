@@ -307,10 +307,11 @@ def test_a_branch_that_was_told_is_named_beside_the_next_formula_that_takes_it()
     words = Catalogue("en")
     steps = PrintedSteps("A", _equations()[0], words, Tables("A", words), (), ToldBefore())
     taken = _item(type="choice", source="statics", words="the knife cuts", condition=["cmp", ">", A, B], equation=A)
-    section = {"title": "Cut", "items": [taken | {"id": name, "description": name} for name in ("x", "y")]}
-    first, second = steps.section(0, section, Heading("A.1", "Cut", "s-A.1")).items
+    section = {"title": "Cut", "items": [taken | {"id": name, "description": name} for name in ("x", "y", "z")]}
+    first, second, third = steps.section(0, section, Heading("A.1", "Cut", "s-A.1")).items
     assert (first.words, first.source) == ("the knife cuts", "statics") and first.condition
     assert (second.words, second.source) == ("", "statics · the knife cuts") and not second.condition
+    assert third.source == "statics"  # what follows at once takes it too
 
 
 def test_a_number_times_one_of_a_unit_is_printed_as_a_quantity() -> None:

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.report.left_out import gathered_notes
+from diecut_report.report.left_out import gathered_notes, under_heading
 
 
 def _note(name: str, said: str = "does not apply to this machine.") -> dict[str, Any]:
@@ -21,3 +21,14 @@ def test_what_does_not_apply_stands_in_one_sentence() -> None:
 def test_notes_of_another_kind_stay_as_they_are() -> None:
     notes = [_note("Angle", "there is none."), _note("Step"), {"type": "note", "text": "A remark."}, None]
     assert gathered_notes(notes) == notes
+
+
+def test_what_is_left_out_for_one_reason_stands_in_one_line() -> None:
+    reasons = [
+        ("Cam 1", "arm_length not given"),
+        ("Torque", "conveyor_mass not given"),
+        ("Cam 2", "arm_length not given"),
+    ]
+    absent = [{"title": title, "text": f"not calculated: {text}"} for title, text in reasons]
+    found = [(part["title"], part["text"]) for part in under_heading(absent, "Not calculated")]
+    assert found == [("Cam 1; Cam 2", "arm_length not given"), ("Torque", "conveyor_mass not given")]

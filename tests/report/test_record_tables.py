@@ -41,6 +41,14 @@ def test_what_all_values_rest_on_is_said_once() -> None:
     assert (offset.note, [cell.note for cell in offset.cells]) == ("", ["assumed", ""])
 
 
+def test_what_is_said_at_length_of_single_values_stands_beside_their_line() -> None:
+    typed = given(1, "force", "5") | {"text": "${drive.crank_bearing_force_x}"}
+    names = given(0, "name", "gear"), given(1, "name", "crank")
+    [force] = of(*names, given(0, "force", "2", basis="assumed"), typed).rows
+    assert force.note == "gear: assumed\ncrank: ${drive.crank_bearing_force_x}"
+    assert [cell.note for cell in force.cells] == ["", ""]
+
+
 def test_a_part_without_a_value_has_a_dash() -> None:
     rows = [given(0, "mass", "12"), given(1, "offset", "8")]
     assert [[cell.text for cell in row.cells] for row in of(*rows).rows] == [["12", "–"], ["–", "8"]]

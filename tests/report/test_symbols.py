@@ -2,6 +2,8 @@
 
 from __future__ import annotations
 
+import re
+
 import pytest
 
 from diecut_report.report.declared_letters import declared_letters
@@ -89,3 +91,9 @@ def test_letters_of_a_report_are_those_of_its_quantities_with_or_without_index()
     declared = {row["symbol"] for data in results["mechanisms"].values() for row in data.get("outputs", {}).values()}
     assert {symbol[:1] for symbol in declared if symbol[1:2] in ("", "_") and symbol[:1].isalpha()} <= letters.symbols
     assert set(results["mechanisms"]) <= letters.names
+
+
+def test_no_line_breaks_within_a_ratio_or_a_sum_in_brackets() -> None:
+    text = re.sub("<[^>]*>", "", prose("The angle |dθ/dφ|, and/or r·cos(φ + τ) of crank/rocker."))
+    assert "dθ/\u2060dφ" in text and "(φ\u00a0+\u00a0τ)" in text
+    assert "and/or" in text and "crank/rocker" in text

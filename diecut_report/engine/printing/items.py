@@ -78,6 +78,8 @@ def _is_nothing(row: Array) -> bool:
 
 def items(calc: Calculation, step: Step) -> list[Item]:
     """Return what is printed of a step (nothing of breakpoints and requirements)."""
+    if not step.printed:
+        return []
     if step.exists is not None and step.id in calc.values and _is_nothing(calc.values[step.id][0]):
         text = Phrase("{title}: does not apply to this machine.", title=phrase(step.description))
         return [_head(step) | {"type": "note", "text": text}]
@@ -101,8 +103,6 @@ def items(calc: Calculation, step: Step) -> list[Item]:
             return [] if named_parts.has_tables(calc, calc.axis[step.id]) else [tables.table(calc, step, [step.id])]
         case MadeCurve():
             return [_made(calc, step)]
-        case Computed(printed=False):
-            return []
         case Computed() | CurvePeriod():
             return [_computed(calc, step)]
         case ComputedCurve():

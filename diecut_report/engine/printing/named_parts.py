@@ -13,7 +13,7 @@ from diecut_report.engine.printing.shown_place import shown_part, value_at
 from diecut_report.engine.shown_units import unit_for
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.tokens import NAMING
-from diecut_report.quantities.formatting import shown, with_unit
+from diecut_report.quantities.formatting import author_digits, shown, with_unit
 
 Item = dict[str, Any]
 
@@ -57,7 +57,7 @@ def curves(calc: Calculation, step: ComputedCurve, at: Item) -> Item:
         {"title": "Name", "symbol": "", "unit": "1"},
         {"title": step.description, "symbol": step.symbol, "unit": display},
     )
-    texts = [shown(value, display, step.digits)["text"] for value in values]
+    texts = [shown(value, display, author_digits(value, display, step.digits))["text"] for value in values]
     place = {"symbol": at["symbol"], "value": with_unit(at["text"], at["unit"])}
     where = Phrase("{title} at {symbol} = {value}", {"title": phrase(step.description), **place})
     lines = [list(line) for line in zip(calc.inputs[step.named_by], texts, strict=True)]

@@ -26,6 +26,7 @@ from diecut_report.quantities.display import easy_unit, is_nothing
 from diecut_report.quantities.formatting import (
     DIGITS,
     NAMED,
+    author_digits,
     given_shown,
     number_text,
     rounded,
@@ -150,7 +151,8 @@ class Substitution:
         """
         if unit(display).text == "1" and 0 < abs(target) < PURE_NOTHING:
             return None
-        asked, result_digits = result_digits, shown_digits(target, display, result_digits)
+        asked = author_digits(target, display, result_digits)
+        result_digits = shown_digits(target, display, asked)
         wanted = rounded(target, display, result_digits)
         self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.formula.tree)
         tree = self._at(DIGITS)

@@ -16,7 +16,7 @@ from diecut_report.engine.shown_units import declared_unit, step_shown, unit_for
 from diecut_report.engine.steps.lookups import SAME, given_of, text_of
 from diecut_report.engine.steps.part_rows import series_of
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.formatting import DIGITS, given_shown, place_shown, shown, with_unit
+from diecut_report.quantities.formatting import DIGITS, author_digits, given_shown, place_shown, shown, with_unit
 from diecut_report.standards import StandardSeries, StandardTable, sources_told
 
 Item = dict[str, Any]
@@ -80,7 +80,8 @@ def _cell(calc: Calculation, name: str, display: str, part: int) -> str:
         return "–"
     if name not in calc.values:
         return given_shown(float(value), display)["text"]
-    return shown(float(value), display, getattr(calc.step_or_input(name), "digits", DIGITS))["text"]
+    digits = getattr(calc.step_or_input(name), "digits", DIGITS)
+    return shown(float(value), display, author_digits(float(value), display, digits))["text"]
 
 
 def number(calc: Calculation, step: Total | Pick | Lookup | Part) -> Item:

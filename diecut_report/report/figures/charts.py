@@ -17,7 +17,7 @@ from diecut_report.report.figures.panel_data import Across, Line, Note, PanelDat
 from diecut_report.report.figures.sizes import WIDTHS, Size
 from diecut_report.report.figures.style import canvas, marked, plain
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.number_format import displayed, joined
+from diecut_report.report.number_format import displayed, joined, sentence
 
 Data = Mapping[str, Any]
 Array = NDArray[Any]
@@ -123,7 +123,7 @@ def _of_curves(panel: Data, curves: Data, over: Data, words: Catalogue) -> Panel
     return PanelData(
         title=panel["title"],
         unit=shown,
-        across=Across(over["description"], over["symbol"], across, *(to_display(v, across) for v in (over["values"][0], end))),
+        across=Across(sentence(over["description"]), over["symbol"], across, *(to_display(v, across) for v in (over["values"][0], end))),
         lines=lines,
         marks=[_mark(mark, across, shown, words) for mark in panel["marks"]],
         levels=[_level(level, shown, words) for level in panel["levels"]],
@@ -145,7 +145,7 @@ def _of_lines(panel: Data, words: Catalogue) -> PanelData:
     return PanelData(
         title=panel["title"],
         unit=shown,
-        across=Across(over["title"], over["symbol"], across, low, high if high > low else low + 1),
+        across=Across(sentence(over["title"]), over["symbol"], across, low, high if high > low else low + 1),
         lines=lines,
         fills=fills,
         marks=marks,

@@ -44,7 +44,11 @@ STROKES: tuple[tuple[str, Any, float], ...] = (  # more lines than there are her
     (SOFT, (0, (6, 1.4, 1.2, 1.4, 1.2, 1.4)), 1.1),
     (ACCENT, (0, (2.6, 1.6)), 1.4),
 )
-LEVELS: tuple[Any, ...] = ((0, (8, 3)), (0, (2, 2)), (0, (8, 2, 1.5, 2)))
+LEVELS: tuple[Any, ...] = (  # unlike the strokes of the lines, beside which they stand in a legend
+    (0, (1, 1.6)),
+    (0, (10, 2, 1.2, 2)),
+    (0, (4, 1.5, 1.2, 1.5, 1.2, 1.5)),
+)
 UPRIGHT = (0, (4, 2.5))
 MARKS = "os^Dv<>pPX"
 HEAD, TITLE, ROW = 20.0, 17.0, 12.6  # points above a diagram: its head, in it the title, each row of a legend above it

@@ -162,7 +162,7 @@ class WordBody:
         rows = [
             [rich(prose(row.description)) + new_line() + key(row.key), rich(row.symbol),
              *(run(cell.text) + (new_line() + small(cell.note) if cell.note else "") for cell in row.cells),
-             run(row.unit), small(row.note)]
+             run(row.unit), small(row.note.replace("\n", "; "))]
             for row in found.rows
         ]  # fmt: skip
         self.table(columns, rows)
