@@ -39,7 +39,7 @@ class TransportComparison(Inputs):
     sector_stop_sweep: Annotated[
         float, Quantity("γ_3(3+1)", "deg", "Cam-gear: sweep of the sector while it stops and starts")
     ]
-    motion_law: Annotated[str, Text("Cam-gear: law of motion", "law")]
+    motion_law: Annotated[str, Text("Cam-gear: law of motion")]
     law_peak_velocity: Annotated[float, Quantity("B", "1", "Cam-gear: peak velocity of the law")]
     law_peak_acceleration: Annotated[float, Quantity("A", "1", "Cam-gear: peak acceleration of the law")]
     cycles_per_hour: Annotated[float, Quantity("n", "1/h", "Cam-gear: cycles, one sheet each")]
