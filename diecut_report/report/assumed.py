@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from itertools import groupby
@@ -13,6 +14,7 @@ from diecut_report.results.assumed import Assumed, ordered
 
 Data = Mapping[str, Any]
 TOLD = 3  # paths on page 1: all stand in the tables of inputs
+_TYPED = re.compile(r"(?<=\d) (?=\S+$)")  # between a number and its unit that were typed as a text
 
 
 @dataclass(frozen=True)
@@ -48,7 +50,7 @@ def _valued(results: Data, words: Catalogue, values: list[Assumed]) -> list[tupl
     for each, moves in _runs(results, words, sorted(values, key=lambda one: [*first, ""].index(one.check))):
         _, key, row = _input(results, each.path)
         shown = quantity(row["display"]["text"], row["display"]["unit"], words["decimal"]) if row else ""
-        told.append((key, shown, moves))
+        told.append((key, _TYPED.sub("\u00a0", shown), moves))
     return told
 
 

@@ -173,7 +173,7 @@ class Equations:
         end = self._result(item["over"]) if "over" in item else by
         latex = rf"\int_{{0}}^{{{end.latex}}} {curve.latex}\,{differential}"
         form = ["integral", curve.form, by.form, end.form]
-        bounds = self.words.say("from_nought", end=end.text)
+        bounds = self.words["from_nought"].format(end=end.text)
         return Link(latex, f"∫ {curve.text} d{by.text} {bounds}", form=form)
 
     def _place(self, item: Item) -> Link:

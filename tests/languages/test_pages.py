@@ -20,7 +20,7 @@ from diecut_report import pipeline
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.languages import po_files
-from diecut_report.languages.catalogues import Catalogues
+from diecut_report.languages.catalogues import Catalogues, built_in_kinds
 from diecut_report.languages.speech import speaking
 from diecut_report.live.page import page as live_page
 from diecut_report.live.page_data import page_data
@@ -35,7 +35,7 @@ from tests.configs import EXAMPLES
 from tests.examples import few
 from tests.languages.test_ukrainian_words import CATALOGUES, MIXED, PLACE
 from tests.processes import Example
-from tests.report.test_ukrainian import LATIN, OWN, VERBATIM, verbatim, visible
+from tests.report.test_ukrainian import LATIN, OWN, VERBATIM, titles, verbatim, visible
 from tests.shared import once
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
@@ -130,7 +130,7 @@ def known(made: Path) -> set[str]:
     results = json.loads((made / "base.json").read_text("utf-8"))
     written = [(made / name).read_text("utf-8") for name in ("base.yaml", "study.yaml", "search.yaml")]
     told = (*verbatim({**results, "wordings": None}), *written)
-    return {word for text in told for word in re.findall(r"[A-Za-z]+", text)} | OWN | KEYS
+    return {word for text in told for word in re.findall(r"[A-Za-z]+", text)} | OWN | KEYS | titles()
 
 
 def texts_of(file: Path) -> Iterator[str]:
@@ -167,7 +167,7 @@ def said(data: Any, key: str = "") -> Iterator[str]:
     elif isinstance(data, list | tuple):
         for part in data:
             yield from said(part, key)
-    elif isinstance(data, str) and key not in VERBATIM and (" " in data or key in PRINTED):
+    elif isinstance(data, str) and key not in (*VERBATIM, "value") and (" " in data or key in PRINTED):
         yield data
 
 
@@ -204,7 +204,7 @@ def left_over(results: dict[str, Any]) -> dict[str, str]:
     shown = translated({**results, "project": results["project"] | {"language": "uk"}}, Catalogues("uk"))
     printed = list(said([shown.get(part, {}) for part in ("mechanisms", "comparisons", "press")]))
     given = (*verbatim({**results, "wordings": None, "config": None}), "none")
-    known = {word for text in given for word in re.findall(r"[A-Za-z]+", text)} | OWN
+    known = {word for text in given for word in re.findall(r"[A-Za-z]+", text)} | OWN | titles() | {*built_in_kinds()}
     return {
         word: text for text in printed for word in [*LATIN.findall(text), *MIXED.findall(text)] if word not in known
     }

@@ -29,6 +29,7 @@ TERMS = {  # of the glossary, each with the beginnings of its words
     "plugin": ("плагін",), "objective": ("ціл",), "study": ("дослідж",), "Pareto": ("парето",), "constraint": ("обмеж",),
     "cyclogram": ("циклограм",), "dwell": ("вист",), "rocker": ("коромис",), "governing check": ("визначальн",),
 }  # fmt: skip
+TOLD = re.compile(r"([^\W\d_]+)[^:.;]*: (?:задан|прийнят|визначен|обчислен)(ий|а|е|і)\b")
 ORDER = re.compile(r"(?<!\w)\w+(?:іть|йте|ьте)(?!\w)", re.IGNORECASE)
 ADDED_NUMBERS = {
     "`3,17`",  # two numbers, typed
@@ -117,3 +118,20 @@ def test_a_term_has_one_word(name: str, term: str) -> None:
 
 def test_advice_is_an_infinitive(name: str) -> None:
     assert [text for text in translations(name) if ORDER.search(TYPED.sub("", text.ukrainian))] == []
+
+
+def test_what_is_told_of_a_quantity_has_its_gender(name: str) -> None:
+    """Кількість: задана, число: задане, модуль: заданий, оберти: задані."""
+    found = [(text, TOLD.fullmatch(text.ukrainian)) for text in translations(name)]
+    assert [text.ukrainian for text, told in found if told and told[2] != ending(told[1])] == []
+
+
+def ending(head: str) -> str:
+    """The ending of what is told of a noun, or of one whose adjective stands first."""
+    if head.endswith(("ння", "ття")):
+        return "е"
+    return (
+        "а"
+        if head.endswith("ість")
+        else {"а": "а", "я": "а", "е": "е", "о": "е", "і": "і", "и": "і"}.get(head[-1], "ий")
+    )

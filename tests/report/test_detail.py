@@ -282,6 +282,20 @@ def test_the_press_is_short_in_brief_and_much_shorter_in_standard_than_in_full(p
 
 
 @pytest.mark.nightly
+def test_a_ukrainian_press_has_its_verdict_on_the_first_sheet_and_is_as_short_in_brief(press_sheets: Path) -> None:
+    """Its words are longer."""
+    results = json.loads((press_sheets / f"{EXAMPLE.stem}.json").read_text("utf-8"))
+    results["project"]["language"] = "uk"
+    sheets = {}
+    for detail in DETAILS[:2]:
+        file = press_sheets / f"{detail}.uk.pdf"
+        file.write_bytes(Rendering(results | {"report": {"detail": detail}}).pdf())
+        sheets[detail] = PdfReader(file).pages
+    assert len(sheets["brief"]) <= 4
+    assert re.search(r"Спирається на \d+ прийнят.* і\s+ще\s+\d+\.", sheets["standard"][0].extract_text(), re.DOTALL)
+
+
+@pytest.mark.nightly
 def test_every_output_of_the_press_is_on_paper(press_sheets: Path) -> None:
     results = json.loads((press_sheets / f"{EXAMPLE.stem}.json").read_text("utf-8"))
     for detail in DETAILS[1:]:

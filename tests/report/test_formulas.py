@@ -182,9 +182,9 @@ def test_linear_text_says_what_the_tree_says(tree: Tree) -> None:
 
 
 # Equations: rows, breaking, places
-def _equations() -> tuple[Equations, Typesetter]:
+def _equations(language: str = "en") -> tuple[Equations, Typesetter]:
     typesetter = Typesetter()
-    return Equations(Catalogue("en"), typesetter.measure), typesetter
+    return Equations(Catalogue(language), typesetter.measure), typesetter
 
 
 def _item(**more: Any) -> dict[str, Any]:
@@ -275,6 +275,9 @@ def test_an_integral_tells_over_what_it_is_taken() -> None:
     assert equation is not None
     assert equation.text == "c = ∫ V dφ from 0 to 360° = 5 mm"
     assert equation.latex.startswith(r"c = \int_{0}^{360°} V\,\mathrm{d}φ = ")
+    said = _equations("uk")[0].of(_item(type="reduction", operation="integral", of="V", over=over))
+    assert said is not None
+    assert said.text == "c = ∫ V dφ від 0 до 360° = 5 mm"
 
 
 def test_condition_is_shown_in_symbols_and_with_numbers() -> None:

@@ -2,10 +2,16 @@
 
 from __future__ import annotations
 
+import re
+import subprocess
+from pathlib import Path
+
 import pytest
 from markupsafe import Markup
 
+from diecut_report.report.html import folder
 from diecut_report.report.i18n import Catalogue
+from diecut_report.report.page_engine import HTML
 from diecut_report.report.printed_tables import PrintedTable
 from diecut_report.report.tables import Tables
 
@@ -62,3 +68,12 @@ def test_a_long_table_of_few_columns_stands_in_two_halves() -> None:
 def test_columns_of_a_wide_table_have_room_for_symbols_alone() -> None:
     wide = PrintedTable("", [("A long title", Markup("a"), "mm")] * 13, [["1"] * 13])
     assert wide.is_wide and not PrintedTable("", wide.columns[:8], [["1"] * 8]).is_wide
+
+
+def test_a_long_word_in_a_narrow_head_is_divided_between_syllables(tmp_path: Path) -> None:
+    style = (folder() / "report.css").read_text("utf-8")
+    head = '<table style="width: 25mm; table-layout: fixed"><tr><th>За продуктивністю</th></tr></table>'
+    file = tmp_path / "head.pdf"
+    HTML(string=f'<html lang="uk"><style>{style}</style>{head}').write_pdf(file)
+    told = subprocess.run(["pdftotext", "-layout", str(file), "-"], capture_output=True, text=True, check=True).stdout
+    assert re.search(r"\w{4,}[-\u2010]\n\s*\w{4,}", told)

@@ -6,6 +6,7 @@ from typing import Any
 
 import pytest
 
+from diecut_report.report.advice import followed_line
 from diecut_report.report.document import document
 from diecut_report.report.equations import Equations
 from diecut_report.report.i18n import Catalogue
@@ -54,6 +55,13 @@ def test_the_summary_is_sorted_by_utilisation_what_fails_first_and_what_was_size
     assert [row.id for row in found.sized] == ["sized"] and found.governing.id == "missed"
     assert found.counts == ["2 of 6 checks fail", "1 with a warning", "3 pass"]
     assert found.notes == ["1 self-test of the calculation holds."]
+
+
+def test_checks_that_fail_in_spite_of_the_advice_are_called_as_in_the_lines_above() -> None:
+    found = page(judged("wall", 1.5, "fail"))
+    advice = {"changes": [{"path": "train.x", "value": "5 mm"}], "failing": ["train.wall", "gone.check"], "error": None}
+    (line,) = followed_line({"summary": {"advice": advice}}, Catalogue("en"), found.checks)
+    assert line.endswith(f"leaves others that fail: A · {found.checks[0].title}, gone.check.")
 
 
 def test_what_the_calculation_presumes_is_sorted_behind_what_has_a_reserve() -> None:

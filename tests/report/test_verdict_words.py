@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.report.advice import followed_line
+from diecut_report.report.assumed import assumed_groups
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import sentence
 
@@ -10,6 +11,15 @@ from diecut_report.report.number_format import sentence
 def test_the_counts_begin_a_sentence() -> None:
     assert sentence("не виконано 6 перевірок з 135") == "Не виконано 6 перевірок з 135"
     assert sentence("6 of 135 checks fail") == "6 of 135 checks fail"
+
+
+def test_an_assumed_value_that_was_typed_as_a_text_is_not_broken_before_its_unit() -> None:
+    path = "mechanisms.timing.interlocks.0.margin"
+    row = {"basis": "assumed", "display": {"text": "5 ms", "unit": "1"}, "unit": "1"}
+    mechanisms = {"timing": {"inputs": {"interlocks.0.margin": row}, "checks": []}}
+    results = {"mechanisms": mechanisms, "press": {"fields": []}, "summary": {"assumed": [path], "moves": []}}
+    (group,) = assumed_groups(results, Catalogue("uk"))
+    assert group.values == [("interlocks.0.margin", "5\u00a0ms", "")]
 
 
 def test_advice_has_the_numbers_of_the_language() -> None:
