@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Mapping, Sequence
 from typing import Any
 
 Data = Mapping[str, Any]
@@ -69,27 +69,7 @@ def _move_on(items: list[Data | None], place: int, title: str) -> None:
         both = _joined(one, other, title)
         if len(both["columns"]) <= MOST:
             items[place], items[later] = None, both
-        else:
-            items[later:] = [_without_told(each, one) for each in items[later:]]
         return
-
-
-def _without_told(item: Data | None, told: Data) -> Data | None:
-    """A table of the same parts without the columns that an earlier one tells; none where nothing is left of it."""
-    if item is None or item["type"] != "table" or not _are_alike(told, item):
-        return item
-    known = list(_columns(told))
-    kept = [0, *(k for k, column in enumerate(_columns(item)) if k and column not in known)]
-    if len(kept) == 1:
-        return None
-    rows = [[row[k] for k in kept] for row in item["rows"]]
-    return {**item, "columns": [item["columns"][k] for k in kept], "rows": rows}
-
-
-def _columns(table: Data) -> Iterator[tuple[Any, ...]]:
-    """Each column with its numbers."""
-    for k, column in enumerate(table["columns"]):
-        yield column["title"], column["symbol"], [row[k] for row in table["rows"]]
 
 
 def _are_alike(one: Data, other: Data) -> bool:

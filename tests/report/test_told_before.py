@@ -125,7 +125,8 @@ def test_tables_of_the_same_parts_are_one_where_the_last_of_them_stood() -> None
 def test_a_column_that_a_full_table_tells_is_not_told_again() -> None:
     first = table("Sizes", [["1", *"abcdefg"], ["2", *"hijklmn"]], *"tuvwxyz")
     later = table("Sizes", [["1", "a", "5"], ["2", "h", "6"]], "t", "s")
-    told = brought_together({"title": "", "items": [first, later, table("Sizes", [["1", "a"], ["2", "h"]], "t")]})
+    third = table("Sizes", [["1", "a"], ["2", "h"]], "t")
+    told = brought_together({"title": "", "items": [first, later, third]}, set())
     assert told[0] == first and told[2] is None and told[1] is not None
     assert [column["symbol"] for column in told[1]["columns"]] == ["", "s"] and told[1]["rows"] == [
         ["1", "5"],
