@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
 MOST_DIGITS = 17
+QUANTITY = re.compile(r"(\d+(?:\.\d+)?) (\S+)")  # a constant that is named by what it is: 254 mm
 PURE_NOTHING = 1e-12  # a pure number that is but the rounding of the computer: a residual
 TRUSTED = 8  # digits up to which a number that is but the rounding of the computer stands as 0
 EXACT = ("num", "qty")
@@ -146,8 +147,7 @@ class Substitution:
     def numeric(self, target: float, display: str, result_digits: int) -> Node | None:
         """Return the expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.
 
-        None where it is proved that only rounding keeps printed numbers from showing it: the terms that it is the
-        difference of are equal, or nearly so. ``Contradiction`` where the expression gives something else.
+        None where only rounding hides it: it is the difference of terms proved equal, or nearly so. ``Contradiction`` where it gives something else.
         """
         if unit(display).text == "1" and 0 < abs(target) < PURE_NOTHING:
             return None
@@ -281,9 +281,6 @@ def _beside_a_number(node: Node) -> list[str]:
     _, *sides = node.args if node.op == "cmp" else ("",)
     is_number = any(side.op == "num" and float(side.args[0]) for side in sides)
     return [side.args[0] for side in sides if side.op == "sym"] if is_number else []
-
-
-QUANTITY = re.compile(r"(\d+(?:\.\d+)?) (\S+)")  # a constant that is named by what it is: 254 mm
 
 
 def _quantity(symbol: str) -> Node | None:
