@@ -14,6 +14,7 @@ from diecut_report.declaration.code_texts import code_texts, fixed_texts
 from diecut_report.declaration.texts import DeclaredText, texts
 from diecut_report.languages import po_files
 from diecut_report.languages.catalogues import file_beside
+from diecut_report.testing.plugin_words import tables_of
 from tools.program_texts import ProgramText, program_texts
 
 ROOT = Path(__file__).parents[1]
@@ -48,7 +49,14 @@ def wanted(language: str) -> Iterator[tuple[Path, str, list[ProgramText]]]:
 def plugin_texts(mechanism: Mechanism) -> list[DeclaredText]:
     """Return all texts of a plugin: those of its declarations, and those that its code makes."""
     declared = list(texts(mechanism))
-    return [*declared, *made_by_code(ROOT / "plugins" / mechanism.kind, declared)]
+    return [*declared, *made_by_code(ROOT / "plugins" / mechanism.kind, declared), *table_sources(mechanism)]
+
+
+def table_sources(mechanism: Mechanism) -> Iterator[DeclaredText]:
+    """Yield once where each table of the plugin's own comes from; those of the program it says itself."""
+    tables = [table for _, step in mechanism.steps for table in tables_of(step)]
+    for source in dict.fromkeys(source for table in tables for source in table.sources):
+        yield DeclaredText(source, "source of a table")
 
 
 def made_by_code(folder: Path, declared: list[DeclaredText]) -> Iterator[DeclaredText]:

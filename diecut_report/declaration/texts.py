@@ -95,7 +95,6 @@ def _of_table(declared: StandardTable | StandardSeries) -> Iterator[DeclaredText
         yield DeclaredText(parts.get("title", title), "table")
         yield DeclaredText(parts.get("column", ""), "column of a table")
         yield DeclaredText(declared.only_source, "why a table has one source only")
-        yield from (DeclaredText(source, "source of a table") for source in declared.sources)
 
 
 def _kind(declared: Any) -> str:

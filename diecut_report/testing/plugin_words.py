@@ -68,7 +68,7 @@ class PluginWords:
     def _sources(self) -> list[str]:
         """Where formulas, limits and tables come from."""
         steps = [step for _, step in self.mechanism.steps]
-        tables = [each for step in steps for each in _tables(step)]
+        tables = [each for step in steps for each in tables_of(step)]
         said = (*(step.source for step in steps), *(check.source for check in self.mechanism.checks))
         found = [*said, *(source for table in tables for source in table.sources)]
         return [text for text in dict.fromkeys(found) if text]
@@ -106,8 +106,8 @@ def _constants(module: ast.Module) -> Iterator[str]:
             yield template(node)
 
 
-def _tables(step: object) -> list[StandardTable | StandardSeries]:
-    """The tables and series of a plugin's own that a step takes from."""
+def tables_of(step: object) -> list[StandardTable | StandardSeries]:
+    """Return the tables and series of a plugin's own that a step takes from."""
     match step:
         case Lookup(table=StandardTable() as table) | Interpolated(table=table):
             found: list[StandardTable | StandardSeries] = [table]

@@ -95,7 +95,7 @@ lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width
 lining.words("width_advice", advice.against_given_width, ("least_radius",), needs=("shoe_width",))
 
 travel = Chapter("Travel of the cone", text="Along the cone's face the shoes rise by tan α for each length that the cone travels.",
-                 needs=("radial_gap",), absent="the travel of the cone is not calculated: radial_gap is not given")
+                 needs=("radial_gap",), absent="not calculated: radial_gap is not given")
 travel.value("engagement_travel", "s_1", "mm", "Axial travel that closes the gap, lining new",
              lambda radial_gap, wedge_angle: radial_gap / np.tan(wedge_angle), source="geometry")
 travel.value("axial_travel", "s", "mm", "Axial travel until the permitted wear is used up",
@@ -106,7 +106,7 @@ travel.value("travel_angle", "α_s", "deg", "Wedge angle that does with the avai
 travel.words("travel_advice", advice.against_travel,
              ("wedge_angle", "wedge_angle_limit", "travel_angle", "axial_travel", "available_travel", "radial_gap"), needs=("available_travel",))
 
-sliding = Chapter("Sliding at engagement", needs=("speed",), absent="sliding speed and q·v are not calculated: speed is not given")
+sliding = Chapter("Sliding at engagement", needs=("speed",), absent="not calculated: speed is not given")
 sliding.value("sliding_speed", "v", "m/s", "Sliding speed as the shoes touch the drum", lambda speed, shoe_radius: speed * shoe_radius,
               source="kinematics")
 sliding.value("pv", "qv", "MPa*m/s", "Pressure times sliding speed", lambda pressure, sliding_speed: pressure * sliding_speed, source="this method")

@@ -189,6 +189,12 @@ def _angles(timing: Timing) -> Any:
     return np.linspace(0, timing.period, POINTS)[:-1] + timing.period / POINTS / 2
 
 
+def _room(low: float, high: float) -> Iterator[Any]:
+    """The ends of the offsets at which all interlocks hold."""
+    yield vertical(low, Phrase("from {end}", end=told(low, "deg")))
+    yield vertical(high, Phrase("to {end}", end=told(high, "deg")))
+
+
 def _slack(timing: Timing) -> list[Shape]:
     """The least slack of all interlocks over the offset that is to be found; nothing where none is."""
     best = timing.best
@@ -196,7 +202,7 @@ def _slack(timing: Timing) -> list[Shape]:
         return []
     offsets = np.linspace(0, timing.span, 4 * POINTS)
     heights = slack(offsets, tents_of(timing.interlocks(timing.drawn), timing.period, timing.productivity))
-    feasible = [vertical(end, told(end, "deg")) for each in best.feasible for end in each]
+    feasible = [end for low, high in best.feasible for end in _room(low, high)]
     marks = [mark(best.shift, best.slack, "best")] if np.isfinite(best.slack) else []
     lines = [
         line(offsets, np.where(np.isfinite(heights), heights, np.nan), "least slack"),

@@ -32,7 +32,7 @@ safety.value("bearing_area_needed", "A_min", "mm**2", "Bearing area that the all
              lambda tension_peak, allowable_bearing_pressure: tension_peak / allowable_bearing_pressure, needs=("allowable_bearing_pressure",),
              source="statics", output=False)
 
-rating = Chapter("Power rating", needs=(DRIVE, *RATED), absent="the power is not rated: power_rating is not given, or the chain conveys",
+rating = Chapter("Power rating", needs=(DRIVE, *RATED), absent="not calculated: power_rating is not given, or the chain conveys",
                  text="Rating of ANSI B29.1 chains, taken for series B of the same pitch: 15 000 h, a chain of 100 links, lubricated as "
                       "recommended. It holds for the smaller sprocket.")
 rating.require("teeth_rated", bind(lambda teeth_small, least, most: (teeth_small >= least) & (teeth_small <= most), least=RATED_TEETH[0],

@@ -76,6 +76,13 @@ def test_each_quantity_has_a_symbol_of_its_own(mechanism: Mechanism) -> None:
     assert [line for line in doubled(mechanism, ALIKE.get(mechanism.kind, ())) if not line.startswith("→")] == []
 
 
+@each_mechanism
+def test_what_is_absent_is_said_in_the_words_of_the_heading_above_it(mechanism: Mechanism) -> None:
+    """The report leaves out "not calculated: " under that heading, which has the part's name beside it."""
+    told = [chapter.absent for chapter in mechanism.chapters if chapter.absent]
+    assert [text for text in told if " not calculated" in text or " not rated" in text] == []
+
+
 # --- many machines at once -------------------------------------------------------------------------------------------
 
 

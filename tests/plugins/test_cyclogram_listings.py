@@ -2,7 +2,9 @@
 
 from __future__ import annotations
 
+import json
 import math
+import re
 from math import degrees
 from typing import Any
 
@@ -85,11 +87,21 @@ def test_a_length_is_told_only_where_one_window_holds_an_interlock() -> None:
     assert "needed_length.1" not in outputs
 
 
+def drawn(name: str, transport: str = "feeder", which: str = "cutting passing") -> dict[str, Any]:
+    """A figure of the press with this transport."""
+    found = {figure["id"]: figure for figure in figures(example(transport, which))}
+    assert "error" not in found[name]
+    return found[name]
+
+
 def shapes(name: str) -> list[dict[str, Any]]:
     """The shapes of a figure of the press with the cam-gear transport."""
-    found = {figure["id"]: figure for figure in figures(example("feeder", "cutting passing"))}
-    assert "error" not in found[name]
-    return list(found[name]["shapes"])
+    return list(drawn(name)["shapes"])
+
+
+def test_lines_at_the_ends_of_the_offsets_say_which_end_they_are() -> None:
+    told = json.dumps(drawn("ways", "cross", "contact passing"), ensure_ascii=False)
+    assert re.findall(r'"((?:from|to) [^"]*)"', told) == ["from 29.53°", "to 49.44°"]
 
 
 def test_the_dwell_is_shaded_and_interlocks_are_brackets_with_their_margins() -> None:
