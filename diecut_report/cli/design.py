@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from diecut_report.cli import completion
-from diecut_report.cli.given import source
+from diecut_report.cli.given import changeable_source
 from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
@@ -260,7 +260,7 @@ def _loaded(config: Path, discovery: Discovery) -> Config:
     """The configuration; PluginError where one of its plugins is broken."""
     from diecut_report.config.loader import load_config
 
-    loaded = load_config(source(config, discovery), discovery)
+    loaded = load_config(changeable_source(config, discovery), discovery)
     for error in loaded.broken.values():
         raise error
     return loaded

@@ -13,6 +13,7 @@ from diecut_report.config.standard_input import SHOWN, load_standard_input
 from diecut_report.config.yaml_tree import Tree
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import say
 
 if TYPE_CHECKING:
     from diecut_report.config.discovery import Discovery
@@ -42,6 +43,14 @@ def source(config: Path, discovery: Discovery) -> Source:
     )
 
 
+def changeable_source(config: Path, discovery: Discovery) -> Source:
+    """Return the same where values are written into its text: that of a stored variant has its own places."""
+    from diecut_report.config.yaml_values import in_its_own_text
+
+    found = source(config, discovery)
+    return in_its_own_text(found) if isinstance(found, Tree) and config != DASH else found
+
+
 def from_standard_input() -> Tree:
     """Return what standard input holds; UserError where the command has read it already."""
     meta = click.get_current_context().meta
@@ -50,3 +59,14 @@ def from_standard_input() -> Tree:
         raise UserError(Problem(words, SHOWN))
     meta[READ] = True
     return load_standard_input()
+
+
+def results_folder(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
+    """Return the folder of a study's results; UsageError where it cannot be told."""
+    if resume is not None and folder is not None:
+        raise click.UsageError(say("--resume names the folder; leave -o out."))
+    if study is None and resume is None:
+        raise click.UsageError(say("Name a study file, or a folder to continue with --resume DIR."))
+    if study == DASH:
+        raise click.UsageError(say("A study is read from a file, so that its run can be continued. Save it to one."))
+    return resume or folder or Path(Path(str(study)).stem)

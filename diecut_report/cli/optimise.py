@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING
 
 import click
 
+from diecut_report.cli.given import results_folder
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
@@ -75,7 +76,7 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
     from diecut_report.optimisation import command
     from diecut_report.study.command import Shown, Where
 
-    target = _target(study, folder, resume)
+    target = results_folder(study, folder, resume)
     where = Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language())
     try:
         with without_output(), Shown(quiet) as shown:
@@ -96,15 +97,6 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
         tell(outcome.notes)
     tell(_faults(outcome))
     return PLUGIN_BROKE if outcome.is_broken else PASSED if outcome.is_found else CHECK_FAILED
-
-
-def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
-    """The folder of the results."""
-    if resume is not None and folder is not None:
-        raise click.UsageError(say("--resume names the folder; leave -o out."))
-    if study is None and resume is None:
-        raise click.UsageError(say("Name a study file, or a folder to continue with --resume DIR."))
-    return resume or folder or Path(Path(str(study)).stem)
 
 
 def _faults(outcome: OptimiseOutcome) -> Iterator[str]:

@@ -12,7 +12,7 @@ import click
 
 from diecut_report.cli import exit_codes
 from diecut_report.cli.formats import formats_of
-from diecut_report.cli.given import DASH, RESULTS
+from diecut_report.cli.given import RESULTS, results_folder
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
@@ -88,7 +88,7 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
     from diecut_report.study import command
     from diecut_report.study.analysis.doubts import is_doubtful
 
-    target = _target(study, folder, resume)
+    target = results_folder(study, folder, resume)
     where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language(), chunk_limit)
     try:
         with redirect_stdout(sys.stderr), command.Shown(quiet) as shown:
@@ -105,17 +105,6 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
     tell(line for kind, faults in outcome.doubtful.items() for line in told_faults(kind, faults))
     is_failed = outcome.is_failed or (strict and (bool(outcome.doubtful) or is_doubtful(target)))
     return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if is_failed else PASSED
-
-
-def _target(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
-    """The folder of the results."""
-    if resume is not None and folder is not None:
-        raise click.UsageError(say("--resume names the folder; leave -o out."))
-    if study is None and resume is None:
-        raise click.UsageError(say("Name a study file, or a folder to continue with --resume DIR."))
-    if study == DASH:
-        raise click.UsageError(say("A study is read from a file, so that its run can be continued. Save it to one."))
-    return resume or folder or Path(Path(str(study)).stem)
 
 
 def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:

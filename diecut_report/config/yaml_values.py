@@ -15,6 +15,7 @@ from diecut_report.config.yaml_tree import (
     KeyPath,
     Tree,
     YamlNode,
+    parse,
     resolved,
 )
 from diecut_report.errors import Problem, UserError
@@ -38,6 +39,16 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
         root = _with_value(root, path, value)
     text = f"# {heading}\n{as_text(root)}"
     return Tree(root, tree.file, text, hashlib.sha256(text.encode()).hexdigest(), name)
+
+
+def in_its_own_text(tree: Tree) -> Tree:
+    """Return a tree with other values, without its heading, as a text of its own: its places are those of that text.
+
+    More values can be written into it, which are not those that the heading tells of.
+    """
+    read = parse(as_text(tree.root), tree.file)
+    read.name = tree.name
+    return read
 
 
 def _with_value(node: YamlNode, path: KeyPath, value: Scalar) -> YamlNode:

@@ -10,21 +10,21 @@ import numpy as np
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
 from diecut_report.design.answers import Answer, FoundValue, Range, Role
+from diecut_report.design.changeable import is_stepped
 from diecut_report.design.design_inputs import DesignInput
-from diecut_report.design.line_search import crossings, greatest, looked_closer, without_gaps
+from diecut_report.design.line_search import Function, crossings, greatest, looked_closer, without_gaps
 from diecut_report.design.proved_machine import proved
 from diecut_report.design.questions import DesignQuestion, needed
 from diecut_report.design.root_search import roots
+from diecut_report.design.searched_range import searched_places, searched_range
 from diecut_report.design.typed_answers import REACHED, typed_answers
 from diecut_report.design.varied_machines import VariedMachines, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase
 
-POINTS = 33  # of the range, at which a machine is calculated before roots are searched between them
-WIDER = 3.0  # the range reaches from today's value divided by this to so many times it
-MOST_WHOLE = 400  # whole numbers that are all tried
 PASSING_CLOSE = 1e-6  # relative width at which the limit of what passes is known: more is not typed
+BESIDE, NEAR = 0.05, 61  # share of the best value to both sides of it, in which so many more are tried
 SAME = 1e-12  # relative: what differs by less does not vary
 
 
@@ -36,7 +36,7 @@ def solved(
 
     UserError in words where there is no range to search, or what is asked does not vary with the input.
     """
-    ends = _range(design, low, high)
+    ends = searched_range(design, low, high)
     search = _RangeSearch(config, question, design, passing)
     answer = search.answer(*ends)
     if not answer.found:
@@ -65,24 +65,6 @@ def _proved(answer: Answer, config: Config, discovery: Discovery) -> Answer:
     raise UserError(Problem(Phrase(words, what), config.tree.file))
 
 
-def _range(design: DesignInput, low: float | None, high: float | None) -> tuple[float, float]:
-    """The range that is searched: given, or around today's value, as far as the input may go."""
-    least, most = design.bounds
-    today = design.today
-    if (low is None or high is None) and not today:
-        words = "{input} has no value today; give the range to search with --from and --to."
-        raise UserError(Problem(Phrase(words, input=design.name), path="--vary"))
-    around = sorted((today / WIDER, today * WIDER)) if today else (math.nan, math.nan)
-    first = max(around[0], least) if low is None else low
-    last = min(around[1], most) if high is None else high
-    if not first < last:
-        words = "{input}: the range from {low} to {high} is empty; give --from below --to."
-        raise UserError(
-            Problem(Phrase(words, input=design.name, low=design.told(first), high=design.told(last)), path="--from")
-        )
-    return first, last
-
-
 @dataclass
 class _RangeSearch:
     """Looks along the range of an input; ``at`` calculates many machines of it at once."""
@@ -97,13 +79,14 @@ class _RangeSearch:
         asked = self.question.quantity.asked
         self.inputs = [asked] if asked is not None else []
         self.known: dict[float, tuple[float, float]] = {}
+        self.is_stepped = is_stepped(self.design)
 
     def machines(self, x: Array) -> VariedMachines:
         return varied(self.part, {self.design.asked: x}, len(x), self.inputs)
 
     def answer(self, low: float, high: float) -> Answer:
         """Return what is found in the range; nothing of it is proved yet."""
-        x = self._places(low, high)
+        x = searched_places(self.design, low, high)
         made = self.machines(x)
         y = made.values(self.question.quantity.column)
         self._refuse_constant(made, y)
@@ -121,18 +104,6 @@ class _RangeSearch:
             return answer
         always = _always_failing(made) if self.passing else ()
         return replace(answer, nearest=self._nearest(x, made, y), always=always)
-
-    def _places(self, low: float, high: float) -> Array:
-        """Where the range is looked at: at equal ratios where it is wide, today's value among them; whole numbers all."""
-        if self.design.is_whole:
-            whole = np.arange(math.ceil(low), math.floor(high) + 1, dtype=float)
-            return whole if len(whole) <= MOST_WHOLE else np.unique(np.round(np.linspace(low, high, MOST_WHOLE)))
-        is_wide = low > 0 and high / low > 4
-        x = np.geomspace(low, high, POINTS) if is_wide else np.linspace(low, high, POINTS)
-        today = self.design.today
-        if today is not None and low < today < high:
-            x = np.unique(np.append(x, today))
-        return x[self.design.allows(x)] if self.design.allows(x).any() else x
 
     def _refuse_constant(self, made: VariedMachines, y: Array) -> None:
         known = y[np.isfinite(y)]
@@ -158,7 +129,7 @@ class _RangeSearch:
     def _roots(self, x: Array, y: Array) -> tuple[list[FoundValue], list[float]]:
         value = self.question.value
         off = y - value
-        if self.design.is_whole:
+        if self.is_stepped:
             exact = np.abs(off) <= SAME * max(abs(value), 1e-300)
             return self._judged([(float(each), "root") for each in x[exact]]), []
         places, jumps = roots(self._off, x, off, self.design.today, self.design.allows)
@@ -204,7 +175,7 @@ class _RangeSearch:
     def _ranges(self, x: Array, held: Array) -> list[Range]:
         """The ranges of values where it holds."""
         ends: dict[float, float] = {}
-        if not self.design.is_whole:
+        if not self.is_stepped:
             x, held = looked_closer(self._held, x, held)
             x, held = without_gaps(self._held, x, held)
             ends = {each.at: each.inside for each in crossings(self._held, x, held, PASSING_CLOSE)}
@@ -219,8 +190,9 @@ class _RangeSearch:
         found: list[tuple[float, Role]] = []
         edges = np.flatnonzero(np.diff(np.concatenate([[False], holds, [False]]).astype(int)))
         for first, last in zip(edges[::2], edges[1::2] - 1, strict=True):
-            low = _between(refined, x[first - 1], x[first]) if first else x[0]
-            high = _between(refined, x[last], x[last + 1]) if last + 1 < len(x) else x[-1]
+            low = _between(refined, x[first - 1], x[first]) if first else None
+            high = _between(refined, x[last], x[last + 1]) if last + 1 < len(x) else None
+            low, high = x[first] if low is None else low, x[last] if high is None else high
             found += [(float(low), "lower"), (float(high), "upper")]
         return found
 
@@ -232,12 +204,29 @@ class _RangeSearch:
             own, holds = self._along(places)
             return np.where(holds >= 0, sign * own, np.nan)
 
-        places = x[self.holds(made, y) >= 0] if self.design.is_whole else self._holding(x, sign)
-        known = heights(places)
-        if not np.isfinite(known).any():
+        if self.is_stepped:
+            places = x[self.holds(made, y) >= 0]
+            top = float(places[np.nanargmax(heights(places))]) if len(places) else None
+        else:
+            top = self._top(x, sign, heights)
+            top = top if top is None else self._beside(top, x, sign, heights)
+        if top is None:
             return []
-        top = greatest(heights, places, known)[0] if not self.design.is_whole else float(places[np.nanargmax(known)])
         return [replace(each, at_end=top in (x[0], x[-1])) for each in self._judged([(top, "extreme")])]
+
+    def _beside(self, top: float, x: Array, sign: float, heights: Function) -> float | None:
+        """The same where none beside it is better, else the best of those: what is rounded goes up in steps."""
+        reach = BESIDE * abs(top)
+        near = np.linspace(top - reach, top + reach, NEAR)
+        near = near[(near > x[0]) & (near < x[-1]) & self.design.allows(near)]
+        is_better = heights(near) > heights(np.array([top]))
+        return self._top(np.union1d(near, [top]), sign, heights) if is_better.any() else top
+
+    def _top(self, x: Array, sign: float, heights: Function) -> float | None:
+        """Where it is highest, between these numbers and at the ends of what holds; None where nothing does."""
+        places = self._holding(x, sign)
+        known = heights(places)
+        return greatest(heights, places, known)[0] if np.isfinite(known).any() else None
 
     def _holding(self, x: Array, sign: float) -> Array:
         """The places that hold, with the ends of what holds where these may be better than all of them."""
@@ -273,7 +262,7 @@ class _RangeSearch:
         away = np.where(made.exists & np.isfinite(away), away, np.inf)
         if not np.isfinite(away).any():
             return None
-        if not self.design.is_whole and self.question.kind == "=":
+        if not self.is_stepped and self.question.kind == "=":
             value, _ = greatest(lambda places: -np.abs(self._off(places)), x, -away)
         else:
             best = x[away <= away.min()]  # where all are as far away the one that is nearest to today's
@@ -287,5 +276,6 @@ def _always_failing(made: VariedMachines) -> tuple[str, ...]:
     return tuple(name for name in made.checks if (made.check(name)[made.exists] == "fail").all())
 
 
-def _between(refined: dict[float, float], low: float, high: float) -> float:
-    return next(inside for at, inside in refined.items() if low <= at <= high)
+def _between(refined: dict[float, float], low: float, high: float) -> float | None:
+    """The end that was found between two machines; None of values that have none between them."""
+    return next((inside for at, inside in refined.items() if low <= at <= high), None)

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import codecs
 import io
 import json
 from collections.abc import Callable
@@ -76,8 +77,12 @@ def test_a_study_of_standard_input_is_validated_from_the_current_folder_and_not_
     assert main(["validate", "-", *PLUGINS]) == 2
     assert "<stdin>:4:" in capfd.readouterr().err
     give(study)
-    assert main(["batch", "-", *PLUGINS]) == 2
-    assert "A study is read from a file" in capfd.readouterr().err
+    for command in ("batch", "optimise"):
+        assert main([command, "-", *PLUGINS]) == 2
+        assert "A study is read from a file" in capfd.readouterr().err
+    give(codecs.BOM_UTF8 + study.replace(b"\n", b"\r\n"))
+    assert main(["validate", "-", "--dry-run", *PLUGINS]) == 0
+    assert capfd.readouterr().out.startswith("<stdin>: 2 variants")
 
 
 def test_solve_writes_what_it_read_with_the_value_alone(give: Give, tmp_path: Path) -> None:

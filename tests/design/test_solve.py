@@ -176,3 +176,48 @@ def test_a_text_names_the_nearest_of_many_values(tmp_path: Path, capfd: Capture)
     assert solve(press, "damper.shore_hardness", "damper.peak_force = 3562 N", "--from", "40") == 0
     out = capfd.readouterr().out.splitlines()
     assert len([line for line in out if line.startswith("  also")]) <= 12
+
+
+def test_whole_numbers_with_which_it_holds_are_told_from_first_to_last(press: Path, capfd: Capture) -> None:
+    assert solve(press, "b.teeth", "b.teeth <= 30") == 0
+    assert "  it holds from 12 (end of the search) to 30" in capfd.readouterr().out.splitlines()
+    answer = found(capfd, solve(press, "b.teeth", "b.teeth >= 25", "--format", "json"))
+    assert answer["solutions"][0]["typed"] == "25"
+
+
+BEARING = (
+    HEAD
+    + """\
+  bearing: {kind: rolling_bearing, required_life: 20000 h, reliability: 95 %, bearings: [{name: a, type: deep_groove,
+            dynamic_rating: 35.1 kN, static_rating: 21.6 kN, radial_force: 3 kN, speed: 100 rpm}]}
+"""
+)
+
+
+def test_the_numbers_of_a_list_are_all_tried_and_no_others(tmp_path: Path, capfd: Capture) -> None:
+    press = saved(tmp_path, BEARING)
+    asked = ("bearing.reliability", "bearing.reliability_factor <= 0.5")  # 0.47 at 97 %, by ISO 281 table 12
+    assert solve(press, *asked) == 0
+    out = capfd.readouterr().out
+    assert "(today 95 %, bearing.reliability_factor 0.64)" in out and "bearing.reliability = 97 %: " in out
+    assert "it holds from 97 % to 99 % (end of the search)" in out
+    assert solve(press, "bearing.reliability", "bearing.reliability_factor = 0.6") == 1
+    assert "nearest: bearing.reliability = 95 %" in capfd.readouterr().out
+
+
+CYLINDER = (
+    HEAD
+    + """\
+  cylinder: {kind: cylinder_sizing, working_length: 470.7 mm, generatrix_length: 700 mm, segment_height: 40 mm, bore_radius: 58 mm}
+"""
+)
+
+
+def test_the_greatest_lies_beyond_what_fails_where_sizes_are_rounded(tmp_path: Path, capfd: Capture) -> None:
+    press = saved(tmp_path, CYLINDER)  # the radius is rounded up by steps, with which it passes again
+    asked = ("cylinder.segment_height", "max cylinder.segment_height", "--passing", "--format", "json")
+    answer = found(capfd, solve(press, *asked))
+    config, x = load_config(press, DISCOVERY), np.linspace(40e-3, 46e-3, 601)
+    made = varied(config, {design_input(config, "cylinder.segment_height").asked: x}, len(x))
+    best = x[np.isin(made.status.astype(str), ["pass", "warn"])].max()
+    assert answer["solutions"][0]["value"] >= best - 1e-5

@@ -13,6 +13,7 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.quantities.units import parse_quantity
 from diecut_report.study.analysis.query import variants
 from diecut_report.study.analysis.taken_config import taken_config
+from tests.configs import GOOD, HEAD, saved
 from tests.study.stored_study import BORE, SPEED, ten
 
 
@@ -80,3 +81,22 @@ def test_what_the_study_was_made_of_is_not_written_over(
     assert main(["take", f"{folder}#4", "-o", str(base)]) == 2
     assert "of which the study was made; it would be written over" in capfd.readouterr().err
     assert base.read_bytes() == (folder / "base.yaml").read_bytes()
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_a_stored_variant_is_solved_and_written_with_what_was_found(tmp_path: Path) -> None:
+    press = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 250 N*m}  # the lever\n"
+    saved(tmp_path, press)
+    study = saved(
+        tmp_path,
+        "schema_version: 1\nbase: press.yaml\nsample: {method: grid}\nvary: {mechanisms.a.force: [1 kN, 3 kN]}\n",
+        "study.yaml",
+    )
+    plugins = ("--plugins", str(GOOD))
+    assert main(["batch", str(study), "-o", str(tmp_path / "out"), *plugins]) == 1
+    target, asked = tmp_path / "solved.yaml", ("--vary", "a.arm", "--for", "a.moment = 240 N*m")
+    assert main(["solve", f"{tmp_path / 'out'}#1", *asked, "-o", str(target), *plugins]) == 0
+    found = yaml_tree.load(target)
+    assert found.data["mechanisms"]["a"] | {"force": "3 kN", "arm": "80 mm"} == found.data["mechanisms"]["a"]
+    assert "those that were calculated" not in found.text
+    assert main(["advise", f"{tmp_path / 'out'}#1", "-o", str(tmp_path / "mended.yaml"), *plugins]) == 0

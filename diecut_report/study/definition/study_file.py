@@ -2,8 +2,10 @@
 
 from __future__ import annotations
 
+import codecs
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from hashlib import sha256
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -59,6 +61,12 @@ class Study:
     def is_sampled(self) -> bool:
         """Return whether the study says which variants there are, and not only what is searched for."""
         return self.data.get("sample") is not None
+
+    @property
+    def content(self) -> bytes:
+        """Return its bytes as they were read, with the byte order mark that they began with."""
+        own = self.text.encode()
+        return own if sha256(own).hexdigest() == self.sha256 else codecs.BOM_UTF8 + own
 
 
 def load_study(given: Path | Tree, discovery: Discovery, places: Mapping[str, Path] | None = None) -> Study:

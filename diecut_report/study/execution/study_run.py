@@ -194,7 +194,7 @@ def described(study: Study) -> Description:
     columns = [*varied_columns(study), *result_columns(study)]
     chunk = min(int(np.clip(study.sample.count // PARTS, *PART)), max(1, VALUES // _width(study, columns)))
     return Description(
-        study=StudySource(study.file.name, study.sha256, study.file.read_bytes()),
+        study=StudySource(study.file.name, study.sha256, study.content),
         base=StudySource(base, study.base.tree.sha256, files[base]),
         columns=tuple(columns),
         rows=study.sample.count,
