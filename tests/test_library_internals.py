@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from concurrent.futures import ProcessPoolExecutor
+from inspect import signature, unwrap
 from multiprocessing.connection import Connection
 from typing import Any
 
 import weasyprint
+from weasyprint.layout import block
 
 ADVICE = "pin the version before, or find another way"
 
@@ -44,3 +46,14 @@ def test_the_pool_of_processes_has_a_pipe_of_results_that_can_be_closed() -> Non
             "This Python's ProcessPoolExecutor has no _result_queue._writer any more, which study runs close to end a pool whose process died "
             f"in the middle of a result (study/execution/process_pool.py): {ADVICE}."
         )
+
+
+def test_weasyprint_hands_on_where_a_block_is_to_stand_as_waiting_figures_take_it() -> None:
+    taken = [*signature(unwrap(block.block_level_layout)).parameters]
+    assert taken[2:] == [
+        "bottom_space", "skip_stack", "containing_block", "page_is_empty", "absolute_boxes", "fixed_boxes", "adjoining_margins",
+        "first_letter_style", "first_line_style", "discard", "max_lines",
+    ], (
+        f"WeasyPrint {weasyprint.__version__} lays out a block by other arguments, which report/waiting_figures.py names by their order "
+        f"(BlockPlace): figures would no longer wait for the next sheet. {ADVICE}."
+    )  # fmt: skip

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Mapping
+from collections.abc import Callable, Iterable, Mapping
 from functools import partial
 from typing import Any
 
@@ -18,6 +18,7 @@ from diecut_report.engine.curve_sampler import CurveSampler
 from diecut_report.engine.drawable import Undrawable, curve_named, guarded
 from diecut_report.engine.moving_shapes import frame_places, laid_out, moving_shapes
 from diecut_report.engine.printing.substitution import printed
+from diecut_report.engine.shown_units import axis_unit
 from diecut_report.engine.steps.rerun import varied, varied_curves
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase, phrase
@@ -164,11 +165,17 @@ def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: Machine
             drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": laid_out(_listed(build, view))}
             return head | drawn | ({"schematic": True} if schematic else {}) | _moving(calc, figure)
         case Chart(build=build):
-            own = [axis_range.of_lines(panel) for panel in _listed(build, view)]
+            own = [axis_range.of_lines(_of_its_size(panel)) for panel in _listed(build, view)]
             for over in (panel["over"] for panel in own if "over" in panel):
                 curve_named(calc, over, over)
             return head | {"type": "chart", "panels": own}
     raise TypeError(Phrase("{id} is not a known figure", id=figure.id))
+
+
+def _of_its_size(panel: dict[str, Any]) -> dict[str, Any]:
+    """A chart's panel in the unit of its size."""
+    heights = (height for line in panel["lines"] for height in line["y"] if height is not None)
+    return panel | {"unit": axis_unit(panel["unit"], heights)}
 
 
 def _moving(calc: Calculation, drawing: Drawing) -> dict[str, Any]:
@@ -229,7 +236,8 @@ def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
         _on_curve(mark, shown, panel, view) for mark, shown in zip(panel.marks, made["marks"], strict=True)
     ]
     curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series if panel.range]
-    return _in_chosen_unit(view, axis_range.declared(made, panel.range, view, curves))
+    heights = (height for one in panel.series for height in view.heights(one.curve, abscissa))
+    return _in_chosen_unit(view, axis_range.declared(made, panel.range, view, curves), heights)
 
 
 def _on_curve(mark: Mark, shown: dict[str, Any], panel: Panel, view: MachineView) -> dict[str, Any]:
@@ -249,10 +257,10 @@ def _height(size: str, curve: str, view: MachineView) -> float:
     return float(calc.sampler_of(calc.axis[curve], x, calc.middle[place][:1], rows).over(curve)[0, 0])
 
 
-def _in_chosen_unit(view: MachineView, made: dict[str, Any]) -> dict[str, Any]:
+def _in_chosen_unit(view: MachineView, made: dict[str, Any], heights: Iterable[float]) -> dict[str, Any]:
     """A panel, all of whose values are in SI, in the unit that the report chose for its first curve or its dimension."""
     first = made["series"][0]["curve"] if made["series"] else ""
-    return made | {"unit": view.calc.chosen_units.of(first, made["unit"]) or made["unit"]}
+    return made | {"unit": view.calc.chosen_units.of(first, made["unit"]) or axis_unit(made["unit"], heights)}
 
 
 def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, Any]:
@@ -278,5 +286,6 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
 def _group(group: BarGroup, view: MachineView) -> dict[str, Any]:
     values = [(label, -view[name[1:]] if name[0] == "-" else view[name]) for label, name in group.bars]
     bars = [{"label": label, "value": value} for label, value in values]
-    made = {"label": group.label, "unit": group.unit, "bars": bars}
+    shown = axis_unit(group.unit, (value for _, value in values))
+    made = {"label": group.label, "unit": shown, "bars": bars}
     return axis_range.declared(made, group.range, view, [(label, [value]) for label, value in values])

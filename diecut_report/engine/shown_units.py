@@ -13,6 +13,7 @@ from diecut_report.contract.steps import Step
 from diecut_report.expressions import Array
 from diecut_report.quantities.display import easy_unit
 from diecut_report.quantities.formatting import author_digits, shown
+from diecut_report.quantities.units import unit
 
 if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
@@ -36,6 +37,12 @@ def unit_for(calc: Calculation, name: str, declared: str, values: Array | Iterab
         return easy_unit(float(sizes.max()), declared) if len(sizes) else declared
     few = np.ravel(values).tolist() if isinstance(values, np.ndarray) else map(float, values)
     return easy_unit(max(known), declared) if (known := [abs(size) for size in few if isfinite(size)]) else declared
+
+
+def axis_unit(declared: str, heights: Iterable[float]) -> str:
+    """Return the unit of what a diagram shows: of forces that in which the greatest of them is told, of anything else the declared one."""
+    known = [abs(height) for height in heights if isfinite(height)] if unit(declared).si == "N" else []
+    return easy_unit(max(known), declared) if known else declared
 
 
 def _unit_of(calc: Calculation, name: str, declared: str, value: float) -> str:

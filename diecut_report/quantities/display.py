@@ -19,6 +19,8 @@ FAMILIES = (
     ("g", "kg", "t"),
     ("mm/s", "m/s"),
 )
+FORCES = (("N", 1e3), ("kN", 1e7), ("MN", math.inf))  # the least, N, that is told in a greater unit
+"""Forces go from one mechanism to the next: each is told in the unit of its size, whatever a chapter declares, so that all tell it alike."""
 # The finest step of a machine's quantity that can be made or measured, SI.
 STEPS = {
     "m": 1e-6, "s": 1e-4, "kg": 1e-3, "N": 0.1, "m/s": 1e-3, "K": 0.1,
@@ -36,6 +38,8 @@ NEVER_SMALL = frozenset(
 def easy_unit(value: float, declared: str) -> str:
     """Return the unit of the declared one's family in which an SI value is easy to read; the declared one where it is already."""
     family, factor = _family(declared)
+    if "N" in family and math.isfinite(value) and not is_nothing(value, "N"):
+        return next(name for name, most in FORCES if abs(value) < most)
     number = abs(value) / factor
     if not family or not math.isfinite(number) or number == 0 or LEAST <= number < MOST or is_nothing(value, declared):
         return declared

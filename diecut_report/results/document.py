@@ -31,6 +31,7 @@ from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
 from diecut_report.results.form.version import FORM_VERSION, SCHEMA_VERSION
+from diecut_report.results.handed_on import told_alike
 from diecut_report.results.mechanism import worst
 from diecut_report.results.press_run import Run
 from diecut_report.results.reference_origins import with_origins
@@ -47,7 +48,8 @@ def document(run: Run) -> Data:
     """Return all results as plain data; the same config gives the same document, byte for byte."""
     config, tree = run.config, run.config.tree
     mechanisms = with_origins({name: _mechanism_data(run, name) for name in config.instances if name != PRESS})
-    comparisons = {case.name: _comparison_data(run, case) for case in run.cases}
+    comparisons = told_alike({case.name: _comparison_data(run, case) for case in run.cases}, mechanisms)
+    mechanisms = told_alike(mechanisms, mechanisms)
     made: Data = {
         "schema_version": SCHEMA_VERSION,
         "form_version": FORM_VERSION,

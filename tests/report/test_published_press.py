@@ -111,3 +111,21 @@ def test_a_phase_that_is_others_together_is_told_in_one_line(printed: ReportDocu
     places = [tuple(row[2:4]) for row in table.rows]
     assert len(places) == len(set(places)) > 8
     assert len([text for text in drive.phases_absent if "together" in text or "разом" in text]) == 2
+
+
+def test_a_number_is_told_alike_in_all_chapters_that_hand_it_on(example: Example) -> None:
+    mechanisms = json.loads(example.told)["mechanisms"]
+    told = {
+        f"{name}.{key}": row["display"] for name, data in mechanisms.items() for key, row in data["outputs"].items()
+    }
+    for data in mechanisms.values():
+        for row in data["inputs"].values():
+            there = told.get(row.get("path", ""), row["display"])
+            assert row["origin"] != "reference" or there["unit"] != row["display"]["unit"] or there == row["display"]
+    forces: dict[float, set[str]] = {}
+    for data in mechanisms.values():
+        for row in data["outputs"].values():
+            if row["unit"] == "N":
+                forces.setdefault(round(row["value"], 6), set()).add(row["display"]["unit"])
+    assert all(len(units) == 1 for units in forces.values())
+    assert mechanisms["sector"]["outputs"]["tangential_force"]["display"] == {"text": "3.548", "unit": "kN"}

@@ -43,8 +43,15 @@ def test_a_figure_that_has_room_stays_in_its_place() -> None:
 
 
 def test_figures_keep_their_order() -> None:
-    sheets = _sheets(_text(1, 6), _figure(1, 5), _text(7, 8), _figure(2, 2), _text(9, 12))
-    assert sheets == ["t1 t2 t3 t4 t5 t6 t7 t8", "F1 F2 t9 t10 t11", "t12"]
+    sheets = _sheets(_text(1, 6), _figure(1, 5), _text(7, 8), _figure(2, 2), _text(9, 15))
+    assert sheets == ["t1 t2 t3 t4 t5 t6 t7 t8 t9 t10", "F1 F2 t11 t12 t13", "t14 t15"]
+
+
+def test_a_figure_for_which_the_next_sheet_has_no_room_waits_for_the_one_after_it() -> None:
+    sheets = _sheets(_text(1, 6), _figure(1, 6), _text(7, 8), _figure(2, 5), _text(9, 18))
+    assert sheets == ["t1 t2 t3 t4 t5 t6 t7 t8 t9 t10", "F1 t11 t12 t13 t14", "F2 t15 t16 t17 t18"]
+    chapter = "<section><h2>C1</h2><p>t9</p></section>"
+    assert _sheets(_text(1, 6), _figure(1, 6), _figure(2, 5), _text(7, 7), chapter)[1:] == ["F1", "F2 C1 t9"]
 
 
 def test_a_chapter_begins_behind_the_figures_of_the_one_before_it() -> None:
