@@ -151,8 +151,8 @@ class Substitution:
         """
         if unit(display).text == "1" and 0 < abs(target) < PURE_NOTHING:
             return None
-        asked = author_digits(target, display, result_digits)
-        result_digits = shown_digits(target, display, asked)
+        asked, result_digits = result_digits, author_digits(target, display, result_digits)
+        result_digits = shown_digits(target, display, result_digits)
         wanted = rounded(target, display, result_digits)
         self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.formula.tree)
         tree = self._at(DIGITS)
