@@ -12,6 +12,7 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import calculate
 from diecut_report.engine.printing.items import section_items
+from diecut_report.engine.printing.substitution import printed
 from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM_GEAR
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import inputs
@@ -72,3 +73,8 @@ def test_a_work_that_only_left_out_steps_name_is_not_among_the_sources() -> None
     )
     told = [{source["id"] for source in mechanism_results(calc, {})["sources"]} for calc in (without, rolled)]
     assert told == [{"003"}, {"003", "Hertz"}]
+
+
+def test_what_a_drawing_or_a_message_says_of_a_length_is_no_finer_either() -> None:
+    number, unit = printed(gears.pair(gears.HELICAL), "root_chord_1").split(" ")
+    assert unit == "mm" and len(number.partition(".")[2]) <= 3

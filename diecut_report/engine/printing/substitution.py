@@ -66,7 +66,9 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
         display = declared_unit(calc, name, declared.unit)
         return with_unit(*given_shown(float(value), display).values())
     display = unit_for(calc, name, declared.unit, [float(value)])
-    return told(float(value), display, digits, up=up)
+    return told(
+        float(value), display, author_digits(float(value), display, digits) if digits != DIGITS else digits, up=up
+    )
 
 
 def _plain(value: Any, variant: int) -> Any:
