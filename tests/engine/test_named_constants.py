@@ -5,7 +5,7 @@ from __future__ import annotations
 import pytest
 
 from diecut_report.engine.printing.definitions import definitions
-from diecut_report.engine.printing.named_constants import as_quantity, constant_shown
+from diecut_report.engine.printing.substitution import _constant, _quantity
 from diecut_report.expressions import Node, formula
 
 
@@ -33,9 +33,9 @@ def called(angle: float) -> float:
 def test_a_constant_stands_as_the_quantity_that_it_is(
     name: str, value: float, unit: str, symbolic: tuple[str, str] | None, numeric: tuple[str, str]
 ) -> None:
-    found = as_quantity(name)
+    found = _quantity(name)
     assert (found and found.args) == symbolic
-    assert constant_shown(name, value, unit).args == numeric
+    assert _constant(name, value, unit).args == numeric
 
 
 def test_a_parameter_named_after_a_greek_letter_is_printed_as_it() -> None:

@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report.contract.steps import Step
-from diecut_report.engine.printing.named_constants import formula_unit
-from diecut_report.engine.printing.substitution import Substitution
+from diecut_report.engine.printing.substitution import Substitution, formula_unit
 from diecut_report.expressions import Node
 from diecut_report.expressions.tree import walk
 from diecut_report.quantities.formatting import DIGITS, given_shown, number_text, shown

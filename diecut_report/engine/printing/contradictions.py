@@ -4,8 +4,7 @@ from __future__ import annotations
 
 from diecut_report.contract.binding import Bound
 from diecut_report.contract.steps import Step
-from diecut_report.engine.printing.named_constants import MOST_DIGITS
-from diecut_report.engine.printing.substitution import Contradiction
+from diecut_report.engine.printing.substitution import MOST_DIGITS, Contradiction
 from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.formatting import number_text, with_unit
 from diecut_report.quantities.units import unit

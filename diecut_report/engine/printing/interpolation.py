@@ -7,8 +7,7 @@ from typing import TYPE_CHECKING
 
 from diecut_report.contract.binding import bound
 from diecut_report.contract.part_steps import Interpolated
-from diecut_report.engine.printing.named_constants import MOST_DIGITS
-from diecut_report.engine.printing.substitution import Elsewhere, Substitution
+from diecut_report.engine.printing.substitution import MOST_DIGITS, Elsewhere, Substitution
 from diecut_report.expressions import Node
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.formatting import shortest, with_unit

@@ -16,20 +16,13 @@ import numpy as np
 
 from diecut_report.contract.binding import Bound
 from diecut_report.contract.steps import Step, Words
-from diecut_report.engine.printing.named_constants import (
-    MOST_DIGITS,
-    as_quantity,
-    beside_a_number,
-    constant_shown,
-    formula_unit,
-)
 from diecut_report.engine.printing.rounding import bounded
 from diecut_report.engine.shown_units import declared_unit, number_unit, unit_for
 from diecut_report.engine.steps import plain_code
 from diecut_report.expressions import Node, evaluate, transform
 from diecut_report.expressions.tree import walk
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.quantities.display import is_nothing
+from diecut_report.quantities.display import easy_unit, is_nothing
 from diecut_report.quantities.formatting import (
     DIGITS,
     NAMED,
@@ -47,6 +40,7 @@ from diecut_report.quantities.units import unit
 if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
+MOST_DIGITS = 17
 PURE_NOTHING = 1e-12  # a pure number that is but the rounding of the computer: a residual
 TRUSTED = 8  # digits up to which a number that is but the rounding of the computer stands as 0
 EXACT = ("num", "qty")
@@ -99,6 +93,14 @@ def filled(
     return Phrase(text, {found[0][1:-1]: said(found) for found in NAMED.finditer(text)})
 
 
+@cache
+def formula_unit(display: str) -> str:
+    """Return the unit in which a number stands inside a formula: the display unit where it is a power of ten of SI, else SI."""
+    own = unit(display)
+    decade = math.log10(own.factor)
+    return display if abs(decade - round(decade)) < 1e-12 else own.si
+
+
 class Contradiction(Exception):
     """Report that a printed expression does not give the result that is printed, and that is not rounding; both in SI."""
 
@@ -122,7 +124,7 @@ class Substitution:
         self.numbers: dict[str, Node] = {}  # as what each quantity was put in
         self._displays: dict[str, str] = {}
         self.in_degrees = False  # whether angles stand in degrees in all of it
-        self.shares = {name for node in walk(part.formula.tree) for name in beside_a_number(node)}
+        self.shares = {name for node in walk(part.formula.tree) for name in _beside_a_number(node)}
 
     def symbolic(self) -> Node:
         """Return the expression in the plugin's symbols."""
@@ -131,7 +133,7 @@ class Substitution:
     def _symbol(self, leaf: Node) -> Node:
         name = self.part.names.get(leaf.args[0]) if leaf.op == "sym" else None
         if name is None:
-            return as_quantity(leaf.args[0]) or leaf if leaf.op == "sym" else leaf
+            return _quantity(leaf.args[0]) or leaf if leaf.op == "sym" else leaf
         return self._marked(name) if isinstance(name, str) else Node("num", (f"{name:g}",))
 
     def _marked(self, name: str) -> Node:
@@ -247,7 +249,7 @@ class Substitution:
         name = self.part.names.get(leaf.args[0])
         if name is None:
             constant = self.constants.get(leaf.args[0])
-            return leaf if constant is None else constant_shown(leaf.args[0], float(constant), constant.unit)
+            return leaf if constant is None else _constant(leaf.args[0], float(constant), constant.unit)
         if not isinstance(name, str):
             return Node("num", (f"{name:g}",))
         declared, value = self.calc.step_or_input(name), self.value_of(name)
@@ -274,3 +276,28 @@ class Substitution:
 
     def _unit(self, name: str) -> str:
         return number_unit(self.calc, name, self.calc.step_or_input(name), self.value_of(name))
+
+
+def _beside_a_number(node: Node) -> list[str]:
+    """What a comparison holds against a plain number: 0.99 < 0.995, not 99 % < 0.995."""
+    _, *sides = node.args if node.op == "cmp" else ("",)
+    is_number = any(side.op == "num" and float(side.args[0]) for side in sides)
+    return [side.args[0] for side in sides if side.op == "sym"] if is_number else []
+
+
+QUANTITY = re.compile(r"(\d+(?:\.\d+)?) (\S+)")  # a constant that is named by what it is: 254 mm
+
+
+def _quantity(symbol: str) -> Node | None:
+    """A constant that is named by its number and its unit, as both; None for any other name."""
+    found = QUANTITY.fullmatch(symbol)
+    return Node("qty", found.groups()) if found else None
+
+
+def _constant(symbol: str, value: float, declared: str) -> Node:
+    """A constant of a formula: as it is named where its name is its quantity in SI's powers of ten, else in a unit easy to read."""
+    named = _quantity(symbol)
+    if named and formula_unit(named.args[1]) == named.args[1]:
+        return named
+    display = easy_unit(value, declared)
+    return Node("qty", (shortest(unit(display).from_si(value), MOST_DIGITS), display))
