@@ -41,6 +41,7 @@ if TYPE_CHECKING:
     from diecut_report.engine.calculation import Calculation
 
 MOST_DIGITS = 17
+QUANTITY = re.compile(r"(\d+(?:\.\d+)?) (\S+)")  # a constant that is named by what it is: 254 mm
 PURE_NOTHING = 1e-12  # a pure number that is but the rounding of the computer: a residual
 TRUSTED = 8  # digits up to which a number that is but the rounding of the computer stands as 0
 EXACT = ("num", "qty")
@@ -66,9 +67,8 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
         display = declared_unit(calc, name, declared.unit)
         return with_unit(*given_shown(float(value), display).values())
     display = unit_for(calc, name, declared.unit, [float(value)])
-    return told(
-        float(value), display, author_digits(float(value), display, digits) if digits != DIGITS else digits, up=up
-    )
+    own = author_digits(float(value), display, digits) if digits != DIGITS else digits
+    return told(float(value), display, own, up=up)
 
 
 def _plain(value: Any, variant: int) -> Any:
@@ -148,13 +148,12 @@ class Substitution:
     def numeric(self, target: float, display: str, result_digits: int) -> Node | None:
         """Return the expression with numbers and units; computed as printed it gives ``target`` (SI) as printed in ``display``.
 
-        None where it is proved that only rounding keeps printed numbers from showing it: the terms that it is the
-        difference of are equal, or nearly so. ``Contradiction`` where the expression gives something else.
+        None where only rounding hides it: it is the difference of terms proved equal, or nearly so. ``Contradiction`` where it gives something else.
         """
         if unit(display).text == "1" and 0 < abs(target) < PURE_NOTHING:
             return None
-        asked, result_digits = result_digits, author_digits(target, display, result_digits)
-        result_digits = shown_digits(target, display, result_digits)
+        asked = result_digits
+        result_digits = shown_digits(target, display, author_digits(target, display, asked))
         wanted = rounded(target, display, result_digits)
         self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.formula.tree)
         tree = self._at(DIGITS)
@@ -283,9 +282,6 @@ def _beside_a_number(node: Node) -> list[str]:
     _, *sides = node.args if node.op == "cmp" else ("",)
     is_number = any(side.op == "num" and float(side.args[0]) for side in sides)
     return [side.args[0] for side in sides if side.op == "sym"] if is_number else []
-
-
-QUANTITY = re.compile(r"(\d+(?:\.\d+)?) (\S+)")  # a constant that is named by what it is: 254 mm
 
 
 def _quantity(symbol: str) -> Node | None:
