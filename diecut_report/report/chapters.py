@@ -5,6 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
+from diecut_report.report.captions import told_once
 from diecut_report.report.chapter_inputs import ChapterInputs
 from diecut_report.report.equations import Equations
 from diecut_report.report.figure_places import placed, row_item, rows_of, sketch
@@ -71,7 +72,8 @@ class _Filler:
     ) -> None:  # fmt: skip
         self.stem, self.told, self.is_full = stem, told, told is None
         mechanism = without_zero_diagrams(mechanism, words)
-        self.placed = placed(part.letter, mechanism)
+        figures = placed(part.letter, mechanism)
+        self.placed = figures if self.is_full else [*told_once(figures)]
         self.rows = rows_of(self.placed, paired=not self.is_full)
         self.part, self.mechanism, self.words = part, mechanism, words
         self.decimal = words["decimal"]

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any
@@ -19,6 +20,7 @@ FIELDS = (
 REVISION = ("revision", "date", "description", "by")
 SIGNERS = ("prepared", "checked", "norm_checked", "approved")
 """Who signs a report; a PDF has a field for each that is named after it."""
+LOWER_WORD = re.compile(r"(?<![^\W_])(?![A-ZА-ЯІЇЄҐ])[^\W\d_]{3,}")
 
 
 @dataclass(frozen=True)
@@ -61,3 +63,9 @@ def _texts(project: Data, words: Catalogue) -> Data:
     revisions = [{key: str(row.get(key) or "") for key in REVISION} for row in project.get("revisions") or ()]
     found = {key: str(project.get(key) or "") for key in FIELDS}
     return found | {"document_type": found["document_type"] or words["calculation"], "revisions": revisions}
+
+
+def machine_named(name: str, words: Catalogue) -> str:
+    """What is calculated, as the first sheet names it: a designation as that of a press, a name in words as it is."""
+    is_said = LOWER_WORD.search(name) or name.casefold().startswith(words["press"].casefold())
+    return name if is_said else f"{words['press']} {name}"

@@ -22,6 +22,7 @@ from diecut_report.languages.phrases import Phrase, keys_listed, phrase
 from diecut_report.quantities.formatting import author_digits, place_shown, shown
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of
+from diecut_report.results.cited_sources import cited_sources
 from diecut_report.results.curves import curves
 from diecut_report.results.exports import exports
 from diecut_report.results.phases import phases, phases_absent
@@ -63,7 +64,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance], o
         "status": worst(check["status"] for check in checks),
         "summary": mechanism.summary,
         "assumptions": list(mechanism.assumptions),
-        "sources": [{"id": s.id, "citation": s.citation} for s in mechanism.sources],
+        "sources": cited_sources(calc),
         "inputs": inputs(calc, provenance),
         "lists": list_titles(mechanism.inputs) | {name: calc.steps[name].description for name in calc.part_names},
         **made(numbers),

@@ -59,9 +59,9 @@ factors.choice("transverse_load_factor", "K_Hα", "1", "Transverse load factor: 
                lacks=("transverse_load_factor",), source="this method")
 for name, words in (*((name, words) for name, (_, words, _) in FACTORS.items()), ("transverse_load", "Transverse load factor")):
     key, told = f"{name}_factor", f"{words}: 1 where it is assumed, 0 where it is given"
-    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", told, lambda: 0, needs=(key,), output=False)
-    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", told, lambda: 1, lacks=(key,), output=False)
-factors.value("factors_assumed", "n_K", "1", "K factors that are assumed",
-              lambda application_assumed, dynamic_assumed, face_load_assumed, transverse_load_assumed:
-                  application_assumed + dynamic_assumed + face_load_assumed + transverse_load_assumed, whole=True, source="this method")
-factors.words("assumed_told", advice.assumed_factors, tuple(f"{name}_assumed" for name in (*FACTORS, "transverse_load")), output=False)
+    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", told, lambda: 0, needs=(key,), output=False, printed=False)
+    factors.value(f"{name}_assumed", f"n_{name[0]}", "1", told, lambda: 1, lacks=(key,), output=False, printed=False)
+ASSUMED = tuple(f"{name}_assumed" for name in (*FACTORS, "transverse_load"))
+factors.computed("factors_assumed", "n_K", "1", "K factors that are assumed", lambda *assumed: sum(assumed), ASSUMED, "those above that are assumed",
+                 whole=True, source="this method")
+factors.words("assumed_told", advice.assumed_factors, ASSUMED, output=False)

@@ -65,7 +65,7 @@ class Bearing(Block):
     ] = None
     cycle_speed: Annotated[
         float | None,
-        Quantity("n_c", "rpm", "Cycles of the relative angle, as a speed: 1 rpm is a cycle a minute", gt=0),
+        Quantity("n_c", "rpm", "Cycles of the relative angle, as a speed: 1 r/min is a cycle a minute", gt=0),
     ] = None
     rolling_elements: Annotated[
         int | None, Quantity("Z_g", "1", "Rolling elements in a row, for the least swing", ge=5, integer=True)

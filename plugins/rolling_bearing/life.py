@@ -25,7 +25,7 @@ row(motion, "is_angle", "w", "1", "Whether the motion is given as an angle (1) o
 row(motion, "travel", "V", "deg", "Way of the relative angle in a cycle (0 where a speed is given)",
     lambda known: known.row(lambda i: known.duties[i].travel if known.is_swinging(i) else np.zeros((known.variants, 1))),
     "∮ |dθ/dφ| dφ between the reversals", output=False)
-row(motion, "cycles", "n_z", "rpm", "Cycles, as a speed: 1 rpm is a cycle a minute (0 where a speed is given)",
+row(motion, "cycles", "n_z", "rpm", "Cycles, as a speed: 1 r/min is a cycle a minute (0 where a speed is given)",
     lambda known: known.row(lambda i: known.cycle_speed[i] * known.is_swinging(i)), "as given", output=False)
 value(motion, "turns_per_cycle", "N_c", "1", "Turns of the rings in a cycle", lambda travel: travel / (2 * np.pi),
       exists=lambda is_angle: is_angle > 0,

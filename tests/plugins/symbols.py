@@ -10,12 +10,12 @@ from diecut_report.contract.steps import SILENT
 
 
 def doubled(mechanism: Mechanism, alike: Collection[tuple[str, str]] = ()) -> list[str]:
-    """Symbols that stand for two quantities; ``alike`` names an input and the step that takes it over under another id."""
+    """Symbols that stand for two printed quantities; ``alike`` names an input and the step that takes it over under another id."""
     known: dict[str, set[str]] = {}
     for name, meta in fields(mechanism.inputs):
         known.setdefault(getattr(meta, "symbol", ""), set()).add(name)
     for _, step in mechanism.steps:
-        if not isinstance(step, SILENT):
+        if step.printed and not isinstance(step, SILENT):
             known.setdefault(step.symbol, set()).add(step.id)
     pairs = {frozenset(pair) for pair in alike}
     return [

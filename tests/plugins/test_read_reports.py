@@ -10,9 +10,14 @@ import pytest
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.engine import calculate
 from diecut_report.engine.printing.items import section_items
+from diecut_report.engine.printing.substitution import printed
+from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM_GEAR
 from diecut_report.results.mechanism import mechanism_results
+from tests.machines import inputs
 from tests.plugins import gears, steppers
+from tests.plugins.cases import FULL
 from tests.plugins.shafts import CRANKSHAFT, shaft
 
 KINDS = [*Discovery().origins]
@@ -59,3 +64,17 @@ def test_no_length_of_a_gear_is_finer_than_it_can_be_made() -> None:
     lengths = [row["display"]["text"] for row in outputs.values() if row["display"]["unit"] == "mm"]
     assert len(lengths) > 10
     assert all(len(text.partition(".")[2]) <= 3 for text in lengths)
+
+
+def test_a_work_that_only_left_out_steps_name_is_not_among_the_sources() -> None:
+    without, rolled = (
+        steppers.stepper(),
+        calculate(CAM_GEAR, inputs(CAM_GEAR, next(iter(FULL["cam_gear_transport"].values())))),
+    )
+    told = [{source["id"] for source in mechanism_results(calc, {})["sources"]} for calc in (without, rolled)]
+    assert told == [{"003"}, {"003", "Hertz"}]
+
+
+def test_what_a_drawing_or_a_message_says_of_a_length_is_no_finer_either() -> None:
+    number, unit = printed(gears.pair(gears.HELICAL), "root_chord_1").split(" ")
+    assert unit == "mm" and len(number.partition(".")[2]) <= 3

@@ -132,6 +132,20 @@ def test_contents_come_before_the_summary_on_paper(plain: Data) -> None:
     assert page.index("toc-title") < page.index('id="summary"') < page.index('id="press"') < page.index('id="m-A"')
 
 
+def test_keys_that_checks_miss_are_said_on_paper_in_the_summary_alone(plain: Data) -> None:
+    from diecut_report.report.pdf import Paper
+
+    plain["report"] = {"detail": "standard"}
+    plain["mechanisms"]["cylinder"]["checks"][0] |= {"status": "not_checked", "missing": ["allowable_load"]}
+    material = Rendering(plain).material
+    missing = {key for row in material.document.unchecked for key in row.missing}
+    said = {kind: re.findall(r'(?s)class="left-out">.*?</p>', page) for kind, page in
+            (("print", html.filled(material, Paper(material), "print")), ("screen", html.page(material)))}  # fmt: skip
+    assert missing and said["print"] and said["screen"]
+    assert not any(key in line for line in said["print"] for key in missing)
+    assert all(any(key in line for key in missing) for line in said["screen"])
+
+
 def test_nothing_in_any_detail_leads_to_what_is_not_there(pages: dict[str, str]) -> None:
     for detail, page in pages.items():
         targets = set(re.findall(r' id="([^"]+)"', page))

@@ -16,7 +16,7 @@ from diecut_report.report import Rendering
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.letters import BOLD, LINE, MILLIMETRE, drawn, fitted, measured
 from diecut_report.report.sheet_frames import Cell, sheet_blocks
-from diecut_report.report.title_block import TitleBlock, title_block
+from diecut_report.report.title_block import TitleBlock, machine_named, title_block
 from tests.configs import HEAD, SMALL, problems, saved
 from tests.examples import few
 from tests.exchange.reports import run
@@ -198,3 +198,12 @@ def test_framed_sheets_keep_text_and_title_block_apart(plain: Data, tmp_path: Pa
     assert (
         "NOT RELEASED" not in PdfReader(tmp_path / "a.pdf").pages[0].extract_text()
     )  # it is a picture behind the text
+
+
+@pytest.mark.parametrize(
+    ("name", "said"),
+    [("DCP-700", "Press DCP-700"), ("Bobst SP 104", "Press Bobst SP 104"), ("Web press, folder", "Web press, folder"),
+     ("Blank-cutting unit", "Blank-cutting unit"), ("Press 7", "Press 7"), ("Мій прес", "Мій прес")],
+)  # fmt: skip
+def test_a_name_in_words_is_not_called_a_press_before_it(name: str, said: str) -> None:
+    assert machine_named(name, Catalogue("en")) == said

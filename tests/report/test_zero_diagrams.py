@@ -1,9 +1,11 @@
-"""What is zero everywhere is said in a sentence, not drawn."""
+"""What figures need not tell: what is zero everywhere is said in a sentence, and a long sentence of captions once."""
 
 from __future__ import annotations
 
 from typing import Any
 
+from diecut_report.report.captions import told_once
+from diecut_report.report.figure_places import BEFORE, Place, Placed
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.zero_diagrams import without_zero_diagrams
 
@@ -48,3 +50,11 @@ def test_a_zero_line_beside_another_or_under_a_limit_is_drawn() -> None:
     )
     [figure] = without_zero_diagrams(machine(both, limited), WORDS)["figures"]
     assert len(figure["panels"]) == 2
+
+
+def test_a_long_sentence_of_a_caption_is_told_once_and_a_short_one_each_time() -> None:
+    long = "Angles count from the middle of the motion: what the results call α above 180° is here 360° less, in the same place."
+    captions = [f"Motion of the wheel. {long} Shaded: dwell.", f"Motion of the sheet. {long} Shaded: dwell.", long]
+    figures = [Placed(Place(0, BEFORE), f"G.{n}", {"caption": caption}) for n, caption in enumerate(captions, 1)]
+    found = [each.figure["caption"] for each in told_once(figures)]
+    assert found == [captions[0], "Motion of the sheet. Shaded: dwell.", ""]

@@ -67,7 +67,8 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
         display = declared_unit(calc, name, declared.unit)
         return with_unit(*given_shown(float(value), display).values())
     display = unit_for(calc, name, declared.unit, [float(value)])
-    return told(float(value), display, digits, up=up)
+    own = author_digits(float(value), display, digits) if digits != DIGITS else digits
+    return told(float(value), display, own, up=up)
 
 
 def _plain(value: Any, variant: int) -> Any:
@@ -151,8 +152,8 @@ class Substitution:
         """
         if unit(display).text == "1" and 0 < abs(target) < PURE_NOTHING:
             return None
-        asked = author_digits(target, display, result_digits)
-        result_digits = shown_digits(target, display, asked)
+        asked = result_digits
+        result_digits = shown_digits(target, display, author_digits(target, display, asked))
         wanted = rounded(target, display, result_digits)
         self.in_degrees = unit(display).text == "deg" and self.is_angle(self.part.formula.tree)
         tree = self._at(DIGITS)
