@@ -80,7 +80,8 @@ def _limit(timing: Timing) -> float:
 
 interlocks.computed("is_limited", "k_n", "1", "Whether margins of time limit the productivity", lambda timing: timing.limit.value is not None,
                     TIMING, "a margin is a time, and holds at some speed", output=False)
-interlocks.computed("productivity_limit", "n_max", "1/h", "Largest productivity that the margins of time allow; nothing else is judged by it", _limit, TIMING,
+interlocks.computed("productivity_limit", "n_max", "1/h",
+                    "Largest productivity that the margins of time allow; nothing else is judged by it", _limit, TIMING,
                     "angles stay, times take more angle the faster the shaft turns; torques and accelerations are not judged", digits=5,
                     exists=lambda is_limited: is_limited > 0)
 interlocks.computed("is_feasible", "k_Φ", "1", "Whether an offset that is to be found leaves all margins",

@@ -150,4 +150,5 @@ compared.computed("least_acceleration", "a_L", "rad/s**2", "Least of these", fun
 compared.computed("one_way", "g", "1", "What the motion gains in a cycle, to its range", function=rests.gained, takes=CURVE,
                   method="positions at both ends of the cycle", source="this method", output=False, needs=CURVE)
 compared.add(recommended("Law of motion with the least peak acceleration of the driven link", LAW, None))
-compared.add(recommended("Law that is gentlest on the link in a single rise; this motion, of several parts, may ask for another", CURVE, bind(common.is_at_least, greater="one_way", smaller=0.999)))
+compared.add(recommended("Law that is gentlest on the link in a single rise; this motion, of several parts, may ask for another", CURVE,
+                         bind(common.is_at_least, greater="one_way", smaller=0.999)))

@@ -99,8 +99,8 @@ _number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft le
 
 fatigue = Chapter("Fatigue", text="Stress of a material point that turns with the shaft by θ, at ψ from y: σ = N/A − (M_xy cos(ψ + θ) + "
                                   "M_xz sin(ψ + θ))/W_b. Ranges of bending and torsion are combined as if in phase; ψ and the side of a place "
-                                  "(before or behind its load) are those of the least safety, found by a scan of 120 directions and bounded search. Safeties are "
-                                  "counted up to 10⁶, which stands for a place without stress.")
+                                  "(before or behind its load) are those of the least safety, found by a scan of 120 directions and bounded search. "
+                                  "Safeties are counted up to 10⁶, which stands for a place without stress.")
 STATES = ("under_load", *FACTORS.values())
 fatigue.prepared("states", lambda given: _states(*map(given.get, STATES)), STATES, for_many=True)
 
