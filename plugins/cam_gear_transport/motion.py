@@ -49,7 +49,7 @@ sector.choice("law_share", "k", "1", "Share of the rise or return that has passe
               *by_phase(bind(common.same, quantity=0.5), formulas.stopping_share,
               bind(formulas.share_since, start="angle_stop", time="time_return"),
               bind(formulas.share_since, start="angle_start", time="time_stop")), source="003 eq. 2", output=False)
-sector.value("law_joint", "j", "1", "Joint of the law: changes its sign where the law's formula changes", ByText("motion_law", JOINT, k="law_share"),
+sector.value("law_joint", "j", "1", "For the computer alone: changes its sign where the law's formula changes", ByText("motion_law", JOINT, k="law_share"),
              output=False, source="motion laws")
 sector.crossings("law_break", "φ_j", "deg", "Disc angle at which the law's formula changes, or a phase begins", of="law_joint", output=False)
 sector.breakpoints("law_breaks", "disc_angle", "law_break")
@@ -59,7 +59,7 @@ sector.value("law_velocity", "f′", "1", "Law of motion: velocity at k", ByText
              output=False)
 sector.value("law_middle", "k_m", "1", "Share k in the middle of the present phase (or part of it)", lambda law_share: law_share,
              source="this method", output=False, per_piece=True)
-sector.value("law_side", "k_i", "1", "Share k just inside its piece: where the law's acceleration jumps, this tells the side",
+sector.value("law_side", "k_i", "1", "For the computer alone: k a trillionth further inside, which tells the side where the acceleration jumps",
              lambda law_share, law_middle: law_share + 1e-12 * (law_middle - law_share), output=False, source="this method")
 sector.value("law_acceleration", "f″", "1", "Law of motion: acceleration at k", ByText("motion_law", ACCELERATION, k="law_side"),
              source="motion laws", output=False)

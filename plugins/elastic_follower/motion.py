@@ -92,13 +92,13 @@ MOVING = bind(common.is_below, smaller="piece_middle", greater="rise_duration")
 by_law = Chapter("Motion of the input", text="One rise by a law of motion; k is the share of the rise's time that has passed.", needs=LAW)
 by_law.value("law_share", "k", "1", "Share of the rise's time that has passed", lambda time, rise_duration: np.minimum(time / rise_duration, 1),
              source="motion laws", output=False)
-by_law.value("law_joint", "j", "1", "Joint of the law: changes its sign where the law's formula changes", ByText("motion_law", JOINT, k="law_share"),
+by_law.value("law_joint", "j", "1", "For the computer alone: changes its sign where the law's formula changes", ByText("motion_law", JOINT, k="law_share"),
              output=False, source="motion laws")
 by_law.crossings("law_break", "t_j", "ms", "Time at which the law's formula changes", of="law_joint", output=False)
 by_law.breakpoints("law_breaks", "time", "law_break")
 by_law.value("law_middle", "k_m", "1", "Share k in the middle of the present piece", lambda law_share: law_share, source="this method", output=False,
              per_piece=True)
-by_law.value("law_side", "k_i", "1", "Share k just inside its piece: where the law's acceleration jumps, this tells the side",
+by_law.value("law_side", "k_i", "1", "For the computer alone: k a trillionth further inside, which tells the side where the acceleration jumps",
              lambda law_share, law_middle: law_share + 1e-12 * (law_middle - law_share), output=False, source="this method")
 by_law.value("law_position", "s", "1", "Law of motion: position at k", ByText("motion_law", POSITION, k="law_share"), source="motion laws",
              output=False)

@@ -280,7 +280,7 @@ def test_a_failed_interlock_says_by_how_much_and_what_would_do() -> None:
     for words in (
         "drive.cutting does not lie within feeder.dwell: the margins are",
         "3° (5 ms) are required",
-        "The best offset of feeder is 141.0056",
+        "The best offset of feeder is 141.006°",
         "no offset holds all",
         "feeder.dwell must be 213.7°",
         "press.productivity does not help: angles decide",
