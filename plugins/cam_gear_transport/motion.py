@@ -49,7 +49,8 @@ sector.choice("law_share", "k", "1", "Share of the rise or return that has passe
               *by_phase(bind(common.same, quantity=0.5), formulas.stopping_share,
               bind(formulas.share_since, start="angle_stop", time="time_return"),
               bind(formulas.share_since, start="angle_start", time="time_stop")), source="003 eq. 2", output=False)
-sector.value("law_joint", "j", "1", "For the computer alone: changes its sign where the law's formula changes", ByText("motion_law", JOINT, k="law_share"),
+sector.value("law_joint", "j", "1", "For the computer alone: changes its sign where the law's formula changes",
+             ByText("motion_law", JOINT, k="law_share"),
              output=False, source="motion laws")
 sector.crossings("law_break", "φ_j", "deg", "Disc angle at which the law's formula changes, or a phase begins", of="law_joint", output=False)
 sector.breakpoints("law_breaks", "disc_angle", "law_break")

@@ -26,6 +26,12 @@ PHASES = "phases of the lines, laid over the common period of the main shaft"
 LARGEST_RATE_ERROR = 1e-6  # relative
 TIMING, SUM = ("timing",), ("sum",)
 
+
+
+def _found(timing: Timing) -> float:
+    return 0.0 if timing.moved is None else float(timing.lines[timing.moved].line.offset)
+
+
 shaft = Chapter("Main shaft", text="One turn of the main shaft is a sheet. All lines are where they were after the common period.")
 shaft.prepared("stretches", stretches, ("lines.mechanism", "lines.passing"), for_many=True)
 shaft.prepared("timing", timing_of, ("productivity", "stretches", *(f"lines.{key}" for key in LINES), *(f"interlocks.{key}" for key in INTERLOCKS)))
@@ -40,6 +46,10 @@ shaft.computed("line_turns", "i_k", "1", "Turns of each line for each sheet",
 shaft.computed("line_offset", "Φ_k", "deg", "Main-shaft angle at which each line's zero comes",
                lambda timing: np.array([[each.line.offset for each in timing.lines]]), TIMING,
                "as given; an automatic one is where the least slack of all interlocks is greatest", over="lines", digits=6)
+shaft.computed("is_moved", "k_a", "1", "Whether the offset of a line is to be found", lambda timing: timing.moved is not None, TIMING, "as given",
+               output=False)
+shaft.computed("offset_found", "Φ_f", "deg", "Offset that is found: main-shaft angle at which the zero of that line comes", _found, TIMING,
+               "where the least slack of all interlocks is greatest", digits=6, exists=lambda is_moved: is_moved > 0)
 shaft.listing("main_phases", "Phases on the main shaft", listings.PHASES, listings.phases, TIMING)
 shaft.words("line_name", lambda timing: tuple(each.name for each in timing.lines), TIMING, each_part=True)
 

@@ -92,7 +92,8 @@ MOVING = bind(common.is_below, smaller="piece_middle", greater="rise_duration")
 by_law = Chapter("Motion of the input", text="One rise by a law of motion; k is the share of the rise's time that has passed.", needs=LAW)
 by_law.value("law_share", "k", "1", "Share of the rise's time that has passed", lambda time, rise_duration: np.minimum(time / rise_duration, 1),
              source="motion laws", output=False)
-by_law.value("law_joint", "j", "1", "For the computer alone: changes its sign where the law's formula changes", ByText("motion_law", JOINT, k="law_share"),
+by_law.value("law_joint", "j", "1", "For the computer alone: changes its sign where the law's formula changes",
+             ByText("motion_law", JOINT, k="law_share"),
              output=False, source="motion laws")
 by_law.crossings("law_break", "t_j", "ms", "Time at which the law's formula changes", of="law_joint", output=False)
 by_law.breakpoints("law_breaks", "time", "law_break")

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import json
 from collections.abc import Iterator
 from typing import Any
 
@@ -11,10 +12,12 @@ from diecut_report.engine.printing.items import section_items
 from diecut_report.plugins.press_consistency.checks import CHECKS
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import number
+from tests.plugins.cases import MECHANISMS
 from tests.plugins.followers import driven, follower
 from tests.plugins.platens import platen
 from tests.plugins.shafts import CRANKSHAFT, shaft
 from tests.plugins.steppers import stepper
+from tests.processes import Example
 
 CONVEYOR = {"inertia": "0.0993 kg*m**2", "stiffness": "3300 N*m/rad", "damping_ratio": 0.05, "cycles_per_hour": 6000}
 KEY_RESULT = "speed_verdict"
@@ -76,3 +79,14 @@ def test_the_friction_on_which_a_platen_press_rests_is_a_key_result() -> None:
 def test_a_press_whose_timing_fails_is_told_that_its_motor_is_not_yet_judged() -> None:
     [timing] = [check for check in CHECKS if check.id == "timing"]
     assert "motor and flywheel" in timing.consequence
+
+
+def test_no_key_result_of_the_press_is_a_row_which_the_summary_could_not_tell(example: Example) -> None:
+    for mechanism in json.loads(example.told)["mechanisms"].values():
+        rows = {name.partition(".")[0] for name in mechanism["outputs"] if "." in name}
+        assert not rows & set(MECHANISMS[mechanism["kind"]].key_results)
+
+
+def test_the_offset_that_is_found_is_a_key_result(example: Example) -> None:
+    timing = json.loads(example.told)["mechanisms"]["timing"]["outputs"]
+    assert timing["offset_found"]["key"] and timing["offset_found"]["value"] == timing["line_offset.1"]["value"]
