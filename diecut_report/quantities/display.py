@@ -26,6 +26,7 @@ STEPS = {
     "m": 1e-6, "s": 1e-4, "kg": 1e-3, "N": 0.1, "m/s": 1e-3, "K": 0.1,
 }  # fmt: skip
 UNIT_STEPS = {"deg": 0.01, "%": 0.01}  # of these units alone: a small angle in rad is another quantity
+UNIT_DIGITS = {"h": 3}  # what is told in hours is a life, a number of statistics
 FEWEST, FEWEST_OF_LENGTH = 3, 2  # digits of what is smaller than these steps allow for: 26 µm
 SHORT = 2  # digits of a number that stands as it is, however small: 0.05 mm
 NOTHING = 1e-7  # of a unit: what is less is the rounding of the computer

@@ -7,7 +7,7 @@ import re
 from collections.abc import Sequence
 from decimal import Decimal
 
-from diecut_report.quantities.display import finest_step, is_nothing, meant_digits
+from diecut_report.quantities.display import UNIT_DIGITS, finest_step, is_nothing, meant_digits
 from diecut_report.quantities.units import pretty, unit
 
 DIGITS = 4
@@ -20,11 +20,14 @@ NAMED = re.compile(r"\{([\w.]+)(?::(up|down))?\}")  # what a message names: ``{i
 def number_text(value: float, digits: int = DIGITS) -> str:
     """Return a number with so many significant digits; whole numbers below a million stand as they are.
 
+    Fewer digits than usual are so many before the decimal sign, too: a life of 173 102.3 h is one of 173 000 h.
     Zeros at its end stand only where they say something: 0.8550 is rounded, 0.5 is not.
     """
     if abs(value - round(value)) <= EXACT * abs(value) and abs(value) < 1e6:
         return f"{round(value)}"
     exponent = math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}"))))
+    if digits < DIGITS and digits <= exponent < 6:
+        return f"{round(value, digits - 1 - exponent):.0f}"
     if -4 <= exponent < 6:
         return _without_zeros(f"{value:.{max(digits - 1 - exponent, 0)}f}", value)
     mantissa, power = f"{value:.{digits - 1}e}".split("e")
@@ -97,7 +100,7 @@ def given_shown(value: float, unit_text: str) -> dict[str, str]:
 
 def shown_digits(value: float, unit_text: str, digits: int = DIGITS) -> int:
     """Return with how many significant digits an SI value is shown, of which so many are asked for."""
-    return meant_digits(value, unit_text, digits) if digits == DIGITS else digits
+    return meant_digits(value, unit_text, UNIT_DIGITS.get(unit_text, digits)) if digits == DIGITS else digits
 
 
 def author_digits(value: float, unit_text: str, digits: int) -> int:

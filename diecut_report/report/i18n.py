@@ -36,7 +36,7 @@ ENGLISH: dict[str, str] = {
     "count_error": "{n} not calculated", "governing": "Governing", "no_checks": "There are no checks.",
     "reserve": "margin {margin}", "beyond": "{margin} beyond the limit", "self_test": "self-test", "missing": "Not given",
     "self_tests": "{n} self-tests of the calculation hold.",
-    "sized": "Sized to its limit by the program, so without a reserve of its own", "sized_short": "sized to its limit",
+    "sized": "Sized to its limit by the program, so that the only reserve is in the factors of the inputs", "sized_short": "sized to its limit",
     "class_function": "function", "class_strength": "strength", "class_practice": "practice", "class_numerical": "self-test",
     # chapters
     "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",

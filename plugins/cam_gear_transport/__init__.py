@@ -29,8 +29,8 @@ MECHANISM = Mechanism(
     assumptions=(
         "The disc turns at constant speed; sector, rocker, rollers, cams and shafts are rigid and without clearance.",
         "The chain's motion over the sprocket is taken as even (no polygon effect).",
-        "Torque and forces are those of the conveyor's mass, and of the sector's inertia where it is given, without friction, losses and "
-        "preload of the rollers.",
+        "Torque and forces are those of the conveyor's mass, and of the sector's inertia where it is given (without it they are too small), "
+        "without friction, losses and preload of the rollers.",
         "Where the acceleration jumps (harmonic and parabolic law), what the jump excites in sector, chain and sheet is not included.",
     ),
     sources=(

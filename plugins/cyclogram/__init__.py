@@ -25,7 +25,7 @@ MECHANISM = Mechanism(
     inputs=Cyclogram,
     example=EXAMPLE,
     chapters=(steps.shaft, steps.interlocks, steps.station, steps.motions, steps.energies, steps.torques),
-    key_results=("sheet_time", "line_offset", "best_margin", "productivity_limit", "clearance_least", "torque_mean", "torque_rms",
+    key_results=("sheet_time", "offset_found", "best_margin", "productivity_limit", "clearance_least", "torque_mean", "torque_rms",
                  "torque_peak", "power_peak", "energy_fluctuation", "energy_exchange"),
     checks=(
         Check(id="interlock", named_by="interlocks.name", check_class="function", title="Interlock",
@@ -47,7 +47,10 @@ MECHANISM = Mechanism(
         "The main shaft turns at constant speed: angles hold, times vary by its fluctuation. The lines are rigid and without backlash between them.",
         "Only the interlocks that are given are judged.",
         *NOT_COVERED,
-        "Torques of lines that have none are not in the sum, nor is friction that is not given.",
+        "Torques of lines that have none are not in the sum, nor is friction that is not given. A mechanism that is no line counts neither "
+        "with its phases nor with its torque.",
+        "The sum of the torques is that at the offsets that are taken. Where an interlock fails there, it is that of a timing with which the "
+        "press cannot run, and so is all that is sized by it.",
     ),
     sources=(Source("timing", "Intervals of the phases on the main shaft over the common period; tents of the slack over the offset."),),
 )  # fmt: skip

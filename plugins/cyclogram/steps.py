@@ -26,6 +26,12 @@ PHASES = "phases of the lines, laid over the common period of the main shaft"
 LARGEST_RATE_ERROR = 1e-6  # relative
 TIMING, SUM = ("timing",), ("sum",)
 
+
+
+def _found(timing: Timing) -> float:
+    return 0.0 if timing.moved is None else float(timing.lines[timing.moved].line.offset)
+
+
 shaft = Chapter("Main shaft", text="One turn of the main shaft is a sheet. All lines are where they were after the common period.")
 shaft.prepared("stretches", stretches, ("lines.mechanism", "lines.passing"), for_many=True)
 shaft.prepared("timing", timing_of, ("productivity", "stretches", *(f"lines.{key}" for key in LINES), *(f"interlocks.{key}" for key in INTERLOCKS)))
@@ -39,7 +45,11 @@ shaft.computed("line_turns", "i_k", "1", "Turns of each line for each sheet",
                lambda timing: np.array([[float(each.line.turns) for each in timing.lines]]), TIMING, "as given", over="lines", output=False)
 shaft.computed("line_offset", "Φ_k", "deg", "Main-shaft angle at which each line's zero comes",
                lambda timing: np.array([[each.line.offset for each in timing.lines]]), TIMING,
-               "as given; an automatic one is where the least slack of all interlocks is greatest", over="lines", digits=7)
+               "as given; an automatic one is where the least slack of all interlocks is greatest", over="lines", digits=6)
+shaft.computed("is_moved", "k_a", "1", "Whether the offset of a line is to be found", lambda timing: timing.moved is not None, TIMING, "as given",
+               output=False)
+shaft.computed("offset_found", "Φ_f", "deg", "Offset that is found: main-shaft angle at which the zero of that line comes", _found, TIMING,
+               "where the least slack of all interlocks is greatest", digits=6, exists=lambda is_moved: is_moved > 0)
 shaft.listing("main_phases", "Phases on the main shaft", listings.PHASES, listings.phases, TIMING)
 shaft.words("line_name", lambda timing: tuple(each.name for each in timing.lines), TIMING, each_part=True)
 
@@ -80,15 +90,16 @@ def _limit(timing: Timing) -> float:
 
 interlocks.computed("is_limited", "k_n", "1", "Whether margins of time limit the productivity", lambda timing: timing.limit.value is not None,
                     TIMING, "a margin is a time, and holds at some speed", output=False)
-interlocks.computed("productivity_limit", "n_max", "1/h", "Largest productivity that the margins of time allow", _limit, TIMING,
+interlocks.computed("productivity_limit", "n_max", "1/h",
+                    "Largest productivity that the margins of time allow; nothing else is judged by it", _limit, TIMING,
                     "angles stay, times take more angle the faster the shaft turns; torques and accelerations are not judged", digits=5,
                     exists=lambda is_limited: is_limited > 0)
 interlocks.computed("is_feasible", "k_Φ", "1", "Whether an offset that is to be found leaves all margins",
                     lambda timing: bool(timing.best and timing.best.feasible), TIMING, PHASES, output=False)
 interlocks.computed("offset_feasible_start", "Φ_a", "deg", "Least of the offsets about the one found that leave all margins",
-                    lambda timing: timing.feasible[0], TIMING, PHASES, digits=7, exists=lambda is_feasible: is_feasible > 0)
+                    lambda timing: timing.feasible[0], TIMING, PHASES, digits=6, exists=lambda is_feasible: is_feasible > 0)
 interlocks.computed("offset_feasible_end", "Φ_b", "deg", "Greatest of the offsets about the one found that leave all margins",
-                    lambda timing: timing.feasible[1], TIMING, PHASES, digits=7,
+                    lambda timing: timing.feasible[1], TIMING, PHASES, digits=6,
                     exists=lambda is_feasible: is_feasible > 0)
 interlocks.computed("rate_error", "Δn", "1", "Own rate of each line off the press's, relative", lambda timing: np.array([timing.rate_errors]), TIMING,
                     "own turns a second over turns for each sheet, held against the productivity", over="lines", output=False)
@@ -131,10 +142,10 @@ def _needed(cylinder: GivenMechanism) -> Any:
 
 station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("least",), "least height over the period",
                  output=False)
-station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("least",), CLEARANCE, digits=5,
+station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("least",), CLEARANCE,
                  exists=lambda is_below: is_below > 0)
 station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda least: least.angle[:, None], ("least",), CLEARANCE,
-                 digits=6, exists=lambda is_below: is_below > 0)
+                 exists=lambda is_below: is_below > 0)
 station.computed("carriage_clearance", "c_r", "mm", "Clearance that the carriages need",
                  _needed, ("station.cylinder",), "as given to the cylinder's drive")
 

@@ -58,7 +58,7 @@ def _offset(timing: Timing, index: int) -> Iterator[str]:
     yield Phrase(
         "The best offset of {line} is {shift}, which {slack}{text}.",
         line=line,
-        shift=told(trial.best.shift, "deg", 7),
+        shift=told(trial.best.shift, "deg", 6),
         slack=slack,
         text="" if trial.best.feasible else phrase(": no offset holds all"),
     )

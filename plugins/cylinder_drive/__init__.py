@@ -72,7 +72,7 @@ MECHANISM = Mechanism(
         "The technological moment is constant over the cutting part of the stroke, counted in rolled length, and resists the motion "
         "on both strokes.",
         "One efficiency for each transmission, the same in both directions of power.",
-        "Mass and inertia of the links, the sector and the pinion are not included.",
+        "Mass and inertia of the links, the sector and the pinion are not included: their share of torque and forces comes on top.",
     ),
     sources=(
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "

@@ -108,7 +108,8 @@ clearance.phase("carriage_window", "window", "Room for the carriages", "crank_an
 teeth = Chapter("Tooth force of the sector",
                 text="The pinion's shaft stands in the frame and turns as the cylinder does, and a chain moves the carriages of the cylinder: "
                      "the power at the teeth is that at the cylinder, so the moment on the pinion is M_Σ. Losses between the teeth and the "
-                     "cylinder are not counted.", needs=("pinion_radius",),
+                     "cylinder are not counted: where the crank drives, the teeth bear as much more as "
+                     "chain and bearings lose.", needs=("pinion_radius",),
                 absent="not calculated: pinion_radius is not given")
 teeth.value("sector_radius", "r_s", "mm", "Pitch radius of the sector", bind(loads.length_of, ratio="sector_ratio", crank_length="pinion_radius"))
 teeth.value("tooth_force", "F_t", "kN", "Tangential force between the teeth", lambda total_moment, pinion_radius: total_moment / pinion_radius)

@@ -169,7 +169,7 @@ bending.value("bearing_load", "F_b", "kN", "Load on each bearing from the line l
 bending.value("bending_moment", "M_b", "N*m", "Greatest bending moment",
               lambda line_load, generatrix_length, bearing_span:
                   line_load * generatrix_length * (2 * bearing_span - generatrix_length) / 8)
-bending.value("deflection", "f", "mm", "Bending deflection in the middle", beam.deflection)
+bending.value("deflection", "f", "mm", "Bending deflection in the middle, of a closed section", beam.deflection)
 
 bending.words("stiffer_advice", advice.against_deflection,
               ("generatrix_length", "bearing_span", "line_load", "elastic_modulus", "second_moment_min", "deflection", "allowable_deflection"),

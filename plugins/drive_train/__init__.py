@@ -34,9 +34,9 @@ MECHANISM = Mechanism(
     assumptions=(
         "Belts do not slip and shafts do not twist; the output's torque over a turn repeats itself.",
         "One efficiency for each transmission, the same in both directions of power; bearings and fan of the motor are not counted.",
-        "The flywheel is sized as if the motor gave the mean torque throughout. A motor whose slip is small beside the swing of the "
-        "speed (swing_to_slip well above 0) takes a part of the load's swing itself: its torque over the turn, the heat in it and the "
-        "speed that results are judged where the parts of the press are held against each other.",
+        "The flywheel is sized as if the motor gave the mean torque throughout. That holds only where the swing of "
+        "the speed is small beside the motor's slip (swing_to_slip much less than 1); else the motor takes a part of the load's swing itself: its "
+        "torque over the turn, the heat in it and the speed that results are judged where the parts of the press are held against each other.",
         "While it runs up, the motor's torque is its mean and the load's constant.",
         *TOOTHED_BELT_ASSUMPTIONS,
     ),

@@ -52,7 +52,7 @@ CHECKS = (
           consequence="the link cannot follow the input; take a stiffness of at least {wanted_stiffness:up}, a lighter link or a longer motion."),
     *(Check(id="torque_peak", check_class="strength", title="Load of the drive", demand="torque_peak", limit="allowable_torque", unit=unit,
             needs=(body,), demand_label=label, limit_label="allowed", source="input",
-            consequence="shaft, chain or rod is overloaded; a longer motion, a gentler motion_law or a lighter link lowers it.")
+            consequence="shaft, chain or rod is overloaded; a longer or gentler motion or a lighter link lowers it.")
       for body, unit, label in (("inertia", "N*m", "greatest torque"), ("mass", "N", "greatest force"))),
     *_of_peak("residual", "Vibration after the motion", "residual_ratio", "peak after the motion, to the rigid one",
               "the link goes on swinging in its rest"),

@@ -127,17 +127,18 @@ def _least(name: str, *, is_last: bool = False) -> Case:
     return case(name, f"{LAWS[name].title} has the least", held)
 
 
-def recommended(needs: tuple[str, ...], exists: Binding | None) -> Steps:
-    """The law to take; it has a meaning for a motion in one direction only."""
+def recommended(description: str, needs: tuple[str, ...], exists: Binding | None) -> Steps:
+    """The law to take; it has a meaning for a motion in one direction only, and of a curve only where that is a single rise."""
     steps = Steps()
-    steps.choice("recommended_law", "L", "1", "Law of motion with the least peak acceleration of the driven link",
+    steps.choice("recommended_law", "L", "1", description,
                  *(_least(name) for name in list(LAWS)[:-1]), _least(list(LAWS)[-1], is_last=True), source="this method", needs=needs, exists=exists)
     return steps
 
 
 compared = Chapter("Laws of motion compared",
                    text="For a single rise of the same height and duration on the same drive: the greatest acceleration of the driven link with "
-                        "each law, during the rise or after it.")
+                        "each law, during the rise or after it. A motion that is put together of several rises, given as a curve, has "
+                        "other peaks and may rank the laws otherwise: there each law is to be tried in the mechanism that makes the curve.")
 for number, (name, law) in enumerate(LAWS.items(), 1):
     compared.computed(OF_LAWS[name], f"a_{number}L", "rad/s**2",
                       f"Peak acceleration of the driven link: {law.title[0].lower()}{law.title[1:]}", greatest(law),
@@ -148,5 +149,6 @@ compared.computed("least_acceleration", "a_L", "rad/s**2", "Least of these", fun
                   units=STRAIGHT_ACCELERATION, source="this method", output=False)
 compared.computed("one_way", "g", "1", "What the motion gains in a cycle, to its range", function=rests.gained, takes=CURVE,
                   method="positions at both ends of the cycle", source="this method", output=False, needs=CURVE)
-compared.add(recommended(LAW, None))
-compared.add(recommended(CURVE, bind(common.is_at_least, greater="one_way", smaller=0.999)))
+compared.add(recommended("Law of motion with the least peak acceleration of the driven link", LAW, None))
+compared.add(recommended("Law that is gentlest on the link in a single rise; this motion, of several parts, may ask for another", CURVE,
+                         bind(common.is_at_least, greater="one_way", smaller=0.999)))

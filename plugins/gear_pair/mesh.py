@@ -74,7 +74,7 @@ for g, teeth in TEETH.items():
     mesh.value(f"shift_min_{g}", f"x_min{g}", "1", f"Profile shift below which the tooth {g} is undercut",
                bind(involute.least_shift, teeth=teeth, tip_radius="root_radius", **ALPHA), source=ISO_21771, digits=4)
 mesh.value("contact_ratio", "ε_α", "1", "Transverse contact ratio",
-           bind(involute.contact_ratio, working_angle="working_pressure_angle"), source=ISO_21771, digits=6)
+           bind(involute.contact_ratio, working_angle="working_pressure_angle"), source=ISO_21771)
 mesh.require("always_in_mesh", lambda contact_ratio: contact_ratio >= 1, key="addendum",
              message="is {addendum}, with which a pair of teeth parts before the next one meets: the contact ratio is {contact_ratio}, and 1 is the "
                      "least that drives; take more teeth, a greater addendum, less shift, or tips that are not shortened")

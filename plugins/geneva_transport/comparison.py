@@ -233,6 +233,7 @@ COMPARISON = Mechanism(
     assumptions=(
         "Both drives move the same conveyor without losses; torque is that of the conveyor's mass alone, at the shaft that makes a turn a cycle.",
         "For the Geneva drive's dwell the cam-gear keeps its law of motion and its sweep in the dwell; its cams are to be checked again.",
+        "A press has one of the two: the cyclogram, and motor and flywheel after it, count the one that is a line there.",
     ),
 )
 

@@ -28,7 +28,8 @@ MECHANISM = Mechanism(
     figures=FIGURES,
     assumptions=(
         "The knife's shaft turns at constant speed; links and joints are rigid and without clearance.",
-        "The signature takes the knife's speed at once as the edge meets it, and follows the edge down to the grip of the rollers.",
+        "The signature takes the knife's speed at once as the edge meets it, and follows the edge down to the grip of the rollers. "
+        "That blow has no acceleration that could be calculated: of it only the speed at contact is told and compared, nothing is checked.",
         "The rollers bring the signature to their speed with constant acceleration while the shaft turns by the grip angle, which ends at the "
         "knife's lowest point.",
         "The planetary drive is the straight-line one: its knife arm is as long as the carrier and turns back at the carrier's speed.",

@@ -23,7 +23,7 @@ MECHANISM = Mechanism(
               torque.return_chapter,
               torque.work, *torque.PRESSURES),
     key_results=("cutting_start_angle", "dwell_end_angle", "velocity_at_contact", "friction_arm", "torque_dead_center", "torque_max",
-                 "torque_max_angle", "torque_max_source", "return_arm_min", "inertia_force_max", "work_per_cycle", "friction_work",
+                 "torque_max_angle", "torque_max_source", "return_arm_min", "friction_limit", "inertia_force_max", "work_per_cycle", "friction_work",
                  "friction_share", "power_mean"),
     checks=CHECKS,
     figures=FIGURES,
@@ -33,6 +33,8 @@ MECHANISM = Mechanism(
         "While it moves, the platen's inertia is that of its ideal motion; the rods' own mass, and their stretch under inertia, are not included.",
         "Friction in the joints follows the force of cutting, stretch and inertia. The push of the inclined rods on the guides is not included "
         "(at contact it is tan β_c of the force); what the guides' friction stretches the rods is not either.",
+        "The coefficient of friction is one number. The torque grows with it, and that the relaxing rods do not drive the crank rests on its not "
+        "being smaller, as in well lubricated joints it may be.",
     ),
     sources=(
         Source("001", "Banakh Yu. O. Estimation of torques during die-cutting, with the compliance of the press, on a machine of the platen type. "

@@ -31,7 +31,9 @@ MECHANISM = Mechanism(
         "Not checked: when grippers open and close; feeder, delivery and stripping; elasticity and backlash between the lines; whether the flat "
         "sweeps over parts that are no carriages; the uneven speed of the main shaft, by which times vary while angles hold.",
         "What two mechanisms share is judged where both tell it; what only one tells is not checked.",
-        "The clutch slips with a constant torque, and its driving side keeps its speed.",
-        "The motor's torque falls in proportion to its speed between the synchronous and the rated one, and goes on so beyond.",
+        "The clutch slips with a constant torque, and its driving side keeps its speed. Not checked: whether shafts, keys and teeth bear the "
+        "torque at which it slips, which is greater than that of the cycle by the service factor.",
+        "The motor's torque falls in proportion to its speed between the synchronous and the rated one, and goes on so beyond; near its "
+        "breakdown torque, and at less than the rated voltage, a real motor falls behind this line.",
     ),
 )  # fmt: skip

@@ -12,7 +12,8 @@ LARGEST_INERTIA_ERROR = 5.0  # percent
 CHECKS = (
     Check(id="timing", check_class="function", title="Timing of the press", demand=0.0, limit="timing_slack", unit="deg", tolerance=1e-9,
           demand_label="needed", limit_label="least slack of the interlocks", source="this method",
-          consequence="the mechanisms are in each other's way; the cyclogram says which, by how much, and which offset is best."),
+          consequence="the mechanisms are in each other's way; the cyclogram says which, by how much, and which offset is best. "
+          "Torques, motor and flywheel are then those of a press that cannot run: mend this first, and judge them after it."),
     Check(id="format_rolled", check_class="function", presumed=True, title="Sheet in the feed and cylinder",
           demand="side_in_feed", limit="working_length",
           unit="mm", tolerance=ROUNDING, demand_label="side of the sheet in the feed", limit_label="length that the cylinder unrolls",

@@ -49,7 +49,8 @@ engagement.computed("driven_angle", "Δφ", "deg", "Angle that the crank turns m
                     "root of equal speeds", source="this method")
 engagement.value("lag_angle", "Δφ_l", "deg", "Angle that the driving side turns more",
                  lambda clutch_speed, slip_time, driven_angle: clutch_speed * slip_time - driven_angle, source="kinematics")
-engagement.value("slip_heat", "Q", "J", "Heat of the engagement", lambda clutch_torque, lag_angle: clutch_torque * lag_angle, source="energy")
+engagement.value("slip_heat", "Q", "J", "Heat of the engagement, with the inertia as it varies",
+                 lambda clutch_torque, lag_angle: clutch_torque * lag_angle, source="energy")
 engagement.value("equal_inertia", "I_eq", "kg*m**2", "Inertia that would make the same heat if it did not change",
                  lambda slip_heat, net_torque, clutch_torque, clutch_speed: 2 * slip_heat * net_torque / (clutch_torque * clutch_speed**2),
                  source="energy")

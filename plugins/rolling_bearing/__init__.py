@@ -26,7 +26,8 @@ MECHANISM = Mechanism(
         "The load acts in one direction on one ring, or turns with it; shaft and housings are stiff, without misalignment and preload, the "
         "clearance is normal.",
         "The cycle is run through evenly in time: the shaft that drives it turns evenly. Damage adds up linearly.",
-        "a_ISO is as given: lubrication and contamination are not calculated. Grease life, heating and the cage at high acceleration are not "
+        "a_ISO is as given: lubrication and contamination are not calculated; at low speed the film is thin, and a_ISO is below 1 unless the "
+        "oil is thick. Grease life, heating and the cage at high acceleration are not "
         "covered; a speed is held against the limiting speed of the maker alone.",
         "A swing counts by its way alone (Harris' first method, without the factors of Houpert or Rumbarger).",
         "The life of all bearings takes the Weibull slope 10/9 for rollers, too.",

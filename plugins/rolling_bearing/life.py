@@ -48,7 +48,8 @@ value(motion, "critical_swing", "W_crit", "deg", "Least swing at which neighbour
 
 motion.part_table("motion_table", "Motion of all bearings", "bearings", ("turns_per_cycle", "mean_speed", "speed_max", "swing", "critical_swing"))
 
-life = Chapter("Life", text="A bearing that stands has no life by rolling, only a static safety.")
+life = Chapter("Life", text="A bearing that stands has no life by rolling, only a static safety. A life far above the required one says that rolling "
+                            "does not wear the bearing out; lubrication, dirt and corrosion then end its use.")
 value(life, "life_revolutions", "L_10", "1", "Basic rating life in revolutions",
       bind(f.revolutions, rating="dynamic_rating", load="equivalent_load", exponent="exponent"),
       exists=lambda turned, equivalent_load: (turned > 0) & (equivalent_load > 0), source=LIFE)

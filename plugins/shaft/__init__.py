@@ -23,7 +23,7 @@ MECHANISM = Mechanism(
         strength.bending, strength.fatigue, strength.yielding, strength.critical, advice.enough,
     ),
     key_results=("reaction_a_max", "reaction_b_max", "bending_moment_max", "fatigue_safety", "fatigue_place", "yield_safety", "deflection_max",
-                 "bearing_slope_max", "critical_speed", "shaft_mass"),
+                 "bearing_slope_max", "speed_verdict", "shaft_mass"),
     checks=CHECKS,
     figures=FIGURES,
     assumptions=(
@@ -31,6 +31,8 @@ MECHANISM = Mechanism(
         "deflection and gyroscopic effect. Its own weight does not bend it unless it is given as loads.",
         "Infinite life only. Ranges of bending and torsion are combined as if in phase, the axial stress takes the notch factor of bending, and a "
         "compressive mean stress counts like a tensile one: all on the safe side. The shear stress of the transverse force is neglected.",
+        "Seats of bearings and hubs weaken the shaft like notches; they count where they are given as notches (press_fit, keyseats), else as "
+        "smooth.",
         "Published fits of stress concentrations differ by up to a tenth; no more of their digits mean anything.",
         "Not covered: more than two bearings, finite life, DIN 743, fretting beyond the factor of a press fit, torsional vibration.",
     ),

@@ -116,9 +116,15 @@ def goodman(
 
 
 @formula
+def nominal_stress(axial_force: Any, moment: Any, torque: Any, area: Any, modulus: Any) -> Any:
+    """Greatest von Mises stress of a section without notches (Shigley 7-15)."""
+    return equivalent_stress(axial_force / area + moment / modulus, torque / (2 * modulus))
+
+
+@formula
 def yield_stress(axial_force: Any, moment: Any, torque: Any, area: Any, modulus: Any, k_f: Any, k_fs: Any) -> Any:
-    """Greatest von Mises stress of a section (Shigley 7-15; with K = 1 the nominal one)."""
-    return equivalent_stress(axial_force / area + k_f * moment / modulus, k_fs * torque / (2 * modulus))
+    """Greatest von Mises stress of a section with the fatigue factors of its notch (Shigley 7-15)."""
+    return nominal_stress(axial_force, k_f * moment, k_fs * torque, area, modulus)
 
 
 @formula

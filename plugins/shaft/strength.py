@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind
+from diecut_report.api import Chapter, bind, case
 from diecut_report.mechanics import beams
 from diecut_report.plugins.shaft import curves, formulas
 from diecut_report.plugins.shaft.body import Body
@@ -99,7 +99,8 @@ _number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft le
 
 fatigue = Chapter("Fatigue", text="Stress of a material point that turns with the shaft by θ, at ψ from y: σ = N/A − (M_xy cos(ψ + θ) + "
                                   "M_xz sin(ψ + θ))/W_b. Ranges of bending and torsion are combined as if in phase; ψ and the side of a place "
-                                  "(before or behind its load) are those of the least safety, found by a scan of 120 directions and bounded search.")
+                                  "(before or behind its load) are those of the least safety, found by a scan of 120 directions and bounded search. "
+                                  "Safeties are counted up to 10⁶, which stands for a place without stress.")
 STATES = ("under_load", *FACTORS.values())
 fatigue.prepared("states", lambda given: _states(*map(given.get, STATES)), STATES, for_many=True)
 
@@ -148,8 +149,8 @@ yielding.value("nominal_modulus", "W_by", "mm**3", "Section modulus there",
                bind(lambda diameter, bore: 2 * beams.second_moment(diameter, bore) / diameter, diameter="nominal_diameter", bore="nominal_bore"),
                source="geometry", output=False)
 yielding.value("von_mises_max", "σ_vM", "MPa", "Greatest nominal stress",
-               bind(formulas.yield_stress, axial_force="nominal_axial", moment="nominal_moment", torque="nominal_torque", area="nominal_area",
-                    modulus="nominal_modulus", k_f=1.0, k_fs=1.0), source="Shigley 7-15")
+               bind(formulas.nominal_stress, axial_force="nominal_axial", moment="nominal_moment", torque="nominal_torque", area="nominal_area",
+                    modulus="nominal_modulus"), source="Shigley 7-15")
 yielding.value("yield_safety", "n_y", "1", "Safety against yield, nominal", bind(formulas.safety, strength="yield_strength", stress="von_mises_max"),
                source="Shigley 7-16")
 for name, symbol, unit, description in (("yield_axial", "N_v", "N", "Axial force at the instant of the greatest stress with the notch"),
@@ -167,7 +168,8 @@ yielding.part_table("place_table", "All places", "places",
                      "place_safety", "place_yield_safety"))
 
 critical = Chapter("Critical speed", text="The shaft bends without mass; the masses of the loads, and its own in eight lumps of each piece, move "
-                                          "across it.")
+                                          "across it. Of a shaft that is hardly longer than thick the number says only that the critical speed is "
+                                          "far above any that it may run at: shear, which is left out, lowers it.")
 _number(critical, "critical_speed", "n_crit", "rpm", "Lowest critical speed", "critical",
         "greatest eigenvalue of √m_i δ_ij √m_j with the exact deflections δ_ij for unit forces", source="Shigley 7-6")
 _number(critical, "critical_speed_rayleigh", "n_R", "rpm", "Critical speed by Rayleigh, from above", "rayleigh",
@@ -179,4 +181,11 @@ critical.computed("turns", "k_n", "1", "Whether the shaft turns; else it stands 
                   "by rotation", output=False)
 critical.value("turning_limit", "n_k", "rpm", "Critical speed that a turning shaft is held against", lambda critical_speed: critical_speed,
                exists=lambda turns: turns > 0, source="Shigley 7-6", output=False)
+critical.choice("speed_verdict", "n_k/n", "1", "Critical speed beside the speed",
+                case("more than ten times as high, so that it does not limit", "the critical speed is at least ten times the speed",
+                     lambda critical_speed, speed: critical_speed >= 10 * speed),
+                case("twice to ten times as high", "the critical speed is at least twice the speed",
+                     lambda critical_speed, speed: critical_speed >= 2 * speed),
+                case("less than twice as high", "the critical speed is near the speed"),
+                exists=lambda turns: turns > 0, source="Shigley 7-6", needs=("speed",))
 critical.value("twice_speed", "2n", "rpm", "Twice the speed", lambda speed: 2 * speed, source="Shigley 7-6", needs=("speed",), output=False)

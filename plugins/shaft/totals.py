@@ -82,7 +82,7 @@ def _nominal(statics: Statics, sides: Sides) -> dict[str, Array]:
     )
     area, modulus = beams.circle_area(diameter, bore), 2 * beams.second_moment(diameter, bore) / diameter
     forces = sides.axial_size, sides.bending, sides.torque_size
-    stress = formulas.yield_stress(*forces, area[..., None], modulus[..., None], 1.0, 1.0)
+    stress = formulas.nominal_stress(*forces, area[..., None], modulus[..., None])
     found = {"nominal_axial": forces[0], "nominal_moment": forces[1], "nominal_torque": forces[2]}
     found |= {
         "nominal_diameter": diameter[..., None],

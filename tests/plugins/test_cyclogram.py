@@ -280,7 +280,7 @@ def test_a_failed_interlock_says_by_how_much_and_what_would_do() -> None:
     for words in (
         "“Cutting” of drive does not lie within “Dwell of gear and sheet” of feeder: the margins are",
         "3° (5 ms) are required",
-        "The best offset of feeder is 141.0056",
+        "The best offset of feeder is 141.006°",
         "no offset holds all",
         "“Dwell of gear and sheet” of feeder must be 213.7°",
         "press.productivity does not help: angles decide",

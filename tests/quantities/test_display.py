@@ -9,7 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.quantities.display import FAMILIES, easy_unit
-from diecut_report.quantities.formatting import listed_text, place_shown, shortest, shown, si, with_unit
+from diecut_report.quantities.formatting import listed_text, number_text, place_shown, shortest, shown, si, with_unit
 from diecut_report.quantities.units import parse_quantity, unit
 
 
@@ -84,6 +84,17 @@ def test_a_shown_number_is_its_value_rounded_at_its_last_digit(number: float, de
 @pytest.mark.parametrize("text", ["0.05", "123.456789", "1450", "0.1234567", "2000.250", "12.5"])
 def test_a_typed_number_is_never_rounded(text: str) -> None:
     assert float(shortest(unit("mm").from_si(parse_quantity(f"{text} mm", "mm")))) == float(text)
+
+
+@pytest.mark.parametrize(
+    ("hours", "text"), [(173102.3, "173000"), (9876.5, "9880"), (20000, "20000"), (3.781e6, "3.78e6")]
+)
+def test_a_life_is_told_with_three_digits(hours: float, text: str) -> None:
+    assert shown(hours * 3600, "h")["text"] == text
+
+
+def test_fewer_digits_than_usual_are_so_many_before_the_decimal_sign_too() -> None:
+    assert (number_text(12345.6, 3), number_text(12345.6), number_text(12345, 3)) == ("12300", "12346", "12345")
 
 
 def test_revolutions_a_minute_are_printed_as_the_standard_writes_them() -> None:
