@@ -35,8 +35,9 @@ def lines(found: Mended) -> Iterator[str]:
 
 
 def share_told(share: float) -> str:
-    """Return a change as a share of today's value, in percent with a sign."""
-    return f"{'+' * (share > 0)}{number_text(100 * share, 2)} %"
+    """Return a change as a share of today's value, in percent with a sign: two digits, or a whole number of more."""
+    percent = 100 * share
+    return f"{'+' * (share > 0)}{number_text(round(percent) if abs(percent) >= 100 else percent, 2)} %"
 
 
 def _change(change: InputChange, width: int) -> Phrase:
