@@ -16,7 +16,7 @@ from diecut_report.report.i18n import Catalogue
 from diecut_report.report.influence import PrintedInfluence, printed_influence
 from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
-from diecut_report.report.title_block import TitleBlock, machine_named, title_block
+from diecut_report.report.title_block import TitleBlock, title_block
 from diecut_report.report.told_before import ToldBefore
 
 Data = Mapping[str, Any]
@@ -85,11 +85,6 @@ class ReportDocument:
     def faces(self) -> Data:
         """The verdicts of the chapters as they are shown, by the anchors of the chapters."""
         return {part.anchor: part.face for part in self.chapters}
-
-    @property
-    def machine(self) -> str:
-        """What is calculated, as the first sheet names it."""
-        return machine_named(self.press["name"], self.words)
 
     @property
     def halves(self) -> frozenset[str]:

@@ -21,6 +21,7 @@ from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_blocks
 from diecut_report.report.symbols import cited, pieces, prose, symbol
+from diecut_report.report.title_block import machine_named
 from diecut_report.report.value_lines import in_lines
 
 if TYPE_CHECKING:
@@ -44,6 +45,7 @@ FILTERS: dict[str, Callable[..., Any]] = {
     "cited": cited,
     "symbol": symbol,
     "tidy": tidy,
+    "machine": machine_named,
     "in_blocks": in_blocks,
     "in_lines": in_lines,
     "pieces": pieces,

@@ -24,7 +24,7 @@ from diecut_report.report.office.wordml import (
 )
 from diecut_report.report.scope import BRIEF, FULL
 from diecut_report.report.symbols import prose
-from diecut_report.report.title_block import REVISION
+from diecut_report.report.title_block import REVISION, machine_named
 
 STATUSES = ("fail", "warn", "pass", "not_checked")
 
@@ -40,7 +40,7 @@ def title_block(body: WordBody, document: ReportDocument) -> None:
     )
     body.say(run(document.title), "Title")
     body.say(bold(words["across"]) if block.is_held else "")
-    body.say(run(document.machine))
+    body.say(run(machine_named(document.press["name"], words)))
     facts = [*((words[name], project[of]) for name, of in FACTS), (words["status"], block.status)]
     cells = [small(name) + new_line() + bold(text or "–") for name, text in facts]
     body.table([TableColumn("", 1)] * len(facts), [cells], headed=False)
