@@ -132,7 +132,7 @@ def motion(body: str, position: str, acceleration: str) -> Plot:
             Panel(title="Position", unit=position, series=(Series(curve="input", label="input"), Series(curve="response", label="driven link"))),
             Panel(title="Deflection of the drive", unit=position, series=(Series(curve="deflection", label="z"),)),
             Panel(title="Acceleration", unit=acceleration,
-                  series=(Series(curve="rigid_acceleration", label="rigid"), Series(curve="acceleration", label="driven link")),
+                  series=(Series(curve="rigid_acceleration", label="rigid drive"), Series(curve="acceleration", label="driven link")),
                   marks=(Mark(x="acceleration_peak_at", y="acceleration_peak", label="greatest"),)),
         ),
     )  # fmt: skip
