@@ -25,6 +25,7 @@ from diecut_report.report.title_block import machine_named
 from diecut_report.report.value_lines import in_lines
 
 if TYPE_CHECKING:
+    from diecut_report.report.figures.style import Svg
     from diecut_report.report.sheet_frames import SheetBlocks
 
 FACES = {  # family, weight, style: file
@@ -53,6 +54,10 @@ FILTERS: dict[str, Callable[..., Any]] = {
     "behind": partial(joined, ""),
     "sentence": sentence,
 }
+LARGER, SMALL = (
+    1.35,
+    300.0,
+)  # of figures on a screen against paper; points, of which a narrower one is shown whole on a narrow screen
 END = "</body>\n</html>"
 MATH = {("Report Math", 400, "normal"): "report-math"}
 
@@ -104,7 +109,14 @@ class Screen:
     def figure(self, number: str, title: str) -> Markup:
         """A figure inline, named by its title."""
         # matplotlib escapes the texts within the drawing
-        return Markup(self.material.figures[number].text)
+        return Markup(_on_screen(self.material.figures[number]))
+
+
+def _on_screen(figure: Svg) -> str:
+    """A figure at a size at which its texts are those of the page; a narrow one is not stretched over the page."""
+    own = f'width="{figure.width:.2f}pt" height="{figure.height:.2f}pt"'
+    grown = f'width="{LARGER * figure.width:.2f}pt" height="{LARGER * figure.height:.2f}pt"'
+    return figure.text.replace(own, f'class="small" {grown}' if figure.width < SMALL else grown, 1)
 
 
 def page(material: Material) -> str:

@@ -157,3 +157,11 @@ def test_a_description_stands_in_an_element_of_its_own_before_another_one() -> N
         page for page in html.folder().glob("*.j2") if page.name != "notebook.html.j2"
     ]  # which is never set in sheets
     assert [(page.name, found[0]) for page in pages for found in bare.finditer(page.read_text("utf-8"))] == []
+
+
+def test_figures_on_a_screen_have_texts_of_one_size(html: str) -> None:
+    """Each is as much larger than on paper as any other: the letters of a narrow one are not those of a heading."""
+    sizes = re.findall(r'<svg[^>]*viewBox="0 0 ([\d.]+) [\d.]+"( class="small")? width="([\d.]+)pt"', html)
+    assert len(sizes) > 2
+    for natural, small, shown in sizes:
+        assert float(shown) / float(natural) == pytest.approx(1.35, abs=1e-3) and bool(small) == (float(natural) < 300)
