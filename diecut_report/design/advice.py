@@ -13,7 +13,7 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
 from diecut_report.contract.inputs import Quantity
 from diecut_report.design.advised import Advised, advised
-from diecut_report.design.changeable import changeable, is_stepped, named_paths
+from diecut_report.design.changeable import changeable, is_fixed, is_stepped, named_paths
 from diecut_report.design.changed_machines import MOST, ChangedMachines, Enough, Spent
 from diecut_report.design.choice_search import ChangeableChoice, changeable_choices, with_choices
 from diecut_report.design.conflicts import CheckConflict, conflict_of, scattered
@@ -88,7 +88,8 @@ def mended(
     if not before.checks("fail"):
         return Mended(before)
     advice = advised(config, before.checks("fail"))
-    advice.leave_out(lambda path: path in kept or bool(only and path not in only))
+    fixed = {path for path, asked in advice.asked.items() if is_fixed(config, asked)}
+    advice.leave_out(lambda path: path in kept or (path not in only if only else path in fixed))
     further = [each.name for each in advice.others.values() if not is_stepped(each)]
     inputs = changeable(config, numbers, kept, further) if numbers or not only else []
     choices = changeable_choices(config, free, kept)

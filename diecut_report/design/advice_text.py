@@ -7,6 +7,7 @@ from collections.abc import Iterator
 from diecut_report.design.advice import InputChange, Mended
 from diecut_report.design.conflicts import CheckConflict
 from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.speech import localised
 from diecut_report.quantities.formatting import number_text, with_unit
 from diecut_report.quantities.units import UnitError, number_and_unit
 
@@ -29,7 +30,9 @@ def lines(found: Mended) -> Iterator[str]:
     width = max(len(each.name) for each in found.changes)
     yield from (_change(each, width) for each in found.changes)
     words = "sum of the changes: {size} % of today's values; governing: {check}"
-    yield Phrase(words, size=number_text(100 * found.size, 3), check=found.machine.governing or phrase("none"))
+    yield Phrase(
+        words, size=localised(number_text(100 * found.size, 3)), check=found.machine.governing or phrase("none")
+    )
     if warned := [name for name, _ in found.machine.checks("warn")]:
         yield Phrase("with a warning: {checks}", checks=", ".join(warned))
 
@@ -37,7 +40,8 @@ def lines(found: Mended) -> Iterator[str]:
 def share_told(share: float) -> str:
     """Return a change as a share of today's value, in percent with a sign: two digits, or a whole number of more."""
     percent = 100 * share
-    return f"{'+' * (share > 0)}{number_text(round(percent) if abs(percent) >= 100 else percent, 2)} %"
+    told = number_text(round(percent) if abs(percent) >= 100 else percent, 2)
+    return f"{'+' * (share > 0)}{localised(told)} %"
 
 
 def _change(change: InputChange, width: int) -> Phrase:

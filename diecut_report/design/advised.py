@@ -36,6 +36,12 @@ class Advised:
         self.others = {path: each for path, each in self.others.items() if not is_out(path)}
 
     @property
+    def asked(self) -> dict[str, Input]:
+        """Return all inputs that are advised, by their paths."""
+        numbers = {path: design.asked for path, design in self.others.items()}
+        return numbers | {path: asked for path, (asked, _) in self.choices.items()}
+
+    @property
     def stepped(self) -> dict[Input, str]:
         """Return the numbers that take some values alone, as they are typed."""
         return {each.asked: each.typed(value) for each, value in self.numbers.values() if is_stepped(each)}

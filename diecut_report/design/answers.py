@@ -11,6 +11,7 @@ from diecut_report.design.design_inputs import DesignInput
 from diecut_report.design.proved_machine import ProvedMachine
 from diecut_report.design.questions import DesignQuestion
 from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.speech import localised
 
 ALSO = 12  # further values that a text names
 Role = Literal["root", "lower", "upper", "extreme", "today", "nearest"]
@@ -64,14 +65,19 @@ def lines(answer: Answer) -> Iterator[str]:
     """Yield what is found, in words."""
     design, asked, today = answer.design, answer.question.quantity, answer.design.today
     passing = phrase(" with all checks passing") if answer.passing else ""
-    reached = "" if math.isnan(answer.reached) else f", {asked.name} {asked.told(answer.reached)}"
-    now = phrase("not given today") if today is None else Phrase("today {value}", value=design.told(today))
+    reached = "" if math.isnan(answer.reached) else f", {asked.name} {localised(asked.told(answer.reached))}"
+    now = phrase("not given today") if today is None else Phrase("today {value}", value=localised(design.told(today)))
     words = "{question}{passing}, by {input} ({now}{reached})"
     yield Phrase(words, question=answer.question.told, passing=passing, input=design.name, now=now, reached=reached)
     yield from (_indented(line) for line in (_found(answer) if answer.found else _nearest(answer)))
     for place in answer.jumps:
         jump = "  at {place} {asked} jumps over {value} and does not take that value"
-        yield Phrase(jump, place=design.told(place), asked=asked.name, value=asked.told(answer.question.value))
+        yield Phrase(
+            jump,
+            place=localised(design.told(place)),
+            asked=asked.name,
+            value=localised(asked.told(answer.question.value)),
+        )
 
 
 def _indented(line: str) -> Phrase:
@@ -83,7 +89,11 @@ def _found(answer: Answer) -> Iterator[str]:
     first = answer.found[0]
     what = phrase("holds today already") if first.role == "today" else f"{design.name} = {first.typed}"
     yield Phrase(
-        "{what}: {asked} is {value}{end}", what=what, asked=asked.name, value=asked.told(first.reached), end=_end(first)
+        "{what}: {asked} is {value}{end}",
+        what=what,
+        asked=asked.name,
+        value=localised(asked.told(first.reached)),
+        end=_end(first),
     )
     if machine is not None:
         yield _verdict(machine, first)
@@ -100,7 +110,9 @@ def _also(answer: Answer) -> Iterator[str]:
     design, asked, others = answer.design, answer.question.quantity, answer.found[1:]
     for each in others[:ALSO]:
         words = "also {input} = {typed}: {asked} is {value}"
-        yield Phrase(words, input=design.name, typed=each.typed, asked=asked.name, value=asked.told(each.reached))
+        yield Phrase(
+            words, input=design.name, typed=each.typed, asked=asked.name, value=localised(asked.told(each.reached))
+        )
     if len(others) > ALSO:
         one = "and {n} more value; --format json has all of them"
         many = "and {n} more values; --format json has all of them"
@@ -127,11 +139,11 @@ def _verdict(machine: ProvedMachine, found: FoundValue) -> Phrase:
 
 def _nearest(answer: Answer) -> Iterator[str]:
     design, asked, near = answer.design, answer.question.quantity, answer.nearest
-    ends = {"low": design.told(answer.low), "high": design.told(answer.high)}
+    ends = {"low": localised(design.told(answer.low)), "high": localised(design.told(answer.high))}
     yield Phrase("no value of {input} from {low} to {high} does", input=design.name, **ends)
     if near is not None:
         words = "nearest: {input} = {typed}, where {asked} is {value}{end}{fails}"
-        value, fails = asked.told(near.reached), _fails(near)
+        value, fails = localised(asked.told(near.reached)), _fails(near)
         yield Phrase(
             words, input=design.name, typed=near.typed, asked=asked.name, value=value, end=_end(near), fails=fails
         )

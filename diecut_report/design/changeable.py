@@ -12,6 +12,7 @@ from diecut_report.design.demanded import demanded
 from diecut_report.design.design_inputs import DesignInput, any_input, design_input, given_numbers
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase
+from diecut_report.study.definition.base_inputs import Input
 
 FORM = ("m", "rad")  # SI units of sizes and angles, which give a part its form
 RATIO = re.compile(r"(^|_)ratio($|_)")
@@ -73,11 +74,17 @@ def is_form(config: Config, design: DesignInput) -> bool:
         return False
     if instance.mechanism and _id(design) in demanded(instance.mechanism):
         return False
-    basis = instance.bases.get(design.asked.key)
-    if basis is not None and basis.basis in FIXED_BASES:
+    if is_fixed(config, design.asked):
         return False
     own = design.meta.parsed_unit.si
     return own in FORM or (own == "1" and RATIO.search(key) is not None)
+
+
+def is_fixed(config: Config, asked: Input) -> bool:
+    """Return whether an input rests on what no designer changes: a standard, a catalogue, a measurement."""
+    instance = config.instances[asked.instance]
+    basis = instance.bases.get(asked.key) if instance else None
+    return basis is not None and basis.basis in FIXED_BASES
 
 
 def _id(design: DesignInput) -> str:

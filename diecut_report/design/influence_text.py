@@ -10,7 +10,7 @@ from typing import Any
 from diecut_report import __version__
 from diecut_report.design.influence import IN_TOLERANCE, Chance, InputEffect, Tolerances, Tornado
 from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
-from diecut_report.languages.speech import said, say, spoken_language
+from diecut_report.languages.speech import decimal_sign, localised, said, say, spoken_language
 from diecut_report.quantities.units import pretty, unit
 
 SHOWN = 10  # inputs of a tornado
@@ -37,11 +37,14 @@ def lines(found: Sequence[Tornado], tolerances: Tolerances | None, option: str =
 
 def _tornado(found: Tornado) -> Iterator[Phrase]:
     asked = found.asked
-    yield Phrase("{asked}, today {value}", asked=asked.name, value=asked.told(found.today, 4))
+    yield Phrase("{asked}, today {value}", asked=asked.name, value=localised(asked.told(found.today, 4)))
     bars = found.bars[:SHOWN]
     width = max((len(each.design.name) for each in bars), default=0)
     for each in bars:
-        ends = {"low": each.design.told(each.lowered, 4), "high": each.design.told(each.raised, 4)}
+        ends = {
+            "low": localised(each.design.told(each.lowered, 4)),
+            "high": localised(each.design.told(each.raised, 4)),
+        }
         gives = {"first": _value(found, each.low), "second": _value(found, each.high)}
         yield Phrase(
             "  {input}  {low} … {high}: {first} … {second}", input=each.design.name.ljust(width), **ends, **gives
@@ -61,14 +64,15 @@ def _left_out(found: Sequence[Tornado], option: str) -> Iterator[Phrase]:
 
 
 def _value(found: Tornado, value: float) -> str:
-    return phrase("no machine") if math.isnan(value) else found.asked.told(value, 4)
+    return phrase("no machine") if math.isnan(value) else localised(found.asked.told(value, 4))
 
 
 def _tolerances(found: Tolerances) -> Iterator[Phrase]:
     is_normal = found.distribution == "normal"
     way = Phrase("normal, {n} standard deviations", n=f"{IN_TOLERANCE:g}") if is_normal else phrase("uniform")
     given = ", ".join(
-        f"{each.name} {each.told(each.today or 0.0)} ± {each.told(size)}" for each, size in found.by_input.items()
+        f"{each.name} {localised(each.told(each.today or 0.0))} ± {localised(each.told(size))}"
+        for each, size in found.by_input.items()
     )
     words = "within tolerances ({way}; {n} machines, seed {seed}): {inputs}"
     yield Phrase(words, way=way, n=found.count, seed=found.seed, inputs=given)
@@ -81,7 +85,7 @@ def _tolerances(found: Tolerances) -> Iterator[Phrase]:
 
 def _chance(found: Chance) -> Phrase:
     shares = {"share": found.probability, "low": found.low, "high": found.high}
-    percents = {name: f"{100 * value:.4g}" for name, value in shares.items()}
+    percents = {name: localised(f"{100 * value:.4g}") for name, value in shares.items()}
     return Phrase("{share} % (95 %: {low} … {high} %), {n} of {total}", n=found.held, total=found.count, **percents)
 
 
@@ -147,6 +151,7 @@ def page(found: Sequence[Tornado], tolerances: Tolerances | None, name: str) -> 
                 bars,
                 say("Influence of inputs on {asked}", asked=each.asked.name),
                 f"tornado-{index}",
+                decimal_sign(),
             ).text
             if bars
             else ""

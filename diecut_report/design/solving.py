@@ -24,7 +24,7 @@ from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase
 
 PASSING_CLOSE = 1e-6  # relative width at which the limit of what passes is known: more is not typed
-BESIDE, NEAR = 0.05, 61  # share of the best value to both sides of it, in which so many more are tried
+NEAR = 60  # machines about the best one, as far as its neighbours
 SAME = 1e-12  # relative: what differs by less does not vary
 
 
@@ -208,19 +208,20 @@ class _RangeSearch:
             places = x[self.holds(made, y) >= 0]
             top = float(places[np.nanargmax(heights(places))]) if len(places) else None
         else:
-            top = self._top(x, sign, heights)
-            top = top if top is None else self._beside(top, x, sign, heights)
+            top = self._top(np.union1d(x, self._about_the_best(x, heights(x))), sign, heights)
         if top is None:
             return []
         return [replace(each, at_end=top in (x[0], x[-1])) for each in self._judged([(top, "extreme")])]
 
-    def _beside(self, top: float, x: Array, sign: float, heights: Function) -> float | None:
-        """The same where none beside it is better, else the best of those: what is rounded goes up in steps."""
-        reach = BESIDE * abs(top)
-        near = np.linspace(top - reach, top + reach, NEAR)
-        near = near[(near > x[0]) & (near < x[-1]) & self.design.allows(near)]
-        is_better = heights(near) > heights(np.array([top]))
-        return self._top(np.union1d(near, [top]), sign, heights) if is_better.any() else top
+    def _about_the_best(self, x: Array, known: Array) -> Array:
+        """More numbers about the best of these, as far as its neighbours: what is rounded fails and passes in steps."""
+        if not np.isfinite(known).any():
+            return np.array([])
+        best = int(np.nanargmax(known))
+        first, last = max(best - 2, 0), min(best + 2, len(x) - 1)
+        reach = (x[last] - x[first]) / max(last - first, 1)
+        near = np.linspace(max(x[best] - reach, x[0]), min(x[best] + reach, x[-1]), NEAR)
+        return np.asarray(near[self.design.allows(near)])
 
     def _top(self, x: Array, sign: float, heights: Function) -> float | None:
         """Where it is highest, between these numbers and at the ends of what holds; None where nothing does."""

@@ -7,6 +7,7 @@ from collections.abc import Callable, Iterator, Sequence
 from typing import Any
 
 from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
+from diecut_report.languages.speech import localised
 from diecut_report.optimisation.bounds import InputPlace
 from diecut_report.optimisation.conflicts import Conflict
 from diecut_report.optimisation.front import columns_shown
@@ -23,7 +24,7 @@ TOLD = 5  # machines that differ, demands that are broken
 
 def quantity(value: float, column: StoredColumn) -> str:
     """Return an SI value in the unit that people read."""
-    return with_unit(number_text(unit(column.display).from_si(value), DIGITS), column.display)
+    return localised(with_unit(number_text(unit(column.display).from_si(value), DIGITS), column.display))
 
 
 def called(column: StoredColumn) -> str:
@@ -202,5 +203,7 @@ def conflict_lines(found: OptimisationResult, why: Conflict) -> Iterator[str]:
 
 
 def _broken(why: Conflict) -> Sequence[str]:
-    told = [f"{name} ({used:.4g})" if math.isfinite(used) else name for name, used in why.failing[:TOLD]]
+    told = [
+        f"{name} ({localised(f'{used:.4g}')})" if math.isfinite(used) else name for name, used in why.failing[:TOLD]
+    ]
     return [*told, "…"] if len(why.failing) > TOLD else told

@@ -165,6 +165,14 @@ def test_another_way_is_taken_where_the_first_names_what_is_not_given(tmp_path: 
     assert [each["name"] for each in answer["changes"]] == ["damper.shore_hardness"] and answer["size"] < 0.06
 
 
+def test_what_is_measured_is_changed_only_where_it_is_named(tmp_path: Path, capfd: Capture) -> None:
+    press = saved(tmp_path, CLUTCH.replace("120 mm", "{value: 120 mm, basis: measured}"))
+    assert advise(press, "--format", "json") == 0
+    assert [each["name"] for each in found(capfd)["changes"]] == ["clutch.shoe_width"]
+    assert advise(press, "--free", "clutch.shoe_radius", "--format", "json") == 0
+    assert [each["name"] for each in found(capfd)["changes"]] == ["clutch.shoe_radius"]
+
+
 def test_what_steps_do_not_see_is_found_by_one_input_over_its_range(tmp_path: Path, capfd: Capture) -> None:
     assert advise(saved(tmp_path, DAMPER), "--free", "damper.ring_width", "--format", "json") == 0
     answer = found(capfd)

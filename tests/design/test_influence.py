@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
 import pytest
 from scipy.stats import beta, norm
 
+from diecut_report import __version__
 from diecut_report.cli.main import main
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
@@ -80,6 +82,20 @@ def test_the_probability_is_that_of_the_distribution(
         (beta.ppf(0.025, held, count - held + 1), beta.ppf(0.975, held + 1, count - held))
     )
     assert influence(press, *more) == 0 and capfd.readouterr().out == told  # the seed is fixed
+
+
+def test_the_page_in_ukrainian_has_decimal_commas(press: Path, tmp_path: Path) -> None:
+    page = tmp_path / "1.html"
+    assert (
+        influence(
+            press, "--format", "html", "-o", page, "--tolerance", "a.arm=2.5 mm", "--count", 20, "--language", "uk"
+        )
+        == 0
+    )
+    shown = re.sub(
+        r"<(style|script)\b.*?</\1>|<[^>]+>", " ", page.read_text("utf-8").replace(__version__, ""), flags=re.DOTALL
+    )
+    assert not re.search(r"\d\.\d", shown) and re.search(r"\d,\d", shown)
 
 
 def test_the_page_has_figures_and_no_scripts(press: Path, tmp_path: Path, capfd: Capture) -> None:

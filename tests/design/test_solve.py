@@ -221,3 +221,10 @@ def test_the_greatest_lies_beyond_what_fails_where_sizes_are_rounded(tmp_path: P
     made = varied(config, {design_input(config, "cylinder.segment_height").asked: x}, len(x))
     best = x[np.isin(made.status.astype(str), ["pass", "warn"])].max()
     assert answer["solutions"][0]["value"] >= best - 1e-5
+
+
+def test_what_is_told_in_ukrainian_has_decimal_commas_and_what_is_typed_points(tmp_path: Path, capfd: Capture) -> None:
+    press = saved(tmp_path, TEXT)
+    assert solve(press, "a.arm", "a.moment = 240.5 N*m", "--language", "uk") == 0
+    out = capfd.readouterr().out
+    assert "a.moment = 240.5 N·m" in out and "a.arm = 120.25 mm: a.moment дорівнює 240,5 N·m" in out

@@ -103,6 +103,7 @@ def test_it_speaks_ukrainian(tmp_path: Path, capfd: Any) -> None:
     assert optimised(search_file(tmp_path), tmp_path / "out", "--quiet", "--language", "uk") == 0
     text = capfd.readouterr().out
     assert "шукано: найменше: a.moment" in text and "пропозиція: " in text and "searched" not in text
+    assert not re.search(r"\d\.\d", text)
 
 
 def test_a_cluster_that_cannot_be_reached_is_told_before_anything_is_written(

@@ -20,9 +20,9 @@ ROW, HEAD, FOOT = 17.0, 14.0, 24.0  # points
 LOWERED = "#b06a2c"
 
 
-def tornado(today: float, bars: Sequence[Mapping[str, Any]], told: str, key: str) -> Svg:
+def tornado(today: float, bars: Sequence[Mapping[str, Any]], told: str, key: str, decimal: str) -> Svg:
     """Return the bars (``label``, ``low``, ``high`` with the input lowered and raised, None without a machine) about today's value."""
-    return drawn(partial(_tornado, today, bars), told, key)
+    return drawn(partial(_tornado, today, bars, decimal), told, key)
 
 
 def tornado_of(figure: Mapping[str, Any], _curves: Any, words: Catalogue, size: Size = Size.LARGE) -> Figure:
@@ -30,7 +30,7 @@ def tornado_of(figure: Mapping[str, Any], _curves: Any, words: Catalogue, size: 
     return _tornado(figure["today"], figure["bars"], words["decimal"])
 
 
-def _tornado(today: float, bars: Sequence[Mapping[str, Any]], decimal: str = ".") -> Figure:
+def _tornado(today: float, bars: Sequence[Mapping[str, Any]], decimal: str) -> Figure:
     height = HEAD + FOOT + ROW * len(bars)
     sheet = canvas(WIDTH, height)
     names = max(text_size(str(bar["label"]))[0] for bar in bars) + 10
