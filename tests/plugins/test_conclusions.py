@@ -81,6 +81,15 @@ def test_a_press_whose_timing_fails_is_told_that_its_motor_is_not_yet_judged() -
     assert "motor and flywheel" in timing.consequence
 
 
+def test_a_life_in_seconds_is_that_in_hours(example: Example) -> None:
+    items = [item for each in json.loads(example.told)["mechanisms"]["bearings"]["sections"] for item in each["items"]]
+    lives = [each for item in items for each in item.get("conversions", []) if each["shown"]["unit"] == "h"]
+    assert len(lives) >= 3
+    for life in lives:
+        seconds = float(life["shown"]["text"]) * 3600
+        assert float(life["converted"]["text"]) == pytest.approx(seconds, rel=6e-4)
+
+
 def test_no_key_result_of_the_press_is_a_row_which_the_summary_could_not_tell(example: Example) -> None:
     for mechanism in json.loads(example.told)["mechanisms"].values():
         rows = {name.partition(".")[0] for name in mechanism["outputs"] if "." in name}
