@@ -83,6 +83,14 @@ def test_a_press_whose_timing_fails_is_told_that_its_motor_is_not_yet_judged() -
     assert "motor and flywheel" in timing.consequence
 
 
+def test_an_extreme_that_is_but_rounding_has_no_place() -> None:
+    """The link of a curve begins at rest: its lowest position is 0 but for the rounding of two integrals."""
+    calc = driven(stepper(), "gear_angle", **CONVEYOR)
+    items = {item["id"]: item for section in section_items(calc) for item in section["items"] if "id" in item}
+    assert 0 < abs(number(calc, "response_min")) < 1e-9 and "at" not in items["response_min"]
+    assert "at" in items["response_max"]
+
+
 def test_a_limit_that_is_used_is_not_told_to_be_idle() -> None:
     """Without a drive that pushes, the allowed force limits that of the impact alone."""
     told = mechanism_results(calculated(WORKED | {"allowable_force": "6 kN"}), {})["absent"]
