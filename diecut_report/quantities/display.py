@@ -76,6 +76,11 @@ def is_nothing(value: float, unit_text: str) -> bool:
     return (own.si in NEVER_SMALL or own.text == "%") and abs(value) < NOTHING * own.factor
 
 
+def is_rounding(value: float, unit_text: str) -> bool:
+    """Return whether an SI value would be zero but for the rounding of the computer, so that the place of an extreme says nothing."""
+    return value != 0 and is_nothing(value, unit_text)
+
+
 def finest_step(unit_text: str) -> float | None:
     """Return the finest step of a quantity that can be made or measured, in its unit; None where none is known."""
     own = unit(unit_text)

@@ -115,10 +115,11 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
     ]
     checks = checks_of(calc)
     made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
+    used = {check.limit for check in checks if check.id in made}
     idle = [
         {"title": c.title, "text": Phrase(IDLE, key=c.limit)}
         for c in checks
-        if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made
+        if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made and c.limit not in used
     ]
     return left_out + idle
 

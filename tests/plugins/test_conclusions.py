@@ -13,11 +13,13 @@ from diecut_report.plugins.press_consistency.checks import CHECKS
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import number
 from tests.plugins.cases import MECHANISMS
+from tests.plugins.dampers import calculated
 from tests.plugins.followers import driven, follower
 from tests.plugins.platens import platen
 from tests.plugins.shafts import CRANKSHAFT, shaft
 from tests.plugins.steppers import stepper
 from tests.processes import Example
+from tests.validation.rows_damper import WORKED
 
 CONVEYOR = {"inertia": "0.0993 kg*m**2", "stiffness": "3300 N*m/rad", "damping_ratio": 0.05, "cycles_per_hour": 6000}
 KEY_RESULT = "speed_verdict"
@@ -79,6 +81,32 @@ def test_the_friction_on_which_a_platen_press_rests_is_a_key_result() -> None:
 def test_a_press_whose_timing_fails_is_told_that_its_motor_is_not_yet_judged() -> None:
     [timing] = [check for check in CHECKS if check.id == "timing"]
     assert "motor and flywheel" in timing.consequence
+
+
+def test_an_extreme_that_is_but_rounding_has_no_place() -> None:
+    """The link of a curve begins at rest: its lowest position is 0 but for the rounding of two integrals."""
+    calc = driven(stepper(), "gear_angle", **CONVEYOR)
+    items = {item["id"]: item for section in section_items(calc) for item in section["items"] if "id" in item}
+    assert 0 < abs(number(calc, "response_min")) < 1e-9 and "at" not in items["response_min"]
+    assert "at" in items["response_max"]
+
+
+def test_a_limit_that_is_used_is_not_told_to_be_idle() -> None:
+    """Without a drive that pushes, the allowed force limits that of the impact alone."""
+    told = mechanism_results(calculated(WORKED | {"allowable_force": "6 kN"}), {})["absent"]
+    assert (
+        "Drive still pushing" in (titles := {each["title"] for each in told})
+        and "Force of a damper with the drive" not in titles
+    )
+
+
+def test_a_life_in_seconds_is_that_in_hours(example: Example) -> None:
+    items = [item for each in json.loads(example.told)["mechanisms"]["bearings"]["sections"] for item in each["items"]]
+    lives = [each for item in items for each in item.get("conversions", []) if each["shown"]["unit"] == "h"]
+    assert len(lives) >= 3
+    for life in lives:
+        seconds = float(life["shown"]["text"]) * 3600
+        assert float(life["converted"]["text"]) == pytest.approx(seconds, rel=6e-4)
 
 
 def test_no_key_result_of_the_press_is_a_row_which_the_summary_could_not_tell(example: Example) -> None:

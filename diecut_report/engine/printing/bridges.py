@@ -9,7 +9,8 @@ from diecut_report.contract.steps import Step
 from diecut_report.engine.printing.substitution import Substitution, formula_unit
 from diecut_report.expressions import Node
 from diecut_report.expressions.tree import walk
-from diecut_report.quantities.formatting import DIGITS, given_shown, number_text, shown
+from diecut_report.quantities.display import UNIT_DIGITS
+from diecut_report.quantities.formatting import DIGITS, given_shown, number_text, rounded, shown
 from diecut_report.quantities.units import unit
 
 Item = dict[str, Any]
@@ -41,6 +42,13 @@ def _conversions(substitution: Substitution) -> Iterator[Item]:
         if unit(display).si == "rad" or formula_unit(display) == display or inside.args[1] == display:
             continue
         declared, value = calc.step_or_input(name), substitution.value_of(name)
-        told = shown(value, display, declared.digits) if isinstance(declared, Step) else given_shown(value, display)
+        told = _told(value, display, declared.digits) if isinstance(declared, Step) else given_shown(value, display)
         again = {"text": number_text(value / unit(inside.args[1]).factor, DIGITS), "unit": inside.args[1]}
         yield {"symbol": declared.symbol, "shown": told, "converted": again}
+
+
+def _told(value: float, display: str, digits: int) -> dict[str, str]:
+    """A number beside the one that it is converted to: where its unit asks for fewer digits it has the usual ones here, or they would differ."""
+    if display not in UNIT_DIGITS:
+        return shown(value, display, digits)
+    return {"text": number_text(float(rounded(value, display))), "unit": display}

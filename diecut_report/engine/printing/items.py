@@ -54,6 +54,7 @@ from diecut_report.engine.printing.substitution import (
 from diecut_report.engine.shown_units import step_shown
 from diecut_report.expressions import Array, Node
 from diecut_report.languages.phrases import Phrase, joined, phrase
+from diecut_report.quantities.display import is_rounding
 from diecut_report.quantities.formatting import number_text
 
 Item = dict[str, Any]
@@ -263,7 +264,7 @@ def _reduction(calc: Calculation, step: Reduction) -> Item:
         axis = calc.axis[step.of]
         item["over"] = place_of(calc, axis, float(calc.domains[axis].period_of(None)[0, 0]))
     place = place_name(step.id)
-    if place in calc.values:
+    if place in calc.values and not is_rounding(value_at(calc, step.id, None), step.unit):
         item["at"] = place_of(calc, calc.axis[step.of], float(calc[place][0, 0]))
     return item
 
