@@ -10,7 +10,7 @@ from typing import TYPE_CHECKING, Any
 import click
 
 from diecut_report.cli import completion
-from diecut_report.cli.given import changeable_source
+from diecut_report.cli.given import DASH, changeable_source, output_file
 from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
@@ -83,11 +83,7 @@ def solve(
         what = question(with_input(loaded, design, ends[0] or 0.0) if is_new else loaded, asked)
         progress(Phrase("solving for {input}", input=design.name))
         answer = solved(loaded, discovery, what, design, passing=passing, low=ends[0], high=ends[1])
-        if target is not None and answer.machine is not None:
-            _write(loaded, answer.machine, target)
-    emit(_json(data(answer)) if form == "json" else _text(lines(answer)))
-    if target is not None and not quiet:
-        _tell_target(target, answer.machine)
+    _give(_json(data(answer)) if form == "json" else _text(lines(answer)), loaded, answer.machine, target, quiet)
     return PASSED if answer.found else CHECK_FAILED
 
 
@@ -129,11 +125,7 @@ def advise(
         progress(phrase("reading the configuration"))
         loaded = _loaded(config, discovery)
         found = mended(loaded, discovery, free=free, keep=keep, most=most, tell=progress)
-        if target is not None and found.machine is not None:
-            _write(loaded, found.machine, target)
-    emit(_json(data(found)) if form == "json" else _text(lines(found)))
-    if target is not None and not quiet:
-        _tell_target(target, found.machine)
+    _give(_json(data(found)) if form == "json" else _text(lines(found)), loaded, found.machine, target, quiet)
     return CHECK_FAILED if found.before.checks("fail") and found.machine is None else PASSED
 
 
@@ -187,7 +179,7 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
 @click.option(
     "--seed", metavar="N", type=click.IntRange(0), default=1, help="Equal seeds draw equal machines (default: 1)."
 )
-@click.option("-o", "target", metavar="FILE", type=path_of, help="Write to a file, not to standard output.")
+@click.option("-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output.")
 @click.option(
     "--format",
     "form",
@@ -277,17 +269,21 @@ def _end(design: DesignInput, given: str | None, option: str) -> float | None:
         ) from None
 
 
-def _write(config: Config, machine: ProvedMachine, target: Path) -> None:
+def _give(told: str, config: Config, machine: ProvedMachine | None, target: Path | None, quiet: bool) -> None:
+    """Write the machine that was found, and tell of it: to standard error where ``-`` sends the machine to standard output."""
+    from diecut_report.config.written_values import as_file
     from diecut_report.design.proved_machine import write_config
 
-    write_config(config.tree, machine, target)
-
-
-def _tell_target(target: Path, machine: ProvedMachine | None) -> None:
-    if machine is not None:
-        tell_written([target])
-    else:
-        tell([Phrase("not written: {path}", path=target)])
+    if target == DASH:
+        tell(told.splitlines())
+        if machine is not None:
+            emit(as_file(config.tree, machine.tree.text).decode())
+        return
+    if target is not None and machine is not None:
+        write_config(config.tree, machine, target)
+    emit(told)
+    if target is not None and not quiet:
+        tell_written([target]) if machine else tell([Phrase("not written: {path}", path=target)])
 
 
 def _text(lines: Iterable[str]) -> str:

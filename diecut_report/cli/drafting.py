@@ -10,6 +10,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli import completion
+from diecut_report.cli.given import output_file
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -31,17 +32,15 @@ from diecut_report.languages.speech import said, say, speaking, spoken_language
 if TYPE_CHECKING:
     from diecut_report.drafting.draft import Draft
 
-STANDARD_OUTPUT, SHOWN = Path("-"), "<stdout>"
+SHOWN = "<stdout>"
 
 
 @click.command("new", cls=HelpfulCommand)
 @click.argument("kinds", metavar="[KIND[:NAME] …]", nargs=-1, shell_complete=completion.kinds)
-@click.option(
-    "-o", "target", metavar="FILE", type=click.Path(path_type=Path), help="Where to write (default: standard output)."
-)
+@click.option("-o", "file", metavar="FILE", type=output_file, help="Where to write (default: standard output).")
 @click.option("--force", is_flag=True, help="Write over a file that is there.")
 @common
-def new(kinds: tuple[str, ...], target: Path | None, force: bool, folders: tuple[Path, ...], quiet: bool) -> int:
+def new(kinds: tuple[str, ...], file: Path | None, force: bool, folders: tuple[Path, ...], quiet: bool) -> int:
     """Begin a configuration with mechanisms of these kinds: example values, wired to each other, each key explained.
 
     Without a KIND the kinds are listed. `clutch:main` names a mechanism; a kind may be given several times.
@@ -52,7 +51,6 @@ def new(kinds: tuple[str, ...], target: Path | None, force: bool, folders: tuple
     with speaking(spoken_language(), spoken_catalogues(discovery)):
         if not kinds:
             return _list(discovery)
-        file = None if target in (None, STANDARD_OUTPUT) else target
         if file is not None and not force:
             _refuse_existing(file)
         from diecut_report.drafting.draft import draft

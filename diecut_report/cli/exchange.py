@@ -13,7 +13,7 @@ import click
 
 from diecut_report.cli import exit_codes, verdict
 from diecut_report.cli.formats import formats_of
-from diecut_report.cli.given import source
+from diecut_report.cli.given import output_file, source
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
@@ -195,7 +195,7 @@ def render(
 @click.option(
     "--format", "form", default="text", type=click.Choice(["text", "json", "html"]), help="text, json or html."
 )
-@click.option("-o", "target", metavar="FILE", type=path_of, help="Write to a file, not to standard output.")
+@click.option("-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output.")
 @click.option("--all", "all_rows", is_flag=True, help="Show as text all that changed, not the most important alone.")
 @common
 def diff(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -20,8 +20,19 @@ if TYPE_CHECKING:
     from diecut_report.pipeline import Source
 
 RESULTS = "study.json"  # what makes a folder one of a study's results
-DASH = Path("-")
 READ = "diecut_report.standard_input"
+DASH = Path("-")
+
+
+class OutputFile(click.Path):
+    """A file that is written; ``-`` is standard output, as where none is named."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        found = super().convert(value, param, ctx)
+        return None if found == DASH else found
+
+
+output_file = OutputFile(path_type=Path)
 
 
 def source(config: Path, discovery: Discovery) -> Source:

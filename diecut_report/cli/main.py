@@ -27,7 +27,7 @@ from diecut_report.cli.drafting import new
 from diecut_report.cli.exchange import diff, extract, render, verify
 from diecut_report.cli.file_schemas import OF_FILES, schema_of_file
 from diecut_report.cli.formats import formats_of
-from diecut_report.cli.given import source
+from diecut_report.cli.given import output_file, source
 from diecut_report.cli.kit import check_plugin, new_plugin
 from diecut_report.cli.language import asked_language, language_option, of_environment
 from diecut_report.cli.live import live
@@ -204,23 +204,20 @@ def report(
 
 @program.command(epilog=exit_codes.OF_CHECKS)
 @config_argument
-@click.option(
-    "-o", "target", metavar="FILE", type=click.Path(path_type=Path), help="Write to a file, not to standard output."
-)
+@click.option("-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output.")
 @verdict.strict_option
 @common
 def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:
     """Calculate, and give the results file alone."""
     from diecut_report import pipeline
 
-    to_file = None if target == Path("-") else target
     # a plugin that prints does not spoil the JSON
-    with Progress(quiet) as progress, without_output() if to_file is None else redirect_stdout(sys.stderr):
+    with Progress(quiet) as progress, without_output() if target is None else redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        outcome, text = pipeline.calc(source(config, discovery), discovery, progress, to_file)
-    if to_file is None:
+        outcome, text = pipeline.calc(source(config, discovery), discovery, progress, target)
+    if target is None:
         emit(text)
-    return _verdict(outcome, discovery, quiet or to_file is None, strict)
+    return _verdict(outcome, discovery, quiet or target is None, strict)
 
 
 @program.command()

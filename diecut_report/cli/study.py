@@ -12,7 +12,7 @@ import click
 
 from diecut_report.cli import exit_codes
 from diecut_report.cli.formats import formats_of
-from diecut_report.cli.given import RESULTS, results_folder
+from diecut_report.cli.given import DASH, RESULTS, output_file, results_folder
 from diecut_report.cli.language import asked_language
 from diecut_report.cli.output import (
     CHECK_FAILED,
@@ -165,7 +165,7 @@ def _reports(target: Path) -> str:
     type=click.Choice(["table", "csv", "json", "xlsx"]),
     help="table, csv, json or xlsx.",
 )
-@click.option("-o", "file", metavar="FILE", type=path_of, help="Where to write (default: standard output).")
+@click.option("-o", "file", metavar="FILE", type=output_file, help="Where to write (default: standard output).")
 @click.option(
     "--units", type=click.Choice(UNITS), help="Of csv, json and xlsx: si (default), or display as in a table."
 )
@@ -234,9 +234,16 @@ def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...]
         raise click.UsageError(say(words, variant=repr(variant)))
     refuse_sources(Path(folder), file)
     found = taken_config(Path(folder), int(number), Discovery(folders), digits)
-    write_all({file: found.content}, Path(folder) / RESULTS, through=True)
+    if file == DASH:
+        emit(found.content.decode())
+    else:
+        write_all({file: found.content}, Path(folder) / RESULTS, through=True)
     if not quiet:
-        judged = {"file": file, "status": phrase(WORDS[found.status]), "check": found.governing or "–"}
+        judged = {
+            "file": "<stdout>" if file == DASH else file,
+            "status": phrase(WORDS[found.status]),
+            "check": found.governing or "–",
+        }
         tell([say("written: {file}; in the study: {status}, governed by {check}", **judged)])
         missing = {name: copy for name, copy in found.beside.items() if not (file.parent / name).exists()}
         words = "it names {name}, which is sought beside it; the study keeps a copy: {copy}"

@@ -118,3 +118,29 @@ def test_what_is_too_much_closed_or_asked_for_twice_is_refused(
         "<stdin>: Standard input has been read already; give - once, and files beside it.",
         "<stdin>: Standard input is closed. Name a file.",
     ]
+
+
+@pytest.mark.parametrize(
+    ("command", "begins"),
+    [
+        (["calc", "press.yaml"], "{"),
+        (["diff", "press.yaml", "press.yaml"], "old  press.yaml"),
+        (["influence", "press.yaml"], "a.checks.moment.utilisation, today"),
+        (
+            ["solve", "press.yaml", "--vary", "a.arm", "--for", "a.moment = 240 N*m"],
+            PRESS.decode().replace("100 mm", "120 mm"),
+        ),
+        (["advise", "press.yaml", "--free", "a.arm"], PRESS.decode().replace("100 mm", "83 mm")),
+    ],
+)
+def test_a_dash_as_output_is_standard_output(
+    command: list[str], begins: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    (tmp_path / "press.yaml").write_bytes(PRESS.replace(b"2 kN", b"3 kN") if command[0] == "advise" else PRESS)
+    begins = begins.replace("2 kN", "3 kN") if command[0] == "advise" else begins
+    assert main([*command, "-o", "-", *PLUGINS]) == 0
+    out, err = capfd.readouterr()
+    assert out.startswith(begins) and [file.name for file in tmp_path.iterdir()] == ["press.yaml"]
+    if command[0] in ("solve", "advise"):
+        assert out == begins and "calculated as a machine of its own" in err

@@ -47,6 +47,8 @@ def test_the_command_writes_it_and_tells_how_the_study_judged_it(
     assert main(["take", f"{folder}#4", "-o", str(tmp_path / "mine.yaml")]) == 0
     assert "in the study: fail, governed by drive.checks.play" in capfd.readouterr().err
     assert (tmp_path / "mine.yaml").read_bytes() == taken_config(folder, 4, Discovery([])).content
+    assert main(["take", f"{folder}#4", "-o", "-"]) == 0
+    assert capfd.readouterr().out.encode() == (tmp_path / "mine.yaml").read_bytes()
 
 
 @pytest.mark.parametrize(
