@@ -271,6 +271,16 @@
   }
 
   /* ---- tables on a narrow screen: each cell says what it is ---- */
+  /* the words of a head with the unit; the symbol, which has no index in plain text, only where it stands alone */
+  function named(head) {
+    var sign = head.querySelector(".whole");
+    if (sign && sign.textContent.trim() !== head.textContent.trim()) {
+      all("i, sub", sign).forEach(function (part) { part.remove(); });
+      sign.textContent = (/,[^,]*$/.exec(sign.textContent) || [""])[0];
+    }
+    return head.textContent.replace(/\s+,/g, ",").replace(/\s+/g, " ").trim();
+  }
+
   function labels() {
     all("main table:not(.changes)").forEach(function (table) {
       var heads = table.tHead ? Array.from(table.tHead.rows[0].cells) : [];
@@ -282,7 +292,7 @@
           if (head && place && cell.textContent.trim()) {
             var copy = head.cloneNode(true);
             all(".sub, .vh", copy).forEach(function (part) { part.remove(); });
-            cell.dataset.label = head.title || copy.textContent.trim();
+            cell.dataset.label = head.title || named(copy);
           }
           place += cell.colSpan;
         });

@@ -126,6 +126,17 @@ def test_at_390_px_no_table_scrolls_sideways_and_formulas_scroll_in_boxes_of_the
         assert min(place for place in places if place[0])[1], "the verdict stands first"
 
 
+def test_at_390_px_cells_are_named_in_words_with_their_units(browser: Browser, report: Path) -> None:
+    """No symbol stands among the words without its index, as in "Margin at the start m1"."""
+    page = Opened(browser, report, viewport=NARROW).page
+    named = page.evaluate("""() => [...document.querySelectorAll("td[data-label]")].map(cell => {
+        const table = cell.closest("table"), head = [...table.tHead.rows[0].cells][cell.cellIndex], sign = head.querySelector(".whole i.sy");
+        return [cell.dataset.label, head.textContent.trim(), sign ? sign.textContent + sign.nextSibling?.textContent : ""]; })""")
+    signs = {label: sign for label, head, sign in named if len(sign) > 2 and head != label and "_" not in sign}
+    assert named and not [label for label, sign in signs.items() if sign.split(",")[0] in label.split()]
+    assert not [label for label, *_ in named if "  " in label or " ," in label]
+
+
 def test_without_scripts_everything_is_there(browser: Browser, report: Path) -> None:
     page = Opened(browser, report, java_script_enabled=False).page
     content = report.read_text("utf-8")
