@@ -72,8 +72,8 @@ MECHANISM = Mechanism(
         "The dampers that act at once share the energy equally; the whole of it is taken up within one stroke of the damper, and what the "
         "rubber loses meanwhile does not make the force smaller.",
         "All that moves stops together: guides, carriage and frame are rigid.",
-        "Without dynamic_stiffness_factor the rubber is as stiff as at rest. At an impact it is stiffer, mostly by a fifth up to twice; stress and "
-        "force grow with the root of that.",
+        "Without dynamic_stiffness_factor the rubber is as stiff as at rest. At an impact it is stiffer, mostly 1.2 to 2 times; stress and force "
+        "grow with the root of that.",
         "A drive that still pushes does so with a constant force in the direction of travel; without drive what is stopped runs free.",
     ),
     sources=(

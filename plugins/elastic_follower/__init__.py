@@ -16,7 +16,7 @@ MECHANISM = Mechanism(
     title="Driven link on an elastic drive",
     summary="A link of given inertia follows an input through a drive that is elastic and damped: a shaft, a chain, a long rod. While the input "
     "moves from rest to rest, the link swings about it. Calculated are its motion, the peaks of its acceleration in the motion and after it, "
-    "related to those of a rigid drive, its overshoot, and the torque of the drive; and which law of motion loads this link least.",
+    "related to those of a rigid drive, its overshoot, and the torque of the drive; and which law of motion loads the link least in a single rise.",
     inputs=ElasticFollower,
     example=EXAMPLE,
     chapters=(motion.drive, motion.times, motion.by_law, motion.by_curve, response.response_chapter, response.settling, response.peaks_chapter,
