@@ -12,7 +12,8 @@ import numpy as np
 from diecut_report.contract.inputs import Quantity, fields
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.result_names import named
-from diecut_report.contract.steps import Crossings
+from diecut_report.contract.sections import taken
+from diecut_report.contract.steps import Crossings, Value
 from diecut_report.engine import Calculation, Impossible, Unproven, calculate
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase, phrase
@@ -124,7 +125,7 @@ def unlike_numbers(together: Calculation, alone: Calculation, i: int) -> Iterato
                 yield name, _among(", ".join(map(str, found)), ", ".join(map(str, expected)))
             continue
         length = min(len(found), len(expected))  # a list of crossings is as long as the machine that has most
-        within = OF_PLACE if is_place(together, name) else OF_SCALE * scale.get(unit_of(together, name), 0.0)
+        within = OF_PLACE if is_placed(together, name) else OF_SCALE * scale.get(unit_of(together, name), 0.0)
         same = np.isclose(found[:length], expected[:length], rtol=CLOSE, atol=within, equal_nan=True)
         if not same.all() or np.isfinite(found[length:]).any():
             yield name, _among(_first(found[:length], ~same), _first(expected[:length], ~same))
@@ -160,6 +161,13 @@ def is_place(calc: Calculation, name: str) -> bool:
     found = named(name, calc.steps)
     is_found = found is not None and found.role in ("place", "crossing")
     return is_found or isinstance(calc.steps.get(name), Crossings)
+
+
+def is_placed(calc: Calculation, name: str) -> bool:
+    """Return whether a number is such a place, or one of its unit that follows from it: its distance from another place."""
+    step = calc.steps.get(name)
+    places = [each for each in taken(step) if is_place(calc, each)] if isinstance(step, Value) else []
+    return is_place(calc, name) or any(unit_of(calc, each) == unit_of(calc, name) for each in places)
 
 
 def unlike_curves(together: Calculation, alone: Calculation, i: int) -> Iterator[tuple[str, str]]:

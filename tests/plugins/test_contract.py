@@ -13,6 +13,7 @@ import pytest
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import calculate
+from diecut_report.engine.figure_views import shown_figures
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing import check_mechanism
@@ -126,9 +127,13 @@ def compare(machine: Case, count: int, alone: int, seed: int) -> None:
 @main_cases
 def test_all_that_a_report_prints_is_made_of_a_machine(kind: str, name: str) -> None:
     machine = case(kind, name)
-    results = mechanism_results(calculate(machine.mechanism, machine.values), {})
+    calc = calculate(machine.mechanism, machine.values)
+    results = mechanism_results(calc, {})
     assert results["status"] in ("pass", "warn", "fail")
-    assert results["sections"] and results["figures"]
+    assert not any("error" in figure for figure in results["figures"])
+    assert results["sections"] and [figure["id"] for figure in results["figures"]] == [
+        figure.id for figure in shown_figures(calc)
+    ]
 
 
 @each_mechanism
