@@ -194,11 +194,21 @@ def test_many_texts_find_places() -> None:
     assert sheet.crowded == 0
 
 
+def test_names_beside_their_rows_stand_at_their_height() -> None:
+    rows = [(-0.2, -0.44 * n) for n in range(14)]
+    shapes = [polyline([(0, y), (5, y)]) for _, y in rows]
+    shapes += [label(at, f"Standstill at the ends of the stroke {n}", "right") for n, at in enumerate(rows)]
+    sheet = _sheet(drawing("x", "x", shapes, unit="1", schematic=True))
+    for text in sheet.axes.texts:
+        _, y = rows[int(text.get_text().split()[-1])]
+        assert text.get_position()[1] == pytest.approx(y * sheet.scale.upwards) and "\n" not in text.get_text()
+
+
 def test_drawing_is_made_smaller_until_its_texts_have_places() -> None:
     shapes = [polyline([(0, 0), (0.2, 0), (0.2, 0.1), (0, 0.1)], closed=True)]
     shapes += [polyline([(0, y), (0.2, y)]) for y in np.linspace(0, 0.1, 60)]
     shapes += [
-        label((0.21, y), f"a name that is told beside the drawing {n}")
+        label((0.21, y), f"a name that is told beside the drawing and is longer than its room {n}")
         for n, y in enumerate(np.linspace(0.01, 0.09, 12))
     ]
     figure = drawing("x", "x", shapes)

@@ -16,7 +16,7 @@ from diecut_report.report.figures.drawing_scale import LARGEST, filled
 from diecut_report.report.figures.drawing_sheet import ARROW, THICK, THIN, THIN_LINE, DrawingSheet
 from diecut_report.report.figures.shapes import beyond, circular, hatching
 from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import ACCENT, INK, LINE, SOFT, marked, sampled
+from diecut_report.report.figures.style import ACCENT, INK, LINE, SOFT, marked, sampled, text_size
 from diecut_report.report.i18n import Catalogue
 
 Array = NDArray[Any]
@@ -146,6 +146,9 @@ class Shapes(DrawingSheet):
 
     def _label(self, shape: Shape) -> None:
         x, y = self._points(shape["at"])[0]
+        size = text_size(marked(shape["text"]))
+        middle, _ = next(label_places.at(x, y, size, shape["anchor"]))
+        self.wished.append((middle - size[0] / 2, middle + size[0] / 2))
         self._later(shape["text"], lambda size: label_places.at(x, y, size, shape["anchor"]))
 
     def _arrow(self, shape: Shape) -> None:

@@ -40,6 +40,7 @@ class DrawingSheet:
         self.lines: list[tuple[Array, float]] = []  # with how much texts are to keep clear of them
         self.boxes: list[Box] = [(*corners.min(axis=0), *corners.max(axis=0))]
         self.solid: list[Box] = []  # where no text may stand
+        self.wished: list[tuple[float, float]] = []  # from where to where labels reach that stand in one line where they are asked for
         self.crowded = 0.0  # how much stands in the way of texts
         self.texts: list[Callable[[Labels], None]] = []
         self.sheet = canvas(10, 10)
@@ -69,7 +70,8 @@ class DrawingSheet:
         lines = [(sampled(line), weight) for line, weight in self.lines]
         weights = np.concatenate([np.zeros(0), *(np.full(len(line), weight) for line, weight in lines)])
         points = np.concatenate([np.empty((0, 2)), *(line for line, _ in lines)])
-        middle = (self.boxes[0][0] + self.boxes[0][2]) / 2
+        wide = [(self.boxes[0][0], self.boxes[0][2]), *self.wished]
+        middle = (min(left for left, _ in wide) + max(right for _, right in wide)) / 2
         labels = Labels(points, (middle - PAGE[0] / 2 + 5, -np.inf, middle + PAGE[0] / 2 - 5, np.inf), weights)
         labels.taken += self.solid
         return labels
