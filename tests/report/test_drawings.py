@@ -197,7 +197,9 @@ def test_many_texts_find_places() -> None:
 def test_names_beside_their_rows_stand_at_their_height() -> None:
     rows = [(-0.2, -0.44 * n) for n in range(14)]
     shapes = [polyline([(0, y), (5, y)]) for _, y in rows]
-    shapes += [label(at, f"Standstill at the ends of the stroke {n}", "right") for n, at in enumerate(rows)]
+    shapes += [
+        label(at, f"Standstill at both ends of the stroke of the cylinder {n}", "right") for n, at in enumerate(rows)
+    ]
     sheet = _sheet(drawing("x", "x", shapes, unit="1", schematic=True))
     for text in sheet.axes.texts:
         _, y = rows[int(text.get_text().split()[-1])]
