@@ -8,7 +8,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Phrase, Refusal, joined
+from diecut_report.api import Phrase, Refusal, named
 from diecut_report.mechanics.timing.clearance import LeastClearance, Station, carriage_clearance, least_clearance
 from diecut_report.mechanics.timing.shaft_curves import ShaftCurve
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
@@ -83,7 +83,7 @@ def _line(lines: list[LineOfMachines], name: str, key: str) -> LineOfMachines:
             Phrase(
                 "is {name}, which is not a line; the lines are {text}",
                 name=name,
-                text=joined((each.name for each in lines), ", "),
+                text=named([each.name for each in lines], ", "),
             ),
         )
     return found

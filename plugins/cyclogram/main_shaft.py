@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import GivenMechanism, GivenPhase, Phrase, Refusal, joined
+from diecut_report.api import GivenMechanism, GivenPhase, Phrase, Refusal, named
 from diecut_report.mechanics.timing.intervals import Intervals, composed
 from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
 from diecut_report.plugins.cyclogram.passing import Stretch
@@ -173,7 +173,7 @@ def named_phase(lines: tuple[LineOnShaft, ...], text: str, key: str) -> tuple[in
     phase, _, number = rest.partition(".")
     index = next((i for i, each in enumerate(lines) if each.name == name), None)
     if index is None:
-        known = joined((each.name for each in lines), ", ")
+        known = named([each.name for each in lines], ", ")
         raise Refusal(
             key,
             Phrase("is “{text}”, but {name} is not a line; the lines are {known}", text=text, name=name, known=known),
@@ -193,10 +193,13 @@ def _no_phase(line: LineOnShaft, phase: str) -> str:
     missing = line.mechanism.missing_keys(phase)
     if missing:
         return Phrase(
-            "{name} has this phase only if {missing} is given there", name=line.name, missing=joined(missing, " and ")
+            "{name} has this phase only if {missing} is given there", name=line.name, missing=named(missing, " and ")
         )
     if missing is not None:
         return Phrase("the phase {phase} does not apply to the machine {name}", phase=phase, name=line.name)
     return Phrase(
-        "{name} has no phase “{phase}”; it has {phases}", name=line.name, phase=phase, phases=joined(line.phases, ", ")
+        "{name} has no phase “{phase}”; it has {phases}",
+        name=line.name,
+        phase=phase,
+        phases=named(list(line.phases), ", "),
     )

@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from diecut_report.api import Cell, GivenMechanism, ListedColumn, Phrase, Refusal, joined, phrase
+from diecut_report.api import Cell, GivenMechanism, ListedColumn, Phrase, Refusal, named, phrase
 
 TIMES = (
     ListedColumn("what", "What"), ListedColumn("time", "At the productivity", "t", "ms"),
@@ -25,15 +25,15 @@ def lines_out_of_step(drives: tuple[str, ...], single_position: bool, timing: Gi
                 "names {strange}, which is not a line of {name}; these are {lines}",
                 strange=strange,
                 name=timing.name,
-                lines=joined(lines, ", "),
+                lines=named(lines, ", "),
             ),
         )
     return 0.0 if single_position or set(drives) == set(lines) else float(len(set(drives)))
 
 
 def listed(drives: tuple[str, ...]) -> str:
-    """Return the lines that a clutch drives, in words."""
-    return joined(drives, ", ")
+    """Return the lines that a clutch drives, by their names."""
+    return Phrase("{names}", names=", ".join(drives))  # a text alone would be translated where it is a word, too
 
 
 def times(given: Mapping[str, Any]) -> Iterator[tuple[Cell, ...]]:

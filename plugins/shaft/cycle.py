@@ -9,7 +9,7 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Curve, Extremes, Phrase, Refusal, joined
+from diecut_report.api import Curve, Extremes, Phrase, Refusal, named
 from diecut_report.plugins.shaft.body import columns
 
 Array = NDArray[Any]
@@ -246,7 +246,7 @@ def _telling(names: Any, given: dict[str, tuple[Any, ...]], pitch_radius: Any) -
     """Whether the torques can be told: at most one balances, and none with a toothing is known by its extremes alone."""
     balancing = [i for i, each in enumerate(given["torque"]) if isinstance(each, str)]
     if len(balancing) > 1:
-        told = joined((str(names[i]) for i in balancing), " and ")
+        told = named([str(names[i]) for i in balancing], " and ")
         raise Refusal(
             f"loads.{balancing[1]}.torque",
             Phrase("is balance, as that of another load ({told}); only one load can balance the others", told=told),

@@ -12,8 +12,10 @@ import yaml
 from scipy.optimize import brentq
 
 from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
+from diecut_report.languages.phrases import Phrase
 from diecut_report.plugins.drive_train import MECHANISM as DRIVE_TRAIN
 from diecut_report.plugins.press_consistency import MECHANISM
+from diecut_report.plugins.press_consistency.on_main_shaft import listed
 from diecut_report.results.checks import check_results
 from tests.configs import EXAMPLE
 from tests.machines import inputs, number
@@ -252,3 +254,10 @@ def message_of(check: str, keys: dict[str, Any]) -> str:
     found = next(each for each in check_results(consistency(keys)) if each["id"] == check)
     assert found["status"] != "pass"
     return str(found["message"])
+
+
+def test_lines_are_no_words_of_their_own_which_would_be_translated() -> None:
+    """“drive” is a word of a catalogue, too; what a phrase is filled with stands as it is."""
+    found = listed(("drive",))
+    assert found == "drive" and isinstance(found, Phrase) and found.template != found
+    assert not any(isinstance(value, Phrase) for value in found.values.values())
