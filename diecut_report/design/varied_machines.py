@@ -26,9 +26,7 @@ from diecut_report.study.storage.description import ResultColumn
 CHECKS = ".checks."
 AT_LIMIT = 1e-9
 STATUS, UTILISATION, SLACK, MARGIN, SIZE = ".status", ".utilisation", ".slack", ".margin", ".size"
-NO_RESERVE = (
-    ".no_reserve"  # 1 where a check judges what the program sized to its limit, or what the calculation presumes
-)
+NO_RESERVE = ".no_reserve"  # 1 where a check judges what was sized to its limit, or what is presumed
 
 
 @dataclass(frozen=True)

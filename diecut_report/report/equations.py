@@ -7,7 +7,6 @@ from functools import reduce
 from typing import Any, NamedTuple
 
 from diecut_report.report.expression_printer import Tree, factors, terms, with_units
-from diecut_report.report.i18n import Catalogue
 from diecut_report.report.latex import Latex, Linear, escaped
 
 Item = Mapping[str, Any]
@@ -82,7 +81,7 @@ def _unit(link: Link) -> str | None:
 class Equations:
     """Builds the equations of a report; ``measure`` tells how wide LaTeX comes out."""
 
-    def __init__(self, words: Catalogue, measure: Measure, width: float = WIDTH) -> None:
+    def __init__(self, words: Mapping[str, str], measure: Measure, width: float = WIDTH) -> None:
         self.words = words
         self.measure = measure
         self.width = width

@@ -54,10 +54,8 @@ FILTERS: dict[str, Callable[..., Any]] = {
     "behind": partial(joined, ""),
     "sentence": sentence,
 }
-LARGER, SMALL = (
-    1.35,
-    300.0,
-)  # of figures on a screen against paper; points, of which a narrower one is shown whole on a narrow screen
+LARGER = 1.35  # of figures on a screen against paper
+SMALL = 300.0  # points: a narrower figure is shown whole on a narrow screen
 END = "</body>\n</html>"
 MATH = {("Report Math", 400, "normal"): "report-math"}
 

@@ -10,7 +10,7 @@ from typing import NamedTuple
 
 from markupsafe import Markup, escape
 
-from diecut_report.report.number_format import tidy as tidied
+from diecut_report.report.number_format import tidy
 
 LONGEST_WHOLE = 26  # letters of a source that stands in one line
 _SIGNS = "=<>≤≥≈≠−+√"
@@ -32,7 +32,7 @@ _IN_TEXT = re.compile(
 )
 _EQUAL = re.compile(r"(?<=\w) ([=≤≥<>≈]) (?=[−\d])")  # φ = 180°, which no line's end cuts
 _RATIO = re.compile(r"(?<=\bd[^\W\d_])/(?=d[^\W\d_](?!\w))|(?<=</i>)/(?=d<i)|(?<=[²³>])/(?=\()")  # dθ/dφ, h²/(2·tan τ)
-_SUM = re.compile(r"(\([^()\s]{1,12}) ([+−]) ([^()\s]{1,12}\))")  # (φ + τ)
+_SUM = re.compile(r"(\([^()\s]{1,12}) ([+−]) ([^()\s]{1,12}\))")  # (φ + τ), which no line's end cuts, either
 _UNIT = r"[kMmµcd]?(?:N|W|Pa|J|g|m|s|K|h|rad|V|A|min|Hz)[²³]?"
 _UNITS = re.compile(rf"(?:°|(?<![\w·/])(?:1|r|{_UNIT}))(?:[·/]\(?{_UNIT}\)?)+(?![\w·/])")
 
@@ -106,14 +106,9 @@ def own_words(text: str) -> Markup:
         return prose(text)
 
 
-def tidy(sentence: str) -> str:
-    """A sentence in print; no line's end cuts a sum in brackets."""
-    return _SUM.sub("\\1\u00a0\\2\u00a0\\3", tidied(sentence))
-
-
 def prose(sentence: str) -> Markup:
     """A sentence as HTML, its symbols set as symbols."""
-    text = _EQUAL.sub("\u00a0\\1\u00a0", tidy(sentence))
+    text = _SUM.sub("\\1\u00a0\\2\u00a0\\3", _EQUAL.sub("\u00a0\\1\u00a0", tidy(sentence)))
     letters = _letters.get()
     taken = [found.span() for found in _UNITS.finditer(text)]
     taken += [found.span() for found in letters.names.finditer(text)] if letters and letters.names else []

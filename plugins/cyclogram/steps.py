@@ -27,7 +27,6 @@ LARGEST_RATE_ERROR = 1e-6  # relative
 TIMING, SUM = ("timing",), ("sum",)
 
 
-
 def _found(timing: Timing) -> float:
     return 0.0 if timing.moved is None else float(timing.lines[timing.moved].line.offset)
 

@@ -40,9 +40,7 @@ class DrawingSheet:
         self.lines: list[tuple[Array, float]] = []  # with how much texts are to keep clear of them
         self.boxes: list[Box] = [(*corners.min(axis=0), *corners.max(axis=0))]
         self.solid: list[Box] = []  # where no text may stand
-        self.wished: list[
-            tuple[float, float]
-        ] = []  # from where to where labels reach that stand in one line where they are asked for
+        self.wished: list[tuple[float, float]] = []  # from where to where labels reach where they are asked for
         self.crowded = 0.0  # how much stands in the way of texts
         self.texts: list[Callable[[Labels], None]] = []
         self.sheet = canvas(10, 10)
