@@ -21,7 +21,7 @@ MECHANISM = Mechanism(
     chapters=(motion.machine, motion.contact, motion.motion_chapter, motion.window, torque.forces, torque.friction, torque.guides,
               torque.torque_chapter,
               torque.return_chapter,
-              torque.work, *torque.PRESSURES),
+              torque.work, *torque.PRESSURES, torque.rods),
     key_results=("cutting_start_angle", "dwell_end_angle", "velocity_at_contact", "friction_arm", "torque_dead_center", "torque_max",
                  "torque_max_angle", "torque_max_source", "return_arm_min", "friction_limit", "inertia_force_max", "work_per_cycle", "friction_work",
                  "friction_share", "power_mean"),
@@ -35,6 +35,8 @@ MECHANISM = Mechanism(
         "(at contact it is tan β_c of the force); what the guides' friction stretches the rods is not either.",
         "The coefficient of friction is one number. The torque grows with it, and that the relaxing rods do not drive the crank rests on its not "
         "being smaller, as in well lubricated joints it may be.",
+        "The stress of the rods is that of the pull alone: their bending by the joints' friction and the stress concentration of their eyes are not "
+        "included and have to be covered by the allowed stress. Guides and frame are not calculated.",
     ),
     sources=(
         Source("001", "Banakh Yu. O. Estimation of torques during die-cutting, with the compliance of the press, on a machine of the platen type. "

@@ -93,6 +93,10 @@ class PlatenPress(Inputs):
     platen_pin_length: Annotated[
         float | None, Quantity("b_B", "mm", "Length of one of the two platen pins; with it their pressure", gt=0)
     ] = None
+    rod_net_area: Annotated[
+        float | None,
+        Quantity("A_n", "mm**2", "Least cross-section of one of the two rods, at its eye or shank; with it their stress", gt=0),
+    ] = None
     offset_force: Annotated[float, Quantity("h_1", "mm", "Offset of the rods' force from the axis of the guides")] = 0
     offset_weight: Annotated[
         float, Quantity("h_2", "mm", "Offset of the platen's weight from the axis of the guides")
@@ -107,6 +111,9 @@ class PlatenPress(Inputs):
     allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the main shaft", gt=0)] = None
     allowable_pin_pressure: Annotated[
         float | None, Quantity("[p]", "MPa", "Allowed pressure of journals and pins, on their projected area", gt=0)
+    ] = None
+    allowable_rod_stress: Annotated[
+        float | None, Quantity("[σ]", "MPa", "Allowed pulsating stress of the rods, on their least cross-section", gt=0)
     ] = None
     n_points: Annotated[int, POINTS] = 720
 

@@ -38,6 +38,10 @@ forces.choice("inertia_force", "P_i", "N", "Force that accelerates the platen", 
               case(bind(formulas.inertia, acceleration="platen_acceleration"), "the platen moves"), source="001, after eq. 2")
 forces.value("force", "F", "kN", "Force of the rods along the guides", lambda elastic_force, inertia_force: elastic_force - inertia_force,
              source="001, after eq. 2")
+forces.value("crank_pin_force_x", "F_A,x", "kN", "Force of one of the two rods on its crank pin, along the guides", lambda force: force / 2,
+             source="symmetry")
+forces.value("crank_pin_force_y", "F_A,y", "kN", "Force of one of the two rods on its crank pin, across the guides",
+             lambda crank_pin_force_x, rod_angle: crank_pin_force_x * np.tan(rod_angle), source="statics")
 forces.crossings("force_change", "φ_F", "deg", "Crank angle at which the force of the rods changes its sign", of="force", output=False)
 forces.breakpoints("force_changes", "crank_angle", "force_change")
 forces.reduction("inertia_force_max", "P_i,max", "N", "Greatest inertia force of the platen", "abs_max", of="inertia_force")
@@ -93,6 +97,8 @@ torque_chapter.reduction("torque_max", "M_max", "N*m", "Greatest torque", "max",
 torque_chapter.value("torque_max_angle", "φ_M", "deg", "Crank angle of the greatest torque, before the dead centre",
                      bind(formulas.before_dead_center, angle="torque_max_at"))
 torque_chapter.reduction("torque_min", "M_min", "N*m", "Least torque (below zero: platen or rods drive the crank)", "min", of="torque")
+torque_chapter.value("crank_pin_torque", "M_A", "N*m", "Torque that one of the two rods, with the friction, puts on its crank",
+                     lambda torque: -torque / 2, source="symmetry")
 torque_chapter.choice("torque_source", "M_14", "N*m", "Torque by eq. 14 as printed, while cutting",
                       case(bind(formulas.torque_as_printed), "the board is cut", in_phase(3)), case(lambda: 0, "eq. 14 is for cutting alone"),
                       source="001 eq. 14")
@@ -157,3 +163,11 @@ PRESSURES = (
     _pressure("crank_pin_length", "crank_pin_pressure", "p_A", "crank pins", "crank_pin_radius"),
     _pressure("platen_pin_length", "platen_pin_pressure", "p_B", "platen's pins", "platen_pin_radius"),
 )
+
+rods = Chapter("Stress of the rods", text="Two of them share the force, which pulsates from zero once a turn.", needs=("rod_net_area",),
+               absent="not calculated: rod_net_area is not given")
+rods.value("rod_stress", "σ_r", "MPa", "Greatest tensile stress of the rods", lambda force_max, rod_net_area: force_max / (2 * rod_net_area),
+           source="statics")
+rods.value("rod_net_area_least", "A_n,min", "mm**2", "Least cross-section at the allowed stress",
+           lambda force_max, allowable_rod_stress: force_max / (2 * allowable_rod_stress), source="statics", output=False,
+           needs=("allowable_rod_stress",))
