@@ -66,6 +66,10 @@ class UnknownName(UserError, KeyError, AttributeError):
 
     __str__ = UserError.__str__
 
+    def __init__(self, problems: Problem | Iterable[Problem]) -> None:
+        super().__init__(problems)
+        self.obj = None  # where it is set, Python 3.12 and newer do not add a "Did you mean" of their own to the traceback
+
 
 class PluginError(Exception):
     """A plugin broke (exit code 3). Raise it `from` the cause; it names the kind and, where known, the instance."""

@@ -1,7 +1,7 @@
 #!/bin/sh
 # Runs what takes too long for every change: all tests with many examples of hypothesis, those marked "nightly" too,
-# the benchmarks in one round, the whole documentation site, and a mutation of each plugin and module of mechanics (scripts/change_signs.py).
-# Takes about an hour. Needs .venv (./run-tests sets it up); the arguments are those of pytest.
+# the benchmarks in one round, the whole documentation site, a mutation of each plugin and module of mechanics (scripts/change_signs.py),
+# and the tests with each other interpreter that this machine has. Takes about an hour, and a quarter for each interpreter. Needs .venv (./run-tests sets it up); the arguments are those of pytest.
 set -eu
 
 cd "$(dirname -- "$0")/.."
@@ -13,3 +13,16 @@ for benchmark in calc report batch_kernel warm; do
 done
 scripts/site.sh
 "$python" scripts/change_signs.py --seed "$(date +%j)" --per-plugin 3
+
+# In a clone of the last commit each: an environment belongs to one interpreter. Those of pyenv are not on the PATH.
+clones=$(mktemp -d)
+trap 'rm -rf "$clones"' EXIT
+version='import sys; print("{}.{}".format(*sys.version_info))'
+tried=$("$python" -c "$version")
+for other in python3.11 python3.12 python3.13 python3.14 "$HOME"/.pyenv/versions/3.1[1-9].*/bin/python3; do
+    found=$("$other" -c "$version" 2>/dev/null) || continue
+    case " $tried " in *" $found "*) continue ;; esac
+    tried="$tried $found"
+    git clone -q . "$clones/$found"
+    PYTHON=$other "$clones/$found/run-tests"
+done

@@ -52,8 +52,11 @@ def ran(folder: Path, command: list[str], **variables: str) -> str:
     return told.read_text() if told.exists() else ""
 
 
-def test_a_trap_is_told_where_it_is_run(folder: Path) -> None:
-    assert ran(folder, [sys.executable, "-c", "import yaml, threading"]) == "yaml\nthreading\n"
+def test_a_shadowing_module_is_reported_where_it_would_run(tmp_path: Path) -> None:
+    """In a folder of its own: among all traps there are modules that newer interpreters import before the command."""
+    for name in ("yaml", "colorsys"):
+        saved(tmp_path, TRAP.format(name=name), f"{name}.py")
+    assert ran(tmp_path, [sys.executable, "-c", "import yaml, colorsys"]) == "yaml\ncolorsys\n"
 
 
 def test_nor_as_a_module_where_python_itself_leaves_the_choice(folder: Path) -> None:

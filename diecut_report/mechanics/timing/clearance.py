@@ -53,13 +53,15 @@ class Station:
 def profile_height(station: Station, tilt: Array, distance: Array) -> Array:
     """Return the height Y of the cylinder's lower side at a distance ξ along the feed from its axis, abs(ξ) < R.
 
-    The tilt τ of the flat is positive where it has turned with the feed; at τ = 0 the flat is down.
+    The tilt τ of the flat is positive where it has turned with the feed; at τ = 0 the flat is down. A flat that faces upwards
+    leans inwards: beyond its lower corner there is no cylinder, and the height is infinite.
     """
     radius, flat = station.radius, station.radius * np.cos(station.half_angle)
-    arc = radius - np.sqrt(np.maximum(radius**2 - distance**2, 0.0))
-    cosine = np.cos(tilt)
-    chord = radius - (flat + distance * np.sin(tilt)) / np.where(cosine > 0, cosine, 1.0)
-    found: Array = np.where(cosine > 0, np.maximum(arc, chord), arc)
+    depth = np.sqrt(np.maximum(radius**2 - distance**2, 0.0))
+    cosine, aside = np.cos(tilt), distance * np.sin(tilt)
+    chord = radius - (flat + aside) / np.where(cosine > 0, cosine, 1.0)
+    beyond = np.where(depth * cosine - aside > flat, np.inf, 0.0)
+    found: Array = np.maximum(radius - depth, np.where(cosine > 0, chord, beyond))
     return found
 
 
