@@ -7,7 +7,7 @@ from __future__ import annotations
 
 import re
 import traceback
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from hashlib import sha256
@@ -24,10 +24,10 @@ from jinja2 import (
     TemplateSyntaxError,
     nodes,
 )
-from jinja2.sandbox import ImmutableSandboxedEnvironment
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.report.template_sandbox import TemplateSandbox
 
 OWN = "program/"  # before the name of a template: the program's, whatever the firm has
 ENDING, CSS = ".html.j2", "house.css"
@@ -56,9 +56,9 @@ class HouseStyle:
         told = [sorted(self.templates.items()), self.css, sorted(self.pictures.items())]
         return sha256(repr(told).encode("utf-8", "surrogatepass")).hexdigest()
 
-    def environment(self, programs: Path, filters: Filters) -> Environment:
-        """Return what fills templates: the firm's before the program's."""
-        environment = ImmutableSandboxedEnvironment(loader=_HouseLoader(self, programs), **OPTIONS)
+    def environment(self, programs: Path, filters: Filters, functions: Collection[Callable[..., Any]]) -> Environment:
+        """Return what fills templates, the firm's before the program's: they may call these functions, and ``picture``."""
+        environment = TemplateSandbox([*functions, self._picture], loader=_HouseLoader(self, programs), **OPTIONS)
         environment.filters.update(filters)
         environment.globals["picture"] = self._picture
         return environment

@@ -3,12 +3,12 @@
 from __future__ import annotations
 
 import base64
-from collections.abc import Callable
+from collections.abc import Callable, Mapping
 from functools import cache, partial
 from hashlib import sha256
 from importlib import import_module
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, Protocol
+from typing import TYPE_CHECKING, Any, NamedTuple, Protocol
 
 from jinja2 import Environment, FileSystemLoader
 from markupsafe import Markup
@@ -16,13 +16,14 @@ from markupsafe import Markup
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.house_style import OPTIONS, in_words, refuse_fetching
-from diecut_report.report.model import Item
+from diecut_report.report.model import CheckRow, Item, PrintedChapter
 from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_blocks
 from diecut_report.report.symbols import cited, letters_declared, own_words, pieces, prose, symbol
 from diecut_report.report.title_block import machine_named
 from diecut_report.report.value_lines import in_lines
+from diecut_report.report.value_rows import ValueRow
 
 if TYPE_CHECKING:
     from diecut_report.report.figures.style import Svg
@@ -142,17 +143,43 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     sheets += [f"frame_{document.block.frame}.css"] if kind == "print" else []
     style = "\n".join([_font_faces(tuple(faces.items()), FORMS[kind]), *map(_read, sheets), medium.style])
     house = material.house
-    environment = _environment() if house is None else house.environment(folder(), FILTERS)
     style += f"\n{house.css}" if house else ""
+    given = template_variables(material, medium, kind, style, policy(*scripts))
+    environment = _environment() if house is None else house.environment(folder(), FILTERS, template_functions(given))
     with in_words(house), letters_declared(*material.letters):
-        made = environment.get_template("report.html.j2").render(
-        doc=document, t=document.words, kind=kind, style=Markup(style), policy=policy(*scripts),
-        math=medium, figure=medium.figure, failed=material.failed, abreast=material.are_abreast, frame=medium.frame, logo=material.logo,
-        carried=material.carried, changes=material.changes,
-    )  # fmt: skip
+        made = environment.get_template("report.html.j2").render(given)
     if house:
         refuse_fetching(made, house, "; ".join(POLICY) if kind == "screen" else "")
     return made
+
+
+class MathFunctions(NamedTuple):
+    """What templates ask of a medium about formulas."""
+
+    display: Callable[[Equation], Markup]
+    beside: Callable[[Equation], Markup]
+    fits_beside: Callable[[Item], bool]
+    has_room_beside: Callable[[Item], bool]
+
+
+METHODS = (CheckRow.repeats, PrintedChapter.count, ValueRow.named_formula)
+"""What templates may call of the data that they see."""
+
+
+def template_variables(material: Material, medium: Medium, kind: str, style: str, policy: str) -> dict[str, Any]:
+    """Return what templates see: plain data, and plain functions."""
+    document = material.document
+    return {
+        "doc": document, "t": document.words, "kind": kind, "style": Markup(style), "policy": policy,
+        "math": MathFunctions(medium.display, medium.beside, medium.fits_beside, medium.has_room_beside),
+        "figure": medium.figure, "failed": material.failed, "abreast": material.are_abreast, "frame": medium.frame, "logo": material.logo,
+        "carried": material.carried, "changes": material.changes,
+    }  # fmt: skip
+
+
+def template_functions(given: Mapping[str, Any]) -> list[Callable[..., Any]]:
+    """Return what templates may call of what they see."""
+    return [*METHODS, *given["math"], given["figure"], given["failed"], given["abreast"]]
 
 
 def filled_page(template: str, **given: object) -> str:

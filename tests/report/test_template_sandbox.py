@@ -1,0 +1,152 @@
+"""Firm templates reach plain data and plain functions, nothing else: by a crawl of all that they see, and by known ways out of a sandbox."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping
+from dataclasses import fields, is_dataclass
+from functools import cached_property
+from types import FunctionType, MethodType
+from typing import Any
+
+import pytest
+from jinja2 import defaults
+from markupsafe import Markup
+
+from diecut_report.errors import UserError
+from diecut_report.report.context import Material
+from diecut_report.report.house_style import HouseStyle
+from diecut_report.report.html import FILTERS, MathFunctions, Screen, folder, page, template_functions, template_variables
+from diecut_report.report.i18n import Catalogue
+from diecut_report.report.pdf import Paper
+from diecut_report.report.template_sandbox import TemplateSandbox
+
+Data = dict[str, Any]
+PLAIN = (str, int, float, bytes, type(None))
+CALLED = {
+    "Screen.display", "Screen.fits_beside", "Screen.figure", "Paper.display", "Paper.beside", "Paper.fits_beside", "Paper.has_room_beside",
+    "Paper.figure", "Material.failed", "Material.are_abreast", "HouseStyle._picture", "CheckRow.repeats", "PrintedChapter.count",
+    "ValueRow.named_formula", "make_cycler", "Cycler", "Joiner", "Namespace", "safe_range",
+}  # fmt: skip
+"""All that a template may call, but for its own macros and methods of texts and containers."""
+
+
+def reached(value: Any, path: str, seen: set[int]) -> Iterator[tuple[str, Any]]:
+    """Yield what a template reaches from a value, with the path to it."""
+    yield path, value
+    if isinstance(value, PLAIN) or id(value) in seen or path.endswith(".packed.packed"):  # which gives one like itself
+        return
+    seen.add(id(value))
+    if isinstance(value, Mapping):
+        for key, each in value.items():
+            yield from reached(each, f"{path}[{key!r}]", seen)
+    elif is_dataclass(value) or hasattr(type(value), "_fields"):
+        for name in names_of(value):
+            yield from reached(getattr(value, name), f"{path}.{name}", seen)
+    if isinstance(value, (list, tuple, set, frozenset)):
+        for index, each in enumerate(value):
+            yield from reached(each, f"{path}[{index}]", seen)
+
+
+def names_of(value: Any) -> list[str]:
+    """The public fields and properties of a data class."""
+    declared = [each.name for each in fields(value)] if is_dataclass(value) else list(value._fields)
+    made = [name for name in dir(type(value)) if isinstance(getattr(type(value), name), property | cached_property)]
+    return [name for name in {*declared, *made} if not name.startswith("_")]
+
+
+def is_plain(value: Any) -> bool:
+    """Whether a value is data: a text, a number, a container, a data class; the report's words are a mapping of texts."""
+    is_record = is_dataclass(value) and not isinstance(value, type)
+    return is_record or isinstance(value, (*PLAIN, list, tuple, set, frozenset, Mapping, Catalogue))
+
+
+@pytest.mark.parametrize("medium", [Screen, Paper])
+def test_all_that_a_template_reaches_is_plain_data_or_a_listed_function(plain: Data, medium: Any) -> None:
+    house = HouseStyle("house")
+    material = Material(plain, house=house)
+    given = template_variables(material, medium(material), "print", "", "")
+    environment = house.environment(folder(), FILTERS, template_functions(given))
+    count = 0
+    for path, value in reached(given | environment.globals, "", set()):
+        count += 1
+        assert is_plain(value) or value.__qualname__ in CALLED, path
+    assert count > 2000  # the report itself
+    assert {each.__qualname__ for each in environment.allowed} <= CALLED | {f"Screen.{name}" for name in MathFunctions._fields}
+
+
+def test_filters_and_tests_are_those_of_jinja_and_of_the_report() -> None:
+    environment = HouseStyle("house").environment(folder(), FILTERS, [])
+    assert environment.filters == defaults.DEFAULT_FILTERS | FILTERS
+    assert environment.tests == defaults.DEFAULT_TESTS
+    for each in FILTERS.values():
+        assert isinstance(getattr(each, "func", each), FunctionType) and not isinstance(each, MethodType)
+
+
+WAYS_OUT = [
+    # what the report's own objects hold
+    '{{ math.material.house.environment("/", {}) }}',
+    '{{ math.material }}',
+    '{{ math.display.__self__.material }}',
+    "{{ figure.__self__ }}",
+    "{{ figure['__self__'] }}",
+    "{{ abreast.__func__.__globals__ }}",
+    '{{ failed|attr("__self__") }}',
+    '{{ [figure]|map(attribute="__self__")|first }}',
+    '{{ [math]|map(attribute="display.__self__.material.house")|list }}',
+    '{{ ([math.display]|groupby("__self__"))[0][0].material }}',
+    '{{ [doc]|sum(attribute="__class__") }}',
+    "{{ doc.words._own }}",
+    "{{ doc.words._said('x') }}",
+    "{{ doc.__dataclass_fields__ }}",
+    "{{ doc['__class__'] }}",
+    # Jinja's own
+    "{{ cycler.__init__.__globals__.os.popen('id').read() }}",
+    "{{ cycler('a').__init__.__globals__ }}",
+    "{{ joiner.__init__ }}",
+    "{{ namespace.__init__.__globals__ }}",
+    "{{ namespace(x=cycler).x.__mro__ }}",
+    "{{ lipsum.__globals__ }}",
+    "{{ dict.mro() }}",
+    "{{ self._TemplateReference__context }}",
+    "{{ self.closing.__globals__ }}",
+    "{{ super._context }}",
+    "{% macro x() %}{% endmacro %}{{ x._func }}",
+    "{% macro x() %}{% endmacro %}{{ x._environment }}",
+    "{% macro x() %}{{ caller._environment }}{% endmacro %}{% call x() %}{% endcall %}",
+    "{% for x in [1] %}{{ loop._iterable }}{% endfor %}",
+    "{% import 'macros.html.j2' as m %}{{ m._body_stream }}",
+    "{% import 'macros.html.j2' as m %}{{ m.__init__.__globals__ }}",
+    # Python's
+    "{{ ''.__class__.__mro__ }}",
+    "{{ 'x'.format(1) }}",
+    "{{ '{0.__class__}'.format_map({}) }}",
+    "{{ ('{0.__class__}'|safe).format(doc) }}",
+    "{{ (1).to_bytes(2, 'big') }}",
+    "{{ 'x'.encode('utf-8') }}",
+    "{{ ''.translate({}) }}",
+    "{{ ''.maketrans('a', 'b') }}",
+    "{{ {}.fromkeys([1]) }}",
+    "{{ [].sort() }}",
+]  # fmt: skip
+
+
+@pytest.mark.parametrize("text", WAYS_OUT)
+def test_a_way_out_of_the_sandbox_is_closed(plain: Data, text: str) -> None:
+    brief = plain | {"mechanisms": {"cylinder": plain["mechanisms"]["cylinder"]}, "comparisons": {}, "report": {"detail": "brief"}}
+    template = '{% extends "program/report.html.j2" %}\n{% block closing %}\n' + text + "\n{% endblock %}\n"
+    with pytest.raises(UserError, match=r"unsafe|not safely callable|has no attribute|is undefined|no blocks? named|no parent block"):
+        page(Material(brief, house=HouseStyle("house", {"report.html.j2": template})))
+
+
+def test_what_is_plain_is_read_and_called() -> None:
+    sandbox = TemplateSandbox([])
+    for text, shown in [
+        ("{% set n = namespace(x=1) %}{% set n.x = 2 %}{{ n.x }}", "2"),
+        ("{% for x in [1, 2] %}{{ loop.cycle('a', 'b') }}{{ loop.index }}{% endfor %}", "a1b2"),
+        ("{{ 'a b'.split()|join('-') }}{{ {'a': 1}.get('a') }}{{ [1, 1].count(1) }}", "a-b12"),
+        ("{% set c = cycler('x', 'y') %}{{ c.next() }}{{ c.next() }}", "xy"),
+        ("{% macro m(a) %}{{ a }}{{ caller() }}{% endmacro %}{% call m(1) %}2{% endcall %}", "12"),
+        ("{{ ('<b>'|safe).upper() }}", str(Markup("<B>"))),
+        ("{{ range(3)|list }}", "[0, 1, 2]"),
+    ]:
+        assert sandbox.from_string(text).render() == shown
