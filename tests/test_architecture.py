@@ -76,7 +76,9 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "weasyprint": r"diecut_report\.report\.page_engine",
     "pydyf": r"diecut_report\.report\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
-    "jinja2": r"diecut_report\.report\.(html|document|house_style)",
+    "jinja2": r"diecut_report\.report\.(html|document|house_style|template_sandbox)",
+    "tinycss2": r"diecut_report\.report\.page_policy",
+    "tinyhtml5": r"diecut_report\.report\.page_policy",
     "scipy.stats": r"diecut_report\.(study|design)\..*",  # slow to import, and needed by studies and tolerances alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }

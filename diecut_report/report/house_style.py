@@ -5,13 +5,11 @@ They are filled in a sandbox: they see the report's content, change nothing of i
 
 from __future__ import annotations
 
-import re
 import traceback
 from collections.abc import Callable, Collection, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass, field
 from hashlib import sha256
-from html.parser import HTMLParser
 from pathlib import Path
 from typing import Any
 
@@ -26,16 +24,13 @@ from jinja2 import (
 )
 
 from diecut_report.errors import Problem, UserError, nearest
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import Phrase
+from diecut_report.report.page_policy import fetched_by_css
 from diecut_report.report.template_sandbox import TemplateSandbox
 
 OWN = "program/"  # before the name of a template: the program's, whatever the firm has
 ENDING, CSS = ".html.j2", "house.css"
 MAIN = "report.html.j2"
-FETCHING = ("src", "srcset", "data", "poster", "background", "xlink:href")
-WITH_HREF = ("link", "image", "use", "base")
-_UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")  # letters that no page may hold
-_FETCHED_BY_CSS = re.compile(r"@import|url\(\s*(?!['\"]?(?:data:|#))[^)]{0,60}", re.IGNORECASE)
 OPTIONS: dict[str, Any] = {"autoescape": True, "undefined": StrictUndefined, "trim_blocks": True, "lstrip_blocks": True}
 
 Filters = Mapping[str, Callable[..., Any]]
@@ -103,7 +98,7 @@ def problems(house: HouseStyle, programs: Path) -> list[Problem]:
         Problem(Phrase("{what} would be fetched; a report fetches nothing. Put pictures into the folder, and write "
 "them as data: addresses.", what=what),
                 house.path(CSS), line)
-        for what, line in _fetched(house.css)
+        for what, line in fetched_by_css(house.css)
     ]  # fmt: skip
 
 
@@ -164,11 +159,6 @@ def blocks(name: str, environment: Environment) -> list[str]:
     return [block.name for block in environment.parse(source).find_all(nodes.Block)]
 
 
-def _fetched(css: str) -> Iterator[tuple[str, int]]:
-    for found in _FETCHED_BY_CSS.finditer(css):
-        yield found[0], css.count("\n", 0, found.start()) + 1
-
-
 @contextmanager
 def in_words(house: HouseStyle | None) -> Iterator[None]:
     """What goes wrong while a firm's template is filled is told with its file and line; what goes wrong elsewhere is raised as it is."""
@@ -190,71 +180,3 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
             said = Phrase("{name} is not a template of the folder or the program", name=repr(cause.name))
         words = Phrase("The template cannot be filled: {reason}.", reason=said.rstrip(".") or type(cause).__name__)
         raise UserError(Problem(words, places[-1].filename, places[-1].lineno)) from cause
-
-
-def refuse_fetching(page: str, house: HouseStyle, policy: str) -> None:
-    """Refuse a page for which something would be fetched, that lost what forbids a browser to do so, or that holds letters which none may hold.
-
-    ``policy`` is how that begins; a page that is only printed has none.
-    """
-    reader = _Fetched()
-    reader.feed(page)
-    advice = phrase('a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.')
-    found = [
-        Problem(Phrase("{each} would be fetched; {advice}", each=each, advice=advice), house.folder)
-        for each in reader.found
-    ]
-    if policy and (len(reader.policies) != 1 or not reader.policies[0].startswith(policy)):
-        words = Phrase(
-            "The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
-            "or keep its head.",
-            main=MAIN,
-        )
-        found.append(Problem(words, house.folder))
-    if letter := _UNWRITTEN.search(page):
-        found.append(
-            Problem(
-                Phrase(
-                    "A template writes U+{code}, which a page cannot hold. Leave it out.",
-                    code=format(ord(letter[0]), "04X"),
-                ),
-                house.folder,
-            )
-        )
-    if found:
-        raise UserError(found)
-
-
-class _Fetched(HTMLParser):
-    """Gathers what a page would fetch, and its policies."""
-
-    def __init__(self) -> None:
-        super().__init__()
-        self.found: list[str] = []
-        self.policies: list[str] = []
-        self._style = False
-
-    def handle_starttag(self, tag: str, attrs: list[tuple[str, str | None]]) -> None:
-        """Look at an element."""
-        given = {name: value or "" for name, value in attrs}
-        if tag == "meta" and given.get("http-equiv", "").lower() == "content-security-policy":
-            self.policies.append(given.get("content", ""))
-        elif tag == "meta" and given.get("http-equiv", "").lower() == "refresh":
-            self.found.append("<meta http-equiv=refresh>")
-        self._style = tag == "style"
-        named = (*FETCHING, *(("href",) if tag in WITH_HREF else ()))
-        addresses = [given[name] for name in named if name in given]
-        self.found += [f"<{tag}> {each[:80]}" for each in addresses if each and not each.startswith(("data:", "#"))]
-        self._judge_css(given.get("style", ""))
-
-    def handle_data(self, data: str) -> None:
-        """Look at a style sheet in the page."""
-        if self._style:
-            self._judge_css(data)
-
-    def handle_endtag(self, tag: str) -> None:
-        """A style sheet ends."""
-        self._style = False
-
-    def _judge_css(self, css: str) -> None:
-        self.found += [what for what, _ in _fetched(css)]

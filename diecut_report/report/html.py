@@ -15,8 +15,9 @@ from markupsafe import Markup
 
 from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
-from diecut_report.report.house_style import OPTIONS, in_words, refuse_fetching
+from diecut_report.report.house_style import MAIN, OPTIONS, in_words
 from diecut_report.report.model import CheckRow, Item, PrintedChapter
+from diecut_report.report.page_policy import refuse_fetching
 from diecut_report.report.number_format import joined, sentence, tidy
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_blocks
@@ -147,9 +148,9 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     given = template_variables(material, medium, kind, style, policy(*scripts))
     environment = _environment() if house is None else house.environment(folder(), FILTERS, template_functions(given))
     with in_words(house), letters_declared(*material.letters):
-        made = environment.get_template("report.html.j2").render(given)
+        made = environment.get_template(MAIN).render(given)
     if house:
-        refuse_fetching(made, house, "; ".join(POLICY) if kind == "screen" else "")
+        refuse_fetching(made, house.folder, "; ".join(POLICY) if kind == "screen" else "", MAIN)
     return made
 
 

@@ -15,8 +15,9 @@ from diecut_report.errors import UserError
 from diecut_report.exchange.verification import _pages, _why_not_compared
 from diecut_report.house_folder import house_style
 from diecut_report.report.context import Material
-from diecut_report.report.house_style import HouseStyle, blocks, refuse_fetching
+from diecut_report.report.house_style import HouseStyle, blocks
 from diecut_report.report.html import POLICY, Screen, filled, folder, page
+from diecut_report.report.page_policy import refuse_fetching
 from diecut_report.report.pdf import Paper, sheets
 from tests.configs import SMALL, saved
 
@@ -171,7 +172,7 @@ def test_what_only_print_would_fetch_is_told(brief: Data, tmp_path: Path, place:
 @pytest.mark.parametrize("letter", ["\0", "\x1b", "\ud800", "\uffff"])
 def test_letters_that_no_page_can_hold_are_refused(letter: str) -> None:
     with pytest.raises(UserError, match=f"A template writes U\\+{ord(letter):04X}"):
-        refuse_fetching(f"{HEAD}a{letter}b", HouseStyle("house"), POLICY[0])
+        refuse_fetching(f"{HEAD}a{letter}b", "house", POLICY[0], "report.html.j2")
 
 
 @pytest.mark.parametrize(
@@ -182,14 +183,43 @@ def test_letters_that_no_page_can_hold_are_refused(letter: str) -> None:
         ('<p style="background: url(//x)">', "url(//x would be fetched"),
         ("<style>@import 'x';</style>", "@import would be fetched"),
         ('<iframe src="file:///etc/passwd"></iframe>', "<iframe> file:///etc/passwd would be fetched"),
-        ('<meta http-equiv="refresh" content="0; url=http://x">', "<meta http-equiv=refresh> would be fetched"),
+        ('<meta http-equiv="refresh" content="0; url=http://x">', "<meta> refresh would be fetched"),
+        ('<img srcset="//x 2x" alt="">', "<img> //x 2x would be fetched"),
+        ("<form action=x>", "<form> x would be fetched"),
+        ("<button formaction=x>", "<button> x would be fetched"),
+        ('<svg><image href="x"/></svg>', "<image> x would be fetched"),
+        ('<svg><use xlink:href="x#a"/></svg>', "<use> x#a would be fetched"),
+        ('<svg><a><set attributeName="href" to="javascript:x"/></a></svg>', "<set> would be fetched"),
+        ('<a href=" java\nscript:alert(1)">x</a>', "would be fetched"),
+        ('<p onclick="x">', "<p onclick> would be fetched"),
+        ('<svg><rect fill="\\75rl(//x)"/></svg>', "url(//x would be fetched"),
+        ("<style>@\\69mport 'x';</style>", "@import would be fetched"),
+        ("<style>p{background:\\75rl(//x)}</style>", "url(//x would be fetched"),
+        ("<style>p{background:image-set('//x' 1x)}</style>", "image-set(//x would be fetched"),
+        ("<style>p{background:u/**/rl(//x) url( '//y' )}</style>", "url(//y would be fetched"),
+        ("<style>@font-face{src:url(//x)}</style>", "url(//x would be fetched"),
+        ("<svg><style>@import 'x'</style></svg>", "@import would be fetched"),
+        ("<script>x</script>", "<script> would be fetched"),
+        ("<noscript><img src=//x></noscript>", "<noscript> would be fetched"),
         ('<meta http-equiv="Content-Security-Policy" content="">', "has lost its Content-Security-Policy"),
     ],
 )
 def test_a_page_that_fetches_is_refused(text: str, words: str) -> None:
     with pytest.raises(UserError) as error:
-        refuse_fetching(f"{HEAD}{text}", HouseStyle("house"), POLICY[0])
+        refuse_fetching(f"{HEAD}{text}", "house", POLICY[0], "report.html.j2")
     assert words in str(error.value)
+
+
+@pytest.mark.parametrize(
+    "head",
+    [
+        f"<textarea>{HEAD}</textarea>", f"<body>{HEAD}", f"<title>{HEAD}</title>", f"<noscript>{HEAD}</noscript>", f"<!--{HEAD}-->",
+        f"<template>{HEAD}</template>", f"<p>x</p>{HEAD}", f"<style>p{{}}</style>{HEAD}", f"<link rel=x><meta charset=utf-8>{HEAD}",
+    ],
+)  # fmt: skip
+def test_a_policy_that_browsers_do_not_obey_is_lost(head: str) -> None:
+    with pytest.raises(UserError, match="has lost its Content-Security-Policy"):
+        refuse_fetching(f"<!DOCTYPE html>{head}", "house", POLICY[0], "report.html.j2")
 
 
 def test_pages_are_judged_whatever_their_medium(brief: Data, tmp_path: Path) -> None:
@@ -202,7 +232,7 @@ def test_pages_are_judged_whatever_their_medium(brief: Data, tmp_path: Path) -> 
 
 def test_what_lies_in_the_page_and_links_are_not_fetched() -> None:
     text = '<a href="https://example.com">x</a><img src="data:image/png;base64,AA=="><use xlink:href="#a"/><p style="fill: url(#b)">'
-    refuse_fetching(f"{HEAD}{text}", HouseStyle("house"), POLICY[0])
+    refuse_fetching(f"{HEAD}{text}", "house", POLICY[0], "report.html.j2")
 
 
 def test_a_fault_of_the_program_itself_stays_one(brief: Data, tmp_path: Path) -> None:

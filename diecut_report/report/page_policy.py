@@ -1,0 +1,108 @@
+"""What a page of a firm's templates must not do: run, fetch, or lose the policy that forbids it. Judged on what a browser reads.
+
+The page is parsed by the HTML5 algorithm and its styles by CSS Syntax, so that neither escapes nor misplaced tags hide an address.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from typing import Any
+
+from diecut_report.errors import Problem, UserError
+from diecut_report.languages.phrases import Phrase, phrase
+
+HTML, SVG = "http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"
+RUNNING = {"script", "iframe", "frame", "frameset", "object", "embed", "applet", "portal", "base", "animate", "set", "noscript"}
+"""Elements that run, embed, change addresses, or are read otherwise where scripts are off."""
+ADDRESSES = {"src", "srcset", "data", "poster", "background", "href", "imagesrcset", "action", "formaction", "ping", "manifest", "longdesc",
+             "lowsrc", "dynsrc", "codebase", "archive", "classid", "icon", "profile"}  # fmt: skip
+LINKS = re.compile(r"(https?:|mailto:|tel:|data:|#)", re.IGNORECASE)
+"""What a link may lead to: nothing is fetched before a reader follows it."""
+FETCHING_FUNCTIONS = {"url", "src", "image", "image-set", "-webkit-image-set", "cross-fade", "-webkit-cross-fade", "element", "attr"}
+_UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")  # characters that no page may hold
+
+
+def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
+    """Raise UserError for a page that would fetch or run something, that lost its policy, or holds characters which none may hold.
+
+    ``policy`` is how the policy begins; a page that is only printed has none. ``main`` is the template that holds it.
+    """
+    from tinyhtml5 import parse
+
+    tree: Any = parse(page)
+    advice = phrase('a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.')
+    found = [Problem(Phrase("{each} would be fetched; {advice}", each=each, advice=advice), folder) for each in _fetched(tree)]
+    if policy and not _is_protected(tree, policy):
+        words = Phrase(
+            "The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
+            "or keep its head.",
+            main=main,
+        )
+        found.append(Problem(words, folder))
+    if letter := _UNWRITTEN.search(page):
+        code = format(ord(letter[0]), "04X")
+        found.append(Problem(Phrase("A template writes U+{code}, which a page cannot hold. Leave it out.", code=code), folder))
+    if found:
+        raise UserError(found)
+
+
+def _is_protected(tree: Any, policy: str) -> bool:
+    """Return whether the page has one policy, in its head, where browsers look for it, before anything that it is to judge."""
+    policies = [each for each in tree.iter(f"{{{HTML}}}meta") if _lower(each, "http-equiv") == "content-security-policy"]
+    head = tree.find(f"{{{HTML}}}head")
+    before = [each.tag for each in head][:2] if head is not None else []
+    in_place = len(policies) == 1 and any(each is policies[0] for each in list(head)[:2]) and set(before) == {f"{{{HTML}}}meta"}
+    return in_place and policies[0].get("content", "").startswith(policy)
+
+
+def _lower(element: Any, name: str) -> str:
+    return str(element.get(name, "")).strip().lower()
+
+
+def _fetched(tree: Any) -> Iterator[str]:
+    """Yield what a page would fetch or run."""
+    for element in tree.iter():
+        if not isinstance(element.tag, str):
+            continue  # a comment
+        tag = element.tag.rpartition("}")[2]
+        if tag.lower() in RUNNING or (tag == "meta" and _lower(element, "http-equiv") == "refresh"):
+            address = element.get("src") or element.get("href") or element.get("data") or _lower(element, "http-equiv")
+            yield f"<{tag}> {address[:80]}".rstrip()
+        if tag == "style":
+            yield from (what for what, _ in fetched_by_css("".join(element.itertext())))
+        for name, value in element.attrib.items():
+            yield from _fetched_by_attribute(tag, name.rpartition("}")[2].lower(), value)
+
+
+def _fetched_by_attribute(tag: str, name: str, value: str) -> Iterator[str]:
+    address = value.strip().lower()
+    if name.startswith("on"):
+        yield f"<{tag} {name}>"
+    elif name in ("href", "xlink:href") and tag.lower() in ("a", "area"):
+        if not LINKS.match(re.sub(r"[\s\0-\x1f]", "", address)):
+            yield f"<{tag}> {value[:80]}"
+    elif name.removeprefix("xlink:") in ADDRESSES and address and not address.startswith(("data:", "#")):
+        yield f"<{tag}> {value[:80]}"
+    if name == "style" or "(" in value:
+        yield from (what for what, _ in fetched_by_css(value))
+
+
+def fetched_by_css(css: str) -> Iterator[tuple[str, int]]:
+    """Yield what a style would fetch, with its line."""
+    import tinycss2
+
+    yield from _fetched_by_tokens(tinycss2.parse_component_value_list(css, skip_comments=True))
+
+
+def _fetched_by_tokens(tokens: Iterable[Any], within: str = "") -> Iterator[tuple[str, int]]:
+    for token in tokens:
+        name = getattr(token, "lower_name", "") if token.type == "function" else ""
+        if token.type == "at-keyword" and token.lower_value == "import":
+            yield "@import", token.source_line
+        elif (token.type == "url" or (token.type == "string" and within)) and not token.value.strip().lower().startswith(("data:", "#")):
+            yield f"{within or 'url'}({token.value[:60]}", token.source_line
+        elif token.type == "function":
+            yield from _fetched_by_tokens(token.arguments, name if name in FETCHING_FUNCTIONS else within)
+        else:
+            yield from _fetched_by_tokens(getattr(token, "content", None) or (), within)
