@@ -111,8 +111,8 @@ class _SvgJudge:
     """Goes through an SVG without building anything of it."""
 
     def __init__(self) -> None:
-        self.depth = self.count = 0
-        self.style = False
+        self.depth = self.count = self.clips = 0  # clips: elements of clipping paths that are open
+        self.style: list[str] | None = None  # the parts of the open style sheet, which a comment may have cut
         self.parser = expat.ParserCreate(namespace_separator=" ")
         self.parser.buffer_text = True
         self.parser.StartElementHandler = self._start
@@ -127,6 +127,10 @@ class _SvgJudge:
             self.parser.Parse(content, True)
         except expat.ExpatError as error:
             raise PictureFault(Phrase("is an SVG picture that cannot be read: {error}", error=error)) from error
+        except PictureFault:
+            raise
+        except (LookupError, ValueError) as error:  # of an encoding that Python does not know, or the parser does not read
+            raise PictureFault(phrase("is an SVG picture in another encoding than UTF-8; save it as UTF-8")) from error
 
     def _start(self, tag: str, given: Mapping[str, str]) -> None:
         space, _, name = tag.rpartition(" ")
@@ -149,19 +153,24 @@ class _SvgJudge:
                     name=name,
                 )
             )
-        self.style = name == "style"
+        if self.style is not None:
+            raise PictureFault(Phrase("holds <{name}> within a style", name=name))
+        self.style = [] if name == "style" else None
+        self.clips += bool(self.clips or name == "clipPath")
         for key, value in given.items():
             _judge_attribute(key, value)
+            if self.clips and "clip-path" in (key, *re.findall(r"[\w-]+", value.lower() if key == "style" else "")):
+                raise PictureFault(phrase("clips a clipping path, which may never end; combine the paths into one"))
 
     def _end(self, _tag: str) -> None:
         self.depth -= 1
-        self.style = False
+        self.clips = max(self.clips - 1, 0)
+        _judge_style("".join(self.style or ()))
+        self.style = None
 
     def _text(self, text: str) -> None:
-        if self.style and (_OUTSIDE.search(text) or "\\" in text):
-            raise PictureFault(
-                phrase("has a style that loads something from outside; embed nothing and refer to nothing")
-            )
+        if self.style is not None:
+            self.style.append(text)
 
     def _doctype(self, *_: object) -> None:
         raise PictureFault(phrase("has a document type (<!DOCTYPE …>), which may define entities; remove that line"))
@@ -170,6 +179,13 @@ class _SvgJudge:
         raise PictureFault(
             phrase("has a processing instruction (<?…?>), which may load a style from outside; remove it")
         )
+
+
+def _judge_style(text: str) -> None:
+    if _OUTSIDE.search(text) or "\\" in text:
+        raise PictureFault(phrase("has a style that loads something from outside; embed nothing and refer to nothing"))
+    if "clip-path" in text.lower():
+        raise PictureFault(phrase("clips by a style sheet; save it with presentation attributes"))
 
 
 def _judge_root(space: str, name: str, given: Mapping[str, str]) -> None:

@@ -43,6 +43,7 @@ DRAWN = [
         '<defs><linearGradient id="a"><stop offset="1"/></linearGradient></defs><rect fill="url(#a)" width="1" height="1"/>'
     ),
     svg("<style>.a{fill:#fff}</style>", '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="10mm">'),
+    svg('<clipPath id="c"><rect width="1" height="1"/></clipPath><g clip-path="url(#c)"><rect clip-path="url(#c)"/></g>'),
     svg('<x:namedview xmlns:x="http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd" pagecolor="#fff"/>'),
 ]
 
@@ -71,6 +72,14 @@ REFUSED = [
     (svg('<rect style="fill:u\\72l(//x)"/>'), "refers to something outside (style)"),
     (svg("<style>@import 'x';</style>"), "loads something from outside"),
     (svg("<style>a{b:url(//x)}</style>"), "loads something from outside"),
+    (svg('<style><title/>@import "http://x/";</style>'), "holds <title> within a style"),
+    (svg("<style>@im<!-- -->port 'x';</style>"), "loads something from outside"),
+    (svg('<clipPath id="c"><rect clip-path="url(#c)"/></clipPath>'), "clips a clipping path"),
+    (svg('<clipPath id="c"><g><rect style="fill:red;Clip-Path:url(#c)"/></g></clipPath>'), "clips a clipping path"),
+    (svg('<clipPath id="c" clip-path="url(#c)"/>'), "clips a clipping path"),
+    (svg("<style>rect{clip-path:url(#c)}</style>"), "clips by a style sheet"),
+    (b'<?xml version="1.0" encoding="utf-7"?>' + svg(""), "another encoding than UTF-8"),
+    (b'<?xml version="1.0" encoding="none"?>' + svg(""), "another encoding than UTF-8"),
     (b'<?xml-stylesheet href="a.css"?>' + svg(""), "processing instruction"),
     (b'<!DOCTYPE svg [<!ENTITY a "b">]>' + svg("&a;"), "document type"),
     (svg("", '<svg xmlns="http://www.w3.org/2000/svg">'), "does not say its size"),
