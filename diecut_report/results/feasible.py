@@ -3,10 +3,12 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Sequence
+from typing import Any
 
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.targets import Target
 from diecut_report.contract.inputs import Block, flatten, texts_given
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.sections import taken
@@ -15,7 +17,7 @@ from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.steps.rerun import needed
 from diecut_report.errors import PluginError, Problem
 from diecut_report.languages.phrases import phrase
-from diecut_report.results.press_run import Run
+from diecut_report.results.press_run import Run, Unavailable
 
 
 def impossible(config: Config, known: Sequence[Problem]) -> tuple[list[Problem], list[PluginError]]:
@@ -31,6 +33,7 @@ class _FeasibilityRun(Run):
     """One way through the graph that stops at what must hold."""
 
     def __init__(self, config: Config, known: Sequence[Problem]) -> None:
+        self.known = known
         self.wrong = {name for name in config.instances for problem in known if _concerns(problem, name)}
         super().__init__(config, lambda _: None)
 
@@ -39,6 +42,13 @@ class _FeasibilityRun(Run):
             self.skipped[name] = phrase("It has problems of its own.")
         else:
             super()._mechanism(name)
+
+    def _referred(self, target: Target) -> Any:
+        """Return what a reference stands for; Unavailable where the value there has a problem of its own, for it cannot be read."""
+        path = ".".join(map(str, (*_home(target.instance), *target.key)))
+        if target.instance in self.wrong and any(_overlap(problem.path, path) for problem in self.known):
+            raise Unavailable(target.instance)
+        return super()._referred(target)
 
     def _comparisons(self) -> None:
         """A comparison needs results."""
@@ -68,8 +78,17 @@ class _FeasibilityRun(Run):
 
 
 def _concerns(problem: Problem, name: str) -> bool:
-    prefix = PRESS if name == PRESS else f"mechanisms.{name}"
-    return problem.path == prefix or problem.path.startswith(f"{prefix}.")
+    return f"{problem.path}.".startswith(f"{'.'.join(_home(name))}.")
+
+
+def _home(name: str) -> tuple[str, ...]:
+    """Return the key path of the press or a mechanism."""
+    return (PRESS,) if name == PRESS else ("mechanisms", name)
+
+
+def _overlap(one: str, other: str) -> bool:
+    """Return whether one of two key paths is the other or lies within it."""
+    return f"{one}.".startswith(f"{other}.") or f"{other}.".startswith(f"{one}.")
 
 
 def _conditions(mechanism: Mechanism, given: frozenset[str]) -> Iterator[str]:
