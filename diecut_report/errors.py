@@ -68,7 +68,9 @@ class UnknownName(UserError, KeyError, AttributeError):
 
     def __init__(self, problems: Problem | Iterable[Problem]) -> None:
         super().__init__(problems)
-        self.obj = None  # where it is set, Python 3.12 and newer do not add a "Did you mean" of their own to the traceback
+        self.obj = (
+            None  # where it is set, Python 3.12 and newer do not add a "Did you mean" of their own to the traceback
+        )
 
 
 class PluginError(Exception):

@@ -129,7 +129,10 @@ class _SvgJudge:
             raise PictureFault(Phrase("is an SVG picture that cannot be read: {error}", error=error)) from error
         except PictureFault:
             raise
-        except (LookupError, ValueError) as error:  # of an encoding that Python does not know, or the parser does not read
+        except (
+            LookupError,
+            ValueError,
+        ) as error:  # of an encoding that Python does not know, or the parser does not read
             raise PictureFault(phrase("is an SVG picture in another encoding than UTF-8; save it as UTF-8")) from error
 
     def _start(self, tag: str, given: Mapping[str, str]) -> None:

@@ -43,7 +43,9 @@ DRAWN = [
         '<defs><linearGradient id="a"><stop offset="1"/></linearGradient></defs><rect fill="url(#a)" width="1" height="1"/>'
     ),
     svg("<style>.a{fill:#fff}</style>", '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="10mm">'),
-    svg('<clipPath id="c"><rect width="1" height="1"/></clipPath><g clip-path="url(#c)"><rect clip-path="url(#c)"/></g>'),
+    svg(
+        '<clipPath id="c"><rect width="1" height="1"/></clipPath><g clip-path="url(#c)"><rect clip-path="url(#c)"/></g>'
+    ),
     svg('<x:namedview xmlns:x="http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd" pagecolor="#fff"/>'),
 ]
 

@@ -80,7 +80,7 @@ def _table() -> dict[str, Any]:
     return table
 
 
-_FACTOR = r"\(*(?:[^\W\d]\w*|%)(?:\*\*-?\d\d?)?\)*"
+_FACTOR = r"\(*(?:[^\W\d]\w*|%)(?:\*\*-?[1-9]\d?)?\)*"  # no power of zero: "4O0 mm" is a slip
 _GRAMMAR = re.compile(rf"(?:1/)?{_FACTOR}(?:[*/]{_FACTOR})*")
 
 
@@ -167,6 +167,11 @@ def _power(base: str, exponent: float) -> str:
     return base if exponent == 1 else f"{base}**{exponent:g}"
 
 
+_SI_PREFIX = "quetta|ronna|yotta|zetta|exa|peta|tera|giga|mega|kilo|hecto|dec[ai]|deka|centi|milli|micro|nano|pico|femto|atto|zepto|yocto"
+_MISTYPED = re.compile(rf"(?:{_SI_PREFIX})(?:minute|hour|day|week|month|year|inch|foot|percent)")
+"""Units that only pint has: 1/hh is a slip, not one in a hundred hours."""
+
+
 def measure_with_pint(text: str) -> tuple[float, Kind] | None:
     """SI factor and kind of a unit by pint; None for what pint does not know, or no float can hold. UnitError for a shifted zero (degC)."""
     registry: Any = pint_registry()
@@ -174,6 +179,8 @@ def measure_with_pint(text: str) -> tuple[float, Kind] | None:
         units = registry.parse_units(text)
         one, two = (registry.Quantity(number, units).to_base_units().magnitude for number in (1, 2))
     except Exception:  # pint raises a dozen unrelated types (AssertionError, TokenError, …) for what it cannot read
+        return None
+    if any(_MISTYPED.fullmatch(name) for name, _ in registry.Quantity(1, units).unit_items()):
         return None
     if two != 2 * one:
         raise UnitError(Phrase("{text} has no fixed zero; give a temperature difference in K.", text=text))

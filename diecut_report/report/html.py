@@ -17,8 +17,8 @@ from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.house_style import MAIN, OPTIONS, in_words
 from diecut_report.report.model import CheckRow, Item, PrintedChapter
-from diecut_report.report.page_policy import refuse_fetching
 from diecut_report.report.number_format import joined, sentence, tidy
+from diecut_report.report.page_policy import refuse_fetching
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_blocks
 from diecut_report.report.symbols import cited, letters_declared, own_words, pieces, prose, symbol

@@ -13,13 +13,36 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase, phrase
 
 HTML, SVG = "http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"
-RUNNING = {"script", "iframe", "frame", "frameset", "object", "embed", "applet", "portal", "base", "animate", "set", "noscript"}
+RUNNING = {
+    "script",
+    "iframe",
+    "frame",
+    "frameset",
+    "object",
+    "embed",
+    "applet",
+    "portal",
+    "base",
+    "animate",
+    "set",
+    "noscript",
+}
 """Elements that run, embed, change addresses, or are read otherwise where scripts are off."""
 ADDRESSES = {"src", "srcset", "data", "poster", "background", "href", "imagesrcset", "action", "formaction", "ping", "manifest", "longdesc",
              "lowsrc", "dynsrc", "codebase", "archive", "classid", "icon", "profile"}  # fmt: skip
 LINKS = re.compile(r"(https?:|mailto:|tel:|data:|#)", re.IGNORECASE)
 """What a link may lead to: nothing is fetched before a reader follows it."""
-FETCHING_FUNCTIONS = {"url", "src", "image", "image-set", "-webkit-image-set", "cross-fade", "-webkit-cross-fade", "element", "attr"}
+FETCHING_FUNCTIONS = {
+    "url",
+    "src",
+    "image",
+    "image-set",
+    "-webkit-image-set",
+    "cross-fade",
+    "-webkit-cross-fade",
+    "element",
+    "attr",
+}
 _UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")  # characters that no page may hold
 
 
@@ -32,7 +55,10 @@ def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
 
     tree: Any = parse(page)
     advice = phrase('a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.')
-    found = [Problem(Phrase("{each} would be fetched; {advice}", each=each, advice=advice), folder) for each in _fetched(tree)]
+    found = [
+        Problem(Phrase("{each} would be fetched; {advice}", each=each, advice=advice), folder)
+        for each in _fetched(tree)
+    ]
     if policy and not _is_protected(tree, policy):
         words = Phrase(
             "The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
@@ -42,17 +68,25 @@ def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
         found.append(Problem(words, folder))
     if letter := _UNWRITTEN.search(page):
         code = format(ord(letter[0]), "04X")
-        found.append(Problem(Phrase("A template writes U+{code}, which a page cannot hold. Leave it out.", code=code), folder))
+        found.append(
+            Problem(Phrase("A template writes U+{code}, which a page cannot hold. Leave it out.", code=code), folder)
+        )
     if found:
         raise UserError(found)
 
 
 def _is_protected(tree: Any, policy: str) -> bool:
     """Return whether the page has one policy, in its head, where browsers look for it, before anything that it is to judge."""
-    policies = [each for each in tree.iter(f"{{{HTML}}}meta") if _lower(each, "http-equiv") == "content-security-policy"]
+    policies = [
+        each for each in tree.iter(f"{{{HTML}}}meta") if _lower(each, "http-equiv") == "content-security-policy"
+    ]
     head = tree.find(f"{{{HTML}}}head")
     before = [each.tag for each in head][:2] if head is not None else []
-    in_place = len(policies) == 1 and any(each is policies[0] for each in list(head)[:2]) and set(before) == {f"{{{HTML}}}meta"}
+    in_place = (
+        len(policies) == 1
+        and any(each is policies[0] for each in list(head)[:2])
+        and set(before) == {f"{{{HTML}}}meta"}
+    )
     return in_place and policies[0].get("content", "").startswith(policy)
 
 
@@ -100,7 +134,9 @@ def _fetched_by_tokens(tokens: Iterable[Any], within: str = "") -> Iterator[tupl
         name = getattr(token, "lower_name", "") if token.type == "function" else ""
         if token.type == "at-keyword" and token.lower_value == "import":
             yield "@import", token.source_line
-        elif (token.type == "url" or (token.type == "string" and within)) and not token.value.strip().lower().startswith(("data:", "#")):
+        elif (
+            token.type == "url" or (token.type == "string" and within)
+        ) and not token.value.strip().lower().startswith(("data:", "#")):
             yield f"{within or 'url'}({token.value[:60]}", token.source_line
         elif token.type == "function":
             yield from _fetched_by_tokens(token.arguments, name if name in FETCHING_FUNCTIONS else within)

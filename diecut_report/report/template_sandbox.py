@@ -20,9 +20,43 @@ from jinja2.utils import Cycler, Joiner, Namespace
 from diecut_report.report.i18n import Catalogue
 
 TEXT = frozenset(
-    "capitalize casefold count endswith find index isalnum isalpha isascii isdecimal isdigit islower isnumeric isspace istitle isupper join"
-    " lower lstrip partition removeprefix removesuffix replace rfind rindex rpartition rsplit rstrip split splitlines startswith strip"
-    " swapcase title upper".split()
+    [
+        "capitalize",
+        "casefold",
+        "count",
+        "endswith",
+        "find",
+        "index",
+        "isalnum",
+        "isalpha",
+        "isascii",
+        "isdecimal",
+        "isdigit",
+        "islower",
+        "isnumeric",
+        "isspace",
+        "istitle",
+        "isupper",
+        "join",
+        "lower",
+        "lstrip",
+        "partition",
+        "removeprefix",
+        "removesuffix",
+        "replace",
+        "rfind",
+        "rindex",
+        "rpartition",
+        "rsplit",
+        "rstrip",
+        "split",
+        "splitlines",
+        "startswith",
+        "strip",
+        "swapcase",
+        "title",
+        "upper",
+    ]
 )
 METHODS: Mapping[type, frozenset[str]] = {
     str: TEXT,
@@ -60,7 +94,9 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
 
     def is_safe_callable(self, obj: Any) -> bool:
         """Return whether a template may call an object."""
-        if isinstance(obj, (Macro, LoopContext, BlockReference, Joiner, Undefined)):  # the last one raises its own message
+        if isinstance(
+            obj, (Macro, LoopContext, BlockReference, Joiner, Undefined)
+        ):  # the last one raises its own message
             return True
         owner = getattr(obj, "__self__", None)
         return self._is_listed(obj) or getattr(obj, "__name__", "") in _names(owner)

@@ -347,9 +347,13 @@ def test_one_rods_force_on_its_crank_pin_has_half_the_useful_torque_about_the_sh
     calc = platen()
     phi = smooth(calc)
     along, across = at(calc, "crank_pin_force_x", phi), at(calc, "crank_pin_force_y", phi)
-    pin = -R * np.array([np.cos(phi), np.sin(phi)])  # about the shaft, x towards the platen: at 0 crank and rods are folded
+    pin = -R * np.array(
+        [np.cos(phi), np.sin(phi)]
+    )  # about the shaft, x towards the platen: at 0 crank and rods are folded
     about = pin[0] * across - pin[1] * along
-    moving = np.abs(at(calc, "platen_velocity_true", phi)) > 0  # where the platen stands the stretched rods stand at another angle
+    moving = (
+        np.abs(at(calc, "platen_velocity_true", phi)) > 0
+    )  # where the platen stands the stretched rods stand at another angle
     assert about[moving] == pytest.approx(-at(calc, "torque_useful", phi)[moving] / 2, abs=1e-6)
     assert 0 < np.abs(about + at(calc, "torque_useful", phi) / 2)[~moving].max() < 1  # N·m
     assert at(calc, "crank_pin_torque", phi) == pytest.approx(-at(calc, "torque", phi) / 2, rel=1e-12)

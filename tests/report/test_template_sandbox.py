@@ -15,7 +15,15 @@ from markupsafe import Markup
 from diecut_report.errors import UserError
 from diecut_report.report.context import Material
 from diecut_report.report.house_style import HouseStyle
-from diecut_report.report.html import FILTERS, MathFunctions, Screen, folder, page, template_functions, template_variables
+from diecut_report.report.html import (
+    FILTERS,
+    MathFunctions,
+    Screen,
+    folder,
+    page,
+    template_functions,
+    template_variables,
+)
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.pdf import Paper
 from diecut_report.report.template_sandbox import TemplateSandbox
@@ -71,7 +79,9 @@ def test_all_that_a_template_reaches_is_plain_data_or_a_listed_function(plain: D
         count += 1
         assert is_plain(value) or value.__qualname__ in CALLED, path
     assert count > 2000  # the report itself
-    assert {each.__qualname__ for each in environment.allowed} <= CALLED | {f"Screen.{name}" for name in MathFunctions._fields}
+    assert {each.__qualname__ for each in environment.allowed} <= CALLED | {
+        f"Screen.{name}" for name in MathFunctions._fields
+    }
 
 
 def test_filters_and_tests_are_those_of_jinja_and_of_the_report() -> None:
@@ -132,9 +142,15 @@ WAYS_OUT = [
 
 @pytest.mark.parametrize("text", WAYS_OUT)
 def test_a_way_out_of_the_sandbox_is_closed(plain: Data, text: str) -> None:
-    brief = plain | {"mechanisms": {"cylinder": plain["mechanisms"]["cylinder"]}, "comparisons": {}, "report": {"detail": "brief"}}
+    brief = plain | {
+        "mechanisms": {"cylinder": plain["mechanisms"]["cylinder"]},
+        "comparisons": {},
+        "report": {"detail": "brief"},
+    }
     template = '{% extends "program/report.html.j2" %}\n{% block closing %}\n' + text + "\n{% endblock %}\n"
-    with pytest.raises(UserError, match=r"unsafe|not safely callable|has no attribute|is undefined|no blocks? named|no parent block"):
+    with pytest.raises(
+        UserError, match=r"unsafe|not safely callable|has no attribute|is undefined|no blocks? named|no parent block"
+    ):
         page(Material(brief, house=HouseStyle("house", {"report.html.j2": template})))
 
 

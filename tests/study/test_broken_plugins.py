@@ -154,7 +154,9 @@ def test_a_validator_that_breaks_for_a_variant_is_a_fault_of_the_plugin(tmp_path
     )
     assert ran(tmp_path, VALUE.format("twice"), capfd, validator)[0] == 0
     assert [row["status"] for row in rows(tmp_path)] == ["pass", "pass", "error", "error"]
-    assert rows(tmp_path)[3]["error"].startswith("plugin 'breaking': its inputs Breaking cannot be validated: TypeError: ")
+    assert rows(tmp_path)[3]["error"].startswith(
+        "plugin 'breaking': its inputs Breaking cannot be validated: TypeError: "
+    )
     assert "unhashable type" in rows(tmp_path)[3]["error"]  # newer interpreters name what was the key before it
 
 

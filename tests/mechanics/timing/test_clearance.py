@@ -74,7 +74,9 @@ def outline(radius: float, half_angle: float, tilt: float) -> Array:
     with_feed=st.booleans(),
     width=st.floats(0.01, 0.2),
 )
-@example(turned=4.5, way=2.875, stop=0.875, with_feed=False, width=0.03125)  # the flat faces upwards, the carriage stands beyond it
+@example(
+    turned=4.5, way=2.875, stop=0.875, with_feed=False, width=0.03125
+)  # the flat faces upwards, the carriage stands beyond it
 @examples(60)
 def test_the_height_over_the_carriages_is_that_of_the_outline(
     turned: float, way: float, stop: float, with_feed: bool, width: float

@@ -1,0 +1,190 @@
+"""Slips of the keyboard in a configuration: each command reports file, line and key, and ends with 2, whatever refers to the value."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator
+from pathlib import Path
+
+import pytest
+
+from diecut_report.cli.main import main, program
+from tests.configs import saved
+from tests.examples import few
+
+PRESS = """\
+schema_version: 1
+project: {title: Test}
+press:
+  name: P
+  productivity: 6000 1/h
+  sheet:
+    length: 700 mm
+    width: 470.7 mm
+    thickness: 0.6 mm
+mechanisms:
+  cylinder:
+    kind: cylinder_sizing
+    working_length: ${press.sheet.width}
+    segment_height: 40 mm
+    generatrix_length: ${press.sheet.length}
+    bore_radius: 60 mm
+    bearing_span: ${press.sheet.length} + 160 mm
+  clutch:
+    kind: clutch
+    torque: 300 N*m
+    shoe_radius: ${cylinder.segment_height} * 3
+    wedge_angle: 10 deg
+"""
+STUDY = """\
+schema_version: 1
+base: press.yaml
+sample: {method: grid}
+vary: {mechanisms.clutch.wedge_angle: [9 deg, 10 deg]}
+optimise: {objectives: [{minimise: clutch.pressing_force}], evaluations: 4}
+"""
+WIDTH, HEIGHT, RATE, ANGLE = "470.7 mm", "40 mm", "6000 1/h", "10 deg"
+SLIPS = [  # what is typed, what is typed instead, and what the message holds
+    # numbers
+    (WIDTH, "'470,7 mm'", "comma"), (WIDTH, "47o.7 mm", "'47o.7 mm'|'o.7 mm'"), (WIDTH, "4O0 mm", "mm"), (WIDTH, "l70 mm", "number"),
+    (WIDTH, "470.7.0 mm", "470.7.0|'.0 mm'"), (WIDTH, "470..7 mm", "mm"), (WIDTH, "470 . 7 mm", "mm"), (WIDTH, "-470.7 mm", "out of range"),
+    (WIDTH, "0 mm", "out of range"), (WIDTH, "1e999 mm", "finite|range|plausible"), (WIDTH, ".nan", "number|nan"), (WIDTH, ".inf", "number|inf"),
+    (WIDTH, "1e30 m", "plausible|range"), (WIDTH, "470.7 ± 1 mm", "unit"), (WIDTH, "~470 mm", "number|mm"), (WIDTH, "> 470 mm", "number|text|mm"),
+    (WIDTH, "470.7\u00a0 mm 2", "unit"), (RATE, "6 000 1/h", "unit"), (RATE, "'6,000 1/h'", "comma"), (RATE, "6'000 1/h", "unit"),
+    (WIDTH, "\u2212470 mm", "number|range|minus"), (WIDTH, "½ m", "number"), (WIDTH, "1/0 mm", "zero|unit|number"), (WIDTH, "1/0", "unit"),
+    # units
+    (WIDTH, "470.7 kg", "is a mass; a length is needed"), (WIDTH, "мм", "number"), (WIDTH, "470.7 мм", "unit|mm"), (WIDTH, "470.7 MM", "unit|mm"),
+    (WIDTH, "470.7 mmm", "not a known unit"), (WIDTH, "470.7 mm mm", "length|unit"), (WIDTH, "mm 470.7", "number"),
+    (WIDTH, "470.7 mm²", "area|length"),
+    (WIDTH, "470.7 %", "length|unit"), (WIDTH, "470.7°", "angle|unit|length"), (RATE, "sheets/h", "number"), (RATE, "6000 sheets/h", "unit"),
+    (RATE, "6000 h", "time|needed"), (RATE, "6000 1/hh", "unit"), (ANGLE, "10 degg", "unit"), (ANGLE, "10 grd", "unit"),
+    (ANGLE, "10 mm", "length"), (WIDTH, "470.7 inch mm", "unit|area|length"),
+    # references and expressions
+    (WIDTH, "${cylinder.weight}", "no 'weight'"), (WIDTH, "${cylinder.mass", "reference"), (WIDTH, "$cylinder.mass", "reference|number"),
+    (WIDTH, "{cylinder.mass}", "cylinder.mass|unknown|block"), (WIDTH, "'${}'", "there is no mechanism ''"), (WIDTH, "${cylinder}", "cylinder"),
+    (WIDTH, "${press.sheet.width}", "refers to itself"), (WIDTH, "${cylinder.working_length}", "refers to itself"),
+    (WIDTH, "${cylinder.mass}", "kg|itself"),
+    (WIDTH, "${cilinder.mass}", "cilinder"), (WIDTH, "${press.sheet.lenght}", "lenght"), (WIDTH, "${press.name}", "name"),
+    (WIDTH, "${clutch.torque} / 0 N", "zero|itself|divi"),
+    (WIDTH, "2 * ${press.sheet.length", "reference|[{]"), (WIDTH, "2 x 235 mm", "unit|x"), (WIDTH, "'=2*235 mm'", "number|="),
+    (WIDTH, "sqrt(4) mm", "mm"),
+    (WIDTH, "${press.sheet.length} + 1 kg", "kg|mass"), (WIDTH, "${press.sheet.length} +", r"\+|expression|end"), (HEIGHT, "4O mm", "mm"),
+    (HEIGHT, "40 kg", "mass"), (HEIGHT, "-40 mm", "range"), (HEIGHT, "", "has no value"), (HEIGHT, "null", "has no value"),
+    # YAML
+    (WIDTH, "[470.7 mm]", "list|text"), (WIDTH, "{value: 470.7 mm, bassis: assumed}", "bassis"),
+    (WIDTH, "{value: 470.7 mm, basis: assume}", "assume"),
+    (WIDTH, "{valu: 470.7 mm}", "valu"), (WIDTH, "yes", "yes|number"), (WIDTH, "true", "true|number"), (WIDTH, "2026-01-01", "2026|number|unit"),
+    (WIDTH, "'470.7 mm", "."), (WIDTH, '"470.7 mm', "."), (WIDTH, "470.7: mm", "."), (WIDTH, "*width", "width"), (WIDTH, "!mm 470.7", "mm|tag"),
+    (WIDTH, "470.7 mm, width: 1 mm", "second colon"), (WIDTH, "0x1D6 mm", "unit|number"), (WIDTH, "4_7_0 mm", "unit|number|mm"),
+    ("    kind: clutch", "    kind: cluch", "cluch"), ("    kind: clutch", "    kind:", "kind"), ("    kind: clutch", "    knd: clutch", "kind"),
+    ("    kind: clutch", "    Kind: clutch", "kind|Kind"), ("    kind: clutch", "    kind: сlutch", "clutch"),
+    ("    kind: clutch", "\tkind: clutch", "."),
+    ("    kind: clutch", "   kind: clutch", "."), ("    kind: clutch", "kind: clutch", "indentation"), ("  clutch:", "  cylinder:", "cylinder"),
+    ("  clutch:", "  clutch", "."),
+    ("  clutch:", "  2nd clutch:", "name"), ("  clutch:", "  press:", "press"), ("    torque:", "    torqe:", "torqe"),
+    ("    torque:", "    torque :x:", "."),
+    ("mechanisms:", "mechanism:", "mechanism"), ("mechanisms:", "mechanisms", "."), ("press:\n", "pres:\n", "pres"),
+    ("schema_version: 1", "schema_version: 2", "schema_version"),
+    ("schema_version: 1", "", "schema_version"), ("{title: Test}", "{titel: Test}", "titel"), ("{title: Test}", "{title: Test", "."),
+    ("press.sheet.width}", "press.sheet.width)", "reference|{"),
+]  # fmt: skip
+BY_CALCULATION = "${clutch.torque} / 0 N"
+OF_A_CONFIGURATION = {
+    "advise": [], "calc": [], "check": [], "influence": [], "report": ["-o", "out"],
+    "solve": ["--for", "clutch.pressing_force <= 1 kN", "--vary", "clutch.torque"],
+    "validate": [], "diff": ["good.yaml"],
+}  # fmt: skip
+OF_A_STUDY = {"batch": ["-o", "out"], "optimise": ["-o", "out"], "validate": []}
+OTHERS = {
+    "live",
+    "check-plugin",
+    "extract",
+    "new",
+    "new-plugin",
+    "plugins",
+    "render",
+    "schema",
+    "sign",
+    "take",
+    "variants",
+    "verify",
+}
+"""Commands that read no configuration typed by a user; the page of live shows the faults of its file, and stays."""
+
+
+def test_every_command_is_tried_or_named() -> None:
+    assert {*OF_A_CONFIGURATION, *OF_A_STUDY, *OTHERS} == set(program.commands)
+
+
+def slipped(typed: str, instead: str) -> str:
+    assert PRESS.count(typed) >= 1
+    return PRESS.replace(typed, instead, 1)
+
+
+def commands() -> Iterator[tuple[str, list[str]]]:
+    yield from ((name, ["press.yaml", *more]) for name, more in OF_A_CONFIGURATION.items())
+    yield from ((name, ["study.yaml", *more]) for name, more in OF_A_STUDY.items())
+
+
+def reported(command: str, arguments: list[str], capfd: pytest.CaptureFixture[str]) -> str:
+    """What a command reports of the slip, which it must end with 2 and in one line a problem."""
+    code = main([command, *arguments])
+    out, err = capfd.readouterr()
+    assert code == 2, (command, code, err)
+    assert "Traceback" not in err and "fault of diecut-report" not in err, command
+    return err + out
+
+
+@pytest.mark.parametrize(
+    ("typed", "instead", "words"), SLIPS, ids=[f"{number}: {each[1].strip()[:30]}" for number, each in enumerate(SLIPS)]
+)
+def test_a_slip_is_reported_with_its_place_by_the_commands_that_read_most(
+    typed: str,
+    instead: str,
+    words: str,
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    saved(tmp_path, slipped(typed, instead))
+    saved(tmp_path, PRESS, "good.yaml")
+    told = reported("validate", ["press.yaml"], capfd)
+    line = next(each for each in told.splitlines() if each.startswith("press.yaml:"))
+    assert re.match(r"press\.yaml:\d+:\d+: ", line) and re.search(words, told)
+
+
+def test_one_bad_file_hides_no_other(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    saved(tmp_path, PRESS, "good.yaml")
+    for number, instead in enumerate(
+        ("'470,7 mm'", "470 kg", "мм", "-700 mm", "${cylinder.weight}", "${cylinder.mass", "[1")
+    ):
+        saved(tmp_path, slipped(WIDTH, instead), f"bad{number}.yaml")
+    told = reported("check", ["."], capfd)
+    assert all(re.search(rf"bad{number}\.yaml:\d+:\d+: ", told) for number in range(7)) and re.search(
+        r"(?m)^good +pass", told
+    )
+
+
+@pytest.mark.parametrize(("command", "arguments"), few(list(commands()), lambda each: each[0] in ("calc", "batch")))
+def test_every_command_reports_every_slip(
+    command: str,
+    arguments: list[str],
+    tmp_path: Path,
+    monkeypatch: pytest.MonkeyPatch,
+    capfd: pytest.CaptureFixture[str],
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    saved(tmp_path, PRESS, "good.yaml")
+    saved(tmp_path, STUDY, "study.yaml")
+    for typed, instead, _ in SLIPS:
+        if instead == BY_CALCULATION and (
+            command in ("influence", "optimise", "batch", "solve") or "study.yaml" in arguments
+        ):
+            continue  # a machine that cannot exist is an error of its variants, which a study reports; influence names no line of it
+        saved(tmp_path, slipped(typed, instead))
+        assert re.search(r"press\.yaml:\d+:\d+: ", reported(command, arguments, capfd)), (command, instead)
+        assert not (tmp_path / "out").exists()
