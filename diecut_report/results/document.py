@@ -30,6 +30,7 @@ from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
+from diecut_report.results.conclusion import conclusion
 from diecut_report.results.form.version import FORM_VERSION, SCHEMA_VERSION
 from diecut_report.results.handed_on import told_alike
 from diecut_report.results.mechanism import worst
@@ -69,6 +70,7 @@ def document(run: Run) -> Data:
         "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
+    made["summary"]["conclusion"] = conclusion(made)
     return made | {"wordings": wordings([made["mechanisms"], comparisons, made.get("comparisons_left_out")])}
 
 

@@ -27,6 +27,7 @@ from typing import Any
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.source_hashes import plugin_code
 from diecut_report.contract.inputs import SI, Block, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, CurveHandle, calculate
@@ -34,7 +35,9 @@ from diecut_report.engine.chosen_units import ChosenUnits
 from diecut_report.engine.figure_views import figures, shown_figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.engine.same_curves import same_curve
+from diecut_report.results.bases import assumed
 from diecut_report.results.checks import check_results
+from diecut_report.results.conclusion import conclusion, is_open
 from diecut_report.results.curves import curves
 from diecut_report.results.document import document, verdict
 from diecut_report.results.mechanism import key_outputs, mechanism_results, numbers, require_self_tests, worst
@@ -184,8 +187,21 @@ class WarmRun(Run):
 
     @property
     def summary(self) -> Data:
-        """Return the counts of the checks, and the governing one."""
-        return summary(self._checked())
+        """Return the counts of the checks, the governing one, what is assumed, and the first line."""
+        return self._concluded["summary"] | {"conclusion": conclusion(self._concluded)}
+
+    @property
+    def is_open(self) -> bool:
+        """Return whether something is left open though no check fails."""
+        return is_open(self._concluded)
+
+    @property
+    def _concluded(self) -> Data:
+        """What the first line follows from."""
+        found: Data = {name: {} for name in self.config.kinds}
+        found |= {name: plugin_code(each.mechanism) for name, each in self.calculations.items()}
+        found |= {name: {"error": ""} for name in (*self.errors, *self.skipped) if name in found}
+        return {"summary": summary(self._checked()) | {"assumed": assumed(self.config)}, "mechanisms": found}
 
     def _checked(self) -> Data:
         return {name: {"checks": checks} for name, checks in self.checks.items()}
