@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from diecut_report.config.basis import ASSUMED, GIVEN, Basis, weakest
+from diecut_report.config.basis import ASSUMED, GIVEN, Basis, is_founded, weakest
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
@@ -45,6 +45,10 @@ class Bases:
         """Return what the file says of an input itself."""
         instance = self.config.instances[str(node[0])]
         return instance.bases.get(node[1:], Basis()) if instance else Basis()
+
+    def is_founded(self, node: Node) -> bool:
+        """Return whether an input is at its default, or rests on what can be looked up."""
+        return not self._is_given(node) or is_founded(self.of(node), self.said(node).note)
 
     def _of(self, node: Node) -> str:
         chain = [self.said(node).basis]

@@ -21,7 +21,7 @@ from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.targets import Node
 from diecut_report.config.validation import declared, keys_of
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
+from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, Text, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.varying import Extremes
 from diecut_report.engine import CurveHandle
@@ -219,6 +219,8 @@ def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases
             return _resting([as_given(part, meta.unit) for part in value], node, bases)
         case int() | float() if isinstance(meta, Quantity):
             return _resting(as_given(value, meta.unit) if isinstance(value, float) else value, node, bases)
+        case str() | bool() if isinstance(meta, Text):
+            return _resting(value, node, bases)
     return value
 
 

@@ -17,7 +17,7 @@ from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import declared, validate
-from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, flatten
+from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, Text, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.chosen_units import ChosenUnits
@@ -244,7 +244,14 @@ class Run:
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         calculation = calculate(mechanism, flatten(block))
         calculation.chosen_units = self.chosen_units(instance.name)
+        calculation.unfounded = self.unfounded(instance, block)
         return calculation
+
+    def unfounded(self, instance: Instance, block: Block) -> frozenset[str]:
+        """Return the inputs of which a check asks a basis that can be looked up, and which have none; a typed default is a default."""
+        asked = {name for check in instance.mechanism.checks for name in check.founded} if instance.mechanism else ()
+        typed = [name for name in asked if getattr(block, name) != type(block).model_fields[name].get_default()]
+        return frozenset(name for name in typed if not self.bases.is_founded((instance.name, name)))
 
     def chosen_units(self, name: str) -> ChosenUnits:
         """Return the units that the report chose for the quantities of a mechanism."""
@@ -294,6 +301,6 @@ class Run:
         for slot in instance.slots:
             node = (instance.name, *slot.key)
             origin = origin_of(self.config, instance, slot)
-            rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput) else ""
+            rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput | Text) else ""
             found[".".join(map(str, slot.key))] = replace(origin, basis=rests, note=bases.said(node).note)
         return found

@@ -70,6 +70,15 @@ def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     }
 
 
+def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
+    """Return a check that would hold by what was typed alone, in the form of those that are not made."""
+    words = (
+        "Not checked: it would hold by {keys} alone; write {{value: …, basis: …, note: …}} there with what can be looked up: measured, "
+        "drawing, or a standard or catalogue that the note names."
+    ).replace("{{", "{").replace("}}", "}")
+    return result(calc, check, keys) | {"message": Phrase(words, keys=listed(keys))}
+
+
 def check_unit(calc: Calculation, check: Check, sides: list[float]) -> str:
     """Return the one unit in which the sides of a check are shown."""
     named = [side for side in (check.demand, check.limit) if isinstance(side, str) and side in calc.chosen_units.by_id]

@@ -22,7 +22,7 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
@@ -51,6 +51,13 @@ Data = dict[str, Any]
 KEPT = 4  # machines of each mechanism that are remembered: the one at the start, to compare with, and the last ones
 
 
+class Told(NamedTuple):
+    """Hold what changes how a calculation is told, and no number of it: its units, and what has no basis."""
+
+    units: ChosenUnits
+    unfounded: frozenset[str]
+
+
 class Remembered:
     """Hold a calculated mechanism with what it was calculated from, and what was made of it so far."""
 
@@ -58,10 +65,10 @@ class Remembered:
         self.calculation, self.taken = calculation, taken
         self._made: dict[Callable[[Calculation], Any], Any] = {}
 
-    def is_of(self, mechanism: Mechanism, taken: Mapping[str, Any], chosen: ChosenUnits) -> bool:
-        """Return whether it was calculated from these inputs, and is shown in these units."""
+    def is_of(self, mechanism: Mechanism, taken: Mapping[str, Any], told: Told) -> bool:
+        """Return whether it was calculated from these inputs, and is told alike."""
         known = self.calculation
-        return known.mechanism is mechanism and known.chosen_units == chosen and _same(self.taken, taken)
+        return known.mechanism is mechanism and Told(known.chosen_units, known.unfounded) == told and _same(self.taken, taken)
 
     def of(self, make: Callable[[Calculation], Any]) -> Any:
         """Return what a function makes of the calculation; made once."""
@@ -106,15 +113,15 @@ class WarmPress:
         return require_possible(_PrintedRun(config, self, tell))
 
     def remembered(
-        self, name: str, mechanism: Mechanism, taken: Mapping[str, Any], chosen: ChosenUnits, tell: Tell
+        self, name: str, mechanism: Mechanism, taken: Mapping[str, Any], told: Told, tell: Tell
     ) -> Remembered:
         """Return a mechanism calculated from these inputs: remembered, or anew."""
         known = self._known.setdefault(name, [])
-        found = next((each for each in known if each.is_of(mechanism, taken, chosen)), None)
+        found = next((each for each in known if each.is_of(mechanism, taken, told)), None)
         if found is None:
             tell(name)
             calculation = calculate(mechanism, taken)
-            calculation.chosen_units = chosen
+            calculation.chosen_units, calculation.unfounded = told
             found = Remembered(calculation, taken)
         self._known[name] = [found, *(each for each in known if each is not found)][:KEPT]
         return found
@@ -140,8 +147,8 @@ class WarmRun(Run):
         return is_valid
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
-        chosen = self.chosen_units(instance.name)
-        found = self.press.remembered(instance.name, mechanism, flatten(block), chosen, self._tell)
+        told = Told(self.chosen_units(instance.name), self.unfounded(instance, block))
+        found = self.press.remembered(instance.name, mechanism, flatten(block), told, self._tell)
         self.remembered[instance.name] = found
         return found.calculation
 
