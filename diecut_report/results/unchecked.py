@@ -73,9 +73,9 @@ def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
 def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     """Return a check that would hold by what was typed alone, in the form of those that are not made."""
     words = (
-        "Not checked: it would hold by {keys} alone; write {{value: …, basis: …, note: …}} there with what can be looked up: measured, "
-        "drawing, or a standard or catalogue that the note names."
-    ).replace("{{", "{").replace("}}", "}")
+        "Not checked: it would hold by {keys} alone, which nothing proves; give the basis there, as in {value: 1.2, basis: standard, "
+        "note: …}: measured, drawing, or the standard or catalogue that the note names."
+    )
     return result(calc, check, keys) | {"message": Phrase(words, keys=listed(keys))}
 
 

@@ -482,7 +482,8 @@ def clutched(**changes: Any) -> Data:
     ("changes", "status", "demand"),
     [
         ({"clutch_drives": ["drive"]}, "fail", 1),
-        ({"clutch_drives": ["drive"], "single_position": True}, "pass", 0),
+        ({"clutch_drives": ["drive"], "single_position": {"value": True, "basis": "drawing"}}, "pass", 0),
+        ({"clutch_drives": ["drive"], "single_position": True}, "not_checked", 0),
         ({"clutch_drives": ["cross", "drive"]}, "pass", 0),
     ],
 )

@@ -8,9 +8,10 @@ from typing import Any
 import pytest
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.config.yaml_tree import load
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
-from tests.configs import saved
+from tests.configs import EXAMPLES, saved
 
 HEAD = "schema_version: 1\nproject: {title: Gears}\npress: {name: P}\nmechanisms:\n"
 FACTORS = ("application_factor", "dynamic_factor", "face_load_factor", "transverse_load_factor")
@@ -68,3 +69,27 @@ def test_many_machines_are_judged_as_each_alone(tmp_path: Path) -> None:
         assert ("a.checks.k_factors" in found.unchecked) == is_left
         assert ("a.checks.k_factors" in found.names) != is_left
         made.release()
+
+
+
+
+def mended(**changes: dict[str, Any]) -> dict[str, Any]:
+    """The statuses of the mended press's checks by typing, with other inputs of its mechanisms."""
+    file = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press_mended")
+    tree = load(file)
+    for name, own in changes.items():
+        tree.data["mechanisms"][name] |= own
+    results = document(compute(load_config(tree, Discovery()), lambda _: None))
+    found = results["mechanisms"]
+    return {f"{name}.{each['id']}": each["status"] for name in found for each in found[name]["checks"]}
+
+
+def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
+    told = mended()
+    assert told["consistency.clutch_position"] == told["gear_key.reversing"] == "not_checked"
+    drawn = {"value": True, "basis": "drawing"}
+    counted = {"value": 0.7, "basis": "standard", "note": "DIN 6892, figure 5"}
+    told = mended(consistency={"single_position": drawn}, gear_key={"load_direction_factor": counted})
+    assert told["consistency.clutch_position"] == told["gear_key.reversing"] == "pass"
+    told = mended(consistency={"single_position": False})
+    assert told["consistency.clutch_position"] == "fail"
