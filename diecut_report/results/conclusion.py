@@ -7,13 +7,14 @@ from typing import Any
 
 from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
 from diecut_report.results.plugin_checks import calculated, is_doubtful
+from diecut_report.results.summary import counts
 
 Data = Mapping[str, Any]
 
 
 def conclusion(results: Data) -> Phrase:
     """Return the one sentence that every command, page and file begins with."""
-    found, left = results["summary"], _listed(list(_left(results)))
+    found, left = _found(results), _listed(list(_left(results)))
     made = found["pass"] + found["warn"] + found["fail"]
     lost = sum("error" in data for data in calculated(results))
     if found["fail"]:
@@ -31,9 +32,14 @@ def is_open(results: Data) -> bool:
     return any("error" in data for data in calculated(results)) or any(True for _ in _left(results))
 
 
+def _found(results: Data) -> Data:
+    """The counts, and what is assumed."""
+    return results.get("summary") or counts([c for data in results["mechanisms"].values() for c in data.get("checks", ())])
+
+
 def _left(results: Data) -> Iterator[Phrase]:
     """What is left open."""
-    found = results["summary"]
+    found = _found(results)
     if found["warn"]:
         yield Counted(found["warn"], "{n} warns", "{n} warn")
     if found["not_checked"]:
