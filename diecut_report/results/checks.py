@@ -56,7 +56,7 @@ def check_results(calc: Calculation) -> list[Data]:
     for check, sides in checks:
         if sides is not None:
             made = _check(calc, check, _judged(check, *sides))
-            keys = without_basis(calc, check) if made["status"] == "pass" else ()
+            keys = unchecked.without_basis(calc, check) if made["status"] == "pass" else ()
             found.append(unchecked.unfounded(calc, check, keys) if keys else made)
         elif check.id not in ids and (missing := unchecked.missing(calc, check)):
             ids.add(check.id)
@@ -67,11 +67,6 @@ def check_results(calc: Calculation) -> list[Data]:
 def checks_of(calc: Calculation) -> list[Check]:
     """Return the checks of a mechanism, those of named parts one by one."""
     return list(by_part(calc.mechanism.checks, calc.inputs.get))
-
-
-def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
-    """Return the inputs by which a check would hold because they were typed."""
-    return tuple(key for key in check.founded if key in calc.unfounded)
 
 
 def applies(calc: Calculation, check: Check) -> bool:

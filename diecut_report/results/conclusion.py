@@ -29,7 +29,7 @@ def conclusion(results: Data) -> Phrase:
 
 def is_open(results: Data) -> bool:
     """Return whether a machine of which no check fails is not proved all the same: it may not carry a tick."""
-    return any("error" in data for data in calculated(results)) or any(True for _ in _left(results))
+    return any(True for _ in _left(results))
 
 
 def _found(results: Data) -> Data:
@@ -40,6 +40,8 @@ def _found(results: Data) -> Data:
 def _left(results: Data) -> Iterator[Phrase]:
     """What is left open."""
     found = _found(results)
+    if lost := sum("error" in data for data in calculated(results)):
+        yield Counted(lost, "{n} part is not calculated", "{n} parts are not calculated")
     if found["warn"]:
         yield Counted(found["warn"], "{n} warns", "{n} warn")
     if found["not_checked"]:

@@ -244,14 +244,8 @@ class Run:
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         calculation = calculate(mechanism, flatten(block))
         calculation.chosen_units = self.chosen_units(instance.name)
-        calculation.unfounded = self.unfounded(instance, block)
+        calculation.unfounded = self.bases.unfounded(instance, block)
         return calculation
-
-    def unfounded(self, instance: Instance, block: Block) -> frozenset[str]:
-        """Return the inputs of which a check asks a basis that can be looked up, and which have none; a typed default is a default."""
-        asked = {name for check in instance.mechanism.checks for name in check.founded} if instance.mechanism else ()
-        typed = [name for name in asked if getattr(block, name) != type(block).model_fields[name].get_default()]
-        return frozenset(name for name in typed if not self.bases.is_founded((instance.name, name)))
 
     def chosen_units(self, name: str) -> ChosenUnits:
         """Return the units that the report chose for the quantities of a mechanism."""

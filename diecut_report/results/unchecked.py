@@ -70,6 +70,11 @@ def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     }
 
 
+def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
+    """Return the inputs by which a check would hold because they were typed."""
+    return tuple(key for key in check.founded if key in calc.unfounded)
+
+
 def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     """Return a check that would hold by what was typed alone, in the form of those that are not made."""
     words = (

@@ -147,7 +147,7 @@ class WarmRun(Run):
         return is_valid
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
-        told = Told(self.chosen_units(instance.name), self.unfounded(instance, block))
+        told = Told(self.chosen_units(instance.name), self.bases.unfounded(instance, block))
         found = self.press.remembered(instance.name, mechanism, flatten(block), told, self._tell)
         self.remembered[instance.name] = found
         return found.calculation

@@ -25,8 +25,8 @@ from diecut_report.engine.steps.extreme_checks import is_made
 from diecut_report.errors import PluginError
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import checks_of, is_sized, judged, without_basis
-from diecut_report.results.unchecked import is_of_machine, missing
+from diecut_report.results.checks import checks_of, is_sized, judged
+from diecut_report.results.unchecked import is_of_machine, missing, without_basis
 from diecut_report.study.execution.press_batch import of_plugin
 from diecut_report.study.storage.description import Kind, ResultColumn
 
