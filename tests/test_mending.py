@@ -28,7 +28,13 @@ CYLINDER = {"cylinder.wall_at_flat", "cylinder.radius", "cylinder.closed_section
 RATE = {"consistency.actual_rate"}
 CLUTCH = {"consistency.clutch_position"}
 MOTOR = {"consistency.motor_thermal"}
-UNFOUNDED = {"consistency.clutch_position", "gear_key.reversing", "crank_key.reversing", "sector.k_factors", "main_gears.k_factors"}
+UNFOUNDED = {
+    "consistency.clutch_position",
+    "gear_key.reversing",
+    "crank_key.reversing",
+    "sector.k_factors",
+    "main_gears.k_factors",
+}
 ELEMENTS = {
     "gear_key.reversing",
     "crank_key.reversing",

@@ -34,7 +34,9 @@ def is_open(results: Data) -> bool:
 
 def _found(results: Data) -> Data:
     """The counts, and what is assumed."""
-    return results.get("summary") or counts([c for data in results["mechanisms"].values() for c in data.get("checks", ())])
+    return results.get("summary") or counts(
+        [c for data in results["mechanisms"].values() for c in data.get("checks", ())]
+    )
 
 
 def _left(results: Data) -> Iterator[Phrase]:

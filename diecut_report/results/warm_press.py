@@ -68,7 +68,11 @@ class Remembered:
     def is_of(self, mechanism: Mechanism, taken: Mapping[str, Any], told: Told) -> bool:
         """Return whether it was calculated from these inputs, and is told alike."""
         known = self.calculation
-        return known.mechanism is mechanism and Told(known.chosen_units, known.unfounded) == told and _same(self.taken, taken)
+        return (
+            known.mechanism is mechanism
+            and Told(known.chosen_units, known.unfounded) == told
+            and _same(self.taken, taken)
+        )
 
     def of(self, make: Callable[[Calculation], Any]) -> Any:
         """Return what a function makes of the calculation; made once."""

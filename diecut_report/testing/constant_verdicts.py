@@ -38,7 +38,9 @@ def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str
     calc = calculate(machine.mechanism, {**machine.values, **_varied(machine, count, seed)}, count)
     possible = np.array([i not in calc.flaws for i in range(count)])
     for check in checks_of(calc):
-        is_free = not (check.presumed or is_sized(calc.given, check))  # the others hold by what the program chose or presumes
+        is_free = not (
+            check.presumed or is_sized(calc.given, check)
+        )  # the others hold by what the program chose or presumes
         if is_free and is_of_machine(check) and is_made(calc, check):
             judgement = judged(calc, check)
             rows = judgement.governing(judgement.there) & possible

@@ -187,7 +187,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "compares fixed with 3, neither of which depends on an input: its verdict is always the same",
     ),
     "a check of what is bounded by its own limit": (
-        made(value("most", "Q", formula=bind(least, one="moment", other="peak")), checks=(check(demand="most", limit="peak"),)),
+        made(
+            value("most", "Q", formula=bind(least, one="moment", other="peak")),
+            checks=(check(demand="most", limit="peak"),),
+        ),
         "compares most with peak, by which it is bounded itself: it can never fail",
     ),
     # ids and order

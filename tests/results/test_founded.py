@@ -6,6 +6,7 @@ from pathlib import Path
 from typing import Any
 
 import pytest
+
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.config.yaml_tree import load
@@ -20,7 +21,14 @@ DEFAULTS = dict(zip(FACTORS, (1.25, 1.1, 1.3, 1.0), strict=True))
 
 def gears(**more: Any) -> dict[str, Any]:
     strength = {f"sigma_h_lim_{i}": "767 MPa" for i in (1, 2)} | {f"sigma_f_lim_{i}": "314 MPa" for i in (1, 2)}
-    own = {"kind": "gear_pair", "module": "5 mm", "teeth_1": 24, "teeth_2": 48, "face_width": "50 mm", "torque": "50 N*m"}
+    own = {
+        "kind": "gear_pair",
+        "module": "5 mm",
+        "teeth_1": 24,
+        "teeth_2": 48,
+        "face_width": "50 mm",
+        "torque": "50 N*m",
+    }
     return own | strength | more
 
 
@@ -69,8 +77,6 @@ def test_many_machines_are_judged_as_each_alone(tmp_path: Path) -> None:
         assert ("a.checks.k_factors" in found.unchecked) == is_left
         assert ("a.checks.k_factors" in found.names) != is_left
         made.release()
-
-
 
 
 def mended(**changes: dict[str, Any]) -> dict[str, Any]:
