@@ -19,13 +19,17 @@ DEEP = 40  # formulas within formulas, of which a declaration may have a circle 
 def told(names: DeclaredNames, check: Check) -> Iterator[str]:
     """Yield what is wrong with the sides of a check."""
     for one, other in check.pairs:
+        sides = {"one": _told(one), "other": _told(other)}
         for first, second in product(_ways(names, one), _ways(names, other)):
             if first == second:
-                yield Phrase("compares {one} with {other}, which is the same expression: it can never fail", one=_told(one), other=_told(other))  # fmt: skip
+                yield Phrase("compares {one} with {other}, which is the same expression: it can never fail", **sides)
             elif not symbols(first) and not symbols(second):
-                yield Phrase("compares {one} with {other}, neither of which depends on an input: its verdict is always the same", one=_told(one), other=_told(other))  # fmt: skip
+                yield Phrase(
+                    "compares {one} with {other}, neither of which depends on an input: its verdict is always the same",
+                    **sides,
+                )
             elif second in _least(first) or first in _greatest(second):
-                yield Phrase("compares {one} with {other}, by which it is bounded itself: it can never fail", one=_told(one), other=_told(other))  # fmt: skip
+                yield Phrase("compares {one} with {other}, by which it is bounded itself: it can never fail", **sides)
 
 
 def _ways(names: DeclaredNames, side: str | float) -> list[Node]:

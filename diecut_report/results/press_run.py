@@ -243,8 +243,10 @@ class Run:
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         calculation = calculate(mechanism, flatten(block))
-        calculation.chosen_units = self.chosen_units(instance.name)
-        calculation.unfounded = self.bases.unfounded(instance, block)
+        calculation.chosen_units, calculation.unfounded = (
+            self.chosen_units(instance.name),
+            self.bases.unfounded(instance, block),
+        )
         return calculation
 
     def chosen_units(self, name: str) -> ChosenUnits:

@@ -59,7 +59,10 @@ def _told(holds: bool, count: int) -> Phrase:
 def _varied(machine: MachineCase, count: int, seed: int) -> dict[str, Array]:
     """The numbers of all machines: each has one, or all, far from the example's, as far as that is allowed."""
     draw, known = np.random.default_rng(seed), dict(fields(machine.mechanism.inputs))
-    metas = {name: known.get(name) for name, value in machine.values.items() if isinstance(value, int | float) and not isinstance(value, bool)}  # fmt: skip
+    numbers = [
+        name for name, value in machine.values.items() if isinstance(value, int | float) and not isinstance(value, bool)
+    ]
+    metas = {name: known.get(name) for name in numbers}
     names = [name for name, meta in metas.items() if isinstance(meta, Quantity) and name != "n_points"]
     chosen = draw.integers(0, len(names) + 1, count)
     found = {}
