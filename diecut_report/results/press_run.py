@@ -82,8 +82,6 @@ class Run:
             self._compare(case)
         self.left_out = [case.name for case in cases[MAX_COMPARISONS:]]
 
-    # --- values that are referred to ---------------------------------------------------------------------------------
-
     def _value(self, node: Node, target: Target) -> None:
         instance = self.config.instances[str(node[0])]
         assert instance is not None, "a mechanism without a plugin has no links"
@@ -243,10 +241,8 @@ class Run:
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         calculation = calculate(mechanism, flatten(block))
-        calculation.chosen_units, calculation.unfounded = (
-            self.chosen_units(instance.name),
-            self.bases.unfounded(instance, block),
-        )
+        calculation.chosen_units = self.chosen_units(instance.name)
+        calculation.unfounded = self.bases.unfounded(instance, block)
         return calculation
 
     def chosen_units(self, name: str) -> ChosenUnits:
