@@ -492,7 +492,7 @@ def test_a_friction_clutch_loses_the_offset_of_the_lines_that_it_drives_alone(
 ) -> None:
     check = next(each for each in clutched(**changes)["checks"] if each["id"] == "clutch_position")
     assert (check["status"], check["demand"]) == (status, demand)
-    assert status == "pass" or "out of step with the other lines: drive; let" in check["message"]
+    assert status != "fail" or "out of step with the other lines: drive; let" in check["message"]
 
 
 def test_lines_of_a_clutch_must_be_lines() -> None:
