@@ -3,7 +3,7 @@
 In scripts and notebooks: ``import diecut_report as dr; results = dr.load("press.yaml").calculate()`` (docs/python.md).
 """
 
-__version__ = "0.1.0"
+__version__ = "1.0.0"
 TYPE_CHECKING = False  # as type checkers know it; importing typing would run a file of that name in the current folder
 
 if TYPE_CHECKING:

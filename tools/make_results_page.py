@@ -18,6 +18,7 @@ ADDED = {  # by the version of the form; a test holds them against its hashes
     "1.4": "`taken` of a table, `chosen` of a printed quantity",
     "1.5": "`table_rows` and `series` of a formula",
     "1.6": "`parts` of a phase",
+    "1.7": "`conclusion` of `summary`",
 }
 HISTORY = "\n".join(f"| {version} | {told} |" for version, told in ADDED.items())
 INTRODUCTION = f"""\

@@ -13,6 +13,7 @@ from diecut_report.config.discovery import Discovery
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
 from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import said, say, say_counted, spoken_language
+from diecut_report.results.conclusion import conclusion, is_open
 from diecut_report.results.doubtful_plugins import doubtful_kinds
 
 Data = Mapping[str, Any]
@@ -93,41 +94,11 @@ def _skipped(results: Data) -> Iterator[Line]:
 
 def _whole(results: Data) -> Line:
     found = results["summary"]
-    count = found["pass"] + found["warn"] + found["fail"]
-    parts = [_failing(results, found["fail"], count, found["not_checked"])]
-    if doubtful_kinds(results):
-        parts.append(say("Formulas of a plugin have faults."))
-    if found["warn"]:
-        parts.append(say_counted(found["warn"], "{n} with a warning.", "{n} with a warning."))
-    if found["not_checked"] and found["fail"]:
-        parts.append(say_counted(found["not_checked"], "{n} not checked.", "{n} not checked."))
+    state = "fail" if found["fail"] else "warn" if is_open(results) else "pass"
+    parts = [coloured(said(conclusion(results)), state)]
     if found["governing"]:
         parts.append(say("Governing: {check}.", check=found["governing"]))
     if held := found["numerical"]["pass"]:
         words = "{n} self-test of the calculation holds.", "{n} self-tests of the calculation hold."
         parts.append(say_counted(held, *words))
     return tuple(part for each in parts for part in (" ", each))[1:]
-
-
-def _failing(results: Data, failed: int, count: int, unchecked: int) -> str:
-    """Return how many checks fail; that all pass only where nothing is left unchecked."""
-    if failed:
-        return say_counted(failed, "{n} of {total} checks fail.", "{n} of {total} checks fail.", total=count)
-    calculated = [*results["mechanisms"].values(), *results.get("comparisons", {}).values()]
-    if lost := sum("error" in data for data in calculated):
-        if "comparisons" in results:
-            return say("{n} of {total} mechanisms and comparisons were not calculated.", n=lost, total=len(calculated))
-        return say("{n} of {total} mechanisms were not calculated.", n=lost, total=len(calculated))
-    if unchecked and count:
-        return say_counted(
-            unchecked, "No check fails, but {n} is not checked.", "No check fails, but {n} are not checked."
-        )
-    if unchecked:
-        return say_counted(
-            unchecked, "Nothing was checked, but {n} is not checked.", "Nothing was checked, but {n} are not checked."
-        )
-    return (
-        coloured(say("No check fails."), "warn" if doubtful_kinds(results) else "pass")
-        if count
-        else say("There are no checks.")
-    )

@@ -8,7 +8,7 @@ from typing import Any
 
 from diecut_report.config.validation import ConfigPlace, keys_of, told
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Block, CurveInput, Quantity
+from diecut_report.contract.inputs import Block, CurveInput, Quantity, Text
 from diecut_report.contract.varying import Varying
 from diecut_report.errors import Problem, nearest
 from diecut_report.languages.phrases import Phrase
@@ -26,6 +26,11 @@ class Basis:
 
     basis: str = ""
     note: str = ""
+
+
+def is_founded(basis: str, note: str) -> bool:
+    """Return whether somebody can look a value up: measured, on a drawing, or by a standard or a catalogue that the note names."""
+    return basis in ("measured", "drawing") or (basis in ("standard", "catalogue") and bool(note.strip()))
 
 
 def weakest(bases: Iterable[str]) -> str:
@@ -68,15 +73,17 @@ class BasisReader:
         ):
             return given
         if isinstance(known.meta, Quantity | CurveInput) and isinstance(given, dict):
-            return self._stated(known.meta, given, key)
+            return self._stated(known.meta.unit, given, key)
+        if isinstance(known.meta, Text) and isinstance(given, dict) and "value" in given:
+            return self._stated("1", given, key)
         return given
 
     def _inner(self, model: type[Block], given: Any, key: KeyPath) -> Any:
         return self._block(model, given, key) if isinstance(given, dict) else given
 
-    def _stated(self, meta: Quantity | CurveInput, given: dict[str, Any], key: KeyPath) -> Any:
+    def _stated(self, unit: str, given: dict[str, Any], key: KeyPath) -> Any:
         """The value of a quantity that stands as a block; the block itself where it is not one."""
-        faults = list(self._faults(meta, given, key))
+        faults = list(self._faults(unit, given, key))
         self.problems += faults
         if "value" not in given:
             return 1.0 if faults else given  # what is wrong has been told
@@ -86,11 +93,11 @@ class BasisReader:
             self.bases[key] = Basis(given.get("basis") or "", given.get("note") or "")
         return given["value"]
 
-    def _faults(self, meta: Quantity | CurveInput, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
+    def _faults(self, unit: str, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
         if "value" not in given:
             words = Phrase(
                 "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone",
-                unit=meta.unit,
+                unit=unit,
             )
             yield self.place.problem(key, words.replace("10 1,", "10,"))
         for name in given:

@@ -165,6 +165,8 @@ def _key(model: type[Block], name: str, refers: bool) -> Schema:
         allowed = {
             "anyOf": [allowed, {"type": "string", "maxLength": MAX_TEXT}]
         }  # or an entry of a table of the user's
+    if isinstance(meta, Text):
+        allowed = {"anyOf": [allowed, _stated([allowed])]}
     return described | ({"anyOf": [allowed, _reference()]} if refers else allowed) | shown
 
 

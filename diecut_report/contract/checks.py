@@ -41,6 +41,9 @@ class Check:
     not given. ``presumed`` says that it judges what the calculation presumes, such as the range of a method, or that two mechanisms are
     calculated with the same mass: that it holds is no reserve of the machine, so that it governs only where it does not.
 
+    ``founded`` names optional inputs by which the check would hold because somebody typed them (a factor of a standard, a fact of the
+    design): where one is given without a basis that can be looked up, the check that holds is reported as not checked.
+
     A row whose parts have names is one check for each of them with ``named_by``, the text input of their names
     (``interlocks.name``): ``part_id`` makes the check's id of ``{id}`` and ``{name}``, and ``{part}`` is then the name.
     """
@@ -64,6 +67,7 @@ class Check:
     asks_for: tuple[str, ...] = ()
     sized_unless: tuple[str, ...] | None = None
     presumed: bool = False
+    founded: tuple[str, ...] = ()
     at_least: str | float | None = None
     at_least_label: str = phrase("at least")
     named_by: str = ""

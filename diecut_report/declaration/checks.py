@@ -7,6 +7,7 @@ from itertools import product
 
 from diecut_report.contract.checks import Check
 from diecut_report.contract.mechanism import Mechanism
+from diecut_report.declaration import same_sides
 from diecut_report.declaration.messages import unprintable
 from diecut_report.declaration.names import DeclaredNames, Giver
 from diecut_report.declaration.order import pairs
@@ -62,6 +63,7 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
             "compares what runs over {axes}; compare numbers, or curves over one abscissa",
             axes=named(sorted(axes), " with what runs over "),
         )
+    yield from same_sides.told(names, check)
     yield from _names_of_parts(names, check)
     made = _when(names, check)
     if not made:

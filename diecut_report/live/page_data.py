@@ -47,6 +47,8 @@ def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str])
         "title": str((machine.config.tree.data.get("project") or {}).get("title") or machine.tree.name),
         "status": run.status,
         "summary": run.summary,
+        "conclusion": said(run.summary["conclusion"]),
+        "is_open": run.is_open,
         "start": {"status": start.run.status, "summary": start.run.summary},
         "mechanisms": [_mechanism(name, machine, start, edits) for name in _names(machine)],
     }

@@ -8,15 +8,8 @@ from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import said
 
 WORDS = {
-    "verdict_pass": phrase("No check fails"),
-    "verdict_warn": phrase("No check fails, some warn"),
-    "verdict_fail": phrase("Checks fail"),
-    "verdict_error": phrase("Not all mechanisms could be calculated"),
     "verdict_fault": phrase("The file cannot be calculated"),
     "count_pass": phrase("{n} pass"),
-    "count_warn": phrase("{n} warn"),
-    "count_fail": phrase("{n} fail"),
-    "count_not_checked": phrase("{n} not checked"),
     "governing": phrase("governing: {check}"),
     "failed_before": phrase("at the start {n} failed"),
     "status_pass": phrase("pass"),

@@ -8,6 +8,7 @@ from dataclasses import dataclass, field
 from pathlib import PurePath
 from typing import Any
 
+from diecut_report.languages.speech import said, speaking
 from diecut_report.report.advice import followed_line
 from diecut_report.report.assumed import AssumedGroup, AssumedLine, assumed_groups, assumed_line
 from diecut_report.report.chapters import chapter
@@ -18,6 +19,7 @@ from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, qu
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
 from diecut_report.report.title_block import TitleBlock, title_block
 from diecut_report.report.told_before import ToldBefore
+from diecut_report.results.conclusion import conclusion, is_open
 
 Data = Mapping[str, Any]
 APPENDIX = (
@@ -38,6 +40,7 @@ class ReportDocument:
     press: Data
     status: str
     verdict: str
+    is_open: bool
     counts: list[str]
     governing: CheckRow | None
     checks: list[CheckRow]
@@ -77,9 +80,8 @@ class ReportDocument:
 
     @property
     def face(self) -> str:
-        """The verdict as it is shown: one that passes, but not in all or by formulas with faults, is incomplete."""
-        is_left = self.unchecked or any(part.is_doubtful for part in self.chapters)
-        return "incomplete" if self.status == "pass" and is_left else self.status
+        """The verdict as it is shown: one that passes, but leaves something open, is incomplete."""
+        return "incomplete" if self.status == "pass" and self.is_open else self.status
 
     @property
     def faces(self) -> Data:
@@ -119,8 +121,9 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
         block=block,
         press=results["press"],
         status=results["status"],
-        verdict=words[_verdict(results, every, any(part.is_doubtful for part in chapters))],
-        counts=_begun([*_counts(every, chapters, words), *_left_out(results)]),
+        verdict=_verdict(results, words),
+        is_open=is_open(results),
+        counts=_begun([*_counts(every, words), *_left_out(results)]),
         governing=_governing(results, checks),
         checks=checks,
         unchecked=[row for row in every if row.status == "not_checked"],
@@ -145,18 +148,10 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
     )
 
 
-def _verdict(results: Data, checks: list[CheckRow], is_doubtful: bool) -> str:
-    """The key of the words for the whole; where nothing is checked nothing has passed, and where not all is, not all has."""
-    is_made, is_left = any(row.is_made for row in checks), any(row.status == "not_checked" for row in checks)
-    status = results["status"]
-    if status == "pass" and not is_made:
-        return "verdict_nothing" if is_left else "no_checks"
-    if status in ("pass", "warn") and is_left:
-        return "verdict_unchecked" if status == "pass" else "verdict_warn_unchecked"
-    if status in ("pass", "warn") and is_doubtful:
-        return "verdict_doubtful"
-    of_comparisons = status == "error" and not any("error" in data for data in results["mechanisms"].values())
-    return "verdict_error_comparison" if of_comparisons else f"verdict_{status}"
+def _verdict(results: Data, words: Catalogue) -> str:
+    """The first line on the whole."""
+    with speaking(words.language):
+        return said(conclusion(results))
 
 
 def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[PrintedChapter]:
@@ -190,21 +185,10 @@ def _begun(counts: list[str]) -> list[str]:
     return [counts[0][:1].upper() + counts[0][1:], *counts[1:]] if counts else counts
 
 
-def _counts(checks: list[CheckRow], chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:
-    """How many checks fail, warn, pass and are not made, and how many mechanisms were not calculated."""
-    found = Counter(row.status for row in checks if not row.is_self_test)
-    total = sum(row.is_made for row in checks)
-    lost = sum(part.lost for part in chapters)
-    if lost:
-        yield words.say("count_error", n=lost)
-    if found["fail"]:
-        yield words.say("count_fail", n=found["fail"], total=total)
-    if found["warn"]:
-        yield words.say("count_warn", n=found["warn"])
-    if found["pass"]:
-        yield words.say("count_pass", n=found["pass"])
-    if found["not_checked"]:
-        yield words.say("count_not_checked", n=found["not_checked"])
+def _counts(checks: list[CheckRow], words: Catalogue) -> Iterator[str]:
+    """How many checks pass; the first line has told what does not."""
+    if count := sum(row.status == "pass" and not row.is_self_test for row in checks):
+        yield words.say("count_pass", n=count)
 
 
 def _failures(checks: list[CheckRow]) -> list[CheckRow]:

@@ -6,6 +6,7 @@ from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any
 
+from diecut_report.results.conclusion import conclusion
 from diecut_report.results.summary import RANK, governing, summary
 
 Data = Mapping[str, Any]
@@ -55,6 +56,7 @@ def _only(results: Data, names: list[str]) -> Data:
     found = {**results, "mechanisms": mechanisms, "comparisons": comparisons, "governing": governing(mechanisms)}
     found["status"] = max((data["status"] for data in mechanisms.values()), key=RANK.__getitem__)
     found["summary"] = summary(mechanisms) | _assumed(results.get("summary", {}), mechanisms)
+    found["summary"]["conclusion"] = conclusion(found)
     found.pop("comparisons_left_out", None)
     return found
 

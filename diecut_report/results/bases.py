@@ -5,12 +5,13 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
-from diecut_report.config.basis import ASSUMED, GIVEN, Basis, weakest
+from diecut_report.config.basis import ASSUMED, GIVEN, Basis, is_founded, weakest
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Node, Target
 from diecut_report.config.yaml_tree import KeyPath
+from diecut_report.contract.inputs import Block
 from diecut_report.contract.sections import taken
 from diecut_report.engine import Calculation
 from diecut_report.engine.steps.rerun import needed
@@ -45,6 +46,16 @@ class Bases:
         """Return what the file says of an input itself."""
         instance = self.config.instances[str(node[0])]
         return instance.bases.get(node[1:], Basis()) if instance else Basis()
+
+    def is_founded(self, node: Node) -> bool:
+        """Return whether an input is at its default, or rests on what can be looked up."""
+        return not self._is_given(node) or is_founded(self.of(node), self.said(node).note)
+
+    def unfounded(self, instance: Instance, block: Block) -> frozenset[str]:
+        """Return the inputs of which a check asks a basis that can be looked up, and which have none; a typed default is a default."""
+        asked = {name for check in instance.mechanism.checks for name in check.founded} if instance.mechanism else ()
+        typed = [name for name in asked if getattr(block, name) != type(block).model_fields[name].get_default()]
+        return frozenset(name for name in typed if not self.is_founded((instance.name, name)))
 
     def _of(self, node: Node) -> str:
         chain = [self.said(node).basis]

@@ -55,7 +55,9 @@ def check_results(calc: Calculation) -> list[Data]:
     found = []
     for check, sides in checks:
         if sides is not None:
-            found.append(_check(calc, check, _judged(check, *sides)))
+            made = _check(calc, check, _judged(check, *sides))
+            keys = unchecked.without_basis(calc, check) if made["status"] == "pass" else ()
+            found.append(unchecked.unfounded(calc, check, keys) if keys else made)
         elif check.id not in ids and (missing := unchecked.missing(calc, check)):
             ids.add(check.id)
             found.append(unchecked.result(calc, check, missing))

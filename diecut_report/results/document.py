@@ -21,7 +21,7 @@ from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.targets import Node
 from diecut_report.config.validation import declared, keys_of
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, flatten
+from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, Text, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.varying import Extremes
 from diecut_report.engine import CurveHandle
@@ -30,6 +30,7 @@ from diecut_report.limits import MAX_COMPARISONS
 from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.bases import Bases, assumed
 from diecut_report.results.comparisons import Found
+from diecut_report.results.conclusion import conclusion
 from diecut_report.results.form.version import FORM_VERSION, SCHEMA_VERSION
 from diecut_report.results.handed_on import told_alike
 from diecut_report.results.mechanism import worst
@@ -69,6 +70,7 @@ def document(run: Run) -> Data:
         "summary": summary(mechanisms) | {"assumed": assumed(config)},
         "mechanisms": mechanisms,
     } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
+    made["summary"]["conclusion"] = conclusion(made)
     return made | {"wordings": wordings([made["mechanisms"], comparisons, made.get("comparisons_left_out")])}
 
 
@@ -217,6 +219,8 @@ def _plain_value(block: Block, node: Node, value: Any, instance: Instance, bases
             return _resting([as_given(part, meta.unit) for part in value], node, bases)
         case int() | float() if isinstance(meta, Quantity):
             return _resting(as_given(value, meta.unit) if isinstance(value, float) else value, node, bases)
+        case str() | bool() if isinstance(meta, Text):
+            return _resting(value, node, bases)
     return value
 
 

@@ -17,7 +17,7 @@ from diecut_report.config.loader import Config, substituted
 from diecut_report.config.model import PRESS
 from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import declared, validate
-from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, flatten
+from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, Text, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.chosen_units import ChosenUnits
@@ -81,8 +81,6 @@ class Run:
         for case in cases[:MAX_COMPARISONS]:
             self._compare(case)
         self.left_out = [case.name for case in cases[MAX_COMPARISONS:]]
-
-    # --- values that are referred to ---------------------------------------------------------------------------------
 
     def _value(self, node: Node, target: Target) -> None:
         instance = self.config.instances[str(node[0])]
@@ -244,6 +242,7 @@ class Run:
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
         calculation = calculate(mechanism, flatten(block))
         calculation.chosen_units = self.chosen_units(instance.name)
+        calculation.unfounded = self.bases.unfounded(instance, block)
         return calculation
 
     def chosen_units(self, name: str) -> ChosenUnits:
@@ -294,6 +293,6 @@ class Run:
         for slot in instance.slots:
             node = (instance.name, *slot.key)
             origin = origin_of(self.config, instance, slot)
-            rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput) else ""
+            rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput | Text) else ""
             found[".".join(map(str, slot.key))] = replace(origin, basis=rests, note=bases.said(node).note)
         return found

@@ -70,6 +70,20 @@ def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     }
 
 
+def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
+    """Return the inputs by which a check would hold because they were typed."""
+    return tuple(key for key in check.founded if key in calc.unfounded)
+
+
+def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
+    """Return a check that would hold by what was typed alone, in the form of those that are not made."""
+    words = (
+        "Not checked: it would hold by {keys} alone, which nothing proves; give the basis there, as in {value: 1.2, basis: standard, "
+        "note: …}: measured, drawing, or the standard or catalogue that the note names."
+    )
+    return result(calc, check, keys) | {"message": Phrase(words, keys=listed(keys))}
+
+
 def check_unit(calc: Calculation, check: Check, sides: list[float]) -> str:
     """Return the one unit in which the sides of a check are shown."""
     named = [side for side in (check.demand, check.limit) if isinstance(side, str) and side in calc.chosen_units.by_id]

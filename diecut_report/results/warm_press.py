@@ -22,11 +22,12 @@ from __future__ import annotations
 import math
 from collections.abc import Callable, Mapping
 from functools import cache, cached_property
-from typing import Any
+from typing import Any, NamedTuple
 
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
+from diecut_report.config.source_hashes import plugin_code
 from diecut_report.contract.inputs import SI, Block, flatten
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.engine import Calculation, CurveHandle, calculate
@@ -34,7 +35,9 @@ from diecut_report.engine.chosen_units import ChosenUnits
 from diecut_report.engine.figure_views import figures, shown_figures
 from diecut_report.engine.printing.items import section_items
 from diecut_report.engine.same_curves import same_curve
+from diecut_report.results.bases import assumed
 from diecut_report.results.checks import check_results
+from diecut_report.results.conclusion import conclusion, is_open
 from diecut_report.results.curves import curves
 from diecut_report.results.document import document, verdict
 from diecut_report.results.mechanism import key_outputs, mechanism_results, numbers, require_self_tests, worst
@@ -48,6 +51,13 @@ Data = dict[str, Any]
 KEPT = 4  # machines of each mechanism that are remembered: the one at the start, to compare with, and the last ones
 
 
+class Told(NamedTuple):
+    """Hold what changes how a calculation is told, and no number of it: its units, and what has no basis."""
+
+    units: ChosenUnits
+    unfounded: frozenset[str]
+
+
 class Remembered:
     """Hold a calculated mechanism with what it was calculated from, and what was made of it so far."""
 
@@ -55,10 +65,14 @@ class Remembered:
         self.calculation, self.taken = calculation, taken
         self._made: dict[Callable[[Calculation], Any], Any] = {}
 
-    def is_of(self, mechanism: Mechanism, taken: Mapping[str, Any], chosen: ChosenUnits) -> bool:
-        """Return whether it was calculated from these inputs, and is shown in these units."""
+    def is_of(self, mechanism: Mechanism, taken: Mapping[str, Any], told: Told) -> bool:
+        """Return whether it was calculated from these inputs, and is told alike."""
         known = self.calculation
-        return known.mechanism is mechanism and known.chosen_units == chosen and _same(self.taken, taken)
+        return (
+            known.mechanism is mechanism
+            and Told(known.chosen_units, known.unfounded) == told
+            and _same(self.taken, taken)
+        )
 
     def of(self, make: Callable[[Calculation], Any]) -> Any:
         """Return what a function makes of the calculation; made once."""
@@ -103,15 +117,15 @@ class WarmPress:
         return require_possible(_PrintedRun(config, self, tell))
 
     def remembered(
-        self, name: str, mechanism: Mechanism, taken: Mapping[str, Any], chosen: ChosenUnits, tell: Tell
+        self, name: str, mechanism: Mechanism, taken: Mapping[str, Any], told: Told, tell: Tell
     ) -> Remembered:
         """Return a mechanism calculated from these inputs: remembered, or anew."""
         known = self._known.setdefault(name, [])
-        found = next((each for each in known if each.is_of(mechanism, taken, chosen)), None)
+        found = next((each for each in known if each.is_of(mechanism, taken, told)), None)
         if found is None:
             tell(name)
             calculation = calculate(mechanism, taken)
-            calculation.chosen_units = chosen
+            calculation.chosen_units, calculation.unfounded = told
             found = Remembered(calculation, taken)
         self._known[name] = [found, *(each for each in known if each is not found)][:KEPT]
         return found
@@ -137,8 +151,8 @@ class WarmRun(Run):
         return is_valid
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
-        chosen = self.chosen_units(instance.name)
-        found = self.press.remembered(instance.name, mechanism, flatten(block), chosen, self._tell)
+        told = Told(self.chosen_units(instance.name), self.bases.unfounded(instance, block))
+        found = self.press.remembered(instance.name, mechanism, flatten(block), told, self._tell)
         self.remembered[instance.name] = found
         return found.calculation
 
@@ -184,8 +198,21 @@ class WarmRun(Run):
 
     @property
     def summary(self) -> Data:
-        """Return the counts of the checks, and the governing one."""
-        return summary(self._checked())
+        """Return the counts of the checks, the governing one, what is assumed, and the first line."""
+        return self._concluded["summary"] | {"conclusion": conclusion(self._concluded)}
+
+    @property
+    def is_open(self) -> bool:
+        """Return whether something is left open though no check fails."""
+        return is_open(self._concluded)
+
+    @property
+    def _concluded(self) -> Data:
+        """What the first line follows from."""
+        found: Data = {name: {} for name in self.config.kinds}
+        found |= {name: plugin_code(each.mechanism) for name, each in self.calculations.items()}
+        found |= {name: {"error": ""} for name in (*self.errors, *self.skipped) if name in found}
+        return {"summary": summary(self._checked()) | {"assumed": assumed(self.config)}, "mechanisms": found}
 
     def _checked(self) -> Data:
         return {name: {"checks": checks} for name, checks in self.checks.items()}

@@ -15,7 +15,10 @@ from diecut_report.config.model import DETAILS
 from diecut_report.errors import ConfigError, PluginError, Problem, nearest
 from diecut_report.exchange.rendering import document
 from diecut_report.files import write_all
+from diecut_report.languages.catalogues import SOURCE_LANGUAGE
 from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.speech import said, speaking
+from diecut_report.results.conclusion import conclusion
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.scripting.mechanism_results import MechanismResults
 from diecut_report.scripting.named_parts import NamedParts, unknown
@@ -50,6 +53,12 @@ class Results(Mapping[str, MechanismResults]):
     def summary(self) -> Data:
         """Return how many checks there are of each status, the governing one, and the paths of assumed inputs (``summary`` of the results file)."""
         return dict(self.data["summary"])
+
+    @property
+    def conclusion(self) -> str:
+        """Return the first line on the machine, as the report says it: what fails, and what is left open."""
+        with speaking(self.language or SOURCE_LANGUAGE):
+            return said(conclusion(self._data))
 
     @property
     def governing(self) -> CheckResult | None:

@@ -29,6 +29,7 @@ from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
 from diecut_report.study.execution.time_limit import Overran, limited
 from diecut_report.testing import wide_machines
+from diecut_report.testing.constant_verdicts import constant
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
 from diecut_report.testing.many_machines import MachineCase, one_of, unlike
 from diecut_report.testing.plugin_words import PluginWords
@@ -36,6 +37,7 @@ from diecut_report.testing.single_machine import Keys, WithMechanism, configured
 from diecut_report.testing.tried_rules import TITLES, TOLD, TriedRule, rule
 
 TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
+FAR = 400  # machines of which each is far from the example
 TIMED, TIMED_ALONE = 1000, 5  # variants whose time is measured; where they are slow, so few
 LONGEST = 600.0  # seconds of a rule: a plugin may never come back
 DECLARED = ("declaration", "dimensions", "printed", "inputs")
@@ -181,6 +183,15 @@ class ContractTest:
             words = "cannot take arrays, so that a study calculates it variant by variant: {said}"
             return rule("alone", told, [Phrase(words, said=said(cause))], "note")
         return rule("alone", told, (at_place(self.mechanism, name, text) for name, text in found))
+
+    def verdicts(self) -> TriedRule:
+        """Note the checks whose verdict is the same in all machines that were tried."""
+        told = phrase("machines far from the example")
+        try:
+            found = list(constant(self.case, FAR, SEED))
+        except Exception:  # a plugin that cannot take arrays, as the rule before has said
+            return TriedRule("verdicts", "not_tried", phrase("it cannot calculate many machines at once"))
+        return rule("verdicts", told, (at_place(self.mechanism, name, text) for name, text in found), "note")
 
     def hostile(self) -> TriedRule:
         """Try whether single extreme values give numbers, or are refused in words."""

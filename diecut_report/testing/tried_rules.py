@@ -19,6 +19,7 @@ TITLES = {
     "inputs": phrase("Inputs that are taken"),
     "example": phrase("Example machine"),
     "alone": phrase("Many machines as each alone"),
+    "verdicts": phrase("Checks that can fail"),
     "hostile": phrase("Extreme inputs"),
     "figures": phrase("Figures and report"),
     "languages": phrase("Words in all languages"),

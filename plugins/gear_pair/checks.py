@@ -72,6 +72,7 @@ CHECKS = (
           tolerance=ROUNDING, demand_label="face width", limit_label="usual, 1.2 pinion diameters", source="practice",
           consequence="so wide teeth bear at one end; set face_width to at most {face_width_wanted:down}, or take a greater module."),
     Check(id="k_factors", check_class="practice", title="K factors", demand="factors_assumed", limit=0.0, unit="1", severity="warn",
+          founded=("application_factor", "dynamic_factor", "face_load_factor", "transverse_load_factor"),
           demand_label="factors that are assumed", limit_label="accepted", source="ISO 6336-1",
           consequence="{assumed_told} are assumed, not calculated; give them by ISO 6336-1."),
 )

@@ -47,6 +47,7 @@ CHECKS = (
           severity="warn", tolerance=ROUNDING, demand_label="bearing length", limit_label="1.3 diameters", source=METHOD,
           consequence="the load no longer spreads over so long a key; take a thicker shaft, two keys or stronger material."),
     Check(id="reversing", check_class="practice", title="Reversing torque", demand="reversal_left_out", limit=0.0, unit="1", severity="warn",
+          founded=("load_direction_factor",),
           demand_label="torques that change their sign, judged as steady", limit_label="accepted", source="DIN 6892, method B",
           consequence="the key works loose where the torque turns round often; set load_direction_factor by the number of reversals (below 1)."),
     Check(id="two_keys", check_class="practice", title="Two keys in a brittle hub", demand="key_count", limit=1.0, unit="1", severity="warn",

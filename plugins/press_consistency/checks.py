@@ -43,6 +43,7 @@ CHECKS = (
           "{crank_inertia_mean} in the mean and up to {crank_inertia_max} at {crank_inertia_max_at}: give the clutch a driven_inertia of at "
           "least {equal_inertia:up}."),
     Check(id="clutch_position", check_class="function", title="Clutch and offsets of the lines", demand="lines_out_of_step", limit=0.0,
+          founded=("single_position",),
           unit="1", demand_label="lines that lose step", limit_label="accepted", source="kinematics",
           consequence="a friction clutch engages at any angle, and its slip turns back what it drives; out of step with the other lines: "
           "{clutch_lines}; let the clutch drive all lines, or take one that engages at one angle only (single_position: true)."),

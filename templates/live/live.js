@@ -125,14 +125,11 @@
   function verdict() {
     var machine = state.machine, summary = machine && machine.summary, status = state.faults.length ? "error" : machine.status;
     var line = byId("verdict"), words = t("verdict_fault");
-    var shown = status === "pass" && summary.not_checked ? "not_checked" : status;  /* a tick would say that all is checked */
+    var shown = status === "pass" && machine.is_open ? "not_checked" : status;  /* a tick would say that nothing is left open */
     line.querySelector(".mark").className = "mark s-" + shown;
     line.querySelector(".mark").textContent = MARKS[shown];
     if (!state.faults.length) {
-      words = t("verdict_" + status) + ": " + t("count_pass", { n: summary.pass });
-      if (summary.warn) { words += ", " + t("count_warn", { n: summary.warn }); }
-      if (summary.fail) { words += ", " + t("count_fail", { n: summary.fail }); }
-      if (summary.not_checked) { words += ", " + t("count_not_checked", { n: summary.not_checked }); }
+      words = machine.conclusion + " " + t("count_pass", { n: summary.pass });
       if (summary.governing) { words += "; " + t("governing", { check: summary.governing }); }
       if (machine.start.summary.fail !== summary.fail) { words += " (" + t("failed_before", { n: machine.start.summary.fail }) + ")"; }
     }

@@ -48,10 +48,11 @@ def test_a_check_without_its_limit_is_told_and_counted(tmp_path: Path, capfd: Ca
     err = capfd.readouterr().err
     assert code == 0 and found["status"] == "pass"
     assert found["summary"] == {"pass": 0, "warn": 0, "fail": 0, "not_checked": 1, "numerical": {"pass": 0, "fail": 0},
-                                "governing": None, "assumed": []}  # fmt: skip
+                                "governing": None, "assumed": [],
+                                "conclusion": "Nothing was checked, and 1 is not checked."}  # fmt: skip
     assert err.splitlines() == [
         "not checked a: Moment. Moment 200 N·m, but allowable_moment is not given.",
-        "Nothing was checked, but 1 is not checked.",
+        "Nothing was checked, and 1 is not checked.",
     ]
 
 
@@ -69,7 +70,7 @@ def test_page_1_does_not_say_that_all_checks_pass_where_one_is_not_made(tmp_path
     for text in (FREE, LIMITED):
         assert run("report", saved(tmp_path, text), "-o", tmp_path, "--format", "html", "--quiet") == 0
         pages.append((tmp_path / "press.html").read_text("utf-8"))
-    assert "All checks pass" not in pages[0] and "Nothing is checked." in pages[0] and "1 not checked" in pages[0]
+    assert "All checks pass" not in pages[0] and "Nothing was checked, and 1 is not checked." in pages[0]
     assert ">allowable_moment</span>" in pages[0]
     assert "All checks pass" in pages[1] and "not checked" not in pages[1]
 

@@ -247,7 +247,7 @@ def test_a_steel_with_strengths_beside_it_is_refused(tmp_path: Path) -> None:
 def test_the_schema_lets_a_key_name_an_entry() -> None:
     schema = config_schema({"shaft": MECHANISM}, {})
     assert "materials" in schema["properties"]
-    allowed = schema["$defs"]["shaft"]["properties"]["material"]["anyOf"][0]["anyOf"]
+    allowed = schema["$defs"]["shaft"]["properties"]["material"]["anyOf"][0]["anyOf"][0]["anyOf"]
     assert {"type": "string", "maxLength": 500} in allowed
 
 

@@ -79,6 +79,11 @@ def same(value: Any) -> Any:
 
 
 @formula
+def least(one: Any, other: Any) -> Any:
+    return np.minimum(one, other)
+
+
+@formula
 def wave(angle: Any, moment: Any) -> Any:
     return moment * np.sin(angle)
 
@@ -164,6 +169,30 @@ SOUND = {
 }  # fmt: skip
 
 FAULTS: dict[str, tuple[Mechanism, str]] = {
+    # checks that say nothing
+    "a check of one quantity with itself": (
+        made(checks=(check(limit="moment"),)),
+        "check strong: compares moment with moment, which is the same expression: it can never fail",
+    ),
+    "a check of one formula under two names": (
+        made(value("other", "Q"), checks=(check(limit="other"),)),
+        "compares moment with other, which is the same expression: it can never fail",
+    ),
+    "a check of a quantity with its copy": (
+        made(value("copy", "Q", formula=bind(same, value="moment")), checks=(check(demand="copy", limit="moment"),)),
+        "compares copy with moment, which is the same expression: it can never fail",
+    ),
+    "a check of a constant with a constant": (
+        made(value("fixed", "Q", formula=bind(same, value=2.0)), checks=(check(demand="fixed"),)),
+        "compares fixed with 3, neither of which depends on an input: its verdict is always the same",
+    ),
+    "a check of what is bounded by its own limit": (
+        made(
+            value("most", "Q", formula=bind(least, one="moment", other="peak")),
+            checks=(check(demand="most", limit="peak"),),
+        ),
+        "compares most with peak, by which it is bounded itself: it can never fail",
+    ),
     # ids and order
     "an id that nothing gives": (
         made(value("x", formula=bind(product, arm="arms"))),

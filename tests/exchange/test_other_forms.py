@@ -9,6 +9,7 @@ from typing import Any
 
 import pytest
 
+import diecut_report as dr
 from diecut_report.results.form.version import FORM_VERSION
 from tests.cli.test_cli import Capture, run
 
@@ -79,7 +80,8 @@ def test_what_is_missing_in_another_form_is_told_with_both_versions(
     assert asked("render", results | {"form_version": "1.0"}, tmp_path) == 2
     told = capfd.readouterr().err
     assert (
-        "is missing" in told and f"are of form 1.0 (diecut-report 0.1.0), this program has form {FORM_VERSION}" in told
+        "is missing" in told
+        and f"are of form 1.0 (diecut-report {dr.__version__}), this program has form {FORM_VERSION}" in told
     )
     assert asked("render", first_form(results), tmp_path) == 2
     assert "of a form before 1.3" in capfd.readouterr().err

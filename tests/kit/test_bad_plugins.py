@@ -43,11 +43,11 @@ MECHANISM = Mechanism(kind="faulty", version="1", title="T", summary="", inputs=
 COMPUTED = 'chapter.computed("b", "b", "mm", "B", code, ("x",), "by code")'
 BAD = {  # what stands where in the plugin, and what is told of it
     "missing library": ({"head": "import no_such_library"}, "ModuleNotFoundError: No module named 'no_such_library' (faulty.py:25)"),
-    "newer contract": ({"head": "CONTRACT = 7"}, "it is written for contract 7, this program (0.1.0) has contract 1; install a newer version"),
+    "newer contract": ({"head": "CONTRACT = 7"}, "it is written for contract 7, this program (1.0.0) has contract 1; install a newer version"),
     "older contract": ({"head": "CONTRACT = 0"}, "has contract 1; take a newer version of the plugin"),
     "name of another version": (
         {"head": "from diecut_report.api import Wormhole"},
-        "diecut_report.api of this version (0.1.0) has no 'Wormhole'; the plugin is written for another version (faulty.py:25)",
+        "diecut_report.api of this version (1.0.0) has no 'Wormhole'; the plugin is written for another version (faulty.py:25)",
     ),
     "exception": ({"code": "raise RuntimeError('fell over')"}, "RuntimeError: fell over (faulty.py:12)"),
     "end of the program": ({"code": "raise SystemExit(0)"}, "SystemExit: 0 (faulty.py:12)"),

@@ -13,7 +13,7 @@ from diecut_report.live.words import WORDS
 FILE = "knife.yaml"
 SAME = {FILE, "PDF"}  # in each language
 CYRILLIC = re.compile("[а-яіїєґ]")
-BY_STATE = {"verdict_": {"pass", "warn", "fail", "error"}, "status_": {"pass", "warn", "fail", "not_checked"}}
+BY_STATE = {"status_": {"pass", "warn", "fail", "not_checked"}}
 
 
 class Read(HTMLParser):

@@ -53,7 +53,7 @@ def test_the_summary_is_sorted_by_utilisation_what_fails_first_and_what_was_size
                  judged("missed", None, "fail"), judged("odd", 1.01, "warn"), judged("own", 0.5, **{"class": "numerical"}))  # fmt: skip
     assert [row.id for row in found.checks] == ["missed", "over", "odd", "high", "low", "sized"]
     assert [row.id for row in found.sized] == ["sized"] and found.governing.id == "missed"
-    assert found.counts == ["2 of 6 checks fail", "1 with a warning", "3 pass"]
+    assert found.counts == ["3 pass"] and found.verdict == "2 of 6 checks fail; 1 warns."
     assert found.notes == ["1 self-test of the calculation holds."]
 
 
@@ -78,10 +78,10 @@ def test_a_failure_without_a_utilisation_tells_by_how_much_in_words() -> None:
     ("checks", "verdict", "face"),
     [
         ([judged("a", 0.5)], "All checks pass.", "pass"),
-        ([judged("a", 0.5), unchecked("b", "rated")], "No check fails, but not everything is checked.", "incomplete"),
-        ([unchecked("b", "rated")], "Nothing is checked.", "incomplete"),
-        ([judged("a", 1.1, "warn"), unchecked("b", "rated")], "No check fails, but some warn, and not everything is checked.", "warn"),
-        ([judged("a", 1.1, "fail"), unchecked("b", "rated")], "Checks fail.", "fail"),
+        ([judged("a", 0.5), unchecked("b", "rated")], "No check fails, but 1 is not checked.", "incomplete"),
+        ([unchecked("b", "rated")], "Nothing was checked, and 1 is not checked.", "incomplete"),
+        ([judged("a", 1.1, "warn"), unchecked("b", "rated")], "No check fails, but 1 warns and 1 is not checked.", "warn"),
+        ([judged("a", 1.1, "fail"), unchecked("b", "rated")], "1 of 1 checks fails; 1 is not checked.", "fail"),
         ([], "There are no checks.", "pass"),
     ],
 )  # fmt: skip
@@ -97,4 +97,4 @@ def test_what_is_not_checked_stands_apart_with_what_it_needs() -> None:
     assert [(row.id, row.missing, row.demand, row.limit) for row in found.unchecked] == [
         ("b", ("rated",), "16\N{NO-BREAK SPACE}N", "–")
     ]
-    assert found.counts == ["1 passes", "1 not checked"] and found.chapters[0].count("not_checked") == 1
+    assert found.counts == ["1 passes"] and found.chapters[0].count("not_checked") == 1

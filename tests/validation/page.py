@@ -1,7 +1,9 @@
-"""Makes docs/validation.md from the rows that the tests check: ``python -m tests.validation.page``."""
+"""Makes docs/validation.md, and the counts of docs/trust.md, from the rows that the tests check: ``python -m tests.validation.page``."""
 
 from __future__ import annotations
 
+import re
+from collections import Counter
 from pathlib import Path
 from types import ModuleType
 
@@ -9,6 +11,8 @@ from diecut_report.quantities.formatting import number_text
 from tests.validation.rows import Row, modules
 
 PAGE = Path(__file__).parents[2] / "docs" / "validation.md"
+TRUST = PAGE.with_name("trust.md")
+COUNTED = re.compile(r"lists\s\d+\snumbers of papers.*?cannot be reproduced\.", re.DOTALL)
 
 HEAD = """# Validation: what the papers print, and what the program computes
 
@@ -54,6 +58,26 @@ def page() -> str:
     return HEAD + "\n".join(map(chapter, modules()))
 
 
+def counts() -> str:
+    """What docs/trust.md says of the rows."""
+    rows = [row for module in modules() for row in module.ROWS]
+    found = Counter(row.verdict for row in rows)
+    assert set(found) == {"agrees", "mistake", "cannot be reproduced"}, found
+    return (
+        f"lists {len(rows)} numbers of papers and worked examples beside those of the program:\n{found['agrees']} agree, in "
+        f"{found['mistake']} the paper is mistaken and its own arithmetic is followed to its number, {found['cannot be reproduced']} "
+        "cannot be reproduced."
+    )
+
+
+def trusted(text: str) -> str:
+    """The text of docs/trust.md with the counts of today."""
+    found, replaced = COUNTED.subn(counts(), text)
+    assert replaced == 1, "docs/trust.md does not count the rows of validation.md"
+    return found
+
+
 if __name__ == "__main__":
     PAGE.parent.mkdir(exist_ok=True)
     PAGE.write_text(page(), encoding="utf-8")
+    TRUST.write_text(trusted(TRUST.read_text(encoding="utf-8")), encoding="utf-8")

@@ -143,6 +143,7 @@ class SummaryKeys(CountKeys):
     """The verdict as numbers: how many checks of the machine there are, which governs, what the whole rests on."""
 
     governing: str | None = always("The check that governs, MECHANISM.ID; null where none is made.")
+    conclusion: str = sometimes("The first line on the machine, in English: what fails, and what is left open.")
     assumed: list[str] = always("The paths of inputs whose basis is `assumed`.")
     moves: list[MoveKeys] = sometimes("Of a report: which assumed values move a governing check.")
     advice: AdviceKeys = sometimes("Of a report: what comes of the advice of all failing checks together.")

@@ -215,6 +215,7 @@ class _Rows(Run):
         except (Impossible, Unproven) as fault:
             self._alone(name, instance, fault)
             return
+        found.unfounded = self.bases.unfounded(instance, block)
         self.calculations[name] = found
         for row, (key, message) in found.flaws.items():
             self._reason([row], _told(instance, key, message))

@@ -26,7 +26,7 @@ from diecut_report.errors import PluginError
 from diecut_report.expressions import Array
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import checks_of, is_sized, judged
-from diecut_report.results.unchecked import is_of_machine, missing
+from diecut_report.results.unchecked import is_of_machine, missing, without_basis
 from diecut_report.study.execution.press_batch import of_plugin
 from diecut_report.study.storage.description import Kind, ResultColumn
 
@@ -222,6 +222,11 @@ def verdicts(calculations: Mapping[str, Calculation], count: int) -> Verdicts:
                     int(row): f"{name}: {check.title}. {check.consequence}" for row in np.flatnonzero(there & ~held)
                 }
                 continue
+            if without_basis(calc, check):  # what holds by what was typed alone is not checked
+                there = there & ~held
+                if not there.any():
+                    unchecked.append(f"{name}.checks.{check.id}")
+                    continue
             names.append(f"{name}.checks.{check.id}")
             codes.append(np.where(there, np.where(held, PASS, np.where(check.is_failure(ratio), FAIL, WARN)), 0))
             ratios.append(np.where(there, ratio, np.nan))

@@ -1,0 +1,78 @@
+"""Checks that cannot fail, or cannot hold: both sides are one expression, or neither depends on an input."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from itertools import product
+
+from diecut_report.contract.binding import ByText, bound
+from diecut_report.contract.checks import Check
+from diecut_report.contract.steps import Value
+from diecut_report.declaration.names import DeclaredNames, Giver
+from diecut_report.expressions import FormulaError
+from diecut_report.expressions.tree import Node, substitute, symbols
+from diecut_report.languages.phrases import Phrase
+
+DEEP = 40  # formulas within formulas, of which a declaration may have a circle that is reported elsewhere
+
+
+def told(names: DeclaredNames, check: Check) -> Iterator[str]:
+    """Yield what is wrong with the sides of a check."""
+    for one, other in check.pairs:
+        sides = {"one": _told(one), "other": _told(other)}
+        for first, second in product(_ways(names, one), _ways(names, other)):
+            if first == second:
+                yield Phrase("compares {one} with {other}, which is the same expression: it can never fail", **sides)
+            elif not symbols(first) and not symbols(second):
+                yield Phrase(
+                    "compares {one} with {other}, neither of which depends on an input: its verdict is always the same",
+                    **sides,
+                )
+            elif second in _least(first) or first in _greatest(second):
+                yield Phrase("compares {one} with {other}, by which it is bounded itself: it can never fail", **sides)
+
+
+def _ways(names: DeclaredNames, side: str | float) -> list[Node]:
+    """The expressions that a side may be, down to the inputs and to what is no closed formula."""
+    if not isinstance(side, str):
+        return [Node("num", (repr(float(side)),))]
+    return list(dict.fromkeys(_expanded(names, side, giver, DEEP) for giver in names.givers(side)))
+
+
+def _expanded(names: DeclaredNames, name: str, giver: Giver, deep: int) -> Node:
+    step = giver.step
+    if type(step) is not Value or isinstance(step.formula, ByText) or not deep:
+        return Node("sym", (name,))
+    link = bound(step.formula)
+    try:
+        tree = link.formula.tree
+    except FormulaError:  # which is reported as a fault of the formula
+        return Node("sym", (name,))
+    return substitute(tree, {own: _part(names, taken, deep - 1) for own, taken in link.names.items()})
+
+
+def _part(names: DeclaredNames, taken: str | float, deep: int) -> Node:
+    """What a formula takes; a name that several steps give stands for itself."""
+    if not isinstance(taken, str):
+        return Node("num", (repr(float(taken)),))
+    givers = names.givers(taken)
+    return _expanded(names, taken, givers[0], deep) if len(givers) == 1 else Node("sym", (taken,))
+
+
+def _least(node: Node) -> set[Node]:
+    return set(_arguments(node, "minimum"))
+
+
+def _greatest(node: Node) -> set[Node]:
+    return set(_arguments(node, "maximum"))
+
+
+def _arguments(node: Node, name: str) -> Iterator[Node]:
+    """What a least or greatest value is taken of, also of several after one another."""
+    for part in node.args[1:] if node.op == "call" and node.args[0] == name else ():
+        yield part
+        yield from _arguments(part, name)
+
+
+def _told(side: str | float) -> str:
+    return side if isinstance(side, str) else f"{side:g}"
