@@ -16,7 +16,7 @@ from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_PRINTED_MECHANISMS
-from diecut_report.results.changes import changes
+from diecut_report.results.changes import compare_with
 from diecut_report.results.doubtful_plugins import doubtful
 from diecut_report.results.results_file import encoded, results_text
 
@@ -124,8 +124,7 @@ def report(
         config, discovery, tell, formats, weigh, only=asked.only, follow=follow, matter=matter
     )
     asked.told(results)
-    if former is not None:
-        results["changes"] = changes(former, results)
+    compare_with(former, results)
     catalogues = catalogues_of(results, discovery, formats)
     contents, undrawn = rendered(results, formats, tell, catalogues, asked.house)
     files_beside, unwritten = exported(results, tell)

@@ -4,10 +4,9 @@ from __future__ import annotations
 
 import json
 import sys
-from collections.abc import Iterator
 from contextlib import redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
@@ -22,26 +21,25 @@ from diecut_report.cli.output import (
     HelpfulCommand,
     common,
     emit,
+    emit_lines,
     tell,
     tell_written,
     without_output,
 )
 from diecut_report.cli.progress import Progress
 from diecut_report.cli.template import template_option
+from diecut_report.cli.verification_lines import verification_lines
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.discovery import Discovery
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
-from diecut_report.languages.phrases import Counted, Phrase, phrase
-from diecut_report.languages.speech import said, say, speaking
+from diecut_report.languages.speech import speaking
 
 if TYPE_CHECKING:
-    from diecut_report.exchange.agreement import Agreement, Difference
     from diecut_report.exchange.carried_results import CarriedResults
-    from diecut_report.exchange.verification import Told, Verification
+    from diecut_report.exchange.verification import Verification
     from diecut_report.report.house_style import HouseStyle
 
 Data = dict[str, Any]
-SHOWN = 20  # differences that are told
 path_of = click.Path(path_type=Path)
 
 
@@ -65,90 +63,63 @@ def extract(report: Path, folder: Path, folders: tuple[Path, ...], quiet: bool) 
     return PASSED
 
 
+previous_option = click.option(
+    "--previous",
+    metavar="FILE",
+    type=path_of,
+    help="The former report, results, configuration or variant, since which the report shows changes.",
+)
+
+
+class HeldAgainst(NamedTuple):
+    """What a report is held against beside its configuration."""
+
+    house: HouseStyle | None = None
+    previous: Path | None = None
+    trusted: Path | None = None
+    pages: bool = True
+
+
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
-@click.option("--numbers", is_flag=True, help="Hold the numbers alone against it, not the pages, which takes longer.")
+@click.option("--numbers", is_flag=True, help="Hold the results alone against it, not the pages, which takes longer.")
 @click.option("--trust", metavar="FILE", type=path_of, help="Certificates (PEM) to which signatures must lead.")
+@previous_option
 @template_option
 @common
 def verify(
-    report: Path, numbers: bool, trust: Path | None, house: HouseStyle | None, folders: tuple[Path, ...], quiet: bool
-) -> int:
-    """Calculate a REPORT (PDF, HTML or results) again; tell whether program, plugins and every number agree, and who has signed it.
+    report: Path, numbers: bool, trust: Path | None, previous: Path | None, house: HouseStyle | None, folders: tuple[Path, ...],
+    quiet: bool,
+) -> int:  # fmt: skip
+    """Calculate a REPORT (PDF, HTML or results) again; tell whether all that it shows comes out again, and who has signed it.
 
-    Exit codes: 0 everything agrees, 1 something does not, 2 the report cannot be read, 3 a plugin broke.
+    Exit codes: 0 everything agrees, 1 something does not or is not proved, 2 the report cannot be read, 3 a plugin broke.
     """
-    from diecut_report.design.followed_advice import followed
-    from diecut_report.design.report_influence import influenced
-    from diecut_report.exchange.carried_results import carried_results
-    from diecut_report.exchange.verification import verify as judged
-    from diecut_report.study.analysis.assumed import moves
-
-    carried = carried_results(report)
-    with Progress(quiet) as progress, without_output():
-        found = judged(
-            carried,
-            Discovery(folders),
-            progress,
-            moves,
-            pages=not numbers,
-            trusted=trust,
-            house=house,
-            follow=followed,
-            matter=influenced,
-        )
+    carried, found = verified(report, HeldAgainst(house, previous, trust, not numbers), Discovery(folders), quiet)
     tell(str(error) for error in found.broken)
-    emit("".join(f"{line}\n" for line in _lines(carried, found)))
+    emit_lines(verification_lines(carried, found))
     return PLUGIN_BROKE if found.broken else PASSED if found.holds else CHECK_FAILED
 
 
-def _lines(carried: CarriedResults, found: Verification) -> Iterator[str]:
-    project = carried.results["project"]
-    named = [str(project.get(key) or "") for key in ("title", "document_number", "revision")]
-    yield f"{carried.path}: {', '.join(filter(None, named))}"
-    yield _line(say("program"), found.program)
-    yield from (_line(say("plugins"), told) for told in found.plugins)
-    yield _line(say("configuration"), found.config)
-    yield _line(say("numbers"), (_numbers(found.agreement), not found.agreement.differences))
-    yield from (f"    {_difference(each)}" for each in found.agreement.differences[:SHOWN])
-    if len(found.agreement.differences) > SHOWN:
-        yield say("    and {n} more", n=len(found.agreement.differences) - SHOWN)
-    if found.pages:
-        yield _line(say("pages"), found.pages)
-    yield from (_line(say("signature"), (each.words, each.holds)) for each in found.signatures)
-    if carried.form == "pdf" and not found.signatures:
-        yield _line(say("signature"), (phrase("none: the report is not signed"), True))
-    yield say("Everything agrees.") if found.holds else say("Not everything agrees.")
+def verified(
+    report: Path, asked: HeldAgainst, discovery: Discovery, quiet: bool
+) -> tuple[CarriedResults, Verification]:  # fmt: skip
+    """Return what a report carries, and what was found of it."""
+    from diecut_report.design.followed_advice import followed
+    from diecut_report.design.report_influence import influenced
+    from diecut_report.exchange.carried_results import carried_results
+    from diecut_report.exchange.recalculation import ReportParts
+    from diecut_report.exchange.sides import side
+    from diecut_report.exchange.verification import verify as judged
+    from diecut_report.study.analysis.assumed import moves
 
-
-def _line(what: str, told: Told) -> str:
-    words, good = told
-    return f"{'✓' if good else '✗'} {what:13}  {said(words)}"
-
-
-def _numbers(found: Agreement) -> str:
-    agreeing = found.numbers - found.differing
-    some = Phrase("{n} of them exactly", n=found.exact)
-    exactly = phrase("all of them exactly") if found.exact == found.numbers else some
-    if not found.differences:
-        return Phrase("{n} of {total} agree, {exactly}", n=found.numbers, total=found.numbers, exactly=exactly)
-    others = len(found.differences) - found.differing
-    texts = Counted(others, ", and {n} other value differs", ", and {n} other values differ") if others else ""
-    words = "{n} of {total} agree{texts}; in the report, and calculated now:"
-    return Phrase(words, n=max(agreeing, 0), total=found.numbers, texts=texts)
-
-
-def _difference(each: Difference) -> str:
-    return f"{each.path}: {_value(each.first)} → {_value(each.second)}"
-
-
-def _value(value: object) -> str:
-    if value is None:
-        return "–"
-    if isinstance(value, dict | list):
-        return say("a block of keys") if isinstance(value, dict) else say("a list of {n}", n=len(value))
-    text = str(value).lower() if isinstance(value, bool) else str(value)
-    return text if len(text) <= 80 else f"{text[:80]}…"
+    carried, parts = carried_results(report), ReportParts(moves, followed, influenced)
+    with Progress(quiet) as progress, without_output():
+        given = None if asked.previous is None else source(asked.previous, discovery)
+        former = None if given is None else side(given, discovery, progress)[0]
+        found = judged(carried, discovery, progress, parts, pages=asked.pages, trusted=asked.trusted, house=asked.house,
+                       previous=former)  # fmt: skip
+    return carried, found
 
 
 @click.command(cls=HelpfulCommand, epilog=exit_codes.OF_CHECKS)

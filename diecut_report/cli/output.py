@@ -13,6 +13,7 @@ from contextlib import contextmanager, redirect_stdout, suppress
 from copy import copy
 from pathlib import Path
 from typing import Any, TypeVar
+from unicodedata import category
 
 import click
 
@@ -32,8 +33,10 @@ INTERRUPTED, FAULT, UNWRITABLE = (
 )  # as shells and sysexits have it: Ctrl-C, a fault of the program, of writing
 COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "not_checked": "36", "pass": "32"}
 LETTERS, END = 2_000, 500  # of a message, and of its end where it is longer
-# what may make a terminal do something, end a line, or show a text as another one
-_ACTIVE = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u2028\u2029\u202a-\u202e\u2066-\u2069\ud800-\udfff]")
+# what may make a terminal do something, end a line, show a text as another one, or stand in it unseen
+_ACTIVE = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
+_BLANK = "\u034f\u115f\u1160\u17b4\u17b5\u2800\u3164\uffa0"  # letters and marks without a shape
+_VARIANTS = re.compile("[\ufe00-\ufe0f\U000e0100-\U000e01ef]")
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -92,9 +95,25 @@ def cut(text: str) -> str:
     return f"{text[: LETTERS - END]} {middle} {text[-END:]}"
 
 
-def shown(text: str) -> str:
-    """The text with all that is active on a terminal as an escape, but for the ends of lines."""
-    return _ACTIVE.sub(lambda found: ascii(found[0])[1:-1], text)
+def shown(text: str, kept: str = "\n\t") -> str:
+    """The text with all that is active on a terminal, or invisible, as an escape, but for the ends of lines and tabs."""
+    if text.isascii() and text.isprintable():
+        return text
+    return "".join(ascii(each)[1:-1] if each not in kept and _is_active(each) else each for each in text)
+
+
+def _is_active(letter: str) -> bool:
+    return category(letter) in _ACTIVE or letter in _BLANK or _VARIANTS.match(letter) is not None
+
+
+def in_line(text: str) -> str:
+    """A text of others as it stands within one line: it can neither end the line nor change how the rest of it reads."""
+    return shown(text, kept="")
+
+
+def emit_lines(lines: Iterable[str]) -> bool:
+    """What was asked for as lines, of which none can be made two, or be shown as another one, by the texts in it."""
+    return emit("".join(f"{in_line(line)}\n" for line in lines))
 
 
 def emit(text: str) -> bool:

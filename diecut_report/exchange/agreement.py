@@ -59,12 +59,21 @@ def _differences(a: Value, b: Value, path: str, made: Agreement, scale: float) -
     if isinstance(a, dict) and isinstance(b, dict):
         for key in dict.fromkeys([*a, *b]):
             yield from _differences(a.get(key, NOWHERE), b.get(key, NOWHERE), _below(path, key), made, 0.0)
+        yield from _order_of_keys(a, b, path)
     elif isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
         scale = max((abs(each) for each in a if _is_number(each)), default=0.0)
         for index, pair in enumerate(zip(a, b, strict=True)):
             yield from _differences(*pair, _below(path, _named(pair[0], index)), made, scale)
     elif not _agree(a, b, made, scale):
         yield Difference(path, None if a is NOWHERE else a, None if b is NOWHERE else b)
+
+
+def _order_of_keys(a: dict[str, Value], b: dict[str, Value], path: str) -> Iterator[Difference]:
+    """What stands in another order is shown in another order."""
+    orders = [[key for key in side if key in other] for side, other in ((a, b), (b, a))]
+    if orders[0] != orders[1]:
+        first = next(index for index, pair in enumerate(zip(*orders, strict=True)) if pair[0] != pair[1])
+        yield Difference(_below(path, "(order)"), *(", ".join(order[first:]) for order in orders))
 
 
 def _agree(a: Value, b: Value, made: Agreement, scale: float) -> bool:

@@ -27,7 +27,8 @@ Form = Literal["pdf", "html", "json"]
 class CarriedResults:
     """Hold the results of a file, the bytes of their own file, and those of the configuration; ``content`` is the whole file.
 
-    ``tables`` are the user's own that the configuration names, and its logo, by these names, which lead nowhere but beside it and below.
+    ``tables`` are the user's own that the configuration names, and its logo, by these names, which lead nowhere but beside it and below;
+    ``former_tables`` those of the former revision, since which the report shows changes.
     """
 
     path: Path
@@ -37,6 +38,7 @@ class CarriedResults:
     results_content: bytes
     config_content: bytes
     tables: dict[str, bytes]
+    former_tables: dict[str, bytes]
 
 
 def carried_results(path: Path) -> CarriedResults:
@@ -52,7 +54,8 @@ def carried_results(path: Path) -> CarriedResults:
     found = _results_content(whole, form, str(path))
     results = results_of(found, str(path))
     config, tables = _config(whole, form, results, str(path)), _tables(results, str(path))
-    return CarriedResults(path, form, whole, results, found, config, tables)
+    former = _tables({"config": results["former"]}, str(path)) if results.get("former") else {}
+    return CarriedResults(path, form, whole, results, found, config, tables, former)
 
 
 def form_of(whole: bytes) -> Form | None:

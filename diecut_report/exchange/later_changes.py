@@ -1,8 +1,10 @@
-"""What became of a PDF after it was signed: were only signatures added, or was anything of it changed?"""
+"""What became of a PDF after it was made or signed: were only signatures added, or was anything of it changed?"""
 
 from __future__ import annotations
 
 import io
+import re
+from collections.abc import Iterator
 from typing import Any
 
 import pikepdf
@@ -11,22 +13,26 @@ from diecut_report.exchange.carried_results import MOST_RESULTS
 from diecut_report.exchange.pdf_attachments import FAULTS, bounded
 
 OF_FIELD = {"/V", "/AP", "/F", "/M"}  # what signing sets in a field: the signature, how it shows, its flags, its time
-OF_FORM = {"/SigFlags"}
-OF_ROOT = {"/AcroForm", "/Extensions"}
+OF_FORM = {"/SigFlags", "/Fields"}  # the fields may grow by document timestamps
+OF_ROOT = {"/AcroForm", "/Extensions", "/Version", "/DSS", "/Perms"}  # with what proves certificates, and what a signer allows
+OF_TIMESTAMP = {"/Type", "/Subtype", "/FT", "/T", "/V", "/Rect", "/F", "/P", "/M", "/Ff"}
+REFERENCE = re.compile(rb"\b(\d+) (\d+) R\b")
 
 
 def only_signed(before: bytes, after: bytes) -> bool:
-    """Return whether all objects of a signed PDF are the same in a later one, but for fields that were free and are signed there.
+    """Return whether all objects of a PDF are the same in a later one, but for fields that were free and are signed there.
 
-    What is added beside is reached from these fields alone, and shows within their boxes.
+    What is added beside is reached from these fields alone, and shows within their boxes, or is a document timestamp, which does not show.
     """
     bounded(MOST_RESULTS)
     try:
         with _opened(before) as old, _opened(after) as new:
-            same = all(
+            same = not new.is_encrypted and all(
                 old.trailer.get(key, _NONE).objgen == new.trailer.get(key, _NONE).objgen for key in ("/Root", "/Info")
             )
-            return same and all(_is_kept(each, new.get_object(each.objgen), old, new) for each in old.objects)
+            lists = set(_lists(old))
+            kept = (_is_kept(each, new.get_object(each.objgen), old, new, lists) for each in old.objects)
+            return same and all(kept) and not _filled_gaps(old, new)
     except FAULTS:
         return False
 
@@ -43,6 +49,15 @@ def fault(content: bytes) -> str:
     return ""
 
 
+def added_proofs(before: bytes, after: bytes) -> bool:
+    """Return whether a later PDF holds more of what proves certificates (DSS), which may stand behind the last signature."""
+    try:
+        with _opened(before) as old, _opened(after) as new:
+            return bool("/DSS" in new.Root and _written(old.Root, "/DSS") != _written(new.Root, "/DSS"))
+    except FAULTS:
+        return False
+
+
 _NONE = pikepdf.Dictionary()
 
 
@@ -50,25 +65,64 @@ def _opened(content: bytes) -> pikepdf.Pdf:
     return pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True)
 
 
-def _is_kept(first: Any, second: Any, old: pikepdf.Pdf, new: pikepdf.Pdf) -> bool:
+def _lists(old: pikepdf.Pdf) -> Iterator[tuple[int, int]]:
+    """The lists that a document timestamp is added to, where they are objects of their own: the fields, the annotations of sheets."""
+    form = old.Root.get("/AcroForm", _NONE)
+    for found in (form.get("/Fields"), *(page.obj.get("/Annots") for page in old.pages)):
+        if isinstance(found, pikepdf.Array) and found.objgen != (0, 0):
+            yield found.objgen
+
+
+def _filled_gaps(old: pikepdf.Pdf, new: pikepdf.Pdf) -> bool:
+    """Whether there is something now where the document refers to nothing."""
+    there = {each.objgen for each in old.objects}
+    named = {(int(a), int(b)) for each in old.objects for a, b in REFERENCE.findall(each.unparse(resolved=True))}
+    return not {each.objgen for each in new.objects}.isdisjoint(named - there)
+
+
+def _is_kept(first: Any, second: Any, old: pikepdf.Pdf, new: pikepdf.Pdf, lists: set[tuple[int, int]]) -> bool:
     if first.unparse(resolved=True) == second.unparse(resolved=True):
         return not isinstance(first, pikepdf.Stream) or first.read_raw_bytes() == second.read_raw_bytes()
-    if not (isinstance(first, pikepdf.Dictionary) and isinstance(second, pikepdf.Dictionary)):
+    if isinstance(first, pikepdf.Array) and isinstance(second, pikepdf.Array):
+        return first.objgen in lists and _grown(first, second)
+    if not all(isinstance(each, pikepdf.Dictionary) and not isinstance(each, pikepdf.Stream) for each in (first, second)):
         return False
     if first.objgen == old.Root.objgen:
-        forms = old.Root.get("/AcroForm", _NONE), new.Root.get("/AcroForm", _NONE)
-        return _same_but(first, second, OF_ROOT) and _same_but(*forms, OF_FORM)
+        return _same_but(first, second, OF_ROOT) and _is_form(old.Root.get("/AcroForm", _NONE), new.Root.get("/AcroForm", _NONE))
     if first.get("/FT") == "/Sig" and "/V" not in first:
         return _same_but(first, second, OF_FIELD) and "/ByteRange" in second.get("/V", _NONE)
-    return first.objgen == old.Root.get("/AcroForm", _NONE).objgen and _same_but(first, second, OF_FORM)
+    if first.get("/Type") == "/Page":
+        return _same_but(first, second, {"/Annots"}) and _grown(first.get("/Annots"), second.get("/Annots"))
+    return first.objgen == old.Root.get("/AcroForm", _NONE).objgen and _is_form(first, second)
+
+
+def _is_form(first: Any, second: Any) -> bool:
+    return _same_but(first, second, OF_FORM) and _grown(first.get("/Fields"), second.get("/Fields"))
+
+
+def _grown(first: Any, second: Any) -> bool:
+    """Whether a list is the same, but for document timestamps at its end."""
+    if first is None and second is None:
+        return True
+    a, b = (list(each) if isinstance(each, pikepdf.Array) else [] for each in (first, second))
+    same = len(a) <= len(b) and all(x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in zip(a, b, strict=False))
+    return same and all(map(_is_timestamp, b[len(a) :]))
+
+
+def _is_timestamp(field: Any) -> bool:
+    """Whether a field is a document timestamp, and nothing that shows or acts."""
+    if not isinstance(field, pikepdf.Dictionary) or not set(field.keys()) <= OF_TIMESTAMP:
+        return False
+    box, value = [float(each) for each in field.get("/Rect", ())], field.get("/V", _NONE)
+    return value.get("/Type") == "/DocTimeStamp" and "/ByteRange" in value and box[:2] == box[2:]
 
 
 def _same_but(first: Any, second: Any, keys: set[str]) -> bool:
     """Whether two dictionaries differ in these keys alone."""
-    return all(_told(first, key) == _told(second, key) for key in {*first.keys(), *second.keys()} - keys)
+    return all(_written(first, key) == _written(second, key) for key in {*first.keys(), *second.keys()} - keys)
 
 
-def _told(data: Any, key: str) -> object:
+def _written(data: Any, key: str) -> object:
     """What stands at a key, with what is referred to by its number."""
     found = data.get(key)
     return found.unparse() if isinstance(found, pikepdf.Object) else (type(found), found)

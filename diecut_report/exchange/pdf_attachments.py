@@ -9,12 +9,13 @@ import pikepdf
 from pikepdf import settings
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.exchange.pdf_faults import PDF_FAULTS
 from diecut_report.languages.phrases import Phrase, phrase
 
 MOST_ITEMS = 1_000_000  # of an array or a dictionary
 MOST_WARNINGS = 100
 DEEPEST = 100
-FAULTS = (pikepdf.PdfError, RuntimeError, ValueError, TypeError, KeyError, AttributeError, IndexError, MemoryError)
+FAULTS = (pikepdf.PdfError, *PDF_FAULTS)
 """What the library raises for a file that is not as the standard has it."""
 
 

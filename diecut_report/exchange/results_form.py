@@ -155,6 +155,7 @@ class ResultsForm(_PartOfResults):
     schema_version: Literal[1]
     program: ProgramForm
     config: ConfigForm
+    former: ConfigForm | None = None
     project: dict[str, Any]
     press: PressForm
     status: Status
@@ -199,7 +200,9 @@ def parsed(content: bytes, file: str) -> dict[str, Any]:
             )
         )
     try:
-        found = json.loads(content, parse_constant=_refuse_constant, parse_float=_finite)
+        found = json.loads(
+            content, parse_constant=_refuse_constant, parse_float=_finite, object_pairs_hook=_without_doubles
+        )
     except (ValueError, RecursionError) as error:
         raise UserError(
             Problem(Phrase("This is not a JSON file that can be read: {told}. {ask}", told=_told(error), ask=ASK), file)
@@ -209,8 +212,18 @@ def parsed(content: bytes, file: str) -> dict[str, Any]:
     return found
 
 
-class _NotANumber(ValueError):
-    """Report a number that results cannot hold."""
+class _Unfit(ValueError):
+    """Report what JSON may hold and results cannot."""
+
+
+def _without_doubles(pairs: list[tuple[str, Any]]) -> dict[str, Any]:
+    """The block of keys; a key that stands there twice would show one reader one value, and another reader the other."""
+    found = dict(pairs)
+    if len(found) < len(pairs):
+        names = [name for name, _ in pairs]
+        doubled = next(name for name in names if names.count(name) > 1)
+        raise _Unfit(Phrase("the key {name} stands twice in one block", name=ascii(doubled[:80])))
+    return found
 
 
 def _told(error: ValueError | RecursionError) -> str:
@@ -219,19 +232,19 @@ def _told(error: ValueError | RecursionError) -> str:
             return phrase("it is nested too deeply")
         case UnicodeDecodeError():
             return phrase("it is not UTF-8 text")
-        case json.JSONDecodeError() | _NotANumber():
+        case json.JSONDecodeError() | _Unfit():
             return str(error)
     return phrase("a whole number in it has too many digits")
 
 
 def _refuse_constant(name: str) -> NoReturn:
-    raise _NotANumber(Phrase("it holds {name}, which is not a number", name=name))
+    raise _Unfit(Phrase("it holds {name}, which is not a number", name=name))
 
 
 def _finite(text: str) -> float:
     value = float(text)
     if math.isinf(value):
-        raise _NotANumber(Phrase("it holds {text}, which is beyond the range of numbers", text=text[:20]))
+        raise _Unfit(Phrase("it holds {text}, which is beyond the range of numbers", text=text[:20]))
     return value
 
 

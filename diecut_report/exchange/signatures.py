@@ -4,27 +4,33 @@ from __future__ import annotations
 
 import io
 import logging
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
+from diecut_report.exchange.pdf_faults import PDF_FAULTS
 from diecut_report.given_files import content
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import Phrase, joined, phrase
 
 if TYPE_CHECKING:
+    from datetime import datetime
+
     from cryptography import x509
+
+    from diecut_report.exchange.signature_status import Status
 
 MARK = b"/ByteRange"  # stands in clear in each file that is signed
 SHORT = 16  # letters of a fingerprint
 
 
 class Signature(NamedTuple):
-    """What is to be said of a signature, whether it holds, and whether it covers the whole file."""
+    """What is to be said of a signature, whether it holds, whether it covers the whole file, and how many bytes it covers."""
 
     words: str
     holds: bool
     is_last: bool = False
+    end: int = 0
 
 
 def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
@@ -33,9 +39,9 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
         return []
     from pyhanko.pdf_utils.misc import PdfError
     from pyhanko.pdf_utils.reader import PdfFileReader
-    from pyhanko.sign.validation.errors import ValidationInfoReadingError
+    from pyhanko.sign.validation.errors import SignatureValidationError, ValidationInfoReadingError
 
-    from diecut_report.exchange.later_changes import fault
+    from diecut_report.exchange.later_changes import added_proofs, fault
     from diecut_report.exchange.signing_keys import MOST, certificates_in
 
     if found_fault := fault(whole):
@@ -43,57 +49,68 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     roots = certificates_in(content(trusted, MOST, phrase("certificates (PEM)")), trusted) if trusted else None
     try:
         with _silent():
-            found = [_judged(each, whole, roots) for each in PdfFileReader(io.BytesIO(whole)).embedded_signatures]
-    except (PdfError, ValidationInfoReadingError, *_FAULTS) as error:
-        return [Signature(Phrase("cannot be read: {error}", error=error), False)]
+            found = _all_judged(PdfFileReader(io.BytesIO(whole)).embedded_signatures, whole, roots)
+    except (PdfError, ValidationInfoReadingError, SignatureValidationError, *PDF_FAULTS) as error:
+        told = f"{error}" or type(error).__name__
+        return [Signature(Phrase("cannot be read: {error}", error=told), False)]
     if not found:
         return [Signature(phrase("the file holds a part of one, but no field has a signature"), False)]
-    if all(each.holds for each in found) and not any(each.is_last for each in found):
+    is_ended = any(each.is_last for each in found) or added_proofs(whole[: max(each.end for each in found)], whole)
+    if all(each.holds for each in found) and not is_ended:
         found.append(Signature(phrase("something was added to the file after the last signature"), False))
     return found
 
 
-_FAULTS = (ValueError, KeyError, TypeError, AttributeError, IndexError, RecursionError, NotImplementedError, OSError)
-"""What the library raises for a file that is not as the standard has it."""
+def _all_judged(embedded: Sequence[Any], whole: bytes, roots: list[x509.Certificate] | None) -> list[Signature]:
+    """The signatures judged from the last on: a document timestamp proves that those before it were there."""
+    from diecut_report.exchange.signature_status import is_timestamp, status_of
+
+    found: list[Signature] = []
+    attested: datetime | None = None
+    for each in reversed(embedded):
+        status = status_of(each, whole, roots, attested)
+        found.insert(0, _judged(each, status, asks_trust=roots is not None))
+        if is_timestamp(each) and found[0].holds and status.time:
+            attested = min(attested or status.time, status.time)
+    return found
 
 
-def _judged(signature: Any, whole: bytes, roots: list[x509.Certificate] | None) -> Signature:
-    from diecut_report.exchange.signature_status import status_of
-
-    status = status_of(signature, whole, roots or [])
-    named = f"{signature.field_name}: {_signer(signature)}"
-    if not status.is_whole:
-        return Signature(
-            Phrase(
-                "{named}: what was signed has been changed since, or the signature is not the signer's", named=named
-            ),
-            False,
-        )
-    if not (status.is_last or status.is_signed_again):
-        return Signature(Phrase("{named}: the document has been changed since", named=named), False)
+def _judged(signature: Any, status: Status, *, asks_trust: bool) -> Signature:
+    named = f"{signature.field_name}: {_signer(signature, status)}"
+    if why := _why_not(status):
+        return Signature(Phrase("{named}: {why}", named=named, why=why), False, end=status.end)
     since = phrase("nothing changed since") if status.is_last else phrase("since then others have signed")
-    if roots is None:
+    if not asks_trust:
         words = Phrase("{named}, {since}", named=named, since=since) + _fingerprint(signature)
-        return Signature(words, True, status.is_last)
+        return Signature(words, True, status.is_last, status.end)
     trust = (
         phrase("trusted") if status.is_trusted else phrase("but the certificate does not lead to one that you trust")
     )
     words = Phrase("{named}, {since}, {trust}", named=named, since=since, trust=trust)
-    return Signature(words, status.is_trusted, status.is_last)
+    return Signature(words, status.is_trusted, status.is_last, status.end)
 
 
-def _signer(signature: Any) -> str:
-    """Who signed, when, and why, as the signature has it."""
+def _why_not(status: Status) -> str:
+    """Why a signature does not hold, whoever is trusted; "" where it does."""
+    if not status.is_whole and not status.weakness:
+        return phrase("what was signed has been changed since, or the signature is not the signer's")
+    if not (status.is_last or status.is_signed_again):
+        return phrase("the document has been changed since")
+    return status.weakness or status.outdated
+
+
+def _signer(signature: Any, status: Status) -> str:
+    """Who signed, when, and why, as the signature has it; of a timestamp who tells the time."""
     found = signature.signer_cert.subject.native
-    time = signature.self_reported_timestamp
-    reason = signature.sig_object.get("/Reason")
+    told = signature.self_reported_timestamp
     parts = [
         found.get("common_name", ""),
         found.get("organization_name", ""),
-        f"{time:%Y-%m-%d %H:%M} UTC" if time else "",
-        reason,
+        f"{told:%Y-%m-%d %H:%M} UTC" if told else "",
+        signature.sig_object.get("/Reason"),
+        Phrase("time stamped {time} UTC", time=f"{status.time:%Y-%m-%d %H:%M}") if status.time else "",
     ]
-    return ", ".join(str(part) for part in parts if part)
+    return joined(filter(None, (part if isinstance(part, Phrase) else str(part or "") for part in parts)), ", ")
 
 
 def _fingerprint(signature: Any) -> str:

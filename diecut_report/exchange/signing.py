@@ -24,6 +24,7 @@ from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.exchange.carried_results import MOST, form_of
+from diecut_report.exchange.pdf_faults import PDF_FAULTS
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import write_all
 from diecut_report.given_files import content
@@ -55,8 +56,11 @@ class Additions(IncrementalPdfFileWriter):
         """Write no metadata."""
 
 
-def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None]) -> None:
-    """Write a report with a signature; UserError in words where it cannot be signed, and then nothing is written."""
+def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Callable[[], None]) -> None:
+    """Write a report with a signature; UserError in words where it cannot be signed, and then nothing is written.
+
+    ``judge`` raises a UserError where the report is not as the program makes it: nobody signs what others have put into it.
+    """
     whole = content(asked.report, MOST, phrase("a report as PDF"))
     if form_of(whole) != "pdf":
         words = phrase(
@@ -64,36 +68,32 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None]) -> None:
         )
         raise UserError(Problem(words, str(asked.report)))
     try:
-        signed, field = _signed(whole, asked, key)
-    except (
-        PdfError,
-        SigningError,
-        ValueError,
-        KeyError,
-        TypeError,
-        AttributeError,
-        IndexError,
-        RecursionError,
-    ) as error:
+        field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
+        judge()
+        signed = _signed(whole, field, asked, key)
+    except (PdfError, SigningError, *PDF_FAULTS) as error:
         words = Phrase("The PDF cannot be signed: {error}. Give the file as the program wrote it.", error=error)
         raise UserError(Problem(words, str(asked.report))) from error
     write_all({asked.target: signed}, keep=key.file)
     tell(Phrase("signed by {name} in the field {field}", name=key.name, field=field))
 
 
-def _signed(whole: bytes, asked: Signing, key: SigningKey) -> tuple[bytes, str]:
+def _free_fields(writer: Additions) -> dict[str, Any]:
+    return {name: widget.get_object() for name, _, widget in enumerate_sig_fields(writer.prev, filled_status=False)}
+
+
+def _signed(whole: bytes, field: str, asked: Signing, key: SigningKey) -> bytes:
     writer = Additions(io.BytesIO(whole))
-    free = {name: widget.get_object() for name, _, widget in enumerate_sig_fields(writer.prev, filled_status=False)}
-    field = _chosen(list(free), asked)
     now = datetime.now(UTC)
-    x1, y1, x2, y2 = (float(each) for each in free[field]["/Rect"])
+    x1, y1, x2, y2 = (float(each) for each in _free_fields(writer)[field]["/Rect"])
     told = f"{key.name}, {now:%Y-%m-%d %H:%M} UTC" + (f", {asked.reason}" if asked.reason else "")
     form = PdfSignatureMetadata(
         field_name=field, md_algorithm="sha256", name=key.name, reason=asked.reason, subfilter=SigSeedSubFilter.PADES
     )
     signer = PdfSigner(form, _signer(key), stamp_style=_appearance(told, abs(x2 - x1), abs(y2 - y1)))
     made: Any = signer.sign_pdf(writer, existing_fields_only=True)
-    return made.getvalue(), field
+    content: bytes = made.getvalue()
+    return content
 
 
 def _chosen(free: list[str], asked: Signing) -> str:

@@ -10,10 +10,12 @@ from typing import Any, NoReturn
 
 from cryptography import x509
 from cryptography.hazmat.primitives import serialization
+from cryptography.hazmat.primitives.asymmetric import dsa, ec, rsa
 from cryptography.hazmat.primitives.serialization import pkcs12
 from cryptography.x509.oid import NameOID
 
 from diecut_report.errors import Problem, UserError
+from diecut_report.exchange.key_strength import weak_key
 from diecut_report.given_files import content
 from diecut_report.languages.phrases import Phrase, phrase
 
@@ -56,6 +58,8 @@ def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
                 "This is not the certificate of the key: it belongs to another one. Give that of the key with --cert."
             ),
         )
+    if weak := _weakness(private):
+        _refuse(key, Phrase("Nobody can rely on what this key signs: {weak}. Take another one.", weak=weak))
     now, last = datetime.now(UTC), own[0].not_valid_after_utc
     if not own[0].not_valid_before_utc <= now <= last:
         _refuse(
@@ -67,6 +71,12 @@ def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:
             ),
         )
     return SigningKey(key, private, own[0], tuple(each for each in found if each != own[0]))
+
+
+def _weakness(private: Any) -> str:
+    kinds = {rsa.RSAPrivateKey: "rsa", dsa.DSAPrivateKey: "dsa", ec.EllipticCurvePrivateKey: "ec"}
+    kind = next((name for type_, name in kinds.items() if isinstance(private, type_)), "")
+    return weak_key(kind, private.key_size) if kind else ""
 
 
 def _pkcs12(whole: bytes, file: Path, ask: Ask) -> tuple[Any, list[x509.Certificate]]:

@@ -18,6 +18,8 @@ MOST_DIGITS = 12
 LIKE_WARN = {"not_checked": 0.5}
 """A check that is not made is worse than one that passes, and better than one that warns."""
 SEEN = 5e-4  # of a utilisation, which is printed in per cent with one decimal
+OF_FORMER = ("file", "sha256", "source_text", "materials", "logo")
+"""What of a former document's configuration it can be calculated from."""
 ORDER = ("worse", "better", "added", "removed", "more used", "less used")
 
 
@@ -33,6 +35,13 @@ def changes(old: Data, new: Data) -> Row:
         "outputs": sorted(_rows(_outputs(old, new), _outputs(new, old)), key=_output_order),
         "code": list(_code(old, new)),
     }
+
+
+def compare_with(former: Data | None, results: Row) -> None:
+    """Add to the results what changed since a former document, and the configuration of that, which the changes can be proved by."""
+    if former is not None:
+        results["changes"] = changes(former, results)
+        results["former"] = {key: former["config"][key] for key in OF_FORMER if key in former["config"]}
 
 
 def _document(results: Data) -> Row:

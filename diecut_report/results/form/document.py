@@ -35,18 +35,23 @@ class LogoKeys(ClosedKeys):
     base64: str = always("Its content.")
 
 
-class ConfigKeys(ClosedKeys):
-    """The configuration that was calculated."""
+class CarriedConfigKeys(ClosedKeys):
+    """A configuration with the files that it names."""
 
     file: str = always("The name of its file, without folders.")
     sha256: str = always("The SHA-256 of its file.")
+    source_text: str = always("Its text.")
+    materials: list[MaterialsFileKeys] = sometimes("The user's own tables that it names.")
+    logo: LogoKeys = sometimes("The logo that it names.")
+
+
+class ConfigKeys(CarriedConfigKeys):
+    """The configuration that was calculated."""
+
     resolved: dict[str, Any] = always(
         "The configuration with every reference and default put in; its values are read back as exactly those that were calculated "
         "(`diecut-report schema` describes it)."
     )
-    source_text: str = always("Its text.")
-    materials: list[MaterialsFileKeys] = sometimes("The user's own tables that it names.")
-    logo: LogoKeys = sometimes("The logo that it names.")
 
 
 class RevisionKeys(ClosedKeys):
@@ -186,5 +191,8 @@ class ResultsFileKeys(ClosedKeys):
     )
     changes: dict[str, Any] = sometimes(
         "Of a report with `--previous`: what changed (the form of `diff --format json`)."
+    )
+    former: CarriedConfigKeys = sometimes(
+        "Of a report with `--previous`: the configuration of the former revision, from which `verify` calculates the changes again."
     )
     wordings: dict[str, WordingKeys] = always("How texts with numbers in them were made, by the texts.")
