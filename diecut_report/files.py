@@ -1,18 +1,21 @@
 """Writes files so that none is ever half-written: each is complete beside its place before it takes that place.
 
-A link by that name is replaced, not what it points to.
+A link by that name is replaced, not what it points to. A file that is replaced keeps its mode and owner. One that was read and is rewritten
+(`write` with ``instead_of``) keeps all its names (hard links); an output leaves what has another name as it is.
 `write_all` writes the files of a run, all or none; `write` and `replaced` a file of a study's folder, on the disk when they return.
 """
 
 from __future__ import annotations
 
 import errno
+import hashlib
 import os
 import re
 import shutil
+import stat
 import tempfile
 from collections.abc import Iterator, Mapping
-from contextlib import ExitStack, contextmanager
+from contextlib import ExitStack, contextmanager, suppress
 from pathlib import Path
 
 from diecut_report.errors import Problem, Unwritable, UserError
@@ -49,7 +52,7 @@ def write_all(files: Mapping[Path, bytes], keep: Path | None, *, through: bool =
                 if temporary == place:
                     temporary.write_bytes(files[path])
                 else:
-                    temporary.replace(place)
+                    _take_place(temporary, place)
 
 
 def _place(path: Path) -> Path:
@@ -123,6 +126,25 @@ def _make_folder(folder: Path, made: list[Path]) -> None:
     made.append(folder)
 
 
+def _take_place(temporary: Path, place: Path, *, under_all_names: bool = False) -> None:
+    """Let a complete file take the place of another one, with its mode and owner."""
+    try:
+        before = place.lstat()
+    except FileNotFoundError:
+        temporary.replace(place)
+        return
+    is_file = stat.S_ISREG(before.st_mode)
+    if is_file and under_all_names and before.st_nlink > 1:
+        shutil.copyfile(temporary, place)
+        temporary.unlink()
+        return
+    if is_file:
+        with suppress(PermissionError):  # only root gives a file away; then it is the writer's, as a new one is
+            os.chown(temporary, before.st_uid, before.st_gid)
+        temporary.chmod(stat.S_IMODE(before.st_mode) & 0o777)
+    temporary.replace(place)
+
+
 def _temporary(place: Path) -> Path:
     return place.with_name(f".{os.urandom(8).hex()}.part")
 
@@ -170,23 +192,31 @@ def cache_folder(name: str) -> Path | None:
 
 
 @contextmanager
-def replaced(path: Path) -> Iterator[Path]:
+def replaced(path: Path, *, under_all_names: bool = False) -> Iterator[Path]:
     """Give a temporary name beside ``path``; what was written there takes the place of ``path`` at the end, or is removed."""
     with in_words(path):
         temporary = _temporary(path)
         try:
             yield temporary
             _sync(temporary)
-            temporary.replace(path)
+            _take_place(temporary, path, under_all_names=under_all_names)
             _sync(path.parent)
         finally:
             temporary.unlink(missing_ok=True)
 
 
-def write(path: Path, content: bytes | memoryview) -> None:
-    """Write the content under this name: all of it or, after an error in words, what was there before stays."""
-    with replaced(path) as temporary:
+def write(path: Path, content: bytes | memoryview, *, instead_of: str | None = None) -> None:
+    """Write the content under this name: all of it or, after an error in words, what was there before stays.
+
+    ``instead_of`` is the SHA-256 of what it is to replace: UserError, and nothing is written, where another program has saved the file since.
+    """
+    with replaced(path, under_all_names=instead_of is not None) as temporary:
         temporary.write_bytes(content)
+        if instead_of is not None and hashlib.sha256(path.read_bytes()).hexdigest() != instead_of:
+            words = phrase(
+                "Another program has saved this file meanwhile. Nothing was written; look at it and write again."
+            )
+            raise UserError(Problem(words, str(path)))
 
 
 @contextmanager

@@ -6,6 +6,7 @@ import webbrowser
 from collections.abc import Iterator
 from contextlib import suppress
 from pathlib import Path
+from tempfile import TemporaryDirectory
 from typing import TYPE_CHECKING
 
 import click
@@ -56,13 +57,25 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     def ready(address: str) -> None:
         emit(f"{address}\n")
         tell([] if quiet else [follows])
-        tell([unopened] if is_opened and not webbrowser.open(address) else [])
+        tell([unopened] if is_opened and not webbrowser.open(_door(doors, address)) else [])
 
     language = asked_language() or _of_project(session) or spoken_language()
-    with speaking(language, catalogues_of(language, discovery)), suppress(KeyboardInterrupt):  # how one ends it
-        serve(LiveApplication(session, folders, asked_language()), port, ready)
+    with TemporaryDirectory(prefix="diecut-report-") as doors, speaking(language, catalogues_of(language, discovery)):
+        with suppress(KeyboardInterrupt):  # how one ends it
+            serve(LiveApplication(session, folders, asked_language()), port, ready)
     tell(_unwritten(session))
     return PASSED
+
+
+def _door(folder: str, address: str) -> str:
+    """Return the address of a page, readable for this user alone, that leads on to ``address``: a browser's command line is seen by all users."""
+    page = Path(folder) / "live.html"
+    page.touch(0o600)
+    page.write_text(
+        f'<!DOCTYPE html><meta name="referrer" content="no-referrer"><meta http-equiv="refresh" content="0;url={address}">',
+        "utf-8",
+    )
+    return page.as_uri()
 
 
 def _require_file(config: Path) -> None:

@@ -45,7 +45,9 @@ class LiveApplication:
         self.session = session
         self.pictures, self.reports = Pictures(), LiveReports(folders, language)
         self._worker = ThreadPoolExecutor(1, thread_name_prefix="live")
-        self._changed = asyncio.Condition()
+        self._streams: set[asyncio.Event] = (
+            set()
+        )  # one of each: a condition that streams share hangs where one is cancelled
         self._told = -1, b""
         self._is_reading = False
         self._waiting = 0  # how much is to be done that a hand waits for
@@ -76,6 +78,7 @@ class LiveApplication:
     def end(self) -> None:
         """End all streams, so that the server can end."""
         self._is_ending.set()
+        self._tell()
 
     async def _done(self, work: Callable[[], Found]) -> Found:
         """Let the one thread do it: the session and the figures know only one."""
@@ -111,16 +114,16 @@ class LiveApplication:
         # beside the one thread, on which an effect would give way to each look
         if await asyncio.to_thread(self.session.is_stale):
             self._is_reading = True
-            await self._tell()
+            self._tell()
             try:
                 await self._done(self.session.read)
             finally:
                 self._is_reading = False
-                await self._tell()
+                self._tell()
 
-    async def _tell(self) -> None:
-        async with self._changed:
-            self._changed.notify_all()
+    def _tell(self) -> None:
+        for changed in self._streams:
+            changed.set()
 
     async def _state(self) -> tuple[int, bytes]:
         """The state as the page gets it; made once for all pages that look."""
@@ -138,18 +141,21 @@ class LiveApplication:
 
     async def _stream(self) -> AsyncIterator[bytes]:
         """The state now, and again whenever it changes."""
-        serial = -1
-        while not self._is_ending.is_set():
-            now, text = await self._state()
-            if now != serial:
-                serial = now
-                yield b"data: " + text + b"\n\n"
-                continue
-            async with self._changed:
-                if self.session.serial == serial:
-                    with suppress(TimeoutError):
-                        await asyncio.wait_for(self._changed.wait(), ALIVE)
-            yield b"event: busy\ndata: 1\n\n" if self._is_reading else b": still here\n\n"
+        serial, changed = -1, asyncio.Event()
+        self._streams.add(changed)
+        try:
+            while not self._is_ending.is_set():
+                changed.clear()
+                now, text = await self._state()
+                if now != serial:
+                    serial = now
+                    yield b"data: " + text + b"\n\n"
+                    continue
+                with suppress(TimeoutError):
+                    await asyncio.wait_for(changed.wait(), ALIVE)
+                yield b"event: busy\ndata: 1\n\n" if self._is_reading else b": still here\n\n"
+        finally:
+            self._streams.discard(changed)
 
     # --- what is asked -----------------------------------------------------------------------------------------------
 
@@ -222,7 +228,7 @@ class LiveApplication:
         try:
             await self._done(act)
         finally:
-            await self._tell()  # what is refused may have read the file again
+            self._tell()  # what is refused may have read the file again
         return JSONResponse({"serial": self.session.serial})
 
 

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 from collections.abc import Awaitable, Callable, MutableMapping
 from hmac import compare_digest
 from typing import Any
@@ -25,6 +26,7 @@ HEADERS = {
 }
 LARGEST = 200_000  # bytes of what a page sends
 READING = ("GET", "HEAD")
+BODY_SECONDS = 10.0  # within which each part of what a page sends has to come
 
 
 class Guard:
@@ -46,7 +48,8 @@ class Guard:
             await _refused(send, status)
             return
         inner = {**scope, "path": scope["path"][len(self.token) + 1 :] or "/", "raw_path": None}
-        await self.app(inner, receive, _with_headers(send))
+        body = _BoundedBody(receive, scope["method"])
+        await self.app(inner, body, _with_headers(send, body))
 
     def _refusal(self, scope: Message) -> int:
         if scope["type"] != "http":
@@ -59,14 +62,34 @@ class Guard:
             return 404
         origin = headers.get("origin")
         if origin is None:
-            return (
-                0
-                if scope["method"] in READING and headers.get("sec-fetch-site", "none") in ("none", "same-origin")
-                else 403
-            )
+            is_own = headers.get("sec-fetch-site", "none") in ("none", "same-origin")
+            is_opened = headers.get("sec-fetch-mode") == "navigate" and headers.get("sec-fetch-dest") == "document"
+            return 0 if scope["method"] in READING and (is_own or is_opened) else 403
         if origin not in {f"http://{host}" for host in self.hosts}:
             return 403
         return 413 if int(headers.get("content-length") or 0) > LARGEST else 0
+
+
+class _BoundedBody:
+    """Read a body of bounded size, whatever length it announces, that comes in bounded time; else it counts as broken off."""
+
+    def __init__(self, receive: Receive, method: str) -> None:
+        self.receive, self.taken, self.is_whole, self.is_broken_off = receive, 0, method in READING, False
+
+    async def __call__(self) -> Message:
+        if self.is_whole:
+            return await self.receive()  # which waits until the page has gone
+        try:
+            message = await asyncio.wait_for(self.receive(), BODY_SECONDS)
+        except TimeoutError:
+            return self._broken_off()
+        self.taken += len(message.get("body", b""))
+        self.is_whole = not message.get("more_body", False)
+        return self._broken_off() if self.taken > LARGEST else message
+
+    def _broken_off(self) -> Message:
+        self.is_whole = self.is_broken_off = True
+        return {"type": "http.disconnect"}
 
 
 async def _refused(send: Send, status: int) -> None:
@@ -74,10 +97,11 @@ async def _refused(send: Send, status: int) -> None:
     await send({"type": "http.response.body", "body": b""})
 
 
-def _with_headers(send: Send) -> Send:
+def _with_headers(send: Send, body: _BoundedBody) -> Send:
     async def sent(message: Message) -> None:
         if message["type"] == "http.response.start":
             given = list(message.get("headers", ()))
+            given += [(b"connection", b"close")] if body.is_broken_off else []  # what is still sent is not read
             message = {
                 **message,
                 "headers": [*given, *((name.encode(), text.encode()) for name, text in HEADERS.items())],

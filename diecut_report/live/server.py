@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import asyncio
 import errno
 import gc
 import secrets
@@ -9,6 +10,7 @@ import socket
 from collections.abc import Callable
 
 import uvicorn
+from uvicorn.protocols.http.h11_impl import H11Protocol
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase, phrase
@@ -17,6 +19,8 @@ from diecut_report.live.guard import Guard
 
 HOST = "127.0.0.1"
 ENDING = 2  # seconds that open answers have at the end
+IDLE = 10.0  # seconds after which a connection that asks nothing, or not to the end, is closed
+CONNECTIONS = 100  # at a time
 
 
 def serve(application: LiveApplication, port: int, ready: Callable[[str], None]) -> None:
@@ -25,12 +29,36 @@ def serve(application: LiveApplication, port: int, ready: Callable[[str], None])
         own, token = int(listening.getsockname()[1]), secrets.token_urlsafe(24)
         guarded = Guard(application.starlette, own, token)
         settings = uvicorn.Config(guarded, log_level="critical", access_log=False, server_header=False, date_header=False,
-                                  timeout_graceful_shutdown=ENDING, lifespan="on", ws="none")  # fmt: skip
+                                  timeout_graceful_shutdown=ENDING, lifespan="on", ws="none", http=_Connection, limit_concurrency=CONNECTIONS)  # fmt: skip
         gc.collect()
         gc.freeze()  # program and first machine stay to the end: each full pass over them would stop the page
         listening.listen()
         ready(f"http://{HOST}:{own}/{token}/")
         _Server(settings, application).run(sockets=[listening])
+
+
+class _Connection(H11Protocol):
+    """A connection that is closed where nobody asks anything on it: uvicorn itself waits for ever for the end of a first request."""
+
+    def connection_made(self, transport: asyncio.Transport) -> None:  # type: ignore[override]
+        super().connection_made(transport)
+        self._was_idle = False
+        self._look_again()
+
+    def _look_again(self) -> None:
+        self._look = self.loop.call_later(IDLE / 2, self._close_where_idle)
+
+    def _close_where_idle(self) -> None:
+        is_idle = self.cycle is None or self.cycle.response_complete
+        if is_idle and self._was_idle:
+            self.transport.close()
+            return
+        self._was_idle = is_idle
+        self._look_again()
+
+    def connection_lost(self, exc: Exception | None) -> None:
+        self._look.cancel()
+        super().connection_lost(exc)
 
 
 class _Server(uvicorn.Server):

@@ -125,7 +125,7 @@ class LiveSession:
             raise UserError(Problem(words, str(self.file)))
         tree, text = self.tree, rewritten(self.tree, self._edited()).text
         if text != tree.text:
-            write(self.file.resolve(), as_file(tree, text))
+            write(self.file.resolve(), as_file(tree, text), instead_of=tree.sha256)
         self.edits = {}
         self.read()
 

@@ -74,6 +74,14 @@ def test_only_pages_of_its_own_with_the_secret_are_let_in(server: Server) -> Non
     assert server.asked("GET", own, host="evil.example")[0] == 421  # a name that leads here from elsewhere
     assert server.asked("GET", f"{own}events", origin="http://evil.example")[0] == 403
     assert server.asked("GET", own, sec_fetch_site="cross-site")[0] == 403
+    assert (
+        server.asked("GET", own, sec_fetch_site="cross-site", sec_fetch_mode="navigate", sec_fetch_dest="iframe")[0]
+        == 403
+    )
+    assert (
+        server.asked("GET", own, sec_fetch_site="cross-site", sec_fetch_mode="navigate", sec_fetch_dest="document")[0]
+        == 200
+    )
     assert server.asked("POST", f"{own}write", origin="http://evil.example")[0] == 403
     assert server.asked("POST", f"{own}write", origin="null")[0] == 403
     assert server.asked("POST", f"{own}change", {"changes": {"a": "b" * 300_000}})[0] == 413
@@ -92,6 +100,56 @@ def test_what_is_not_asked_in_the_right_form_is_refused(server: Server) -> None:
         assert server.asked("POST", f"{server.path}change", body)[0] == 400
     status, told = server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "5 kg"}})
     assert status == 422 and "mass" in json.loads(told)["refused"]
+
+
+def raw(server: Server, text: bytes) -> socket.socket:
+    host, port = server.host.split(":")
+    made = socket.create_connection((host, int(port)), timeout=30)
+    made.sendall(text)
+    return made
+
+
+def test_a_body_without_a_length_is_bounded_too(server: Server) -> None:
+    head = f"POST {server.path}change HTTP/1.1\r\nHost: {server.host}\r\nOrigin: http://{server.host}\r\nTransfer-Encoding: chunked\r\n\r\n"
+    taken = 0
+    with raw(server, head.encode()) as connection:
+        try:
+            for _ in range(2000):  # 20 MB, of which a hundredth is allowed
+                connection.sendall(b"2710\r\n" + b"x" * 10_000 + b"\r\n")
+                taken += 10_000
+        except OSError:  # closed, as it should be
+            pass
+    assert taken < 15_000_000
+    assert server.asked("GET", server.path)[0] == 200
+
+
+@pytest.mark.parametrize("begun", [b"", b"GET / HTTP/1.1\r\nHost: x\r\nX: "])
+def test_a_connection_that_asks_nothing_is_closed(server: Server, begun: bytes) -> None:
+    with raw(server, begun) as connection:
+        start = time.monotonic()
+        assert connection.recv(1000) == b""  # by the server
+        assert time.monotonic() - start < 15
+
+
+def test_tabs_that_close_while_the_file_changes_hold_up_nothing(server: Server) -> None:
+    text = server.file.read_text("utf-8")
+    with closing(server.events()) as events:
+        next(events)
+        for count in range(20):
+            tabs = [
+                raw(server, f"GET {server.path}events HTTP/1.1\r\nHost: {server.host}\r\n\r\n".encode())
+                for _ in range(5)
+            ]
+            server.file.write_text(f"{text}\n# {count}\n", encoding="utf-8")
+            time.sleep(0.02)
+            for tab in tabs:
+                tab.close()
+        server.file.write_text(text.replace("friction:", "frictoin:"), encoding="utf-8")
+        while not next(events)["faults"]:
+            pass
+        server.file.write_text(text, encoding="utf-8")
+        while next(events)["faults"]:
+            pass
 
 
 def test_each_change_is_told_to_whoever_looks(server: Server) -> None:

@@ -3,7 +3,11 @@
 from __future__ import annotations
 
 import json
+import stat
+from collections.abc import Callable
 from pathlib import Path
+from urllib.parse import urlsplit
+from urllib.request import url2pathname
 
 import pytest
 
@@ -27,6 +31,24 @@ def test_a_study_ends_it_at_once_with_what_to_give(study: Path, capfd: Capture) 
         in told.err
     )
     assert told.out == ""
+
+
+def test_the_address_stands_on_no_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture) -> None:
+    opened: list[str] = []
+    address = "http://127.0.0.1:1/secret/"
+
+    def serve(_application: object, _port: int, ready: Callable[[str], None]) -> None:
+        ready(address)
+        page = Path(url2pathname(urlsplit(opened[0]).path))
+        assert stat.S_IMODE(page.stat().st_mode) == 0o600 and address in page.read_text("utf-8")
+
+    monkeypatch.setattr("webbrowser.open", lambda url: bool(opened.append(url)) or True)
+    monkeypatch.setattr("diecut_report.live.server.serve", serve)
+    file = tmp_path / "knife.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    assert run("live", file) == 0
+    assert "secret" not in opened[0] and opened[0].startswith("file:")
+    assert not Path(url2pathname(urlsplit(opened[0]).path)).exists()
 
 
 @pytest.mark.parametrize(

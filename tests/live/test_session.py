@@ -114,6 +114,26 @@ def test_a_number_of_the_page_stands_over_the_file_until_it_is_written_into_it(s
     assert session.file.read_text("utf-8") == new and session.edits == {}
 
 
+def test_what_an_editor_saves_while_the_page_calculates_is_not_lost(
+    session: LiveSession, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    session.change({"knife.shear_resistance": "84 N/mm**2"})
+    calculated = session._calculate
+
+    def saved_meanwhile() -> None:
+        calculated()
+        text = session.file.read_text("utf-8")
+        session.file.write_text(text.replace("thickness: 0.5 mm", "thickness: 0.55 mm"), encoding="utf-8")
+
+    monkeypatch.setattr(session, "_calculate", saved_meanwhile)
+    with pytest.raises(UserError, match="Another program has saved this file meanwhile. Nothing was written"):
+        session.write()
+    assert "thickness: 0.55 mm" in session.file.read_text("utf-8") and session.edits
+    monkeypatch.undo()
+    session.write()
+    assert "84 N/mm**2" in session.file.read_text("utf-8") and "thickness: 0.55 mm" in session.file.read_text("utf-8")
+
+
 def test_what_is_typed_as_the_file_has_it_is_no_change(session: LiveSession) -> None:
     session.change({"knife.eccentricity": "22 mm"})
     session.change({"knife.eccentricity": "20 mm"})

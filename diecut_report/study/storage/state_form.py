@@ -3,12 +3,14 @@
 from __future__ import annotations
 
 import reprlib
+import shlex
 from collections.abc import Iterator, Mapping
 from pathlib import Path
 from typing import Annotated, Any, Literal
 
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
+from diecut_report.config.hidden_letters import printable
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.languages.phrases import Phrase, joined, phrase
 from diecut_report.study.storage.description import VARIANT, VERDICT, Kind
@@ -101,7 +103,7 @@ SEARCHED = "violation"  # the column that only the machines of a search have
 def continuing(folder: object, columns: object, study: str = "") -> str:
     """Return the command that goes on with the run of a folder whose results have these columns by name, of a study or of a search."""
     is_search = isinstance(columns, Mapping) and SEARCHED in columns
-    return f"diecut-report {'optimise' if is_search else 'batch'} {study}--resume {folder}"
+    return f"diecut-report {'optimise' if is_search else 'batch'} {study}--resume {shlex.quote(printable(f'{folder}'))}"
 
 
 def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
