@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Chapter, Check, Phrase, phrase, told
 from diecut_report.plugins.parallel_key.dimensions import LONGEST
-from diecut_report.plugins.parallel_key.load import DIAGRAM, METHOD
+from diecut_report.plugins.parallel_key.load import METHOD
 
 ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
 
@@ -50,9 +50,6 @@ CHECKS = (
           demand_label="torques that change their sign, judged as steady", limit_label="accepted", source=METHOD,
           consequence="the key works loose where the torque turns round often; give required_life and cycle_speed, by which the changes of flank are "
                       "counted, or flank_changes itself."),
-    Check(id="direction_range", check_class="practice", presumed=True, title="Changes of flank", demand="changes_of_flank", limit=DIAGRAM, unit="1", severity="warn",
-          demand_label="in the life", limit_label="formula confirmed up to", source=METHOD, tolerance=ROUNDING,
-          consequence="the load direction factor is extrapolated beyond its diagram; a press fit that carries the reversing torque avoids it."),
     Check(id="two_keys", check_class="practice", title="Two keys in a brittle hub", demand="key_count", limit=1.0, unit="1", severity="warn",
           needs=("brittle_hub=true",), demand_label="keys", limit_label="accepted in a brittle hub", source=METHOD,
           consequence="a brittle hub does not even out the load of two keys; take one key, or a hub of steel."),
