@@ -99,7 +99,8 @@ class DriveTrain(Inputs):
         Quantity(
             "P_0",
             "kW",
-            "Power that one belt carries, of the maker's table for pulley and speed at half a turn of wrap and the reference length; with it the number of belts",
+            "Power that one belt carries, of the maker's table for pulley and speed at half a turn of wrap and the reference length; "
+            "with it the number of belts",
             gt=0,
         ),
     ] = None

@@ -94,7 +94,8 @@ count = Chapter("Number of belts",
 count.value("tension_ratio", "m", "1", "Tension of the tight side to that of the slack side",
             bind(belts.tension_ratio, groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
 count.value("wrap_factor", "c_1", "1", "Factor of the wrap", belts.wrap_factor, source="ISO 5292")
-count.lookup("reference_length", "L_r", "mm", "Reference length of the section", REFERENCE_LENGTHS, by="vbelt.section", source="Optibelt", output=False)
+count.lookup("reference_length", "L_r", "mm", "Reference length of the section", REFERENCE_LENGTHS, by="vbelt.section", source="Optibelt",
+             output=False)
 count.value("length_factor", "c_3", "1", "Factor of the length", bind(belts.length_factor, length="vbelt_standard_length",
             reference="reference_length"), source="Optibelt")
 count.value("vbelt_power", "P_b", "kW", "Power that the belts must carry", bind(lambda service_factor, motor_power: service_factor * motor_power,
@@ -108,8 +109,8 @@ count.value("vbelt_count", "z", "1", "Number of belts: the least that is enough"
 PULL: dict[str, str | float] = {"count": "vbelt_count", "mass_per_length": "vbelt_mass", "speed": "vbelt_speed"}
 tensions = Chapter("Pull of the belts and load on the shafts",
                    text="The belts pull with the motor's breakdown torque when it runs up or is overloaded, and must not slip then. They are "
-                        "tensioned at rest as the friction in their grooves asks for: the tensions of both sides are in the ratio of Euler's formula, "
-                        "their mean is the tension at rest less what the centrifugal force takes. At rest the whole tension loads the shafts.")
+                        "tensioned at rest as the friction in their grooves asks for: the tensions of both sides are in the ratio of Euler's "
+                        "formula, their mean is the tension at rest less what the centrifugal force takes. At rest the whole tension loads the shafts.")
 tensions.value("vbelt_peak_torque", "M_1,max", "N*m", "Greatest torque of the motor, its breakdown torque",
                lambda breakdown_ratio, motor_rated_torque: breakdown_ratio * motor_rated_torque, source="IEC 60034-12")
 tensions.value("vbelt_pull", "F_u", "N", "Greatest effective pull, all belts together",

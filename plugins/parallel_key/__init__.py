@@ -25,7 +25,8 @@ MECHANISM = Mechanism(
     assumptions=(
         "Method B of DIN 6892 as public implementations of the 2012 edition state it: support factors at their lower ends, hardness factor 1, no "
         "relief by friction. The load distribution factor of 1.2 is known from one source only; the standard's diagrams give 1 to 2.",
-        "The load direction factor follows from the changes of flank; the end of its diagram was not seen, and beyond 10⁷ changes it is extrapolated.",
+        "The load direction factor follows from the changes of flank; the end of its diagram was not seen, and beyond 10⁷ changes it is "
+        "extrapolated.",
         "Not covered: the diagrams of load peaks. Nor the notch that the keyway makes in the shaft, sliding hubs, press fits with a key, "
         "woodruff and taper keys, bursting of the hub.",
         "A peak of every turn is a regular load: it counts in the equivalent torque, not with the factor of rare peaks.",

@@ -65,7 +65,8 @@ class ParallelKey(Inputs):
         Quantity(
             "K_λ",
             "1",
-            "Load distribution factor: how unevenly the load spreads over the length; 1.2 is of one source only, give that of your joint with its basis",
+            "Load distribution factor: how unevenly the load spreads over the length; 1.2 is of one source only, give that of your joint "
+            "with its basis",
             ge=1,
             le=2,
         ),

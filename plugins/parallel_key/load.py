@@ -59,12 +59,15 @@ FACTOR = ("direction_factor", "f_w", "1", "Load direction factor")
 COUNTED = case(f.direction_factor, "by the changes of flank in the life", bind(lambda changes_of_flank, end: changes_of_flank <= end, end=DIAGRAM))
 for needs in (BY_LIFE, ("flank_changes",)):
     load.choice(*FACTOR, case(lambda: 1, "the flank changes so seldom that it does not count", lambda changes_of_flank: changes_of_flank <= SELDOM),
-                COUNTED, case(f.direction_factor, "by the changes of flank; beyond 10⁷ of them the formula is extrapolated"), source=METHOD, needs=needs)
+                COUNTED, case(f.direction_factor, "by the changes of flank; beyond 10⁷ of them the formula is extrapolated"), source=METHOD,
+                needs=needs)
 load.value(*FACTOR, lambda load_direction_factor: load_direction_factor, needs=("load_direction_factor",), source="input")
 load.value(*FACTOR, lambda: 1, lacks=KNOWN, source="this method")
 load.choice("key_share", "φ_k", "1", "Share of the second key", case(lambda: 1, "one key", lambda key_count: key_count < 2),
             case(lambda: 0.75, "the second key of two bears less"), source=METHOD, output=False)
-load.choice("key_share_peak", "φ_k,max", "1", "Share of the second key under the greatest load", case(lambda: 1, "one key", lambda key_count: key_count < 2),
+load.choice("key_share_peak", "φ_k,max", "1", "Share of the second key under the greatest load",
+            case(lambda: 1, "one key", lambda key_count: key_count < 2),
             case(lambda: 0.9, "the second key of two bears nearly as much"), source=METHOD, output=False)
 load.value("key_force", "F", "N", "Force on one key, equivalent", bind(f.key_force, torque="torque_equivalent"), source=METHOD)
-load.value("key_force_peak", "F_max", "N", "Force on one key, greatest", bind(f.key_force, torque="torque_peak", key_share="key_share_peak"), source=METHOD)
+load.value("key_force_peak", "F_max", "N", "Force on one key, greatest", bind(f.key_force, torque="torque_peak", key_share="key_share_peak"),
+           source=METHOD)

@@ -20,8 +20,10 @@ SIX = ("shaft", "hub", "key", "shaft_peak", "hub_peak", "key_peak")
 allowed = Chapter("Allowed stresses", text="Each part bears more than its yield strength, by the support of what lies around the pressed face.")
 needed = Chapter("Length that is needed", text="The least bearing length at which no pressure, and no shear of the key, is above what is allowed.")
 allowed.value("support_shaft", "f_SW", "1", "Support factor of the shaft, of steel", lambda: 1.3, source=METHOD, output=False)
-allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of steel", lambda: 1.5, source=METHOD, needs=("brittle_hub=false",), output=False)
-allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of cast iron", lambda: 2, source=METHOD, needs=("brittle_hub=true",), output=False)
+allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of steel", lambda: 1.5, source=METHOD, needs=("brittle_hub=false",),
+              output=False)
+allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of cast iron", lambda: 2, source=METHOD, needs=("brittle_hub=true",),
+              output=False)
 allowed.value("support_key", "f_SP", "1", "Support factor of the key", lambda: 1.1, source=METHOD, output=False)
 for part, load in CASES:
     _, factor, end, words = LOADS[load]

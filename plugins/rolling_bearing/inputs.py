@@ -75,11 +75,15 @@ class Bearing(Block):
     ] = 1
     tilt: Annotated[
         float | None,
-        Quantity("ψ_g", "mrad", "Tilt of the rings: slope of the shaft, of a pin its own and that of what carries it", ge=0),
+        Quantity(
+            "ψ_g", "mrad", "Tilt of the rings: slope of the shaft, of a pin its own and that of what carries it", ge=0
+        ),
     ] = None
     permitted_tilt: Annotated[
         float | None,
-        Quantity("ψ_zul,g", "mrad", "Tilt that the maker permits; without it 0.58 of balls (2′), 0.87 of rollers (3′)", gt=0),
+        Quantity(
+            "ψ_zul,g", "mrad", "Tilt that the maker permits; without it 0.58 of balls (2′), 0.87 of rollers (3′)", gt=0
+        ),
     ] = None
     limiting_speed: Annotated[
         float | None, Quantity("n_lim", "rpm", "Limiting speed, of the maker's catalogue", gt=0)
