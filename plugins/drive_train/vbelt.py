@@ -110,7 +110,8 @@ PULL: dict[str, str | float] = {"count": "vbelt_count", "mass_per_length": "vbel
 tensions = Chapter("Pull of the belts and load on the shafts",
                    text="The belts pull with the motor's breakdown torque when it runs up or is overloaded, and must not slip then. They are "
                         "tensioned at rest as the friction in their grooves asks for: the tensions of both sides are in the ratio of Euler's "
-                        "formula, their mean is the tension at rest less what the centrifugal force takes. At rest the whole tension loads the shafts.")
+                        "formula, their mean is the tension at rest less what the centrifugal force takes. At rest the whole tension loads the "
+                        "shafts.")
 tensions.value("vbelt_peak_torque", "M_1,max", "N*m", "Greatest torque of the motor, its breakdown torque",
                lambda breakdown_ratio, motor_rated_torque: breakdown_ratio * motor_rated_torque, source="IEC 60034-12")
 tensions.value("vbelt_pull", "F_u", "N", "Greatest effective pull, all belts together",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_number, bind, case
+from diecut_report.api import Chapter, bind, case
 from diecut_report.plugins.parallel_key import formulas as f
 
 # fmt: off
@@ -51,14 +51,15 @@ load.value("reversing", "R_T", "1", "Whether the torque changes its sign over th
 load.value("reversing", "R_T", "1", "Whether the torque changes its sign: a single torque does not", lambda torque_size: torque_size < 0, lacks=CURVE,
            source="this method")
 FLANKS = ("changes_of_flank", "N_W", "1", "Changes of the flank that bears, in the life")
-load.value(*FLANKS, bind(lambda reversing, count, speed, life: reversing * count * as_number(speed * life / (2 * np.pi)), count="flank_change_count",
+load.value(*FLANKS, bind(lambda reversing, count, speed, life: reversing * count * speed * life / (2 * np.pi), count="flank_change_count",
                          speed="cycle_speed", life="required_life"), needs=(*CURVE, *BY_LIFE), source="this method")
 load.value(*FLANKS, lambda: 0, needs=BY_LIFE, lacks=CURVE, source="this method")
 load.value(*FLANKS, lambda flank_changes: flank_changes, needs=("flank_changes",), source="input")
 FACTOR = ("direction_factor", "f_w", "1", "Load direction factor")
+SELDOM_CHANGED = bind(lambda changes_of_flank, seldom: changes_of_flank <= seldom, seldom=SELDOM)
 COUNTED = case(f.direction_factor, "by the changes of flank in the life", bind(lambda changes_of_flank, end: changes_of_flank <= end, end=DIAGRAM))
 for needs in (BY_LIFE, ("flank_changes",)):
-    load.choice(*FACTOR, case(lambda: 1, "the flank changes so seldom that it does not count", lambda changes_of_flank: changes_of_flank <= SELDOM),
+    load.choice(*FACTOR, case(lambda: 1, "the flank changes so seldom that it does not count", SELDOM_CHANGED),
                 COUNTED, case(f.direction_factor, "by the changes of flank; beyond 10⁷ of them the formula is extrapolated"), source=METHOD,
                 needs=needs)
 load.value(*FACTOR, lambda load_direction_factor: load_direction_factor, needs=("load_direction_factor",), source="input")

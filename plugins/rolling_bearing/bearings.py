@@ -11,9 +11,9 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Phrase, Refusal, joined
+from diecut_report.plugins.rolling_bearing.catalogue import DEEP_GROOVE, ROLLER
 from diecut_report.plugins.rolling_bearing.duty import Duty
 from diecut_report.plugins.rolling_bearing.nodes import Nodes
-from diecut_report.plugins.rolling_bearing.catalogue import DEEP_GROOVE, ROLLER
 from diecut_report.plugins.rolling_bearing.part import EXPONENTS, ChosenBearing, GivenBearing
 from diecut_report.plugins.rolling_bearing.ratings import Ratings
 

@@ -39,8 +39,8 @@ CHECKS = (
           consequence="a rating life does not apply to so small a swing; take a plain bearing or a flexure."),
     Check(id="tilt", check_class="practice", title="Tilt", demand="bearings.tilt", limit="tilt_limit", unit="mrad", severity="warn",
           demand_label="tilt", limit_label="permitted", tolerance=ROUNDING, source="maker's catalogue",
-          consequence="the load crowds to an edge and the life is shorter than calculated; take a self-aligning bearing with its permitted_tilt, or a "
-                      "stiffer shaft."),
+          consequence="the load crowds to an edge and the life is shorter than calculated; take a self-aligning bearing with its permitted_tilt, or "
+                      "a stiffer shaft."),
     Check(id="tilt_far", check_class="strength", title="Tilt far beyond", demand="bearings.tilt", limit="tilt_twice", unit="mrad",
           demand_label="tilt", limit_label="twice the permitted", tolerance=ROUNDING, source="maker's catalogue",
           consequence="the edges of the raceways break; take a self-aligning bearing with its permitted_tilt, or a stiffer shaft."),

@@ -61,7 +61,8 @@ _row("place_bore", "d_ip", "mm", "Bore there", lambda body: body.at_places(body.
 _row("place_greater", "D", "mm", "Diameter, at a step the greater", lambda body: body.greater)
 _row("place_radius", "r_p", "mm", "Radius of the notch, 0 without one", lambda body: body.radius)
 _row("is_fillet", "s_r", "1", "Whether a step has a fillet (1) or not (0)", lambda body: body.is_fillet * 1.0)
-_row("is_press_fit", "s_p", "1", "Whether a press fit or a tight seat is there (1) or not (0)", lambda body: body.is_kind(PRESS_FIT) * np.ones_like(body.x))
+_row("is_press_fit", "s_p", "1", "Whether a press fit or a tight seat is there (1) or not (0)",
+     lambda body: body.is_kind(PRESS_FIT) * np.ones_like(body.x))
 _row("keyseats", "s_k", "1", "Factor of the keyseats there: 1 of one, 1.15 of two, 0 of none", lambda body: body.keyseats)
 _row("type_k_t", "K_t0", "1", "Stress concentration in bending of the type", lambda body: body.k_t)
 _row("type_k_ts", "K_ts0", "1", "Stress concentration in torsion of the type", lambda body: body.k_ts)
