@@ -8,6 +8,7 @@ from typing import Any
 import pytest
 
 from diecut_report.results.document import document
+from diecut_report.results.feasible import impossible
 from diecut_report.results.press_run import compute
 from tests.configs import loaded
 
@@ -73,3 +74,7 @@ def test_the_crank_pin_tilts_with_the_shaft_that_carries_it(press: Any) -> None:
     assert value(press["crank_pin"], "coupler_slope") * 1e3 == pytest.approx(0.168, rel=5e-3)
     tilts = {(each["id"], each["status"]) for each in press["bearings"]["checks"] if "tilt" in each["id"]}
     assert tilts == {("tilt", "warn"), ("tilt_far", "pass")}  # 1.675 mrad of the crank pin, 0.918 of bearing B
+
+
+def test_a_slope_by_the_name_of_its_load_is_found_when_only_feasibility_is_judged(tmp_path: Path) -> None:
+    assert impossible(loaded(tmp_path, PRESS.read_text("utf-8")), []) == ([], [])
