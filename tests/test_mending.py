@@ -57,7 +57,7 @@ STEPS: dict[str, tuple[tuple[str, ...], set[str]]] = {
     "elements": (("bearings", "gear_key", "crank_key", "sector", "main_gears", "gripper_chain", "drive.sector_ratio"), set()),
     "station": (("timing.station",), {"timing.carriage_height"}),
     "carriage": (("drive.carriage_clearance",), set()),
-    "limits": (("drive", "clutch", "damper", "crankshaft", "crank_pin", "rocker_pin", "consistency"), set()),
+    "limits": (("train", "drive", "clutch", "damper", "crankshaft", "crank_pin", "rocker_pin", "consistency"), set()),
 }  # fmt: skip
 
 

@@ -37,6 +37,9 @@ MECHANISM = Mechanism(
         "The flywheel is sized as if the motor gave the mean torque throughout. That holds only where the swing of "
         "the speed is small beside the motor's slip (swing_to_slip much less than 1); else the motor takes a part of the load's swing itself: its "
         "torque over the turn, the heat in it and the speed that results are judged where the parts of the press are held against each other.",
+        "V-belts are held against the power that the maker states, given as power_per_belt: no table of powers is built in, since only "
+        "one maker's was seen. The service factor and the factors of wrap and length are Optibelt's and those of ISO 5292; the gain of power by the "
+        "ratio is left out, on the safe side.",
         "While it runs up, the motor's torque is its mean and the load's constant.",
         *TOOTHED_BELT_ASSUMPTIONS,
     ),

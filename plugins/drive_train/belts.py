@@ -56,3 +56,40 @@ def has_belt(ratio: Any, largest: Any, shortest: Any, length: Any, longest: Any)
 def tension_ratio(groove_friction: Any, wrap: Any) -> Any:
     """Ratio of the tensions of the tight and the slack side (Euler, with the friction of the groove)."""
     return np.exp(groove_friction * as_number(wrap))
+
+
+@formula
+def wrap_factor(tension_ratio: Any) -> Any:
+    """Factor of the wrap: the pull that the friction of the grooves gives, to that of half a turn at 5 : 1 (ISO 5292)."""
+    return 1.25 * (1 - 1 / tension_ratio)
+
+
+@formula
+def length_factor(length: Any, reference: Any) -> Any:
+    """Factor of the belt's length: a longer belt bends less often."""
+    ratio = length / reference
+    return np.where(ratio <= 1, ratio**0.18, ratio**0.15)
+
+
+@formula
+def number_of_belts(power: Any, power_per_belt: Any, wrap_factor: Any, length_factor: Any) -> Any:
+    """Least whole number of belts for a power."""
+    return np.maximum(1, np.ceil(power / (power_per_belt * wrap_factor * length_factor)))
+
+
+@formula
+def pull_to_carry(service_factor: Any, power: Any, speed: Any, torque: Any, diameter: Any) -> Any:
+    """Greatest pull: of the rated power with the service factor, or of the motor's greatest torque."""
+    return np.maximum(service_factor * power / speed, 2 * torque / diameter)
+
+
+@formula
+def tension_at_rest(pull: Any, tension_ratio: Any, count: Any, mass_per_length: Any, speed: Any) -> Any:
+    """Tension of one belt at rest with which the pull is carried: half of both runs, and what the centrifugal force takes."""
+    return pull * (tension_ratio + 1) / (2 * count * (tension_ratio - 1)) + mass_per_length * speed**2
+
+
+@formula
+def pull_before_slip(tension: Any, tension_ratio: Any, count: Any, mass_per_length: Any, speed: Any) -> Any:
+    """Pull at which belts of a tension at rest begin to slip."""
+    return 2 * count * (tension - mass_per_length * speed**2) * (tension_ratio - 1) / (tension_ratio + 1)

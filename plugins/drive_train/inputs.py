@@ -37,12 +37,30 @@ class VBelt(Block):
         Quantity(
             "μ_g",
             "1",
-            "Friction in the grooves, μ/sin(half the groove's angle), with which the belts are tensioned; 0.51 makes "
+            "Friction in the grooves, μ/sin(half the groove's angle), with which the belts are tensioned; 0.5123 makes "
             "the tensions 5 : 1 at half a turn of wrap, the usual reserve against slip",
             gt=0,
             le=2,
         ),
-    ] = 0.51
+    ] = 0.5123
+    service_factor: Annotated[
+        float,
+        Quantity(
+            "c_2",
+            "1",
+            "Service factor on the motor's power: light 1.1, medium 1.2, heavy duty 1.3 at up to 16 hours a day (Optibelt)",
+            ge=1,
+            le=2,
+        ),
+    ] = 1.3
+    count: Annotated[
+        int | None,
+        Quantity("z_g", "1", "Belts that are mounted, where not the least number", ge=1, le=32, integer=True),
+    ] = None
+    tension: Annotated[
+        float | None,
+        Quantity("F_Tg", "N", "Tension of one belt at rest as it is set; without it that which is needed", gt=0),
+    ] = None
 
 
 class DriveTrain(Inputs):
@@ -78,7 +96,13 @@ class DriveTrain(Inputs):
     ] = 0.1
     power_per_belt: Annotated[
         float | None,
-        Quantity("P_0", "kW", "Power that one belt carries (the maker's table); with it the number of belts", gt=0),
+        Quantity(
+            "P_0",
+            "kW",
+            "Power that one belt carries, of the maker's table for pulley and speed at half a turn of wrap and the reference length; "
+            "with it the number of belts",
+            gt=0,
+        ),
     ] = None
     flywheel_material: Annotated[Literal["steel", "cast_iron"], Text("Material of the flywheel")] = "steel"
     reserve_factor: Annotated[float, Quantity("k_r", "1", "Reserve of the motor's power", ge=1)] = 1.2

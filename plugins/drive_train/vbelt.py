@@ -2,10 +2,12 @@
 
 from __future__ import annotations
 
+from typing import Any
+
 import numpy as np
 
 from diecut_report.api import Chapter, bind, standard_table
-from diecut_report.mechanics import belt_path, triangle
+from diecut_report.mechanics import belt_path
 from diecut_report.plugins.drive_train import advice, belts
 
 # fmt: off
@@ -81,20 +83,60 @@ vbelt_chapter.value("vbelt_wrap_large", "β_2", "deg", "Wrap on the larger pulle
 vbelt_chapter.words("driver_advice", advice.driver_advice, FOR_PULLEYS, output=False)
 vbelt_chapter.words("slower_belt_advice", advice.slower_belt_advice, FOR_PULLEYS, output=False)
 
-count = Chapter("Number of belts", needs=("power_per_belt",), absent="not calculated: power_per_belt is not given")
-count.value("vbelt_count", "z", "1", "Number of belts, for the required power",
-            lambda power_required, power_per_belt: np.maximum(1, np.ceil(power_required / power_per_belt)), whole=True, source="this method")
+REFERENCE_LENGTHS = {"SPZ": 1600, "SPA": 2500, "SPB": 3550, "SPC": 5600}  # mm
+MASSES = {"SPZ": 0.07, "SPA": 0.12, "SPB": 0.20, "SPC": 0.37}  # kg/m
+COUNT = "vbelt.count"
+WITHOUT_COUNT: dict[str, Any] = {"lacks": ("power_per_belt", COUNT)}
 
+count = Chapter("Number of belts",
+                text="The maker states the power of one belt for half a turn of wrap and the reference length. The belts must carry the motor's "
+                     "rated power with the service factor.")
+count.value("tension_ratio", "m", "1", "Tension of the tight side to that of the slack side",
+            bind(belts.tension_ratio, groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
+count.value("wrap_factor", "c_1", "1", "Factor of the wrap", belts.wrap_factor, source="ISO 5292")
+count.lookup("reference_length", "L_r", "mm", "Reference length of the section", REFERENCE_LENGTHS, by="vbelt.section", source="Optibelt",
+             output=False)
+count.value("length_factor", "c_3", "1", "Factor of the length", bind(belts.length_factor, length="vbelt_standard_length",
+            reference="reference_length"), source="Optibelt")
+count.value("vbelt_power", "P_b", "kW", "Power that the belts must carry", bind(lambda service_factor, motor_power: service_factor * motor_power,
+            service_factor="vbelt.service_factor"), source="Optibelt")
+count.value("vbelt_count_needed", "z_req", "1", "Number of belts that is needed", bind(belts.number_of_belts, power="vbelt_power"), whole=True,
+            source="Optibelt", needs=("power_per_belt",))
+count.value("vbelt_count", "z", "1", "Number of belts: as given", bind(lambda given: given, given=COUNT), whole=True, source="input", needs=(COUNT,))
+count.value("vbelt_count", "z", "1", "Number of belts: the least that is enough", lambda vbelt_count_needed: vbelt_count_needed, whole=True,
+            source="this method", needs=("power_per_belt",), lacks=(COUNT,))
+
+PULL: dict[str, str | float] = {"count": "vbelt_count", "mass_per_length": "vbelt_mass", "speed": "vbelt_speed"}
 tensions = Chapter("Pull of the belts and load on the shafts",
-                   text="The belts pull with the required power. They are tensioned as the friction in their grooves asks for, so the tensions of "
-                        "both sides are in the ratio of Euler's formula; the centrifugal force stretches the belts but does not load the shafts.")
-tensions.value("vbelt_pull", "F_u", "N", "Effective pull, all belts together", lambda power_required, vbelt_speed: power_required / vbelt_speed,
-               source="mechanics")
-tensions.value("tension_ratio", "m", "1", "Tension of the tight side to that of the slack side",
-               bind(belts.tension_ratio, groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
-tensions.value("tight_tension", "F_1", "N", "Tension of the tight side",
+                   text="The belts pull with the motor's breakdown torque when it runs up or is overloaded, and must not slip then. They are "
+                        "tensioned at rest as the friction in their grooves asks for: the tensions of both sides are in the ratio of Euler's "
+                        "formula, their mean is the tension at rest less what the centrifugal force takes. At rest the whole tension loads the "
+                        "shafts.")
+tensions.value("vbelt_peak_torque", "M_1,max", "N*m", "Greatest torque of the motor, its breakdown torque",
+               lambda breakdown_ratio, motor_rated_torque: breakdown_ratio * motor_rated_torque, source="IEC 60034-12")
+tensions.value("vbelt_pull", "F_u", "N", "Greatest effective pull, all belts together",
+               bind(belts.pull_to_carry, service_factor="vbelt.service_factor", power="motor_power", speed="vbelt_speed", torque="vbelt_peak_torque",
+                    diameter="vbelt.driver_diameter"), source="mechanics")
+tensions.value("tight_tension", "F_1", "N", "Tension of the tight side, without the centrifugal share",
                lambda vbelt_pull, tension_ratio: vbelt_pull * tension_ratio / (tension_ratio - 1), source="Euler")
-tensions.value("slack_tension", "F_2", "N", "Tension of the slack side", lambda vbelt_pull, tension_ratio: vbelt_pull / (tension_ratio - 1),
-               source="Euler")
-tensions.value("shaft_load", "F_s", "N", "Load of the belts on the shafts of motor and flywheel",
-               bind(triangle.third_side, one_side="tight_tension", other_side="slack_tension", enclosed="vbelt_wrap"), source="statics")
+tensions.value("slack_tension", "F_2", "N", "Tension of the slack side, without the centrifugal share",
+               lambda vbelt_pull, tension_ratio: vbelt_pull / (tension_ratio - 1), source="Euler")
+tensions.lookup("vbelt_mass", "q", "kg/m", "Mass of one belt by its length", MASSES, by="vbelt.section", source="ISO 4184", output=False)
+for known in (("power_per_belt",), (COUNT,)):
+    lacks = (COUNT,) if known == ("power_per_belt",) else ()
+    tensions.value("vbelt_tension_needed", "F_T,req", "N", "Tension of one belt at rest that is needed",
+                   bind(belts.tension_at_rest, pull="vbelt_pull", **PULL), source="GB/T 13575.1", needs=known, lacks=lacks)
+    tensions.value("vbelt_tension", "F_T", "N", "Tension of one belt at rest: what is needed", lambda vbelt_tension_needed: vbelt_tension_needed,
+                   source="this method", needs=known, lacks=(*lacks, "vbelt.tension"))
+    tensions.value("vbelt_tension", "F_T", "N", "Tension of one belt at rest: as given", bind(lambda given: given, given="vbelt.tension"),
+                   source="input", needs=(*known, "vbelt.tension"), lacks=lacks)
+    tensions.value("vbelt_slip_pull", "F_slip", "N", "Pull at which the belts begin to slip",
+                   bind(belts.pull_before_slip, tension="vbelt_tension", **PULL), source="Euler", needs=(*known, "vbelt.tension"), lacks=lacks)
+    tensions.value("shaft_load", "F_s", "N", "Load of the belts at rest on the shafts of motor and flywheel",
+                   lambda vbelt_count, vbelt_tension, vbelt_wrap: 2 * vbelt_count * vbelt_tension * np.sin(vbelt_wrap / 2), source="statics",
+                   needs=known, lacks=lacks)
+tensions.value("shaft_load", "F_s", "N", "Load of the belts at rest on the shafts, without the centrifugal share of belts whose number is not known",
+               lambda tight_tension, slack_tension, vbelt_wrap: (tight_tension + slack_tension) * np.sin(vbelt_wrap / 2), source="statics",
+               **WITHOUT_COUNT)
+tensions.value("vbelt_bendings", "f_B", "1/s", "Bendings of the belt", lambda vbelt_speed, vbelt_standard_length:
+               2 * vbelt_speed / vbelt_standard_length, source="kinematics")

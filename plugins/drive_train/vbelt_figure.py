@@ -2,8 +2,6 @@
 
 from __future__ import annotations
 
-from math import asin, cos, sin
-
 from diecut_report.api import Drawing, Shape, View, arrow, dimension, polyline
 from diecut_report.plugins.drive_train.layout import layout
 
@@ -18,20 +16,18 @@ def vbelt_layout(view: View) -> list[Shape]:
         dimension((0.0, 0.0), (a, 0.0), -1.3 * max(r1, r2), view.text("center_distance")),
         dimension((0.0, -r1), (0.0, r1), 1.4 * r1, view.text("vbelt.driver_diameter")),
         dimension((a, -r2), (a, r2), -1.2 * r2, view.text("driven_diameter")),
-        *_loads(view, asin((r2 - r1) / a), a),
+        *_loads(view, a),
     ]
 
 
-def _loads(view: View, lean: float, a: float) -> list[Shape]:
-    """The load of the belts on both shafts, in its direction; the runs lean so far to the line of centres."""
+def _loads(view: View, a: float) -> list[Shape]:
+    """The load of the belts at rest on both shafts, along the line of centres."""
     if view["shaft_load"] == 0:
         return []
-    tight, slack = view["tight_tension"], view["slack_tension"]
-    size = 0.25 * a / view["shaft_load"]
-    x, y = (tight + slack) * cos(lean) * size, (tight - slack) * sin(lean) * size
+    size = 0.25 * a
     return [
-        arrow((0.0, 0.0), (x, y), text=view.text("shaft_load")),
-        arrow((a, 0.0), (a - x, -y)),
+        arrow((0.0, 0.0), (size, 0.0), text=view.text("shaft_load")),
+        arrow((a, 0.0), (a - size, 0.0)),
     ]
 
 
@@ -39,6 +35,6 @@ VBELT_LAYOUT = Drawing(
     id="vbelt_layout",
     title="V-belt",
     caption="The belt drive to scale with the wraps: 1 the motor's pulley, 2 the flywheel's. Turning as the arrow beside the belt "
-    "shows, the upper run is the tight one; the arrows at the axes are the load of the belts on the shafts.",
+    "shows, the upper run is the tight one; the arrows at the axes are the load of the belts on the shafts at rest.",
     build=vbelt_layout,
 )

@@ -1,4 +1,4 @@
-"""Parallel key: pressure of shaft, hub and key, and shear, in the manner of DIN 6892 method C, dimensions of DIN 6885-1."""
+"""Parallel key: pressure of shaft, hub and key, and shear, DIN 6892 method B, dimensions of DIN 6885-1."""
 
 from __future__ import annotations
 
@@ -23,13 +23,12 @@ MECHANISM = Mechanism(
     checks=CHECKS,
     figures=FIGURES,
     assumptions=(
-        "Method C of DIN 6892 uses one mean pressure on the hub's height for all parts; here each part has its own height. The shaft's is the "
-        "greater, so that the pressure of the hub, which governs, is unchanged.",
-        "The limit of 0.9 times the strength and the share of 0.75 of the second key were confirmed by a public implementation of method C only, not "
-        "in the standard itself.",
-        "Not covered (method B): support and hardness factors, friction between shaft and hub, uneven spread of the load over the length, diagrams "
-        "of load peaks. Nor the notch that the keyway makes in the shaft, sliding hubs, press fits with a key, woodruff and taper keys, bursting of "
-        "the hub.",
+        "Method B of DIN 6892 as public implementations of the 2012 edition state it: support factors at their lower ends, hardness factor 1, no "
+        "relief by friction. The load distribution factor of 1.2 is known from one source only; the standard's diagrams give 1 to 2.",
+        "The load direction factor follows from the changes of flank; the end of its diagram was not seen, and beyond 10⁷ changes it is "
+        "extrapolated.",
+        "Not covered: the diagrams of load peaks. Nor the notch that the keyway makes in the shaft, sliding hubs, press fits with a key, "
+        "woodruff and taper keys, bursting of the hub.",
         "A peak of every turn is a regular load: it counts in the equivalent torque, not with the factor of rare peaks.",
     ),
     sources=(

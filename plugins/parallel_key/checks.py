@@ -48,8 +48,9 @@ CHECKS = (
           consequence="the load no longer spreads over so long a key; take a thicker shaft, two keys or stronger material."),
     Check(id="reversing", check_class="practice", title="Reversing torque", demand="reversal_left_out", limit=0.0, unit="1", severity="warn",
           founded=("load_direction_factor",),
-          demand_label="torques that change their sign, judged as steady", limit_label="accepted", source="DIN 6892, method B",
-          consequence="the key works loose where the torque turns round often; set load_direction_factor by the number of reversals (below 1)."),
+          demand_label="torques that change their sign, judged as steady", limit_label="accepted", source=METHOD,
+          consequence="the key works loose where the torque turns round often; give required_life and cycle_speed, by which the changes of flank are "
+                      "counted, or flank_changes itself."),
     Check(id="two_keys", check_class="practice", title="Two keys in a brittle hub", demand="key_count", limit=1.0, unit="1", severity="warn",
           needs=("brittle_hub=true",), demand_label="keys", limit_label="accepted in a brittle hub", source=METHOD,
           consequence="a brittle hub does not even out the load of two keys; take one key, or a hub of steel."),

@@ -13,7 +13,8 @@ EXAMPLE = ExampleBlock(
         "application_factor": Wired(None, needs=("cylinder_drive",), otherwise=1.25),  # a curve holds the dynamics
         "yield_shaft": "650 MPa",
         "yield_hub": "370 MPa",
-        "load_direction_factor": Wired(0.7, needs=("cylinder_drive",)),  # the torque reverses four times a turn
+        "required_life": Wired("20000 h", needs=("cylinder_drive",)),  # the torque reverses in every turn
+        "cycle_speed": Wired("${<cylinder_drive>.crank_speed}"),
         "hub_length": "80 mm",
     },
 )

@@ -1,4 +1,4 @@
-"""Formulas of the parallel key (in the manner of DIN 6892, method C): each is bound to shaft, hub and key, and to both torques."""
+"""Formulas of the parallel key (DIN 6892, method B): each is bound to shaft, hub and key, and to both torques."""
 
 from __future__ import annotations
 
@@ -16,21 +16,39 @@ def key_force(torque: Any, shaft_diameter: Any, key_count: Any, key_share: Any) 
 
 
 @formula
-def pressure(force: Any, height: Any, length: Any) -> Any:
-    """Mean pressure on the height that bears."""
-    return force / (height * length)
+def pressure(force: Any, height: Any, length: Any, load_distribution_factor: Any) -> Any:
+    """Pressure on the height that bears, with the factor of its uneven spread over the length."""
+    return load_distribution_factor * force / (height * length)
 
 
 @formula
-def allowed_pressure(factor: Any, strength: Any) -> Any:
-    """Pressure that a part may take: nine tenths of its strength, with the factor of its load."""
-    return factor * 0.9 * strength
+def shear(force: Any, width: Any, length: Any) -> Any:
+    """Mean shear stress of the key."""
+    return force / (width * length)
 
 
 @formula
-def length_for(force: Any, height: Any, allowed: Any) -> Any:
+def direction_factor(changes_of_flank: Any) -> Any:
+    """Load direction factor by the changes of flank in the life (DIN 6892, method B)."""
+    return np.minimum(1, 2 * np.maximum(changes_of_flank, 1) ** -0.1)
+
+
+@formula
+def allowed_pressure(factor: Any, support: Any, strength: Any) -> Any:
+    """Pressure that a part may take: its strength, with the factors of its support and its load."""
+    return factor * support * strength
+
+
+@formula
+def length_for(force: Any, height: Any, allowed: Any, load_distribution_factor: Any) -> Any:
     """Bearing length at which the pressure is the allowed one."""
-    return force / (height * allowed)
+    return load_distribution_factor * force / (height * allowed)
+
+
+@formula
+def length_for_shear(force: Any, width: Any, allowed: Any) -> Any:
+    """Bearing length at which the shear stress is the allowed one."""
+    return force / (width * allowed)
 
 
 @formula

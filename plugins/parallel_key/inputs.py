@@ -13,6 +13,7 @@ class ParallelKey(Inputs):
     one_of: ClassVar[tuple[OneOf, ...]] = (
         OneOf(("torque", "application_factor"), ("torque_curve",), shared=("application_factor",)),
         OneOf(("width", "height", "depth_shaft", "depth_hub"), optional=True),
+        OneOf(("load_direction_factor",), ("flank_changes",), ("required_life", "cycle_speed"), optional=True),
     )
     curve_keys: ClassVar[dict[str, str]] = {"torque": "torque_curve"}
     from_tables: ClassVar[tuple[FromTable, ...]] = (
@@ -59,9 +60,38 @@ class ParallelKey(Inputs):
     load_peak_factor: Annotated[
         float, Quantity("f_L", "1", "Load peak factor: raises what rare peaks may press", ge=1, le=1.5)
     ] = 1.0
+    load_distribution_factor: Annotated[
+        float,
+        Quantity(
+            "K_λ",
+            "1",
+            "Load distribution factor: how unevenly the load spreads over the length; 1.2 is of one source only, give that of your joint "
+            "with its basis",
+            ge=1,
+            le=2,
+        ),
+    ] = 1.2
     load_direction_factor: Annotated[
-        float, Quantity("f_w", "1", "Load direction factor: lowers what a reversing torque may press", ge=0.5, le=1)
-    ] = 1.0
+        float | None,
+        Quantity("f_wg", "1", "Load direction factor of a reversing torque, in place of the life", ge=0.2, le=1),
+    ] = None
+    flank_changes: Annotated[
+        float | None,
+        Quantity("N_Wg", "1", "Changes of the flank that bears, in the whole life, in place of the life", ge=0),
+    ] = None
+    required_life: Annotated[
+        float | None,
+        Quantity(
+            "L_h",
+            "h",
+            "Life for which the changes of flank of torque_curve are counted",
+            gt=0,
+            plausible=("1 s", "1e7 h"),
+        ),
+    ] = None
+    cycle_speed: Annotated[
+        float | None, Quantity("n_c", "rpm", "Cycles of the torque, as a speed: 1 r/min is a cycle a minute", gt=0)
+    ] = None
     chamfer: Annotated[
         float, Quantity("s", "mm", "Chamfer of the key, taken off the heights that bear in shaft and hub", ge=0)
     ] = 0

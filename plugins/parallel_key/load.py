@@ -12,13 +12,18 @@ from diecut_report.plugins.parallel_key import formulas as f
 CURVE = ("torque_curve",)
 REVERSED = 1e-6  # share of the torque's size up to which the other sign is rounding
 ROUNDING = 1e-9
-METHOD = "DIN 6892, method C"
+METHOD = "DIN 6892:2012, method B"
+BY_LIFE = ("required_life",)
+KNOWN = ("load_direction_factor", "flank_changes", *BY_LIFE)
+SELDOM = 1024  # changes of flank up to which the formula gives 1
+DIAGRAM = 1e7  # changes of flank up to which the factor is confirmed
 
 cycle = Chapter("Torque over the cycle", needs=CURVE, text="One period of the referred curve is laid over one turn of the cycle angle.")
 cycle.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle, one turn a period of the torque", period=2 * np.pi, shown_at="torque_size_at")
 cycle.from_curve("torque_over_cycle", "T_φ", "N*m", "Torque as given", given="torque_curve", abscissa="cycle_angle")
 cycle.reduction("torque_size", "T_m", "N*m", "Greatest size of the torque", "abs_max", of="torque_over_cycle", output=False)
 cycle.reduction("torque_greatest", "T_up", "N*m", "Greatest torque", "max", of="torque_over_cycle", output=False)
+cycle.crossings("flank_change", "φ_f", "deg", "Cycle angle at which the torque changes its sign", of="torque_over_cycle", output=False)
 cycle.reduction("torque_least", "T_low", "N*m", "Least torque", "min", of="torque_over_cycle", output=False)
 
 load = Chapter("Load", text="A peak of every turn is a regular load and counts in the equivalent torque; torque_peak is a rare one.")
@@ -45,7 +50,25 @@ load.value("reversing", "R_T", "1", "Whether the torque changes its sign over th
            source="this method")
 load.value("reversing", "R_T", "1", "Whether the torque changes its sign: a single torque does not", lambda torque_size: torque_size < 0, lacks=CURVE,
            source="this method")
+FLANKS = ("changes_of_flank", "N_W", "1", "Changes of the flank that bears, in the life")
+load.value(*FLANKS, bind(lambda reversing, count, speed, life: reversing * count * speed * life / (2 * np.pi), count="flank_change_count",
+                         speed="cycle_speed", life="required_life"), needs=(*CURVE, *BY_LIFE), source="this method")
+load.value(*FLANKS, lambda: 0, needs=BY_LIFE, lacks=CURVE, source="this method")
+load.value(*FLANKS, lambda flank_changes: flank_changes, needs=("flank_changes",), source="input")
+FACTOR = ("direction_factor", "f_w", "1", "Load direction factor")
+SELDOM_CHANGED = bind(lambda changes_of_flank, seldom: changes_of_flank <= seldom, seldom=SELDOM)
+COUNTED = case(f.direction_factor, "by the changes of flank in the life", bind(lambda changes_of_flank, end: changes_of_flank <= end, end=DIAGRAM))
+for needs in (BY_LIFE, ("flank_changes",)):
+    load.choice(*FACTOR, case(lambda: 1, "the flank changes so seldom that it does not count", SELDOM_CHANGED),
+                COUNTED, case(f.direction_factor, "by the changes of flank; beyond 10⁷ of them the formula is extrapolated"), source=METHOD,
+                needs=needs)
+load.value(*FACTOR, lambda load_direction_factor: load_direction_factor, needs=("load_direction_factor",), source="input")
+load.value(*FACTOR, lambda: 1, lacks=KNOWN, source="this method")
 load.choice("key_share", "φ_k", "1", "Share of the second key", case(lambda: 1, "one key", lambda key_count: key_count < 2),
             case(lambda: 0.75, "the second key of two bears less"), source=METHOD, output=False)
+load.choice("key_share_peak", "φ_k,max", "1", "Share of the second key under the greatest load",
+            case(lambda: 1, "one key", lambda key_count: key_count < 2),
+            case(lambda: 0.9, "the second key of two bears nearly as much"), source=METHOD, output=False)
 load.value("key_force", "F", "N", "Force on one key, equivalent", bind(f.key_force, torque="torque_equivalent"), source=METHOD)
-load.value("key_force_peak", "F_max", "N", "Force on one key, greatest", bind(f.key_force, torque="torque_peak"), source=METHOD)
+load.value("key_force_peak", "F_max", "N", "Force on one key, greatest", bind(f.key_force, torque="torque_peak", key_share="key_share_peak"),
+           source=METHOD)

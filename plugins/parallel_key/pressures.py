@@ -7,22 +7,28 @@ import numpy as np
 from diecut_report.api import Chapter, bind, case
 from diecut_report.plugins.parallel_key import formulas as f
 from diecut_report.plugins.parallel_key.dimensions import LENGTHS, LONGEST_KEY
-from diecut_report.plugins.parallel_key.load import METHOD
+from diecut_report.plugins.parallel_key.load import KNOWN, METHOD
 
 # fmt: off
 
 PARTS = {"shaft": "W", "hub": "N", "key": "P"}
-LOADS = {"": ("key_force", "load_direction_factor", "", "equivalent"), "_peak": ("key_force_peak", "load_peak_factor", "max", "greatest")}
+LOADS = {"": ("key_force", "direction_factor", "", "equivalent"), "_peak": ("key_force_peak", "load_peak_factor", "max", "greatest")}
 """Of the regular load and the peak: the force, the factor of what is allowed, the symbol's end, and words."""
 CASES = [(part, load) for load in LOADS for part in PARTS]
 SIX = ("shaft", "hub", "key", "shaft_peak", "hub_peak", "key_peak")
 
-allowed = Chapter("Allowed stresses")
+allowed = Chapter("Allowed stresses", text="Each part bears more than its yield strength, by the support of what lies around the pressed face.")
 needed = Chapter("Length that is needed", text="The least bearing length at which no pressure, and no shear of the key, is above what is allowed.")
+allowed.value("support_shaft", "f_SW", "1", "Support factor of the shaft, of steel", lambda: 1.3, source=METHOD, output=False)
+allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of steel", lambda: 1.5, source=METHOD, needs=("brittle_hub=false",),
+              output=False)
+allowed.value("support_hub", "f_SN", "1", "Support factor of the hub, of cast iron", lambda: 2, source=METHOD, needs=("brittle_hub=true",),
+              output=False)
+allowed.value("support_key", "f_SP", "1", "Support factor of the key", lambda: 1.1, source=METHOD, output=False)
 for part, load in CASES:
     _, factor, end, words = LOADS[load]
     allowed.value(f"allowed_{part}{load}", f"p_{PARTS[part]}zul{end}", "MPa", f"Allowed pressure of the {part}, {words} load",
-                  bind(f.allowed_pressure, factor=factor, strength=f"yield_{part}"), source=METHOD, output=False)
+                  bind(f.allowed_pressure, factor=factor, support=f"support_{part}", strength=f"yield_{part}"), source=METHOD, output=False)
 allowed.value("allowed_shear", "τ_zul", "MPa", "Allowed shear stress of the key", lambda yield_key: yield_key / np.sqrt(3),
               source="strength of materials", output=False)
 for part, load in CASES:
@@ -30,7 +36,7 @@ for part, load in CASES:
     needed.value(f"length_{part}{load}", f"l_{PARTS[part]}{end}", "mm", f"Bearing length that the {part} needs, {words} load",
                  bind(f.length_for, force=force, height=f"height_{part}", allowed=f"allowed_{part}{load}"), source=METHOD, output=False)
 needed.value("length_shear", "l_τ", "mm", "Bearing length that the key's shear needs",
-             bind(f.length_for, force="key_force_peak", height="width", allowed="allowed_shear"), source="strength of materials", output=False)
+             bind(f.length_for_shear, force="key_force_peak", allowed="allowed_shear"), source="strength of materials", output=False)
 needed.value("length_pressed", "l_p", "mm", "Bearing length that the pressures need",
              bind(f.greatest_of_six, **{name: f"length_{name}" for name in SIX}), source=METHOD, output=False)
 needed.value("bearing_length_needed", "l_tr,req", "mm", "Bearing length that is needed",
@@ -62,7 +68,7 @@ for part, load in CASES:
     pressures.value(f"pressure_{part}{load}", f"p_{PARTS[part]}{end}", "MPa", f"Pressure of the {part}, {words} load",
                     bind(f.pressure, force=force, height=f"height_{part}", length="bearing_length"), source=METHOD)
 pressures.value("shear_stress", "τ", "MPa", "Shear stress of the key, greatest load",
-                bind(f.pressure, force="key_force_peak", height="width", length="bearing_length"), source="strength of materials")
+                bind(f.shear, force="key_force_peak", length="bearing_length"), source="strength of materials")
 for part, load in CASES:
     pressures.value(f"safety_{part}{load}", f"S_{PARTS[part]}{LOADS[load][2]}", "1", f"Safety of the {part}, {LOADS[load][3]} load",
                     bind(lambda limit, pressure: limit / pressure, limit=f"allowed_{part}{load}", pressure=f"pressure_{part}{load}"),
@@ -81,6 +87,9 @@ pressures.pick("nearest_length", "l_std", "mm", "Nearest standard length", "near
 pressures.value("length_off", "Δl", "mm", "Difference from it", lambda key_length, nearest_length: abs(key_length - nearest_length),
                 source="this method", output=False)
 pressures.choice("reversal_left_out", "n_w", "1", "Reversing torques that are judged as steady",
-                 case(lambda: 1, "the torque changes its sign, and load_direction_factor is 1",
-                      lambda reversing, load_direction_factor: (reversing > 0) & (load_direction_factor >= 1)),
-                 case(lambda: 0, "the torque keeps its sign, or load_direction_factor counts its change"), source="this method", output=False)
+                 case(lambda: 1, "the torque changes its sign, and it is not known how often in the life",
+                      lambda reversing: reversing > 0),
+                 case(lambda: 0, "the torque keeps its sign"), source="this method", output=False, lacks=KNOWN)
+for known in KNOWN:
+    pressures.value("reversal_left_out", "n_w", "1", "Reversing torques that are judged as steady: none, the factor counts them", lambda: 0,
+                    source="this method", output=False, needs=(known,))

@@ -11,6 +11,7 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Phrase, Refusal, joined
+from diecut_report.plugins.rolling_bearing.catalogue import DEEP_GROOVE, ROLLER
 from diecut_report.plugins.rolling_bearing.duty import Duty
 from diecut_report.plugins.rolling_bearing.nodes import Nodes
 from diecut_report.plugins.rolling_bearing.part import EXPONENTS, ChosenBearing, GivenBearing
@@ -20,7 +21,7 @@ Array = NDArray[Any]
 Known = Mapping[str, Any]
 
 KEYS = ("name", "type", "designation", "series", "bore_min", "dynamic_rating", "static_rating", "f0", "x", "y", "e", "x0", "y0", "radial_force",
-        "axial_force", "speed", "relative_angle", "cycle_speed", "rolling_elements", "a_iso")  # fmt: skip
+        "axial_force", "speed", "relative_angle", "cycle_speed", "rolling_elements", "a_iso", "permitted_tilt")  # fmt: skip
 TAKEN = (
     *(f"bearings.{key}" for key in KEYS),
     "service_factor",
@@ -30,6 +31,7 @@ TAKEN = (
 )
 
 USUAL_ELEMENTS = 8
+PERMITTED_TILTS = {DEEP_GROOVE: 0.58e-3, "ball": 0.58e-3, ROLLER: 0.87e-3}  # rad, 2′ and 3′: the least of the makers
 
 
 @dataclass(frozen=True)
@@ -43,6 +45,7 @@ class Bearings:
     cycle_speed: tuple[Array, ...]
     elements: tuple[Array, ...]
     knows_factors: tuple[bool, ...]
+    permitted_tilt: tuple[Array, ...]
     variants: int
 
     @property
@@ -149,7 +152,8 @@ def bearings(given: Known) -> Bearings:
     return Bearings(
         tuple(names), tuple(types or ()), duties, tuple(part.taken(duty) for part, duty in zip(parts, duties, strict=True)),
         tuple(each.number("cycle_speed", 0.0) for each in parts), tuple(each.number("rolling_elements", USUAL_ELEMENTS) for each in parts),
-        tuple(each.knows_factors() for each in parts), variants,
+        tuple(each.knows_factors() for each in parts),
+        tuple(each.number("permitted_tilt", PERMITTED_TILTS[str(each.text("type"))]) for each in parts), variants,
     )  # fmt: skip
 
 

@@ -37,6 +37,13 @@ CHECKS = (
     Check(id="dwell", check_class="practice", title="Least swing", demand=20.0, limit="swing", unit="deg", severity="warn", demand_label="needed",
           limit_label="swing", tolerance=ROUNDING, source="SKF catalogue", **OF_BEARING,
           consequence="a rating life does not apply to so small a swing; take a plain bearing or a flexure."),
+    Check(id="tilt", check_class="practice", title="Tilt", demand="bearings.tilt", limit="tilt_limit", unit="mrad", severity="warn",
+          demand_label="tilt", limit_label="permitted", tolerance=ROUNDING, source="maker's catalogue",
+          consequence="the load crowds to an edge and the life is shorter than calculated; take a self-aligning bearing with its permitted_tilt, or "
+                      "a stiffer shaft."),
+    Check(id="tilt_far", check_class="strength", title="Tilt far beyond", demand="bearings.tilt", limit="tilt_twice", unit="mrad",
+          demand_label="tilt", limit_label="twice the permitted", tolerance=ROUNDING, source="maker's catalogue",
+          consequence="the edges of the raceways break; take a self-aligning bearing with its permitted_tilt, or a stiffer shaft."),
     Check(id="speed", check_class="practice", title="Speed", demand="speed_max", limit="bearings.limiting_speed", unit="rpm", severity="warn",
           demand_label="greatest speed", limit_label="limiting speed", tolerance=ROUNDING, source="maker's catalogue",
           consequence="the bearing runs hot; take a smaller one, or oil in place of grease."),

@@ -73,6 +73,18 @@ class Bearing(Block):
     a_iso: Annotated[
         float, Quantity("a_ISO", "1", "Factor of lubrication and contamination (ISO 281, clause 9)", ge=0.1, le=50)
     ] = 1
+    tilt: Annotated[
+        float | None,
+        Quantity(
+            "ψ_g", "mrad", "Tilt of the rings: slope of the shaft, of a pin its own and that of what carries it", ge=0
+        ),
+    ] = None
+    permitted_tilt: Annotated[
+        float | None,
+        Quantity(
+            "ψ_zul,g", "mrad", "Tilt that the maker permits; without it 0.58 of balls (2′), 0.87 of rollers (3′)", gt=0
+        ),
+    ] = None
     limiting_speed: Annotated[
         float | None, Quantity("n_lim", "rpm", "Limiting speed, of the maker's catalogue", gt=0)
     ] = None

@@ -14,6 +14,8 @@ from diecut_report.mechanics.beams import SAME_PLACE
 Array = NDArray[Any]
 NO_NOTCH = "none"
 FILLET, SHARP, PRESS_FIT, SLED_RUNNER = "fillet", "sharp", "press_fit", "keyseat_sled_runner"
+KEYSEATS = {"keyseat_end_mill": 1.0, "keyseat_pair": 1.15}  # factor of one keyseat, and of two opposite each other
+BY_STRENGTH = (PRESS_FIT, *KEYSEATS)  # their fatigue factors follow from the steel's strength
 
 
 class Factors(NamedTuple):
@@ -29,10 +31,9 @@ TYPES = {
     NO_NOTCH: Factors(1.0, 1.0),
     FILLET: Factors(1.0, 1.0),  # these follow from the fits
     SHARP: Factors(2.7, 2.2, share=0.02),
-    "keyseat_end_mill": Factors(2.14, 3.0, share=0.02),
+    **dict.fromkeys(BY_STRENGTH, Factors(1.0, 1.0)),
     SLED_RUNNER: Factors(1.0, 1.0, share=0.02),  # sources differ (1.6, 1.7): its factors are given
     "groove_ring": Factors(5.0, 3.0, radius=0.25e-3),
-    PRESS_FIT: Factors(1.0, 1.0),  # its fatigue factors are given as such
     "custom": Factors(1.0, 1.0),
 }
 
@@ -104,6 +105,11 @@ class Body:
         """Return which places are of a kind, (places, 1)."""
         return np.array([each == kind for each in self.kinds])[:, None]
 
+    @property
+    def keyseats(self) -> Array:
+        """Return the factor of the keyseats at each place, 0 where there is none, (places, variants)."""
+        return np.array([KEYSEATS.get(kind, 0.0) for kind in self.kinds])[:, None] * np.ones_like(self.x)
+
     def greatest_here(self, row: Array) -> Array:
         """Return of a row (variants, places) the greatest among the places that stand at one position."""
         x = self.x.T
@@ -114,7 +120,7 @@ class Body:
 
 def body(
     lengths: Any, diameters: Any, bores: Any, fillets: Any, notch_x: Any, types: Any, radii: Any, k_t: Any, k_ts: Any, k_f: Any, k_fs: Any,
-    names: Any, load_x: Any, bearing_a: Array, bearing_b: Array,
+    names: Any, load_x: Any, bearing_a: Array, bearing_b: Array, *seats: str,
 ) -> Body:  # fmt: skip
     """Return the body of what is given; Refusal where a list is empty, or a notch does not say what it is."""
     if names is None:
@@ -131,7 +137,8 @@ def body(
     _complete(types or (), own)
     steps = [FILLET if np.isfinite(fillet[i]).all() else SHARP for i in range(count - 1)]
     rest = 2 + len(names)
-    kinds = (*steps, *(types or ()), *[NO_NOTCH] * rest)
+    supports = (PRESS_FIT if seat == "tight" else NO_NOTCH for seat in seats)
+    kinds = (*steps, *(types or ()), *supports, *[NO_NOTCH] * len(names))
     told = (
         *(Phrase("shoulder {i}", i=i + 1) for i in range(count - 1)),
         *(
@@ -183,10 +190,10 @@ def _complete(types: tuple[str, ...], own: list[Array]) -> None:
                     kind=kind,
                 ),
             )
-        if kind == PRESS_FIT and radius:
+        if kind in BY_STRENGTH and radius:
             raise Refusal(
                 f"notches.{index}.radius",
-                "has no use for a press fit, whose fatigue factors stand in a table; remove it",
+                "has no use for a press fit or a keyseat, whose fatigue factors stand in a table; remove it",
             )
 
 

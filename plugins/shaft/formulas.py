@@ -15,6 +15,8 @@ INCH = Constant(25.4e-3, "1 in", "m")
 GREATEST_ENDURANCE = Constant(700e6, "700 MPa", "Pa")
 GREATEST_SIZE = Constant(254e-3, "254 mm", "m")
 MIDDLE_SIZE = Constant(51e-3, "51 mm", "m")
+REFERENCE_SIZE = Constant(7.5e-3, "7.5 mm", "m")
+SIZE_OF_TABLE = Constant(40e-3, "40 mm", "m")
 REFERENCE_STRENGTH = Constant(1e9, "1000 MPa", "Pa")
 
 
@@ -95,8 +97,27 @@ def fatigue_factor(sensitivity: Any, concentration: Any) -> Any:
 
 @formula
 def press_fit_factor(tensile_strength: Any) -> Any:
-    """Fatigue notch factor of a press fit in bending (DIN 743-2, table 1)."""
+    """Fatigue notch factor of a press fit in bending, of 40 mm (DIN 743-2, table 1)."""
     return 2.7 * (tensile_strength / REFERENCE_STRENGTH) ** 0.43
+
+
+@formula
+def keyseat_factor(tensile_strength: Any) -> Any:
+    """Fatigue notch factor of a keyseat in bending, of 40 mm (DIN 743-2, table 1)."""
+    return 3 * (tensile_strength / REFERENCE_STRENGTH) ** 0.38
+
+
+@formula
+def size_of_notch(factor: Any, diameter: Any) -> Any:
+    """How a size lowers the endurance of a notch with a factor (DIN 743-2, K_3), of 7.5 to 150 mm."""
+    share = np.log(np.minimum(np.maximum(diameter / REFERENCE_SIZE, 1), 20)) / np.log(20)
+    return 1 - 0.2 * np.log10(factor) * share
+
+
+@formula
+def sized(factor: Any, diameter: Any) -> Any:
+    """Fatigue notch factor of a diameter, from that of 40 mm (DIN 743-2)."""
+    return factor * size_of_notch(factor, SIZE_OF_TABLE) / size_of_notch(factor, diameter)
 
 
 @formula

@@ -14,7 +14,8 @@ from diecut_report.plugins.shaft.body import PRESS_FIT, body
 # fmt: off
 
 BODY = ("sections.length", "section_diameter", "sections.bore", "sections.fillet_radius", "notches.position", "notches.type",
-        "notches.radius", "notches.k_t", "notches.k_ts", "notches.k_f", "notches.k_fs", "loads.name", "loads.position", "bearing_a", "bearing_b")
+        "notches.radius", "notches.k_t", "notches.k_ts", "notches.k_f", "notches.k_fs", "loads.name", "loads.position", "bearing_a", "bearing_b",
+        "seat_a", "seat_b")
 BEARINGS = 2
 GIVEN = "as it is given, or of the type of notch"
 
@@ -60,7 +61,9 @@ _row("place_bore", "d_ip", "mm", "Bore there", lambda body: body.at_places(body.
 _row("place_greater", "D", "mm", "Diameter, at a step the greater", lambda body: body.greater)
 _row("place_radius", "r_p", "mm", "Radius of the notch, 0 without one", lambda body: body.radius)
 _row("is_fillet", "s_r", "1", "Whether a step has a fillet (1) or not (0)", lambda body: body.is_fillet * 1.0)
-_row("is_press_fit", "s_p", "1", "Whether a press fit ends there (1) or not (0)", lambda body: body.is_kind(PRESS_FIT) * np.ones_like(body.x))
+_row("is_press_fit", "s_p", "1", "Whether a press fit or a tight seat is there (1) or not (0)",
+     lambda body: body.is_kind(PRESS_FIT) * np.ones_like(body.x))
+_row("keyseats", "s_k", "1", "Factor of the keyseats there: 1 of one, 1.15 of two, 0 of none", lambda body: body.keyseats)
 _row("type_k_t", "K_t0", "1", "Stress concentration in bending of the type", lambda body: body.k_t)
 _row("type_k_ts", "K_ts0", "1", "Stress concentration in torsion of the type", lambda body: body.k_ts)
 _row("given_k_f", "K_f0", "1", "Fatigue notch factor in bending where it is given, else 0", lambda body: body.k_f)
@@ -79,8 +82,16 @@ places.value("place_modulus", "W_b", "mm**3", "Section modulus in bending; in to
 notches = Chapter("Notches")
 notches.value("neuber_bending", "a_N", "mm", "Neuber's length in bending", formulas.neuber_bending, source="Shigley 6-35a")
 notches.value("neuber_torsion", "a_Ns", "mm", "Neuber's length in torsion", formulas.neuber_torsion, source="Shigley 6-35b")
-notches.value("press_fit_factor", "K_fp", "1", "Fatigue notch factor of a press fit", formulas.press_fit_factor, source="DIN 743-2, table 1",
-              output=False)
+BY_STRENGTH = (("press_fit", "K_fp", "of a press fit", formulas.press_fit_factor, lambda press_fit_factor: 0.65 * press_fit_factor),
+               ("keyseat", "K_fk", "of a keyseat", formulas.keyseat_factor, lambda keyseat_factor: 0.56 * keyseat_factor + 0.1))
+for kind, symbol, told, in_bending, in_torsion in BY_STRENGTH:
+    notches.value(f"{kind}_factor", symbol, "1", f"Fatigue notch factor {told} in bending, of 40 mm", in_bending, source="DIN 743-2, table 1",
+                  output=False)
+    notches.value(f"{kind}_torsion", f"{symbol}s", "1", f"Fatigue notch factor {told} in torsion, of 40 mm", in_torsion,
+                  source="DIN 743-2, table 1", output=False)
+    for end, load in (("factor", "bending"), ("torsion", "torsion")):
+        notches.value(f"sized_{kind}_{end}", f"{symbol}{'s' if load == 'torsion' else ''}d", "1", f"Fatigue notch factor {told} in {load}",
+                      bind(formulas.sized, factor=f"{kind}_{end}", diameter="place_diameter"), source="DIN 743-2", output=False)
 AT_FILLETS: dict[str, Any] = {"exists": lambda is_fillet: is_fillet > 0, "output": False}
 notches.value("fillet_ratio", "t/r", "1", "Step to fillet radius", lambda place_step, place_radius: place_step / place_radius, source="Peterson",
               **AT_FILLETS)
@@ -109,16 +120,14 @@ notches.value("sensitivity", "q", "1", "Notch sensitivity in bending",
               bind(formulas.notch_sensitivity, radius="place_radius", neuber="neuber_bending"), source="Shigley 6-34", output=False)
 notches.value("sensitivity_torsion", "q_s", "1", "Notch sensitivity in torsion",
               bind(formulas.notch_sensitivity, radius="place_radius", neuber="neuber_torsion"), source="Shigley 6-34", output=False)
-for suffix, sign, form, told in (("", "f", "press_fit_factor", "bending"), ("s", "fs", "press_fit_torsion", "torsion")):
-    if suffix:
-        notches.value("press_fit_torsion", "K_fsp", "1", "Fatigue notch factor of a press fit in torsion",
-                      lambda press_fit_factor: 0.65 * press_fit_factor, source="DIN 743-2, table 1", output=False)
+for suffix, sign, end, told in (("", "f", "factor", "bending"), ("s", "fs", "torsion", "torsion")):
     notches.value(f"own_k_{sign}", f"K_{sign}1", "1", f"Fatigue notch factor in {told} of the notch itself",
-                  bind(lambda press, of_press, given, sensitivity, concentration:
-                           np.where(press > 0, of_press, np.where(given > 0, given, formulas.fatigue_factor(sensitivity, concentration))),
-                       press="is_press_fit", of_press=form, given=f"given_k_{sign}",
-                       sensitivity="sensitivity_torsion" if suffix else "sensitivity", concentration=f"k_t{suffix}"),
-                  source="Shigley 6-32", output=False)
+                  bind(lambda press, of_press, keys, of_key, given, sensitivity, concentration:
+                           np.where(press > 0, of_press, np.where(keys > 0, keys * of_key, np.where(given > 0, given,
+                               formulas.fatigue_factor(sensitivity, concentration)))),
+                       press="is_press_fit", of_press=f"sized_press_fit_{end}", keys="keyseats", of_key=f"sized_keyseat_{end}",
+                       given=f"given_k_{sign}", sensitivity="sensitivity_torsion" if suffix else "sensitivity", concentration=f"k_t{suffix}"),
+                  source="Shigley 6-32; DIN 743-2", output=False)
     notches.computed(f"k_{sign}", f"K_{sign}", "1", f"Fatigue notch factor in {told}", lambda body, row: body.greatest_here(row),
                      ("body", f"own_k_{sign}"), "the greatest of the notches at one place, not their product", over="places", output=False)
 notches.value("bore_ratio", "d_i/d", "1", "Bore to diameter at a fillet of a hollow shaft",

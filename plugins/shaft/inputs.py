@@ -6,7 +6,8 @@ from typing import Any, ClassVar, Literal
 
 from diecut_report.api import POINTS, Annotated, Block, FromTable, Inputs, OneOf, Quantity, Text, Varying
 
-NotchType = Literal["keyseat_end_mill", "keyseat_sled_runner", "groove_ring", "press_fit", "custom"]
+Seat = Literal["tight", "loose"]
+NotchType = Literal["keyseat_end_mill", "keyseat_pair", "keyseat_sled_runner", "groove_ring", "press_fit", "custom"]
 
 
 class Section(Block):
@@ -118,6 +119,12 @@ class Shaft(Inputs):
     notches: Annotated[list[Notch], Text("Notches beside the shoulders")] = []  # noqa: RUF012
     bearing_a: Annotated[float, Quantity("x_A", "mm", "Place of bearing A, from the shaft's left end", ge=0)]
     bearing_b: Annotated[float, Quantity("x_B", "mm", "Place of bearing B, from the shaft's left end", ge=0)]
+    seat_a: Annotated[
+        Seat, Text("Seat of bearing A: tight, which weakens the shaft like a press fit, or loose (g6, h6)")
+    ] = "tight"
+    seat_b: Annotated[
+        Seat, Text("Seat of bearing B: tight, which weakens the shaft like a press fit, or loose (g6, h6)")
+    ] = "tight"
     locating: Annotated[Literal["a", "b"], Text("Which bearing takes the axial force")] = "a"
     loads: Annotated[list[Load], Text("Loads of the shaft")]
     material: Annotated[

@@ -84,6 +84,8 @@ _number(bending, "slope_a", "v′_A", "mrad", "Greatest slope at bearing A", "sl
 _number(bending, "slope_b", "v′_B", "mrad", "Greatest slope at bearing B", "slope_b", INTEGRATED, source="Euler–Bernoulli")
 bending.value("bearing_slope_max", "v′_max", "mrad", "Greatest slope at a bearing", lambda slope_a, slope_b: np.maximum(slope_a, slope_b),
               source="Euler–Bernoulli")
+bending.computed("slope", "v′_i", "mrad", "Greatest slope at the load", lambda under_load: under_load.load_slopes, ("under_load",), INTEGRATED,
+                 over="loads", named_by="loads.name", source="Euler–Bernoulli")
 _number(bending, "twist", "ϑ", "deg", "Greatest twist between the outermost torques", "twist", "Σ T h/(2 G I), " + OVER_CYCLE, source="Saint-Venant",
         )
 _number(bending, "torque_span", "l_T", "mm", "Distance of the outermost torques", "torque_span", "of the loads that have one", output=False)

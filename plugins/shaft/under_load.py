@@ -82,6 +82,12 @@ class UnderLoad:
         found = [totals.numbers(block) for _, block in self.blocks()]
         return {name: np.concatenate([each[name] for each in found])[:, None] for name in found[0]}
 
+    @cached_property
+    def load_slopes(self) -> Array:
+        """Return the greatest slope at each load, (variants, loads)."""
+        loads = len(self.cycle.places)
+        return np.concatenate([np.max(block.slopes(block.body.x[-loads:]), axis=2).T for _, block in self.blocks()])
+
     # --- curves over the cycle ---------------------------------------------------------------------------------------------
 
     @property

@@ -33,6 +33,8 @@ CRANK: dict[str, Any] = {
 }
 CRANKSHAFT: dict[str, Any] = {
     "sections": SECTIONS,
+    "seat_a": "loose",
+    "seat_b": "loose",  # as the method calculates its example
     "notches": [{"position": 130, "type": "keyseat_end_mill"}, {"position": 310, "type": "keyseat_end_mill"}],
     "bearing_a": 25,
     "bearing_b": 250,

@@ -17,6 +17,7 @@ from scipy.spatial import ConvexHull
 from diecut_report.api import standard_series, standard_series_by, standard_table
 from diecut_report.engine import Calculation, Impossible
 from diecut_report.plugins.drive_train.inputs import Section
+from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples, few
 from tests.machines import number
 from tests.plugins.drive_trains import EXAMPLE, PAIRS, check, train
@@ -55,14 +56,60 @@ def test_the_wrap_is_what_the_tangents_leave() -> None:
 
 
 def test_the_tensions_grow_along_the_wrap_as_friction_allows_and_load_the_shaft_together() -> None:
-    calc = train()
+    calc = train(power_per_belt="3.5 kW")
     wrap, slack, tight = (number(calc, n) for n in ("vbelt_wrap", "slack_tension", "tight_tension"))
-    grown = solve_ivp(lambda _, tension: 0.51 * tension, (0, wrap), [slack], rtol=1e-11, atol=1e-9)
+    grown = solve_ivp(lambda _, tension: 0.5123 * tension, (0, wrap), [slack], rtol=1e-11, atol=1e-9)
     assert grown.y[0, -1] == pytest.approx(tight, rel=1e-8)
-    assert (tight - slack) * number(calc, "vbelt_speed") == pytest.approx(number(calc, "power_required"), rel=1e-12)
-    lean = (pi - wrap) / 2
-    along, across = (tight + slack) * cos(lean), (tight - slack) * sin(lean)
-    assert number(calc, "shaft_load") == pytest.approx(np.hypot(along, across), rel=1e-12)
+    breakdown = 2.2 * number(calc, "motor_power") / number(calc, "shaft_1_speed")
+    assert (tight - slack) * 0.125 / 2 == pytest.approx(breakdown, rel=1e-12)
+    thrown = number(calc, "vbelt_count") * 0.12 * number(calc, "vbelt_speed") ** 2  # m v² of a metre of belt
+    at_rest = (tight + slack) / 2 + thrown
+    assert number(calc, "vbelt_tension") * number(calc, "vbelt_count") == pytest.approx(at_rest, rel=1e-12)
+    runs = at_rest * np.array([[np.cos(lean), np.sin(lean)] for lean in ((pi - wrap) / 2, -(pi - wrap) / 2)])
+    assert number(calc, "shaft_load") == pytest.approx(np.linalg.norm(runs.sum(axis=0)), rel=1e-12)
+
+
+PRESS = {
+    "motor_speed": "1450 rpm", "output_speed": "100 rpm", "torque_mean": 76, "torque_peak": 100, "reserve_factor": 1.3, "power_per_belt": "3.5 kW",
+    "gears": [{"driver_teeth": 18, "driven_teeth": 87}], "vbelt": {"section": "SPA", "driver_diameter": "125 mm", "center_distance": "600 mm"},
+}  # fmt: skip
+
+
+def test_the_belt_of_the_press_is_tensioned_for_the_breakdown_torque() -> None:
+    """By hand, of the press as it was (1.5 kW, 125/375 mm, 2000 mm): 2 · 2.2 · 9.878 N·m/0.125 m = 347.7 N; c₁ 0.9394, c₃ 0.9606."""
+    calc = train(**PRESS)
+    assert number(calc, "motor_power") == 1500 and number(calc, "vbelt_standard_length") == pytest.approx(2)
+    found = [
+        number(calc, name)
+        for name in ("wrap_factor", "length_factor", "vbelt_pull", "vbelt_tension_needed", "shaft_load")
+    ]
+    assert found == pytest.approx([0.9394, 0.9606, 347.7, 299.7, 586], rel=2e-4)
+    assert number(calc, "vbelt_count") == 1
+    iso = 1.25 * (1 - 5 ** (-number(calc, "vbelt_wrap") / pi))
+    assert number(calc, "wrap_factor") == pytest.approx(iso, rel=1e-4)
+    by_makers = 347.726 * (2.5 - iso) / (2 * iso) + 0.12 * 9.4902**2  # in the form of the makers' catalogues
+    assert number(calc, "vbelt_tension_needed") == pytest.approx(by_makers, rel=1e-4)
+    heavy = train(**PRESS | {"breakdown_ratio": 1})
+    assert number(heavy, "vbelt_pull") == pytest.approx(
+        205.5, abs=0.05
+    )  # the rated power with the service factor of 1.3
+
+
+@pytest.mark.parametrize(
+    ("tension", "status"), [(None, "not_checked"), (124, "fail"), (299.6, "fail"), (299.7, "pass"), (350, "pass")]
+)
+def test_a_belt_slips_that_is_tensioned_for_less_than_the_greatest_pull(tension: float | None, status: str) -> None:
+    calc = train(**PRESS | {"vbelt": PRESS["vbelt"] | ({} if tension is None else {"tension": tension})})  # type: ignore[operator]
+    found = next(each for each in mechanism_results(calc, {})["checks"] if each["id"] == "vbelt_slip")
+    assert found["status"] == status
+    assert status != "fail" or "299.7 N" in found["message"]
+
+
+def test_fewer_belts_than_are_needed_fail() -> None:
+    few = train(**PRESS | {"power_per_belt": "0.5 kW", "vbelt": PRESS["vbelt"] | {"count": 2}})  # type: ignore[operator]
+    assert number(few, "vbelt_count_needed") == 5  # 1.3 · 1.5 kW/(0.5 kW · 0.9394 · 0.9606) = 4.32
+    found = next(each for each in mechanism_results(few, {})["checks"] if each["id"] == "vbelt_count")
+    assert found["status"] == "fail" and "5" in found["message"]
 
 
 def test_the_usual_reserve_against_slip_makes_the_tensions_five_to_one_at_half_a_turn() -> None:
@@ -70,10 +117,11 @@ def test_the_usual_reserve_against_slip_makes_the_tensions_five_to_one_at_half_a
     assert number(calc, "tension_ratio") == pytest.approx(5, rel=0.01)
 
 
-def test_the_number_of_belts_carries_the_required_power() -> None:
+def test_the_number_of_belts_carries_the_motors_power() -> None:
     assert "vbelt_count" not in train().values
     calc = train(power_per_belt="0.3 kW")
-    count, needed = number(calc, "vbelt_count"), number(calc, "power_required") / 300
+    one = 300 * number(calc, "wrap_factor") * number(calc, "length_factor")
+    count, needed = number(calc, "vbelt_count"), 1.3 * number(calc, "motor_power") / one
     assert count == int(count) and count - 1 < needed <= count
     assert number(train(power_per_belt="50 kW", torque_mean=0), "vbelt_count") == 1
 

@@ -64,5 +64,13 @@ def _of_abscissa(steps: Sequence[Step], step: Step) -> list[str]:
 
 def _giver(name: str, own: Mapping[str, Step]) -> str:
     """Return the id of the step of this id, or that gives this name; nothing where none does."""
-    found = None if name in own else named(name, own)
-    return found.id if found else name if name in own else ""
+    if name in own:
+        return name
+    found = named(name, own)
+    return found.id if found else _of_named_part(name, own)
+
+
+def _of_named_part(name: str, own: Mapping[str, Step]) -> str:
+    """Return the id of the row that gives a part by the part's own name, ``NAME_ID``; nothing where none does."""
+    rows = (id for id, step in own.items() if getattr(step, "named_by", "") and name.endswith(f"_{id}"))
+    return max(rows, key=len, default="")
