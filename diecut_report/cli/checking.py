@@ -22,7 +22,7 @@ from diecut_report.cli.output import (
     Line,
     coloured,
     common,
-    emit,
+    emit_lines,
     tell,
     tell_written,
     without_output,
@@ -85,7 +85,7 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
     made = compared(in_language(found, spoken_catalogues(discovery)))
     for verdict in made.verdicts:
         tell(f"{verdict.machine}: " + phrase(line) if verdict.status != "bad" else line for line in verdict.words)
-    emit("".join(f"{line}\n" for line in _table(made.verdicts)))
+    emit_lines(_table(made.verdicts))
     if folder is not None:
         _write(found, discovery, folder, formats, quiet, files)
     if not quiet:

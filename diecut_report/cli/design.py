@@ -15,6 +15,7 @@ from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
     HelpfulCommand,
+    as_lines,
     common,
     emit,
     tell,
@@ -288,7 +289,7 @@ def _give(told: str, config: Config, machine: ProvedMachine | None, target: Path
 
 def _text(lines: Iterable[str]) -> str:
     """Lines in the language that is spoken."""
-    return "".join(f"{said(line)}\n" for line in lines)
+    return as_lines(map(said, lines))
 
 
 def _json(found: dict[str, Any]) -> str:

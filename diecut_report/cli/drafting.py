@@ -19,6 +19,7 @@ from diecut_report.cli.output import (
     HelpfulCommand,
     common,
     emit,
+    emit_lines,
     tell,
     tell_problems,
     without_output,
@@ -71,7 +72,7 @@ def _list(discovery: Discovery) -> int:
         try:
             with without_output():
                 title = said(discovery.mechanism(kind).title, kind)
-            emit(f"{kind:{width}}  {title}\n")
+            emit_lines([f"{kind:{width}}  {title}"])
         except (DuplicateKind, PluginError) as fault:
             tell([str(fault)])
             codes.append(BAD_INPUT if isinstance(fault, DuplicateKind) else PLUGIN_BROKE)

@@ -19,6 +19,7 @@ from diecut_report.cli.output import (
     PASSED,
     PLUGIN_BROKE,
     HelpfulCommand,
+    as_lines,
     common,
     emit,
     emit_lines,
@@ -208,4 +209,4 @@ def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, al
         with speaking(asked_language() or new["project"].get("language") or SOURCE_LANGUAGE):
             return page(said_changes(found, old, new, spoken_catalogues(discovery)))
     told = said_changes(found, old, new, spoken_catalogues(discovery))
-    return "".join(f"{line}\n" for line in lines(told, all_rows=all_rows))
+    return as_lines(lines(told, all_rows=all_rows))

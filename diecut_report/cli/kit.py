@@ -20,6 +20,7 @@ from diecut_report.cli.output import (
     HelpfulCommand,
     common,
     emit,
+    emit_lines,
     tell,
     tell_written,
     without_output,
@@ -112,7 +113,7 @@ def check_plugin(
     if form == "json":
         emit(json.dumps([each.data for each in found], indent=2, ensure_ascii=False) + "\n")
     else:
-        emit("".join(f"{line}\n" for each in found for line in _lines(each)))
+        emit_lines(line for each in found for line in _lines(each))
     for each in found:
         _tell_changed(each, quiet)
     pages = {each.kind: each.page.encode() for each in found if each.page}

@@ -42,6 +42,7 @@ from diecut_report.cli.output import (
     HelpfulGroup,
     common,
     emit,
+    emit_lines,
     open_streams,
     tell,
     tell_problems,
@@ -238,7 +239,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
         except (DuplicateKind, PluginError) as error:
             tell([str(error)])
             codes.append(PLUGIN_BROKE)
-    emit("".join(f"{line}\n" for line in lines))
+    emit_lines(lines)
     return max(codes)
 
 

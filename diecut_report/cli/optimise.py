@@ -17,6 +17,7 @@ from diecut_report.cli.output import (
     PASSED,
     PLUGIN_BROKE,
     HelpfulCommand,
+    as_lines,
     common,
     emit,
     tell,
@@ -24,7 +25,7 @@ from diecut_report.cli.output import (
     without_output,
 )
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.languages.speech import say
+from diecut_report.languages.speech import said, say
 from diecut_report.results.doubtful_plugins import told_faults
 
 if TYPE_CHECKING:
@@ -90,7 +91,7 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
         words = "stopped; what is finished is kept. Continue with: diecut-report optimise --resume {folder}"
         tell([Phrase(words, folder=target)])
         return INTERRUPTED
-    emit({"text": lambda: command.told(outcome), "csv": lambda: outcome.csv,
+    emit({"text": lambda: as_lines(map(said, outcome.lines)), "csv": lambda: outcome.csv,
           "json": lambda: json.dumps(outcome.data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"}[form]())  # fmt: skip
     if not quiet:
         tell_written(outcome.written)

@@ -111,9 +111,14 @@ def in_line(text: str) -> str:
     return shown(text, kept="")
 
 
+def as_lines(lines: Iterable[str]) -> str:
+    """A text of these lines, of which none can be made two, or be shown as another one, by the texts in it."""
+    return "".join(f"{in_line(line)}\n" for line in lines)
+
+
 def emit_lines(lines: Iterable[str]) -> bool:
-    """What was asked for as lines, of which none can be made two, or be shown as another one, by the texts in it."""
-    return emit("".join(f"{in_line(line)}\n" for line in lines))
+    """What was asked for as lines."""
+    return emit(as_lines(lines))
 
 
 def emit(text: str) -> bool:

@@ -71,7 +71,9 @@ def _require_as_made(report: Path, asked: HeldAgainst, discovery: Discovery, qui
     carried, found = verified(report, asked, discovery, quiet)
     if not found.holds:
         faults = [line for line in verification_lines(carried, found) if line.startswith(("✗", " "))]
-        words = phrase("The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:")
+        words = phrase(
+            "The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:"
+        )
         raise UserError([Problem(words, str(report)), *map(Problem, faults)])
 
 

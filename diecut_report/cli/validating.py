@@ -18,6 +18,7 @@ from diecut_report.cli.output import (
     HelpfulCommand,
     common,
     emit,
+    emit_lines,
     tell,
     tell_problems,
     without_output,
@@ -115,7 +116,7 @@ def _tell(found: JudgedFile, *, alone: bool, quiet: bool) -> None:
     if found.tried is not None:
         from diecut_report.study.execution.dry_run_text import lines
 
-        emit("".join(f"{line}\n" for line in lines(found.tried)))
+        emit_lines(lines(found.tried))
 
 
 def _data(found: JudgedFile) -> dict[str, Any]:

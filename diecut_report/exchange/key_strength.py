@@ -18,4 +18,9 @@ def weak_key(kind: str, bits: int | None) -> str:
     least = SHORTEST.get(kind, 0)
     if bits is None or bits >= least:
         return ""
-    return Phrase("the key is too short: {kind} with {bits} bits, at least {least} are needed", kind=kind.upper(), bits=bits, least=least)
+    return Phrase(
+        "the key is too short: {kind} with {bits} bits, at least {least} are needed",
+        kind=kind.upper(),
+        bits=bits,
+        least=least,
+    )

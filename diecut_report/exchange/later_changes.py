@@ -14,7 +14,13 @@ from diecut_report.exchange.pdf_attachments import FAULTS, bounded
 
 OF_FIELD = {"/V", "/AP", "/F", "/M"}  # what signing sets in a field: the signature, how it shows, its flags, its time
 OF_FORM = {"/SigFlags", "/Fields"}  # the fields may grow by document timestamps
-OF_ROOT = {"/AcroForm", "/Extensions", "/Version", "/DSS", "/Perms"}  # with what proves certificates, and what a signer allows
+OF_ROOT = {
+    "/AcroForm",
+    "/Extensions",
+    "/Version",
+    "/DSS",
+    "/Perms",
+}  # with what proves certificates, and what a signer allows
 OF_TIMESTAMP = {"/Type", "/Subtype", "/FT", "/T", "/V", "/Rect", "/F", "/P", "/M", "/Ff"}
 REFERENCE = re.compile(rb"\b(\d+) (\d+) R\b")
 
@@ -85,10 +91,14 @@ def _is_kept(first: Any, second: Any, old: pikepdf.Pdf, new: pikepdf.Pdf, lists:
         return not isinstance(first, pikepdf.Stream) or first.read_raw_bytes() == second.read_raw_bytes()
     if isinstance(first, pikepdf.Array) and isinstance(second, pikepdf.Array):
         return first.objgen in lists and _grown(first, second)
-    if not all(isinstance(each, pikepdf.Dictionary) and not isinstance(each, pikepdf.Stream) for each in (first, second)):
+    if not all(
+        isinstance(each, pikepdf.Dictionary) and not isinstance(each, pikepdf.Stream) for each in (first, second)
+    ):
         return False
     if first.objgen == old.Root.objgen:
-        return _same_but(first, second, OF_ROOT) and _is_form(old.Root.get("/AcroForm", _NONE), new.Root.get("/AcroForm", _NONE))
+        return _same_but(first, second, OF_ROOT) and _is_form(
+            old.Root.get("/AcroForm", _NONE), new.Root.get("/AcroForm", _NONE)
+        )
     if first.get("/FT") == "/Sig" and "/V" not in first:
         return _same_but(first, second, OF_FIELD) and "/ByteRange" in second.get("/V", _NONE)
     if first.get("/Type") == "/Page":
@@ -105,7 +115,9 @@ def _grown(first: Any, second: Any) -> bool:
     if first is None and second is None:
         return True
     a, b = (list(each) if isinstance(each, pikepdf.Array) else [] for each in (first, second))
-    same = len(a) <= len(b) and all(x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in zip(a, b, strict=False))
+    same = len(a) <= len(b) and all(
+        x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in zip(a, b, strict=False)
+    )
     return same and all(map(_is_timestamp, b[len(a) :]))
 
 

@@ -3,7 +3,10 @@
 from __future__ import annotations
 
 import io
+import re
+from collections.abc import Iterator
 from functools import cache
+from typing import Any
 
 import pikepdf
 from pikepdf import settings
@@ -15,6 +18,9 @@ from diecut_report.languages.phrases import Phrase, phrase
 MOST_ITEMS = 1_000_000  # of an array or a dictionary
 MOST_WARNINGS = 100
 DEEPEST = 100
+MOST_REVISIONS = 100
+NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
+END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
 FAULTS = (pikepdf.PdfError, *PDF_FAULTS)
 """What the library raises for a file that is not as the standard has it."""
 
@@ -23,8 +29,10 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
     """Return the attachment of a name, None where the PDF has none; UserError where it cannot be read, or is larger than ``most``."""
     bounded(most)
     try:
-        with pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True) as pdf:
-            return _found(pdf, name, most, file)
+        with _opened(content) as pdf:
+            found = _found(pdf, name, most, file)
+        _refuse_former(content, found, name, most, file)
+        return found
     except pikepdf.PasswordError as error:
         words = phrase("The PDF is encrypted, and opens only with a password. Give one without.")
         raise UserError(Problem(words, file)) from error
@@ -34,6 +42,10 @@ def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
             most=format(most / 1000000.0, "g"),
         )
         raise UserError(Problem(words, file)) from error
+
+
+def _opened(content: bytes) -> pikepdf.Pdf:
+    return pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True)
 
 
 @cache
@@ -46,14 +58,13 @@ def bounded(most: int) -> None:
 
 
 def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
-    names = pdf.Root.get("/Names", pikepdf.Dictionary())
-    if "/EmbeddedFiles" not in names:
-        return None
     # the names only tell which attachment it is; nothing is written under them
-    found = [spec for label, spec in pikepdf.NameTree(names["/EmbeddedFiles"]).items() if label == name]
+    found = list(_named(pdf, name))
     if not found:
         return None
-    content = found[0]["/EF"]["/F"].read_bytes()
+    if len(found) > 1:
+        raise UserError(Problem(_several(len(found), name), file))
+    content = found[0].read_bytes()
     if len(content) > most:
         words = Phrase(
             "What is attached is too large: {count} MB; at most {most} MB are taken.",
@@ -62,3 +73,60 @@ def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
         )
         raise UserError(Problem(words, file))
     return bytes(content)
+
+
+def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, file: str) -> None:
+    """UserError where the file held another attachment of this name before something was added to it: readers of PDF may show either."""
+    ends = [end.end() for end in END.finditer(content)][:-1]
+    if len(ends) > MOST_REVISIONS:
+        raise UserError(
+            Problem(
+                Phrase("The PDF was added to {count} times. Give the file as the program wrote it.", count=len(ends)),
+                file,
+            )
+        )
+    for end in ends:
+        try:
+            with _opened(content[:end]) as pdf:
+                former = _found(pdf, name, most, file)
+        except FAULTS:  # no end of a PDF: the letters stand in a stream
+            continue
+        if former is not None and former != found:
+            raise UserError(Problem(_several(2, name), file))
+
+
+def _several(count: int, name: str) -> str:
+    words = "The PDF carries {count} files named {name}, and a report has one. Give the file as the program wrote it."
+    return Phrase(words, count=count, name=name)
+
+
+def _named(pdf: pikepdf.Pdf, name: str) -> Iterator[pikepdf.Stream]:
+    """The attachments of a name, wherever the PDF has them: among its attachments, at an annotation, or as an associated file."""
+    names = pdf.Root.get("/Names", pikepdf.Dictionary())
+    tree = pikepdf.NameTree(names["/EmbeddedFiles"]).items() if "/EmbeddedFiles" in names else ()
+    specs = [spec for label, spec in tree if _alike(label, name)]
+    told = (part for each in pdf.objects if b"/EF" in each.unparse(resolved=True) for part in _dictionaries(each, 0))
+    specs += [part for part in told if "/EF" in part and any(_alike(part.get(key, ""), name) for key in NAMES)]
+    seen = set[tuple[int, int]]()
+    for spec in specs:
+        for stream in spec["/EF"].as_dict().values():
+            if stream.objgen not in seen:
+                seen.add(stream.objgen)
+                yield stream
+
+
+def _alike(label: object, name: str) -> bool:
+    return str(label).strip().casefold() == name
+
+
+def _dictionaries(part: Any, depth: int) -> Iterator[pikepdf.Dictionary]:
+    """The dictionaries that stand in an object itself."""
+    if depth and part.is_indirect if isinstance(part, pikepdf.Object) else True:
+        return
+    if isinstance(part, pikepdf.Dictionary | pikepdf.Stream):
+        yield part
+        inner = [part[key] for key in part.keys()]  # noqa: SIM118 a stream has no other way
+    else:
+        inner = list(part) if isinstance(part, pikepdf.Array) else []
+    for each in inner if depth < DEEPEST else ():
+        yield from _dictionaries(each, depth + 1)

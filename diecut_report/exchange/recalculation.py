@@ -69,7 +69,9 @@ def recalculated(
         again["report"][TEMPLATE] = template_of(given)  # judged with the pages
     if lost:
         again |= {key: given[key] for key in CHANGES if key in given}
-    return Recalculation(again, outcome.broken, (options, *([lost] if lost else ()), *_other_changes(given, again, previous)))
+    return Recalculation(
+        again, outcome.broken, (options, *([lost] if lost else ()), *_other_changes(given, again, previous))
+    )
 
 
 def _is_report(carried: CarriedResults) -> bool:
@@ -121,7 +123,9 @@ def _options(given: Data, again: Data, asked: pipeline.AskedReport) -> Found:
     ]
     named = " ".join(filter(None, told))
     if not named:
-        return phrase("none: the report shows what its configuration asks for, and no changes since a former revision"), True
+        return phrase(
+            "none: the report shows what its configuration asks for, and no changes since a former revision"
+        ), True
     return Phrase("made with {options}; all else follows from the configuration", options=named), True
 
 
@@ -141,14 +145,18 @@ def _former(
     if previous is not None or "changes" not in carried.results:
         return previous, None
     if not said:
-        words = phrase("not proved: the report does not carry the former configuration; --previous FILE names the former report")
+        words = phrase(
+            "not proved: the report does not carry the former configuration; --previous FILE names the former report"
+        )
         return None, (words, False)
     try:
         with _tables(carried.former_tables) as find:
             tree = _tree(said, f"{carried.path} (its former configuration)")
             outcome, _ = pipeline.calc(tree, discovery, tell, find=find)
     except UserError:
-        words = phrase("not proved: the former configuration cannot be calculated any more; --previous FILE names the former report")
+        words = phrase(
+            "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
+        )
         return None, (words, False)
     return parsed(encoded(results_text(outcome.results)), ""), None
 

@@ -101,4 +101,6 @@ def _outdated(signature: Any, attested: datetime | None) -> str:
         return Phrase("the certificate was not valid when it was used: from {first} to {last}", filling)
     if first <= (attested or now) <= last:
         return ""
-    return Phrase("the certificate is not valid now ({first} to {last}), and no timestamp proves that it was used then", filling)
+    return Phrase(
+        "the certificate is not valid now ({first} to {last}), and no timestamp proves that it was used then", filling
+    )

@@ -14,7 +14,7 @@ from diecut_report.errors import PluginError
 from diecut_report.exchange.agreement import Agreement, agreement
 from diecut_report.exchange.carried_results import CarriedResults
 from diecut_report.exchange.page_comparison import compared, other_templates
-from diecut_report.exchange.recalculation import SHORT, ReportParts, Found, recalculated
+from diecut_report.exchange.recalculation import SHORT, Found, ReportParts, recalculated
 from diecut_report.exchange.signatures import Signature, signatures
 from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
 from diecut_report.report.house_style import HouseStyle
@@ -71,9 +71,7 @@ def verify(
     numbers = agreement(_compared(results, again.results, program), _compared(again.results, again.results, program))
     is_same = program[1] and not numbers.differences
     shown = _pages(carried, signed, house, discovery, tell, is_same=is_same) if pages else None
-    return Verification(
-        program, plugins, _config(carried), again.options, numbers, shown, again.broken, tuple(signed)
-    )
+    return Verification(program, plugins, _config(carried), again.options, numbers, shown, again.broken, tuple(signed))
 
 
 def _pages(
@@ -99,7 +97,9 @@ def _compared(results: Data, again: Data, program: Found) -> Data:
     kept["program"] = {k: v for k, v in results["program"].items() if k not in OF_PROGRAM} | {"libraries": libraries}
     for group in ("mechanisms", "comparisons"):
         if group in results:
-            kept[group] = {name: {k: v for k, v in data.items() if k not in OF_CODE} for name, data in results[group].items()}
+            kept[group] = {
+                name: {k: v for k, v in data.items() if k not in OF_CODE} for name, data in results[group].items()
+            }
     if not program[1]:
         kept.pop("form_version", None)
     return kept

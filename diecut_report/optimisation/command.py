@@ -11,7 +11,6 @@ from pathlib import Path
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import write_all
 from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.languages.speech import said
 from diecut_report.optimisation.data import Data, data
 from diecut_report.optimisation.result import OptimisationResult, result
 from diecut_report.optimisation.run import SearchOutcome, run_search
@@ -170,8 +169,3 @@ def _named(found: OptimisationResult, name: str) -> Iterable[int]:
         return [int(name)]
     place = found.front.suggested
     return [] if place is None else [int(found.front.variants[place])]
-
-
-def told(outcome: OptimiseOutcome) -> str:
-    """Return what was found as text, in the language that is spoken."""
-    return "".join(f"{said(line)}\n" for line in outcome.lines)
