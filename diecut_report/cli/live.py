@@ -60,9 +60,9 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
         tell([unopened] if is_opened and not webbrowser.open(_door(doors, address)) else [])
 
     language = asked_language() or _of_project(session) or spoken_language()
-    with TemporaryDirectory(prefix="diecut-report-") as doors, speaking(language, catalogues_of(language, discovery)):
-        with suppress(KeyboardInterrupt):  # how one ends it
-            serve(LiveApplication(session, folders, asked_language()), port, ready)
+    spoken = speaking(language, catalogues_of(language, discovery))
+    with TemporaryDirectory(prefix="diecut-report-") as doors, spoken, suppress(KeyboardInterrupt):  # how one ends it
+        serve(LiveApplication(session, folders, asked_language()), port, ready)
     tell(_unwritten(session))
     return PASSED
 

@@ -29,7 +29,8 @@ def serve(application: LiveApplication, port: int, ready: Callable[[str], None])
         own, token = int(listening.getsockname()[1]), secrets.token_urlsafe(24)
         guarded = Guard(application.starlette, own, token)
         settings = uvicorn.Config(guarded, log_level="critical", access_log=False, server_header=False, date_header=False,
-                                  timeout_graceful_shutdown=ENDING, lifespan="on", ws="none", http=_Connection, limit_concurrency=CONNECTIONS)  # fmt: skip
+                                  timeout_graceful_shutdown=ENDING, lifespan="on", ws="none",
+                                  http=_Connection, limit_concurrency=CONNECTIONS)  # fmt: skip
         gc.collect()
         gc.freeze()  # program and first machine stay to the end: each full pass over them would stop the page
         listening.listen()

@@ -168,8 +168,7 @@ def _power(base: str, exponent: float) -> str:
 
 
 _SI_PREFIX = "quetta|ronna|yotta|zetta|exa|peta|tera|giga|mega|kilo|hecto|dec[ai]|deka|centi|milli|micro|nano|pico|femto|atto|zepto|yocto"
-_MISTYPED = re.compile(rf"(?:{_SI_PREFIX})(?:minute|hour|day|week|month|year|inch|foot|percent)")
-"""Units that only pint has: 1/hh is a slip, not one in a hundred hours."""
+_MISTYPED = re.compile(rf"(?:{_SI_PREFIX})(?:minute|hour|day|week|month|year|inch|foot|percent)")  # 1/hh is a slip
 
 
 def measure_with_pint(text: str) -> tuple[float, Kind] | None:

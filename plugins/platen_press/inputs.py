@@ -95,7 +95,12 @@ class PlatenPress(Inputs):
     ] = None
     rod_net_area: Annotated[
         float | None,
-        Quantity("A_n", "mm**2", "Least cross-section of one of the two rods, at its eye or shank; with it their stress", gt=0),
+        Quantity(
+            "A_n",
+            "mm**2",
+            "Least cross-section of one of the two rods, at its eye or shank; with it their stress",
+            gt=0,
+        ),
     ] = None
     offset_force: Annotated[float, Quantity("h_1", "mm", "Offset of the rods' force from the axis of the guides")] = 0
     offset_weight: Annotated[

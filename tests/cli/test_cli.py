@@ -60,7 +60,7 @@ def test_calc_prints_the_results_alone_on_standard_output(tmp_path: Path, capfd:
 def test_calc_to_a_file_tells_the_failing_checks(tmp_path: Path, capfd: Capture) -> None:
     config = saved(tmp_path, FAILS)
     assert run("calc", config, "-o", tmp_path / "a.json") == 1
-    assert "1 of 1 checks fail." in capfd.readouterr().err
+    assert "1 of 1 checks fails." in capfd.readouterr().err
     assert run("calc", config, "-o", tmp_path / "a.json", "--quiet") == 1
     assert capfd.readouterr().err == ""
 
@@ -96,7 +96,7 @@ def test_report_tells_what_it_wrote_and_what_fails(tmp_path: Path, capfd: Captur
     assert err.splitlines() == [
         f"written: {tmp_path / 'press.json'}",
         "fail a: Moment. Moment 200 N·m, allowed 150 N·m: shorten the arm.",
-        "1 of 1 checks fail. Governing: a.moment.",
+        "1 of 1 checks fails. Governing: a.moment.",
     ]
 
 

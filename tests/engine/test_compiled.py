@@ -55,7 +55,8 @@ def numbers_given(base: Config) -> Iterator[tuple[Input, Any]]:
             except UnknownPath:  # a list that the example does not give
                 continue
             value = _given(instance.data, asked.key) if instance else None
-            is_number = isinstance(value, int | float | str) and "${" not in str(value)
+            words = getattr(asked.meta, "words", ())  # that stand for a number
+            is_number = isinstance(value, int | float | str) and "${" not in str(value) and value not in words
             if is_number and asked.unit and isinstance(asked.meta, Quantity) and not asked.meta.integer:
                 yield asked, value
 

@@ -126,7 +126,7 @@ def test_what_an_editor_saves_while_the_page_calculates_is_not_lost(
         session.file.write_text(text.replace("thickness: 0.5 mm", "thickness: 0.55 mm"), encoding="utf-8")
 
     monkeypatch.setattr(session, "_calculate", saved_meanwhile)
-    with pytest.raises(UserError, match="Another program has saved this file meanwhile. Nothing was written"):
+    with pytest.raises(UserError, match=r"Another program has saved this file meanwhile\. Nothing was written"):
         session.write()
     assert "thickness: 0.55 mm" in session.file.read_text("utf-8") and session.edits
     monkeypatch.undo()
