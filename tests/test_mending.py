@@ -30,8 +30,6 @@ CLUTCH = {"consistency.clutch_position"}
 MOTOR = {"consistency.motor_thermal"}
 UNFOUNDED = {
     "consistency.clutch_position",
-    "gear_key.reversing",
-    "crank_key.reversing",
     "sector.k_factors",
     "main_gears.k_factors",
 }

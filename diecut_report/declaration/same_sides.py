@@ -11,25 +11,34 @@ from diecut_report.contract.steps import Value
 from diecut_report.declaration.names import DeclaredNames, Giver
 from diecut_report.expressions import FormulaError
 from diecut_report.expressions.tree import Node, substitute, symbols
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 
 DEEP = 40  # formulas within formulas, of which a declaration may have a circle that is reported elsewhere
 
 
 def told(names: DeclaredNames, check: Check) -> Iterator[str]:
-    """Yield what is wrong with the sides of a check."""
+    """Yield what is wrong with the sides of a check.
+
+    Where inputs decide which formula gives a side, one of them may bound the other: a size that is chosen, a count that is not
+    left out. A check is refused where none of its forms can turn out otherwise.
+    """
     for one, other in check.pairs:
-        sides = {"one": _told(one), "other": _told(other)}
-        for first, second in product(_ways(names, one), _ways(names, other)):
-            if first == second:
-                yield Phrase("compares {one} with {other}, which is the same expression: it can never fail", **sides)
-            elif not symbols(first) and not symbols(second):
-                yield Phrase(
-                    "compares {one} with {other}, neither of which depends on an input: its verdict is always the same",
-                    **sides,
-                )
-            elif second in _least(first) or first in _greatest(second):
-                yield Phrase("compares {one} with {other}, by which it is bounded itself: it can never fail", **sides)
+        found = [_empty(*sides) for sides in product(_ways(names, one), _ways(names, other))]
+        if all(found):
+            yield from (Phrase(text, one=_told(one), other=_told(other)) for text in dict.fromkeys(found))
+
+
+def _empty(demand: Node, limit: Node) -> str:
+    """Return why two expressions are no check; nothing where they are one."""
+    if demand == limit:
+        return phrase("compares {one} with {other}, which is the same expression: it can never fail")
+    if not symbols(demand) and not symbols(limit):
+        return phrase(
+            "compares {one} with {other}, neither of which depends on an input: its verdict is always the same"
+        )
+    if limit in _least(demand) or demand in _greatest(limit):
+        return phrase("compares {one} with {other}, by which it is bounded itself: it can never fail")
+    return ""
 
 
 def _ways(names: DeclaredNames, side: str | float) -> list[Node]:

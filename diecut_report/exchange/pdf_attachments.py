@@ -110,7 +110,7 @@ def _named(pdf: pikepdf.Pdf, name: str) -> Iterator[pikepdf.Stream]:
     seen = set[tuple[int, int]]()
     for spec in specs:
         for stream in spec["/EF"].as_dict().values():
-            if stream.objgen not in seen:
+            if isinstance(stream, pikepdf.Stream) and stream.objgen not in seen:
                 seen.add(stream.objgen)
                 yield stream
 
@@ -119,7 +119,7 @@ def _alike(label: object, name: str) -> bool:
     return str(label).strip().casefold() == name
 
 
-def _dictionaries(part: Any, depth: int) -> Iterator[pikepdf.Dictionary]:
+def _dictionaries(part: Any, depth: int) -> Iterator[pikepdf.Dictionary | pikepdf.Stream]:
     """The dictionaries that stand in an object itself."""
     if depth and part.is_indirect if isinstance(part, pikepdf.Object) else True:
         return

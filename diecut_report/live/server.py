@@ -10,7 +10,7 @@ import socket
 from collections.abc import Callable
 
 import uvicorn
-from uvicorn.protocols.http.h11_impl import H11Protocol
+from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.languages.phrases import Phrase, phrase
@@ -50,7 +50,8 @@ class _Connection(H11Protocol):
         self._look = self.loop.call_later(IDLE / 2, self._close_where_idle)
 
     def _close_where_idle(self) -> None:
-        is_idle = self.cycle is None or self.cycle.response_complete
+        cycle: RequestResponseCycle | None = self.cycle  # uvicorn says that it is never None
+        is_idle = cycle is None or cycle.response_complete
         if is_idle and self._was_idle:
             self.transport.close()
             return

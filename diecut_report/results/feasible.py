@@ -17,7 +17,8 @@ from diecut_report.engine import Calculation, Impossible, calculate
 from diecut_report.engine.steps.rerun import needed
 from diecut_report.errors import PluginError, Problem
 from diecut_report.languages.phrases import phrase
-from diecut_report.results.press_run import Run, Unavailable
+from diecut_report.results.press_run import Run
+from diecut_report.results.taken_over import Unavailable
 
 
 def impossible(config: Config, known: Sequence[Problem]) -> tuple[list[Problem], list[PluginError]]:

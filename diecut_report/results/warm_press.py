@@ -199,7 +199,8 @@ class WarmRun(Run):
     @property
     def summary(self) -> Data:
         """Return the counts of the checks, the governing one, what is assumed, and the first line."""
-        return self._concluded["summary"] | {"conclusion": conclusion(self._concluded)}
+        found: Data = self._concluded["summary"]
+        return found | {"conclusion": conclusion(self._concluded)}
 
     @property
     def is_open(self) -> bool:

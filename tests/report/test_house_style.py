@@ -12,7 +12,7 @@ from jinja2 import Environment, FileSystemLoader
 
 from diecut_report.cli.main import main
 from diecut_report.errors import UserError
-from diecut_report.exchange.verification import _pages, _why_not_compared
+from diecut_report.exchange.page_comparison import other_templates
 from diecut_report.house_folder import house_style
 from diecut_report.report.context import Material
 from diecut_report.report.house_style import HouseStyle, blocks
@@ -266,7 +266,8 @@ def test_pages_set_with_other_templates_are_not_compared() -> None:
     carried: Any = SimpleNamespace(results={"report": {"template_sha256": "ab" * 32}})
     own = ("not compared, since they are set with templates of their own (SHA-256 abababababab); "
            "--template DIR names the templates")  # fmt: skip
-    assert _pages(carried, [], _why_not_compared(carried, HouseStyle("other"), is_same=True), bytes) == (own, True)
+    assert other_templates(carried, HouseStyle("other")) == other_templates(carried, None) == own
     for strange in ({}, {"report": []}):
         carried.results = strange
-        assert "the program's templates alone" in _why_not_compared(carried, HouseStyle("other"), is_same=True)
+        assert "the program's templates alone" in other_templates(carried, HouseStyle("other"))
+        assert other_templates(carried, None) == ""

@@ -91,11 +91,10 @@ def mended(**changes: dict[str, Any]) -> dict[str, Any]:
 
 
 def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
-    told = mended()
-    assert told["consistency.clutch_position"] == told["gear_key.reversing"] == "not_checked"
     drawn = {"value": True, "basis": "drawing"}
-    counted = {"value": 0.7, "basis": "standard", "note": "DIN 6892, figure 5"}
-    told = mended(consistency={"single_position": drawn}, gear_key={"load_direction_factor": counted})
-    assert told["consistency.clutch_position"] == told["gear_key.reversing"] == "pass"
+    read_off = {"value": 0.7, "basis": "standard", "note": "DIN 6892, figure 5"}
+    for clutch, factor, expected in ((True, 0.7, "not_checked"), (drawn, read_off, "pass")):
+        told = mended(consistency={"single_position": clutch}, gear_key={"load_direction_factor": factor})
+        assert told["consistency.clutch_position"] == told["gear_key.reversing"] == expected
     told = mended(consistency={"single_position": False})
     assert told["consistency.clutch_position"] == "fail"

@@ -193,6 +193,6 @@ def test_a_notebook_shows_verdict_checks_and_formulas(levers: dr.Results) -> Non
 
 def test_a_notebook_speaks_the_language_that_is_asked_for() -> None:
     results = dr.loads(LEVERS, plugins=[GOOD], language="uk").calculate()
-    assert "Не всі перевірки виконано." in results._repr_html_()
+    assert "Не виконано 1 перевірку із 1; 1 не перевірено." in results._repr_html_()
     with pytest.raises(dr.UnknownName, match="немає механізму 'c'; наявні: a, b"):
         results["c"]

@@ -137,12 +137,13 @@ def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
 def _candidates(pieces: CachedPieces, which: int, values: Array, sign: float) -> Candidates:
     """Points of the grid not below their neighbours, and near enough to the greatest that a search may lift them above it.
 
-    Near enough: a smooth curve rises between two points by less than what it falls to the next ones.
+    Near enough: a smooth curve rises between two points by less than what it falls to the next ones. At the end of a piece it may
+    fall to its one neighbour by next to nothing, the extreme lying half-way between them: there the second neighbour tells.
     """
     heights, last = values.ravel(), values.shape[1] - 1
     flat = np.flatnonzero(_peaks(heights, last + 1, sign))
     piece, k = np.divmod(flat, last + 1)
-    before, after = flat - (k > 0), flat + (k < last)
+    before, after = flat - np.where(k == last, 2, k > 0), flat + np.where(k == 0, 2, k < last)
     height = sign * heights[flat]
     fall = np.fmax(height - sign * heights[before], height - sign * heights[after])
     greatest = np.full(pieces.shape[0], -np.inf)
