@@ -11,7 +11,7 @@ from diecut_report.plugins.cam_gear_transport import advice, formulas
 
 # fmt: off
 
-LEAST_RETURN = 1e-9  # share of a turn: below it what is left for the return is rounding
+LEAST_RETURN = 1e-6  # share of a turn: what is left below it is mostly rounding, and its speeds with it
 
 rolling_chapter = Chapter("Rolling of the sector on the gear",
                           text="While the disc turns by φ_22, the sector turns on its pin by γ_32 and rolls off the same arc of the gear: φ_22·R_1 "
@@ -88,12 +88,10 @@ phases.value("stop_sweep_recommended", "γ_rec", "deg", "Sweep of stop and start
                  (1 - min_return_time - time_dwell) * sector_speed_dwell / law_peak_velocity, source="003 eq. 4, solved")
 phases.words("return_recommended", advice.leaves_return, ("dwell_angle_recommended", "stop_sweep_recommended"), lacks=("module",))
 phases.words("return_recommended", advice.leaves_return_with_teeth, ("dwell_angle_recommended", "stop_sweep_recommended"), needs=("module",))
-phases.words("return_limit", advice.leaves_return, ("dwell_angle_limit", "stop_sweep_limit"), lacks=("module",))
-phases.words("return_limit", advice.leaves_return_with_teeth, ("dwell_angle_limit", "stop_sweep_limit"), needs=("module",))
 phases.require("return_exists", bind(common.is_below, smaller=LEAST_RETURN, greater="time_return"), key="dwell_angle",
                message="is {dwell_angle}; with a sector_stop_sweep of {sector_stop_sweep} dwell, stop and start take the whole turn and leave T₄ = "
                        "1 − T₂ − T₍₃₊₁₎ = {time_return} for the sector's return; take {return_recommended}, which leaves it {min_return_time} of "
-                       "the turn. The bare limit, which leaves next to nothing, is {return_limit}")
+                       "the turn")
 phases.value("angle_dwell", "φ_II", "deg", "Disc angle where the dwell begins, phase II", lambda: 0, source="this method", output=False)
 phases.value("angle_stop", "φ_IV", "deg", "Disc angle where the sector stops: end of phase III",
              lambda dwell_angle, time_stop: dwell_angle + np.pi * time_stop, source="003, after eq. 3", digits=6)

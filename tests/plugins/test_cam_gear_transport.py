@@ -287,11 +287,9 @@ def test_without_time_for_a_return_the_message_tells_what_leaves_one(machine: di
         stepper(**machine)
     assert refused.value.key == "dwell_angle"
     told = re.findall(r"(dwell_angle|sector_stop_sweep) of at most ([\d.]+)°", refused.value.message)
-    assert {key for key, _ in told[-2:]} == {"dwell_angle", "sector_stop_sweep"}
-    for key, angle in told[:-2]:
+    assert [key for key, _ in told] == ["dwell_angle", "sector_stop_sweep"]
+    for key, angle in told:
         assert checks(stepper(**machine | {key: float(angle)}))["return_time"]["status"] == "pass"
-    for key, angle in told[-2:]:
-        assert number(stepper(**machine | {key: float(angle)}), "time_return") > 0
 
 
 @pytest.mark.parametrize("module", [{}, {"module": "5 mm"}])

@@ -54,7 +54,7 @@ def test_the_example_overrides_its_blocks_on_screen_and_in_print(plain: Data) ->
         assert "holds for the configuration press.yaml alone" in text
         assert text.count("Reviewed by the group") == sum(not part.lost for part in material.document.chapters)
         assert 'src="data:image/png;base64,' in text and ".house-terms" in text.partition("</style>")[0]
-        assert 'id="summary"' in text and "could be calculated." in text
+        assert 'id="summary"' in text and "2 parts are not calculated" in text
     assert page(Material(plain, house=house_style(DOCS / "house-style"))) == page(material)
 
 

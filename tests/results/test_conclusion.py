@@ -46,4 +46,4 @@ def test_all_checks_pass_is_said_only_where_nothing_is_open(found: dict[str, Any
 def test_it_is_said_in_ukrainian() -> None:
     with speaking("uk"):
         line = said(conclusion(results(**{"pass": 3, "not_checked": 23, "assumed": ["a", "b"]})))
-    assert line == "Невиконаних перевірок немає, але 23 не зроблено і 2 значення прийнято без підтвердження."
+    assert line == "Невиконаних перевірок немає, але 23 не перевірено і 2 значення прийнято без підтвердження."

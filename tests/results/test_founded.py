@@ -84,7 +84,8 @@ def mended(**changes: dict[str, Any]) -> dict[str, Any]:
     file = next(path for path in EXAMPLES if path.stem == "flat_cylinder_press_mended")
     tree = load(file)
     for name, own in changes.items():
-        tree.data["mechanisms"][name] |= own
+        block = tree.data["mechanisms"][name]
+        tree.data["mechanisms"][name] = {key: value for key, value in (block | own).items() if value is not None}
     results = document(compute(load_config(tree, Discovery()), lambda _: None))
     found = results["mechanisms"]
     return {f"{name}.{each['id']}": each["status"] for name in found for each in found[name]["checks"]}
@@ -94,7 +95,8 @@ def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
     drawn = {"value": True, "basis": "drawing"}
     read_off = {"value": 0.7, "basis": "standard", "note": "DIN 6892, figure 5"}
     for clutch, factor, expected in ((True, 0.7, "not_checked"), (drawn, read_off, "pass")):
-        told = mended(consistency={"single_position": clutch}, gear_key={"load_direction_factor": factor})
+        counted = {"required_life": None, "cycle_speed": None}
+        told = mended(consistency={"single_position": clutch}, gear_key=counted | {"load_direction_factor": factor})
         assert told["consistency.clutch_position"] == told["gear_key.reversing"] == expected
     told = mended(consistency={"single_position": False})
     assert told["consistency.clutch_position"] == "fail"
