@@ -89,7 +89,7 @@ class OneOf:
         """Return what is wrong with the keys that are given, in words; empty where nothing is."""
         known = set(given)
         told = ", or ".join(listed(group) for group in self.groups)
-        heads = [group[0] for group in self.groups if group[0] in known]
+        heads = list(dict.fromkeys(group[0] for group in self.groups if group[0] in known))
         if len(heads) > 1:
             return Phrase(
                 "{listed} are both given, but only one can hold; give {told}.", listed=listed(heads), told=told

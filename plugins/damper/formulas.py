@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Constant, as_number, formula
+from diecut_report.api import Constant, as_angle, as_number, formula
 from diecut_report.mechanics.common import rounded_up
 
 GENT = Constant(98_100.0, "p_G", "Pa")
@@ -18,6 +18,15 @@ SLENDEREST = 3.0  # length over smaller side up to which a block with clamped en
 def gent_modulus(shore_hardness: Any) -> Any:
     """Elastic modulus of rubber from its Shore A hardness."""
     return GENT * (56 + 7.62336 * shore_hardness) / (0.137505 * (254 - 2.54 * shore_hardness))
+
+
+@formula
+def kinetic_energy(
+    mass: Any, inertia: Any, rolling_radius: Any, velocity: Any, carriage_mass: Any, static_unbalance: Any, contact_distance: Any
+) -> Any:
+    """Energy of a rolling cylinder whose centre of mass lies away from the die at the end of its travel, and of what moves with its axis."""
+    unbalance = 2 * static_unbalance * np.cos(as_angle(contact_distance / rolling_radius)) / rolling_radius
+    return (carriage_mass + mass + inertia / rolling_radius**2 + unbalance) * velocity**2 / 2
 
 
 @formula

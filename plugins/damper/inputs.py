@@ -8,6 +8,11 @@ from diecut_report.api import Annotated, Block, FromPress, Inputs, OneOf, Quanti
 from diecut_report.plugins.damper.formulas import USUAL_LOSS, half_the_sheets
 
 
+CYLINDER = ("mass", "inertia", "rolling_radius", "velocity")
+STOPPED = ("carriage_mass", "static_unbalance", "contact_distance")
+"""What is stopped beside a balanced cylinder: without it nothing that follows from the energy is checked."""
+
+
 class DriveBlock(Block):
     """A drive that still pushes while the dampers stop the mass: its force, or its torque and the rolling radius."""
 
@@ -30,15 +35,15 @@ class Damper(Inputs):
     """Keys of ``damper``."""
 
     one_of: ClassVar[tuple[OneOf, ...]] = (
-        OneOf(("kinetic_energy",), ("mass", "inertia", "rolling_radius", "velocity"), shared=("velocity",)),
+        OneOf(("kinetic_energy",), (*CYLINDER, *STOPPED), CYLINDER, shared=("velocity",)),
         OneOf(("elastic_modulus",), ("shore_hardness",)),
     )
 
     kinetic_energy: Annotated[
         float | None,
-        Quantity("W_k", "J", "Kinetic energy at contact; or mass, inertia, rolling_radius and velocity", gt=0),
+        Quantity("W_k", "J", "Kinetic energy at contact of all that is stopped; or what it follows from", gt=0),
     ] = None
-    mass: Annotated[float | None, Quantity("m", "kg", "Mass that is stopped", gt=0)] = None
+    mass: Annotated[float | None, Quantity("m", "kg", "Mass of the cylinder", gt=0)] = None
     inertia: Annotated[
         float | None, Quantity("I", "kg*m**2", "Moment of inertia of what rolls, about its axis", gt=0)
     ] = None
@@ -48,6 +53,15 @@ class Damper(Inputs):
         Quantity(
             "v", "m/s", "Speed at contact, not the drive's greatest; with it stop, deceleration and rebound", gt=0
         ),
+    ] = None
+    carriage_mass: Annotated[
+        float | None, Quantity("m_c", "kg", "Mass of the carriages and of what else moves with the axis", ge=0)
+    ] = None
+    static_unbalance: Annotated[
+        float | None, Quantity("me", "kg*m", "Static unbalance of the cylinder, away from the die at the end", ge=0)
+    ] = None
+    contact_distance: Annotated[
+        float | None, Quantity("d_c", "mm", "Way before the end of the travel at which the damper is met", ge=0)
     ] = None
     elastic_modulus: Annotated[
         float | None, Quantity("E", "MPa", "Elastic modulus of the rubber; or shore_hardness", gt=0)

@@ -10,6 +10,7 @@ from diecut_report.api import Chapter, Steps, as_number, bind, case
 from diecut_report.mechanics import common
 from diecut_report.plugins.damper import advice
 from diecut_report.plugins.damper import formulas as f
+from diecut_report.plugins.damper.inputs import STOPPED
 
 # fmt: off
 
@@ -18,7 +19,9 @@ energy.value("kinetic_energy", "W_k", "J", "Kinetic energy at contact: as given"
              bind(lambda kinetic_energy: kinetic_energy, kinetic_energy="inputs.kinetic_energy"), source="input", needs=("kinetic_energy",))
 energy.value("kinetic_energy", "W_k", "J", "Kinetic energy at contact",
              lambda mass, inertia, rolling_radius, velocity: (mass + inertia / rolling_radius ** 2) * velocity ** 2 / 2, source="energy",
-             lacks=("kinetic_energy",))
+             lacks=("kinetic_energy", "carriage_mass"))
+energy.value("kinetic_energy", "W_k", "J", "Kinetic energy at contact, with the carriages and the unbalance", f.kinetic_energy, source="energy",
+             needs=STOPPED)
 energy.value("elastic_modulus", "E", "MPa", "Elastic modulus of the rubber: as given",
              bind(lambda elastic_modulus: elastic_modulus, elastic_modulus="inputs.elastic_modulus"), source="input", needs=("elastic_modulus",),
              lacks=("dynamic_stiffness_factor",))

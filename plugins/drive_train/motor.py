@@ -5,6 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, as_number, bind
+from diecut_report.mechanics import common
 from diecut_report.plugins.drive_train import belts, inertia, motor_advice
 
 # fmt: off
@@ -48,6 +49,13 @@ flywheel.pick("synchronous_speed", "n_s", "rpm", "Synchronous speed of the motor
               series=motor_advice.SYNCHRONOUS, beyond="last", source="practice", lacks=("synchronous_speed",))
 flywheel.value("rated_slip", "s_n", "rpm", "Slip of the motor at its rated speed", lambda synchronous_speed, shaft_1_speed:
                synchronous_speed - shaft_1_speed, source="mechanics", output=False)
+SLIPS = bind(common.is_below, smaller=0, greater="rated_slip")
+flywheel.value("loaded_motor_speed", "n_L", "rpm", "Speed of the motor under the mean torque, with linear slip",
+               lambda synchronous_speed, rated_slip, shaft_1_torque, motor_rated_torque:
+                   synchronous_speed - rated_slip * shaft_1_torque / motor_rated_torque, source="this method", exists=SLIPS)
+flywheel.value("loaded_output_speed", "n_oL", "rpm", "Speed of the output then, the belt without creep",
+               lambda output_speed, loaded_motor_speed, shaft_1_speed: output_speed * loaded_motor_speed / shaft_1_speed, source="kinematics",
+               exists=SLIPS)
 flywheel.value("swing_to_slip", "κ_s", "1", "Swing of the motor's speed by the accepted fluctuation, to its slip at the rated speed",
                lambda speed_fluctuation, shaft_1_speed, rated_slip: speed_fluctuation * shaft_1_speed / rated_slip, source="this method",
                exists=lambda rated_slip: rated_slip > 0)

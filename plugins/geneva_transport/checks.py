@@ -44,8 +44,9 @@ CHECKS = (
           demand_label="greatest torque", limit_label="allowed", source="input",
           consequence="the crank's shaft and what drives it are overloaded; a slower crank, more slots or a smaller inertia lowers it."),
     Check(id="sheet_play", check_class="function", title="Play of the sheet in the dwell", demand="sheet_play", limit="allowable_sheet_play",
-          unit="mm", tolerance=1e-9, demand_label="play either way", limit_label="allowed", source="input",
-          consequence="the sheets lie out of register; take a locking_clearance of at most {locking_clearance_most:down}."),
+          unit="mm", tolerance=1e-9, demand_label="play", limit_label="allowed", source="input",
+          consequence="the sheets lie out of register; take a locking_clearance of at most {locking_clearance_most:down}, or let an index pin hold "
+          "the wheel."),
     Check(id="energy_balance", check_class="numerical", title="Energy balance over a turn",
           demand="energy_residual", limit=1e-6, unit="1", needs=("driven_inertia",),
           demand_label="relative work", limit_label="accepted", source="conservation of energy",

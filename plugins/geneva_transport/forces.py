@@ -13,6 +13,8 @@ from diecut_report.plugins.geneva_transport.motion import CONVEYOR_NEEDS
 
 GEOMETRY = ("slots", "center_distance", "locking_clearance", "roller_radius")
 
+HELD = ("cover_angle",)
+PLAY_NEEDS = (*CONVEYOR_NEEDS, *HELD, "allowable_sheet_play")
 REACHES = bind(common.is_below, smaller="rim_distance", greater="disc_radius")
 
 torque = Chapter("Torque at the crank and roller force",
@@ -46,7 +48,8 @@ contact_chapter.value("roller_width_min", "b_min", "mm", "Width of roller that k
 locking = Chapter("Locking arc",
                   text="In the dwell the disc on the crank's shaft runs in an arc of the wheel. Its cut-out takes the engagement's angle, so that "
                        "the disc's edge stands on the line of centres at the instant of entry: up to then it holds, from then on the wheel is free "
-                       "to turn.")
+                       "to turn. Just after the exit and just before the entry the disc covers its arc on one side hardly at all, and the wheel has "
+                       "the more play the less it covers.")
 locking.value("flank_distance", "r_f", "mm", "Distance of the neighbouring slots' flanks from the crank's axis in the dwell", loads.flank_distance,
               source="geometry")
 locking.value("rim_distance", "r_o", "mm", "Distance of the wheel's rim from the crank's axis", loads.rim_distance, source="geometry")
@@ -99,11 +102,16 @@ locking.value("cutout_overlap", "g_o", "mm", "Overlap of the arms' tips and the 
 locking.value("hold_half_angle", "θ_l", "deg", "Half the angle over which an arc of the wheel encloses the disc",
               bind(triangle.enclosed_angle, one_side="center_distance", other_side="locking_radius", opposite_side="rim_radius"), source="geometry",
               exists=REACHES)
-locking.value("locking_play", "Δψ", "deg", "Angle by which the wheel can turn either way in the dwell",
-              lambda locking_clearance, center_distance, hold_half_angle: as_angle(locking_clearance / (center_distance * np.sin(hold_half_angle))),
-              source="geometry", exists=REACHES)
-locking.value("sheet_play", "Δx", "mm", "Way by which the sheet can move either way in the dwell", bind(formulas.travel, angle="locking_play"),
-              source="geometry", exists=REACHES, needs=CONVEYOR_NEEDS)
+locking.value("cover", "φ_d", "deg", "Angle of the disc's arc beyond the line of centres that bears on the wheel's, on the side where it is least",
+              lambda cover_angle, hold_half_angle: np.minimum(cover_angle, hold_half_angle), source="geometry", exists=REACHES, needs=HELD)
+locking.value("locking_play", "Δψ", "deg", "Angle by which the wheel can turn while the sheet must rest: backwards after its exit, forwards before entry",
+              bind(formulas.locking_play), source="geometry", exists=REACHES, needs=HELD)
+locking.value("sheet_play", "Δx", "mm", "Way by which the sheet can move while it must rest", bind(formulas.travel, angle="locking_play"),
+              source="geometry", exists=REACHES, needs=(*CONVEYOR_NEEDS, *HELD))
+locking.value("play_allowed", "[Δψ]", "deg", "Angle by which the wheel may turn then", lambda allowable_sheet_play, travel_radius:
+              as_angle(allowable_sheet_play / travel_radius), source="geometry", output=False, needs=PLAY_NEEDS)
+locking.value("disc_allowed", "r_[d]", "mm", "Radius of the disc that lets it", bind(formulas.disc_for_play, play="play_allowed"),
+              source="geometry", output=False, exists=REACHES, needs=PLAY_NEEDS)
 locking.value("locking_clearance_most", "j_max", "mm", "Clearance of the locking disc with the allowed play",
-              lambda locking_clearance, sheet_play, allowable_sheet_play: locking_clearance * allowable_sheet_play / sheet_play, output=False,
-              source="geometry", exists=REACHES, needs=(*CONVEYOR_NEEDS, "allowable_sheet_play"))
+              bind(lambda locking_radius, disc: locking_radius - disc, disc="disc_allowed"), source="geometry", output=False, exists=REACHES,
+              needs=PLAY_NEEDS)

@@ -64,6 +64,23 @@ def cutout_angle(slots: Any) -> Any:
 
 
 @formula
+def locking_play(locking_radius: Any, disc_radius: Any, center_distance: Any, cover: Any) -> Any:
+    """Angle by which the wheel turns until its locking arc meets the end of the disc's arc, a cover past the line of centres."""
+    room = locking_radius**2 - disc_radius**2
+    lever = 2 * center_distance * disc_radius * np.sin(cover)
+    lift = 4 * center_distance * (center_distance - disc_radius * np.cos(cover))
+    return 2 * np.arctan2(room, lever + np.sqrt(lever**2 + room * (lift - room)))
+
+
+@formula
+def disc_for_play(locking_radius: Any, center_distance: Any, cover: Any, play: Any) -> Any:
+    """Radius of the disc that lets the wheel turn by a play."""
+    half = 2 * center_distance * np.sin(play / 2)
+    inward = half * np.sin(cover - play / 2)
+    return np.sqrt(np.maximum(inward**2 + locking_radius**2 - half**2, 0)) - inward
+
+
+@formula
 def motion_fraction(slots: Any) -> Any:
     """Share of a turn in which the wheel turns."""
     return (slots - 2) / (2 * slots)

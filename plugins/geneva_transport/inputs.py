@@ -107,9 +107,19 @@ class GenevaTransport(Inputs):
     locking_clearance: Annotated[
         float, Quantity("j", "mm", "Radial clearance of the locking disc in the wheel's arcs", ge=0)
     ] = 0.1
+    cover_angle: Annotated[
+        float | None,
+        Quantity(
+            "φ_h",
+            "deg",
+            "Least angle of the crank from the wheel's exit, and to its entry, while the sheet must rest; with it the play of the dwell",
+            gt=0,
+            lt=180,
+        ),
+    ] = None
     allowable_sheet_play: Annotated[
         float | None,
-        Quantity("[Δx]", "mm", "Allowed play of the sheet either way in the dwell: the register's tolerance", gt=0),
+        Quantity("[Δx]", "mm", "Allowed play of the sheet while it must rest: the register's tolerance", gt=0),
     ] = None
     n_points: Annotated[int, POINTS] = 720
 

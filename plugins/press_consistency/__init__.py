@@ -21,7 +21,7 @@ MECHANISM = Mechanism(
     inputs=PressConsistency,
     example=EXAMPLE,
     chapters=(sheet.sides, sheet.rate, drive.inertia, drive.engagement, drive.coupling,
-              drive.ends_chapter, sheet.conveyor, drive.motor_chapter, sheet.stopping, sheet.register),
+              drive.ends_chapter, sheet.conveyor, drive.motor_chapter, sheet.stopping, sheet.dwell, sheet.register),
     key_results=("step_room", "actual_rate", "crank_inertia_mean", "crank_inertia_max", "slip_heat", "equal_inertia", "way_inner", "way_outer",
                  "motor_torque_rms", "motor_torque_peak", "speed_swing", "play_total"),
     checks=CHECKS,

@@ -29,11 +29,16 @@ CHECKS = (
           demand="sheet_gap", limit="step_room", unit="mm", tolerance=ROUNDING,
           demand_label="needed for grippers and carriage", limit_label="room that the step leaves", source="geometry",
           consequence="there is not room enough for grippers and carriage between two sheets; the step must be longer, or the sheet shorter."),
-    Check(id="actual_rate", check_class="function", presumed=True, title="Productivity and gears", demand="productivity", limit="actual_rate",
+    Check(id="actual_rate", check_class="function", presumed=True, title="Productivity and gears", demand="rate_asked", limit="least_rate",
           unit="1/h", severity="warn", fails_beyond=1 / (1 - FURTHEST_RATE), tolerance=1e-6,
           demand_label="productivity", limit_label="what the gears give", source="kinematics",
-          consequence="the press makes {actual_rate} and not the {inputs.productivity} of press.productivity; choose pulleys and teeth nearer to "
+          consequence="the press makes {least_rate} and not {rate_asked}; choose pulleys and teeth nearer to "
           "the ratio, or set press.productivity to what they give."),
+    Check(id="true_rate", check_class="strength", presumed=True, title="Rate that the loads are calculated with", demand="true_rate",
+          limit="productivity", unit="1/h", severity="warn", fails_beyond=1 + FURTHEST_RATE, tolerance=1e-6,
+          demand_label="rate under the mean torque", limit_label="productivity that all is calculated with", source="kinematics",
+          consequence="the motor turns faster than at its rated speed: accelerations, and what follows from them, are {load_rise} greater than "
+          "calculated; set press.productivity to at least {true_rate:up}, and give the rate that is asked for as required_rate."),
     Check(id="driven_inertia", check_class="strength", title="Inertia behind the clutch",
           demand="equal_inertia", limit="clutch_inertia", unit="kg*m**2", tolerance=1e-3,
           demand_label="inertia of equal heat at the crank", limit_label="inertia that the clutch is calculated with",
@@ -62,8 +67,13 @@ CHECKS = (
     Check(id="conveyor_inertia", check_class="practice", title="Inertia of the conveyor", demand="inertia_error", limit=LARGEST_INERTIA_ERROR,
           unit="%", severity="warn", demand_label="difference", limit_label="accepted", source="energy",
           presumed=True,
-          consequence="the conveyor of {conveyor_mass} has {conveyor_inertia} at the wheel, which is calculated with {wheel_inertia}; one of "
+          consequence="conveyor and wheel have {moved_inertia} at the wheel's shaft, which is calculated with {wheel_inertia}; one of "
           "both is not that of this press."),
+    Check(id="wheel_side", check_class="strength", title="Inertia of the wheel's side", demand="moved_inertia", limit="wheel_inertia",
+          unit="kg*m**2", tolerance=1e-3, needs=("wheel_side_inertia",), demand_label="conveyor and what turns with the wheel",
+          limit_label="inertia that the wheel is calculated with", source="energy", presumed=True,
+          consequence="torque, roller force and contact pressure of the wheel are greater than calculated; give it a driven_inertia of at least "
+          "{moved_inertia:up}."),
     Check(id="motor_thermal", check_class="strength", title="Heat of the motor", demand="motor_torque_rms", limit="motor_rated_torque",
           unit="N*m", demand_label="root mean square of its torque", limit_label="rated torque", source="this method",
           consequence="the motor gets too hot; {thermal_advice}."),
@@ -73,6 +83,11 @@ CHECKS = (
     Check(id="speed_swing", check_class="function", title="Fluctuation of the speed", demand="speed_swing", limit="speed_fluctuation",
           unit="1", severity="warn", demand_label="by the motor's slip", limit_label="accepted", source="this method",
           consequence="the flywheel of {flywheel_inertia} swings more than accepted; {swing_advice}."),
+    Check(id="cover_angle", check_class="function", presumed=True, title="Wheel's play and the timing", demand="cover_angle", limit="dwell_margin",
+          unit="deg", tolerance=1e-6, demand_label="angle that the play is calculated with", limit_label="angle that the timing leaves",
+          source="geometry",
+          consequence="the sheet must rest where the locking disc covers less of its arc than calculated; give the wheel a cover_angle of at most "
+          "{dwell_margin:down}, or a longer dwell."),
     Check(id="register", check_class="function", title="Play in the register", demand="play_total", limit="register_tolerance", unit="mm",
           demand_label="plays together", limit_label="allowed", source="geometry",
           consequence="sheet and cut may lie further apart than allowed; take play out of the transport."),

@@ -62,7 +62,17 @@ class PressConsistency(Inputs):
         int | None, Quantity("z_s", "1", "Teeth of the transport's sprocket", ge=3, integer=True)
     ] = None
     sheet_play: Annotated[
-        float | None, Quantity("Δx", "mm", "Way by which the sheet can move either way in the dwell", ge=0)
+        float | None, Quantity("Δx", "mm", "Way by which the sheet can move while it must rest", ge=0)
+    ] = None
+    cover_angle: Annotated[
+        float | None,
+        Quantity(
+            "φ_h",
+            "deg",
+            "Crank angle from the wheel's exit, and to its entry, that its play is calculated with",
+            gt=0,
+            lt=180,
+        ),
     ] = None
     backlash: Annotated[
         float, Quantity("Δx_b", "mm", "Further plays between transport and cylinder, at the sheet", ge=0)
@@ -83,6 +93,16 @@ class PressConsistency(Inputs):
         float | None,
         Quantity("J_w", "kg*m**2", "Inertia that the Geneva wheel is calculated with, at its shaft", gt=0),
     ] = None
+    wheel_side_inertia: Annotated[
+        float | None,
+        Quantity(
+            "J_x",
+            "kg*m**2",
+            "Inertia of all that turns with the wheel beside the conveyor, at its shaft: the wheel, its shaft, gears, and the "
+            "sprockets' shaft by the square of its ratio",
+            gt=0,
+        ),
+    ] = None
     travel_radius: Annotated[
         float | None, Quantity("r_c", "mm", "Way of the conveyor for each radian of the wheel", gt=0)
     ] = None
@@ -90,6 +110,18 @@ class PressConsistency(Inputs):
     crank_speed: Annotated[float | None, Quantity("ω_1", "rpm", "Speed of the cylinder drive's crank", gt=0)] = None
     output_speed: Annotated[
         float | None, Quantity("ω_o", "rpm", "Speed that the drive train's output really has", gt=0)
+    ] = None
+    loaded_output_speed: Annotated[
+        float | None, Quantity("ω_oL", "rpm", "Speed that this output has under the mean torque", gt=0)
+    ] = None
+    required_rate: Annotated[
+        float | None,
+        Quantity(
+            "n_req",
+            "1/h",
+            "Sheets an hour that the press must make; without it the productivity that all is calculated with",
+            gt=0,
+        ),
     ] = None
     output_turns_per_sheet: Annotated[
         float | None,

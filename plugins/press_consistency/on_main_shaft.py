@@ -11,6 +11,7 @@ TIMES = (
     ListedColumn("what", "What"), ListedColumn("time", "At the productivity", "t", "ms"),
     ListedColumn("actual_time", "At the rate that the gears give", "t_a", "ms"),
 )  # fmt: skip
+DWELL = "dwell"  # phase of a transport
 PHASE, MARGIN_START, MARGIN_END, PHASE_TIME = 1, 5, 6, 7  # columns of the cyclogram's tables
 
 
@@ -29,6 +30,24 @@ def lines_out_of_step(drives: tuple[str, ...], single_position: bool, timing: Gi
             ),
         )
     return 0.0 if single_position or set(drives) == set(lines) else float(len(set(drives)))
+
+
+def held_in_dwell(timing: GivenMechanism) -> int:
+    """Return how many interlocks hold something within the dwell of a line."""
+    return len(_dwell_margins(timing))
+
+
+def dwell_margin(timing: GivenMechanism) -> float:
+    """Return the least angle of a line's own crank between an end of its dwell and what must lie within, rad; 0 where nothing must."""
+    return min(_dwell_margins(timing), default=0.0)
+
+
+def _dwell_margins(timing: GivenMechanism) -> list[float]:
+    turns = dict(zip(timing.texts("lines.mechanism"), timing.parts("line_turns"), strict=True))
+    held = zip(timing.texts("interlocks.within"), timing.parts("margin_least"), strict=True)
+    return [
+        turns[line] * margin for line, phase, margin in ((*w.split(".", 1), m) for w, m in held if w) if phase == DWELL
+    ]
 
 
 def listed(drives: tuple[str, ...]) -> str:

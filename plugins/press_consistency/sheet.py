@@ -44,24 +44,36 @@ for feed, length, width in ((BY_WIDTH, "sheet_length", "sheet_width"), (BY_LENGT
     sides.value("step_room", "Δs", "mm", "Room that a step leaves between two sheets", lambda sheet_step, side_in_feed: sheet_step - side_in_feed,
                 source="geometry", needs=(*feed, width, "sheet_step"))
 
+WAYS = ((("output_turns_per_sheet",), ()), (("crank_speed",), ("output_turns_per_sheet",)))
+"""How the turns of the output for each sheet are known."""
+
 rate = Chapter("Rate that the gears give",
-               text="The gears hold whole teeth and the pulleys standard diameters, so that the press turns a little off its productivity; all times "
-                    "are longer or shorter by that.", needs=("output_speed", "productivity"),
+               text="The gears hold whole teeth and the pulleys standard diameters, so that the press turns a little off its productivity. Under the "
+                    "mean torque, which is less than its rated one, the motor turns faster than at its rated speed, and so does the press.",
+               needs=("output_speed", "productivity"),
                absent="not calculated: the drive train's output_speed and productivity are not both given")
 rate.value("turns_a_sheet", "i_o", "1", "Turns of the output for each sheet: as given", lambda output_turns_per_sheet: output_turns_per_sheet,
            source="input", needs=("output_turns_per_sheet",))
 rate.value("turns_a_sheet", "i_o", "1", "Turns of the output for each sheet: those of the crank at the productivity",
            lambda crank_speed, productivity: crank_speed / (2 * np.pi * productivity), source="kinematics", needs=("crank_speed",),
            lacks=("output_turns_per_sheet",))
-rate.value("actual_rate", "n_a", "1/h", "Sheets that the press really makes", actual_rate, source="kinematics", needs=("output_turns_per_sheet",))
-rate.value("actual_rate", "n_a", "1/h", "Sheets that the press really makes", actual_rate, source="kinematics", needs=("crank_speed",),
-           lacks=("output_turns_per_sheet",))
-rate.value("rate_error", "Δn", "%", "What it makes more than its productivity, relative", rate_error, source="kinematics",
-           needs=("output_turns_per_sheet",))
-rate.value("rate_error", "Δn", "%", "What it makes more than its productivity, relative", rate_error, source="kinematics", needs=("crank_speed",),
-           lacks=("output_turns_per_sheet",))
-
-for needs, lacks in ((("output_turns_per_sheet",), ()), (("crank_speed",), ("output_turns_per_sheet",))):
+rate.value("rate_asked", "n_0", "1/h", "Sheets that the press must make", lambda required_rate: required_rate, source="input", output=False,
+           needs=("required_rate",))
+rate.value("rate_asked", "n_0", "1/h", "Sheets that the press must make", lambda productivity: productivity, source="input", output=False,
+           lacks=("required_rate",))
+for needs, lacks in WAYS:
+    rate.value("actual_rate", "n_a", "1/h", "Sheets at the motor's rated speed", actual_rate, source="kinematics", needs=needs, lacks=lacks)
+    rate.value("rate_error", "Δn", "%", "What it makes more than its productivity, relative", rate_error, source="kinematics", needs=needs,
+               lacks=lacks)
+    rate.value("true_rate", "n_t", "1/h", "Sheets at the speed that the motor has under the mean torque",
+               bind(actual_rate, output_speed="loaded_output_speed"), source="kinematics", needs=(*needs, "loaded_output_speed"), lacks=lacks)
+    rate.value("load_rise", "Δ_a", "%", "What accelerations rise by then, relative",
+               lambda true_rate, productivity: (true_rate / productivity) ** 2 - 1, source="kinematics", needs=(*needs, "loaded_output_speed"),
+               lacks=lacks)
+    rate.value("least_rate", "n_min", "1/h", "Less of both rates", lambda actual_rate, true_rate: np.minimum(actual_rate, true_rate),
+               source="kinematics", output=False, needs=(*needs, "loaded_output_speed"), lacks=lacks)
+    rate.value("least_rate", "n_min", "1/h", "Rate that is known", lambda actual_rate: actual_rate, source="kinematics", output=False, needs=needs,
+               lacks=(*lacks, "loaded_output_speed"))
     rate.listing("times", "Times at the rate that the gears give", on_main_shaft.TIMES, on_main_shaft.times,
                  ("timing", "productivity", "actual_rate"), needs=("timing", *needs), lacks=lacks)
 
@@ -72,7 +84,7 @@ stopping.value("energy_running", "E_0", "J", "Kinetic energy of flywheel and lin
                lambda flywheel_inertia, flywheel_speed, lines_energy: flywheel_inertia * flywheel_speed**2 / 2 + lines_energy, source="energy")
 stopping.value("stopping_angle", "Φ_b", "deg", "Angle of the main shaft until it stands",
                lambda energy_running, brake_torque, shaft_torque_mean: as_angle(energy_running / (brake_torque + shaft_torque_mean)), source="energy")
-for needs, lacks in ((("output_turns_per_sheet",), ()), (("crank_speed",), ("output_turns_per_sheet",))):
+for needs, lacks in WAYS:
     stopping.value("stopping_time", "t_b", "s", "Time until it stands",
                    lambda stopping_angle, actual_rate: 2 * as_number(stopping_angle) / (as_number(2 * np.pi) * actual_rate), source="kinematics",
                    needs=needs, lacks=lacks)
@@ -82,8 +94,21 @@ conveyor = Chapter("Inertia of the conveyor", needs=CONVEYOR,
                    absent="not calculated: {missing} not given")
 conveyor.value("conveyor_inertia", "J_m", "kg*m**2", "Inertia of the conveyor's mass at the wheel's shaft",
                lambda conveyor_mass, travel_radius: conveyor_mass * travel_radius**2, source="energy")
+conveyor.value("moved_inertia", "J_Σ", "kg*m**2", "Inertia of all that the wheel moves, at its shaft",
+               lambda conveyor_inertia, wheel_side_inertia: conveyor_inertia + wheel_side_inertia, source="energy", needs=("wheel_side_inertia",))
+conveyor.value("moved_inertia", "J_Σ", "kg*m**2", "Inertia at the wheel's shaft, without what turns with it",
+               lambda conveyor_inertia: conveyor_inertia, source="energy", lacks=("wheel_side_inertia",))
 conveyor.value("inertia_error", "Δ_J", "%", "Difference of the inertia that the wheel is calculated with, relative",
-               lambda wheel_inertia, conveyor_inertia: abs(wheel_inertia / conveyor_inertia - 1), source="energy")
+               lambda wheel_inertia, moved_inertia: abs(wheel_inertia / moved_inertia - 1), source="energy")
+
+dwell = Chapter("Dwell and what must lie within", needs=("timing", "cover_angle"),
+                text="Just after its exit and just before its entry the wheel has the most play: it is calculated with the angles that the timing leaves.",
+                absent="not calculated: there is no cyclogram, or the wheel's cover_angle is not given")
+dwell.computed("held_in_dwell", "N_d", "1", "Interlocks that hold something within the dwell of a line", on_main_shaft.held_in_dwell, ("timing",),
+               "as given", output=False)
+dwell.computed("dwell_margin", "φ_m", "deg", "Least angle of the wheel's crank between an end of the dwell and what must lie within",
+               on_main_shaft.dwell_margin, ("timing",), "lesser margin of each interlock, by the turns of the line for each sheet",
+               exists=lambda held_in_dwell: held_in_dwell > 0)
 
 register = Chapter("Register",
                    text="Plays add up, as each can stand at its end; a step of whole pitches stops the chain in the same place each time.")
