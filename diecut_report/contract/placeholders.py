@@ -105,8 +105,9 @@ class OneOf:
             )
         begun = [group for group in self.groups if known & set(group) - set(self.shared)]
         if begun:
-            missing = [key for key in begun[0] if key not in known]
-            beside = [key for key in begun[0] if key in known]
+            nearest = min(begun, key=lambda group: len(set(group) - known))
+            missing = [key for key in nearest if key not in known]
+            beside = [key for key in nearest if key in known]
             return Phrase(
                 "{listed} is missing beside {present}; give {told}.",
                 listed=listed(missing),

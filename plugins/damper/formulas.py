@@ -22,7 +22,13 @@ def gent_modulus(shore_hardness: Any) -> Any:
 
 @formula
 def kinetic_energy(
-    mass: Any, inertia: Any, rolling_radius: Any, velocity: Any, carriage_mass: Any, static_unbalance: Any, contact_distance: Any
+    mass: Any,
+    inertia: Any,
+    rolling_radius: Any,
+    velocity: Any,
+    carriage_mass: Any,
+    static_unbalance: Any,
+    contact_distance: Any,
 ) -> Any:
     """Energy of a rolling cylinder whose centre of mass lies away from the die at the end of its travel, and of what moves with its axis."""
     unbalance = 2 * static_unbalance * np.cos(as_angle(contact_distance / rolling_radius)) / rolling_radius

@@ -7,7 +7,6 @@ from typing import ClassVar
 from diecut_report.api import Annotated, Block, FromPress, Inputs, OneOf, Quantity
 from diecut_report.plugins.damper.formulas import USUAL_LOSS, half_the_sheets
 
-
 CYLINDER = ("mass", "inertia", "rolling_radius", "velocity")
 STOPPED = ("carriage_mass", "static_unbalance", "contact_distance")
 """What is stopped beside a balanced cylinder: without it nothing that follows from the energy is checked."""

@@ -102,9 +102,9 @@ locking.value("cutout_overlap", "g_o", "mm", "Overlap of the arms' tips and the 
 locking.value("hold_half_angle", "θ_l", "deg", "Half the angle over which an arc of the wheel encloses the disc",
               bind(triangle.enclosed_angle, one_side="center_distance", other_side="locking_radius", opposite_side="rim_radius"), source="geometry",
               exists=REACHES)
-locking.value("cover", "φ_d", "deg", "Angle of the disc's arc beyond the line of centres that bears on the wheel's, on the side where it is least",
+locking.value("cover", "φ_d", "deg", "Angle by which the disc covers the wheel's arc on the side where it does so least",
               lambda cover_angle, hold_half_angle: np.minimum(cover_angle, hold_half_angle), source="geometry", exists=REACHES, needs=HELD)
-locking.value("locking_play", "Δψ", "deg", "Angle by which the wheel can turn while the sheet must rest: backwards after its exit, forwards before entry",
+locking.value("locking_play", "Δψ", "deg", "Angle by which the wheel can turn while the sheet must rest",
               bind(formulas.locking_play), source="geometry", exists=REACHES, needs=HELD)
 locking.value("sheet_play", "Δx", "mm", "Way by which the sheet can move while it must rest", bind(formulas.travel, angle="locking_play"),
               source="geometry", exists=REACHES, needs=(*CONVEYOR_NEEDS, *HELD))

@@ -15,9 +15,11 @@ PARTNERS = (
         "sheet_step": "sheet_step", "chain_pitch": "chain_pitch", "sprocket_teeth": "sprocket_teeth", "sheet_play": "sheet_play"}),
     Partner(key="conveyor", kinds=("cam_gear_transport",), takes={"conveyor_mass": "conveyor_mass"}),
     Partner(key="chain", kinds=("roller_chain",), takes={"chain_mass": "moving_mass_total"}),
-    Partner(key="wheel", kinds=("geneva_transport",), takes={"wheel_inertia": "driven_inertia", "travel_radius": "travel_radius", "cover_angle": "cover_angle"}),
+    Partner(key="wheel", kinds=("geneva_transport",), takes={
+        "wheel_inertia": "driven_inertia", "travel_radius": "travel_radius", "cover_angle": "cover_angle"}),
     Partner(key="train", kinds=("drive_train",), takes={
-        "output_speed": "output_speed", "loaded_output_speed": "loaded_output_speed", "flywheel_torque": "flywheel_torque", "load_turns": "torque_curve_turns",
+        "output_speed": "output_speed", "loaded_output_speed": "loaded_output_speed",
+        "flywheel_torque": "flywheel_torque", "load_turns": "torque_curve_turns",
         "flywheel_inertia": "flywheel_inertia", "flywheel_speed": "shaft_2_speed", "belt_ratio": "vbelt_ratio_actual",
         "belt_efficiency": "vbelt.efficiency", "motor_rated_torque": "motor_rated_torque", "motor_speed": "motor_speed",
         "synchronous_speed": "synchronous_speed", "breakdown_ratio": "breakdown_ratio", "speed_fluctuation": "speed_fluctuation"}),

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_angle, as_number, bind, formula
+from diecut_report.api import Chapter, as_angle, as_number, bind, case, formula
 from diecut_report.mechanics import common
 from diecut_report.plugins.press_consistency import on_main_shaft
 
@@ -21,6 +21,14 @@ CONVEYOR = ("conveyor_mass", "travel_radius", "wheel_inertia")
 def actual_rate(output_speed: Any, turns_a_sheet: Any) -> Any:
     """Sheets in a time at a speed of the output."""
     return as_number(output_speed) / (as_number(2 * np.pi) * turns_a_sheet)
+
+
+@formula
+def turns_like_main_shaft(output_speed: Any, crank_speed: Any, productivity: Any) -> Any:
+    """Whether a speed is nearer to a turn a sheet than to the crank's speed, by their ratios."""
+    to_shaft = output_speed / (2 * np.pi * productivity)
+    to_crank = output_speed / crank_speed
+    return np.maximum(to_shaft, 1 / to_shaft) < np.maximum(to_crank, 1 / to_crank)
 
 
 @formula
@@ -54,9 +62,10 @@ rate = Chapter("Rate that the gears give",
                absent="not calculated: the drive train's output_speed and productivity are not both given")
 rate.value("turns_a_sheet", "i_o", "1", "Turns of the output for each sheet: as given", lambda output_turns_per_sheet: output_turns_per_sheet,
            source="input", needs=("output_turns_per_sheet",))
-rate.value("turns_a_sheet", "i_o", "1", "Turns of the output for each sheet: those of the crank at the productivity",
-           lambda crank_speed, productivity: crank_speed / (2 * np.pi * productivity), source="kinematics", needs=("crank_speed",),
-           lacks=("output_turns_per_sheet",))
+rate.choice("turns_a_sheet", "i_o", "1", "Turns of the output for each sheet",
+            case(lambda: 1, "the output turns like the main shaft, rather than like the crank", turns_like_main_shaft),
+            case(lambda crank_speed, productivity: crank_speed / (2 * np.pi * productivity), "the output turns like the crank"),
+            source="kinematics", needs=("crank_speed",), lacks=("output_turns_per_sheet",))
 rate.value("rate_asked", "n_0", "1/h", "Sheets that the press must make", lambda required_rate: required_rate, source="input", output=False,
            needs=("required_rate",))
 rate.value("rate_asked", "n_0", "1/h", "Sheets that the press must make", lambda productivity: productivity, source="input", output=False,
@@ -102,7 +111,7 @@ conveyor.value("inertia_error", "Δ_J", "%", "Difference of the inertia that the
                lambda wheel_inertia, moved_inertia: abs(wheel_inertia / moved_inertia - 1), source="energy")
 
 dwell = Chapter("Dwell and what must lie within", needs=("timing", "cover_angle"),
-                text="Just after its exit and just before its entry the wheel has the most play: it is calculated with the angles that the timing leaves.",
+                text="The wheel has the most play just after its exit and just before its entry, and the less the timing leaves, the more.",
                 absent="not calculated: there is no cyclogram, or the wheel's cover_angle is not given")
 dwell.computed("held_in_dwell", "N_d", "1", "Interlocks that hold something within the dwell of a line", on_main_shaft.held_in_dwell, ("timing",),
                "as given", output=False)

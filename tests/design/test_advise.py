@@ -154,6 +154,7 @@ DAMPER = (
     HEAD
     + """\
   damper: {kind: damper, mass: 104 kg, inertia: 0.74 kg*m**2, rolling_radius: 105.5 mm, velocity: 0.6 m/s, shore_hardness: 56,
+           carriage_mass: 0 kg, static_unbalance: 0 kg*m, contact_distance: 0 mm,
            dynamic_stiffness_factor: 1.5, ring_width: 60 mm, pad_height: 60 mm, loss_tangent: 0.15}
 """
 )

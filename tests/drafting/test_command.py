@@ -90,7 +90,7 @@ def test_a_designer_begins_changes_a_number_and_has_a_report(tmp_path: Path, cap
     assert main(["new", "damper", "cylinder_sizing", "-o", str(file)]) == 0
     text = file.read_text("utf-8")
     assert "velocity: {value: 0.6 m/s, basis: assumed}" in text
-    file.write_text(text.replace("velocity: {value: 0.6 m/s, basis: assumed}", "velocity: 0.9 m/s"), "utf-8")
+    file.write_text(text.replace("velocity: {value: 0.6 m/s, basis: assumed}", "velocity: 0.65 m/s"), "utf-8")
     assert (
         main(
             [
@@ -110,7 +110,7 @@ def test_a_designer_begins_changes_a_number_and_has_a_report(tmp_path: Path, cap
     )
     results = json.loads((out / "my_press.json").read_text("utf-8"))
     assert not (tmp_path / "no").exists()  # the last folder that is named holds: ./make-report names one first
-    assert results["mechanisms"]["damper"]["inputs"]["velocity"]["value"] == pytest.approx(0.9)
+    assert results["mechanisms"]["damper"]["inputs"]["velocity"]["value"] == pytest.approx(0.65)
     assert "mechanisms.damper.velocity" not in results["summary"]["assumed"]
     assert "mechanisms.damper.ring_width" in results["summary"]["assumed"]
     capfd.readouterr()

@@ -24,6 +24,11 @@ from tests.machines import inputs, number
 from tests.plugins.dampers import calculated, checks, passing, told
 from tests.validation.rows_damper import WORKED, damper
 
+UNITS = {"inertia": "kg*m**2", "static_unbalance": "kg*m"}
+CUT_AWAY: dict[str, Any] = {
+    "elastic_modulus": "8 MPa", "ring_width": "60 mm", "pad_height": "60 mm",
+    "mass": "104 kg", "rolling_radius": "105 mm", "velocity": "0.6 m/s", "carriage_mass": "40 kg",
+}  # fmt: skip
 ROLLING: dict[str, Any] = {"mass": "80 kg", "inertia": "0.9 kg*m**2", "rolling_radius": "105 mm"}
 
 
@@ -36,6 +41,41 @@ def springs(calc: Calculation) -> float:
     """Stiffness of all dampers from the inputs alone, N/m."""
     sides = float(calc["ring_width"][0, 0] * calc["pad_height"][0, 0])
     return float(calc["damper_count"][0, 0]) * sides * number(calc, "elastic_modulus") / number(calc, "adopted_length")
+
+
+def rolling(**changes: Any) -> Calculation:
+    """A damper that stops a cylinder with its carriages."""
+    return calculate(MECHANISM, inputs(MECHANISM, CUT_AWAY | changes))
+
+
+# --- what is stopped ------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.parametrize("way", [0.0, 0.01, 0.08])
+def test_the_energy_is_that_of_all_points_of_a_rolling_cylinder_and_its_carriages(way: float) -> None:
+    """A disc with a part cut away below its axis, point by point: it rolls on the die, the axis at the speed of contact."""
+    radius, speed, carriages = 0.105, 0.6, 40.0
+    side = np.linspace(-radius, radius, 2001)
+    x, y = (each.ravel() for each in np.meshgrid(side, side))
+    there = (np.hypot(x, y) <= radius) & (y >= -0.065)
+    x, y, each = x[there], y[there], 104.0 / there.sum()
+    turn = way / radius
+    x, y = x * np.cos(turn) + y * np.sin(turn), y * np.cos(turn) - x * np.sin(turn)
+    energy = each / 2 * ((speed * (1 + y / radius)) ** 2 + (speed * x / radius) ** 2).sum() + carriages * speed**2 / 2
+    upright = {
+        "static_unbalance": each * float(np.hypot(x.sum(), y.sum())),
+        "inertia": each * float((x**2 + y**2).sum()),
+    }
+    calc = rolling(**{key: f"{value:.15g} {UNITS[key]}" for key, value in upright.items()}, contact_distance=f"{way} m")
+    assert number(calc, "kinetic_energy") == pytest.approx(energy, rel=1e-6)
+
+
+def test_nothing_that_follows_from_a_part_of_the_energy_is_checked() -> None:
+    known = {"static_unbalance": "2 kg*m", "contact_distance": "10 mm"}
+    part = {key: value for key, value in CUT_AWAY.items() if key != "carriage_mass"} | {"inertia": "0.7 kg*m**2"}
+    assert checks(calculate(MECHANISM, inputs(MECHANISM, part))) == {}
+    found = checks(rolling(**known, inertia="0.7 kg*m**2"))
+    assert set(found) == {"strain", "stress", "slenderness"}
 
 
 # --- energy and motion -----------------------------------------------------------------------------------------------

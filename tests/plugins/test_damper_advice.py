@@ -135,7 +135,7 @@ def failing(keys: dict[str, Any]) -> list[str]:
 
 SOFT: dict[str, Any] = {
     "mass": "80 kg", "inertia": "0.973 kg*m**2", "rolling_radius": "105 mm", "velocity": "0.6 m/s",
-    "ring_width": "60 mm", "pad_height": "60 mm",
+    "ring_width": "60 mm", "pad_height": "60 mm", "carriage_mass": "0 kg", "static_unbalance": "0 kg*m", "contact_distance": "0 mm",
 }  # fmt: skip
 
 

@@ -6,6 +6,7 @@ import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
+from scipy.optimize import brentq
 
 from diecut_report.engine import Calculation
 from diecut_report.engine.figure_views import MachineView
@@ -112,15 +113,32 @@ def test_the_disc_is_the_turn_without_the_cut_out_and_the_hollow_closes_it() -> 
     assert abs(hollow[0] - arc[-1]) < 0.01 and abs(hollow[-1] - arc[0]) < 0.01
 
 
-def test_the_play_in_the_dwell_lets_the_arcs_corner_touch_the_disc() -> None:
-    calc = geneva(locking_clearance="0.2 mm", **SHEET)
-    play, hold = number(calc, "locking_play"), number(calc, "hold_half_angle")
-    corners = number(calc, "locking_radius") * np.exp(1j * hold * np.array([-1, 1]))
-    turned = 0.2 + (corners - 0.2) * np.exp(1j * play)
-    assert min(abs(turned)) == pytest.approx(
-        number(calc, "disc_radius"), abs=1e-6
-    )  # the small square of the play is left out
-    assert number(calc, "sheet_play") == pytest.approx(play * 24 * 0.03175 * 4 / (2 * np.pi), rel=1e-12)
+def turned_until_it_touches(calc: Calculation, cover: float, way: int) -> float:
+    """Angle by which the wheel turns until its locking arc meets one of many points of the disc's arc."""
+    center, radius = number(calc, "center_distance"), number(calc, "locking_radius")
+    hold = number(calc, "hold_half_angle")
+    disc = number(calc, "disc_radius") * np.exp(1j * np.linspace(-hold, min(cover, hold), 20_001))
+    return float(
+        brentq(lambda turn: abs(disc - center * (1 - np.exp(1j * way * turn))).max() - radius, 0, 0.3, xtol=1e-15)
+    )
+
+
+@pytest.mark.parametrize("clearance", [0.02, 0.1, 0.3])
+@pytest.mark.parametrize("cover", [2.0, 10.98, 30.0, 90.0])
+def test_the_play_is_that_of_the_disc_that_covers_its_arc_on_one_side_in_part(clearance: float, cover: float) -> None:
+    calc = geneva(locking_clearance=f"{clearance} mm", cover_angle=cover, **SHEET)
+    play = max(turned_until_it_touches(calc, np.radians(cover), way) for way in (1, -1))
+    assert number(calc, "locking_play") == pytest.approx(play, rel=1e-6)
+    assert number(calc, "sheet_play") == pytest.approx(play * 24 * 0.03175 * 4 / (2 * np.pi), rel=1e-6)
+
+
+def test_the_play_of_the_press_that_passed_was_four_times_what_was_printed() -> None:
+    conveyor = {"sprocket_teeth": 30, "chain_pitch": "19.05 mm", "gear_ratio": 6, "allowable_sheet_play": "0.3 mm"}
+    size = {"center_distance": "240 mm", "roller_radius": "16 mm"}
+    for cover, play in ((10.98, 1.179), (49.3, 0.300), (90, 0.274)):
+        assert number(geneva(**size, **conveyor, cover_angle=cover), "sheet_play") == pytest.approx(
+            play * 1e-3, abs=5e-7
+        )
 
 
 def test_the_usual_proportions_of_stop_arc_and_clearance_arc() -> None:

@@ -43,10 +43,12 @@ def test_a_drive_beyond_its_limit_is_told_a_size_that_keeps_it(
 
 
 def test_play_beyond_the_register_is_told_the_clearance_that_keeps_it() -> None:
-    sheet = {"sprocket_teeth": 24, "chain_pitch": "31.75 mm", "gear_ratio": 4, "allowable_sheet_play": "0.05 mm"}
+    sheet = {"sprocket_teeth": 24, "chain_pitch": "31.75 mm", "gear_ratio": 4, "allowable_sheet_play": "0.05 mm",
+             "cover_angle": "20 deg"}  # fmt: skip
     found = check(geneva(**sheet), "sheet_play")
     told = re.search(r"locking_clearance of at most ([\d.]+ \w+)", found["message"])
     assert found["status"] == "fail" and told
-    assert check(geneva(**sheet, locking_clearance=told[1]), "sheet_play")["status"] == "pass"
-    del sheet["allowable_sheet_play"]
-    assert check(geneva(**sheet), "sheet_play")["missing"] == ["allowable_sheet_play"]
+    kept = check(geneva(**sheet, locking_clearance=told[1]), "sheet_play")
+    assert kept["status"] == "pass" and kept["utilisation"] == pytest.approx(1, abs=1e-3)
+    del sheet["allowable_sheet_play"], sheet["cover_angle"]
+    assert check(geneva(**sheet), "sheet_play")["missing"] == ["cover_angle", "allowable_sheet_play"]

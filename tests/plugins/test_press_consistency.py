@@ -20,7 +20,10 @@ from diecut_report.results.checks import check_results
 from tests.configs import EXAMPLE
 from tests.machines import inputs, number
 from tests.mechanics.timing.example_press import calculations
+from tests.plugins.drive_trains import EXAMPLE as TRAIN
+from tests.plugins.drive_trains import WORKING
 from tests.plugins.presses import OF_DRIVE, OF_TRAIN, TYPED, taken, whole_press
+from tests.results.test_founded import mended
 
 OF_CLUTCH = {
     "clutch_torque": "design_torque",
@@ -29,7 +32,6 @@ OF_CLUTCH = {
 }
 OF_CROSS = {
     "sheet_step": "sheet_step",
-    "sheet_play": "sheet_play",
     "travel_radius": "travel_radius",
     "wheel_inertia": "inputs.driven_inertia",
 }
@@ -62,7 +64,8 @@ def example_keys() -> dict[str, Any]:
     found = calculations() | {"train": train_of_the_crank()}
     parts = (("drive", OF_DRIVE), ("train", OF_TRAIN), ("clutch", OF_CLUTCH), ("cross", OF_CROSS))
     typed = {key: TYPED[key] for key in ("productivity", "sheet_length", "sheet_width", "working_length", "generatrix_length",
-                                         "chain_pitch", "sprocket_teeth", "conveyor_mass", "damper_velocity", "belt_efficiency")}  # fmt: skip
+                                         "chain_pitch", "sprocket_teeth", "conveyor_mass",
+                                         "sheet_play", "damper_velocity", "belt_efficiency")}  # fmt: skip
     return typed | {key: value for name, names in parts for key, value in taken(found[name], names).items()}
 
 
@@ -125,6 +128,10 @@ CHANGED = [  # what passes in the whole press, and a change with which it does n
     ("sheet_gap", {"sheet_gap": "101 mm"}, "fail"),
     ("actual_rate", {"output_turns_per_sheet": 0.505}, "warn"),
     ("actual_rate", {"output_turns_per_sheet": 0.515}, "fail"),
+    ("actual_rate", {"required_rate": "6100 1/h"}, "warn"),
+    ("true_rate", {"productivity": "5980 1/h", "output_turns_per_sheet": 0.5}, "warn"),
+    ("true_rate", {"loaded_output_speed": "52 rpm"}, "fail"),
+    ("wheel_side", {"wheel_side_inertia": "1 kg*m**2"}, "fail"),
     ("driven_inertia", {"clutch_inertia": "0.8 kg*m**2"}, "fail"),
     ("damper_velocity", {"contact_distance": "100 mm"}, "warn"),
     ("conveyor_mass", {"conveyor_mass": "11 kg"}, "fail"),
@@ -141,6 +148,37 @@ CHANGED = [  # what passes in the whole press, and a change with which it does n
 def test_mechanisms_that_do_not_belong_together_are_told_apart(check: str, change: dict[str, Any], status: str) -> None:
     assert verdicts_of_the_whole()[check] == "pass"
     assert verdicts(consistency(whole_press(), **change))[check] == status
+
+
+def test_the_play_of_the_wheel_is_calculated_for_what_the_timing_leaves() -> None:
+    for cover, clearance, margin, play in (
+        (10.9, "0.025 mm", "pass", "pass"),
+        (11.2, "0.025 mm", "fail", "pass"),
+        (10.9, "0.1 mm", "pass", "fail"),
+    ):
+        told = mended(cross={"cover_angle": f"{cover} deg", "locking_clearance": clearance})
+        assert told["consistency.cover_angle"] == margin
+        assert told["consistency.register"] == told["cross.sheet_play"] == play
+    told = mended(cross={"cover_angle": None})
+    assert told["consistency.register"] == told["cross.sheet_play"] == told["consistency.cover_angle"] == "not_checked"
+
+
+def test_the_mended_press_is_calculated_for_its_true_rate_and_all_that_its_wheel_moves() -> None:
+    told = mended(consistency={"wheel_side_inertia": "2.2 kg*m**2"})
+    assert told["consistency.wheel_side"] == "pass"  # the wheel takes its inertia from there
+    told = mended(cross={"driven_inertia": "6.731 kg*m**2"})
+    assert told["consistency.wheel_side"] == "fail"
+
+
+def test_the_motor_turns_as_fast_as_its_load_lets_it() -> None:
+    """Mean torque over the torque for each radian a second of slip, by the motor's two speeds; the output turns with it."""
+    train = calculate(DRIVE_TRAIN, inputs(DRIVE_TRAIN, TRAIN | WORKING))
+    rated, synchronous = 1450 * np.pi / 30, 1500 * np.pi / 30
+    slip = number(train, "shaft_1_torque") * (synchronous - rated) / number(train, "motor_rated_torque")
+    assert 0 < slip < synchronous - rated
+    assert number(train, "loaded_motor_speed") == pytest.approx(synchronous - slip, rel=1e-12)
+    shares = (number(train, name) for name in ("loaded_output_speed", "output_speed"))
+    assert np.divide(*shares) == pytest.approx((synchronous - slip) / rated, rel=1e-12)
 
 
 def test_a_step_across_the_other_side_needs_the_other_room() -> None:
