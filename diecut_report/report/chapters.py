@@ -123,7 +123,7 @@ class _Filler:
             self._head("symbols")
         if self.is_full:
             part.curves = self.tables.of_curves(mechanism["curves"])
-            part.errata = [(e["source"], e["text"], self._touched(e)) for e in mechanism["errata"]]
+        part.errata = [(e["source"], e["text"], self._touched(e)) for e in mechanism["errata"]]
 
     def _new(self, texts: list[str]) -> list[str]:
         """Those of the texts that an earlier chapter has not told."""

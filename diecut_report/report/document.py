@@ -25,8 +25,7 @@ Data = Mapping[str, Any]
 APPENDIX = (
     ("self-tests", "5.1", "self_test_list"),
     ("curves", "5.2", "curves"),
-    ("errata", "5.3", "errata"),
-    ("configuration", "5.4", "configuration"),
+    ("configuration", "5.3", "configuration"),
 )
 CONTENTS_COLUMNS = 3
 MOST_CONTENTS = 80  # lines, for which the contents leave room for the verdict on the first sheet

@@ -39,7 +39,7 @@ ENGLISH: dict[str, str] = {
     "errata": "Errata of the sources", "sources": "Sources", "no_sources": "The mechanisms name no source.",
     "program": "Program and configuration",
     "self_test_list": "Self-tests of the calculation", "no_self_tests": "The calculation has no self-tests.",
-    "no_curves": "There are no curves.", "no_errata": "No errata of the sources touch this press.",
+    "no_curves": "There are no curves.",
     "only_part": "This report shows {n} of the {total} mechanisms of the press; the verdict of the whole press is: {status}.",
     "missing_in_summary": "the keys that are missing stand in chapter 1",
     "governing_check": "Governing check", "needs": "needs {keys}", "assumed_values": "Assumed values",

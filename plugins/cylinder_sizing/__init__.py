@@ -30,7 +30,7 @@ MECHANISM = Mechanism(
             unit="mm",
             demand_label="required wall",
             limit_label="wall at the flat",
-            source="000 erratum 4",
+            source="geometry",
             consequence="{wall_verdict}; {wall_advice}.",
         ),
         Check(

@@ -220,6 +220,7 @@ def closing(body: WordBody, document: ReportDocument, digest: str) -> None:
         [body.head("number", 1), body.head("source", 7)],
         [[run(number), run(text)] for number, text in document.sources],
     )
+    errata(body, document)
     body.heading(1, "4", words["program"], "program")
     rows = [
         [
@@ -266,8 +267,17 @@ def _hash(body: WordBody, digest: object) -> Inline:
     return new_line() + small(f"{body.words['source_hash']} {str(digest)[:HASH]}") if digest else ""
 
 
+def errata(body: WordBody, document: ReportDocument) -> None:
+    """What was found wrong in the sources."""
+    if document.errata:
+        body.subheading(document.words["errata"])
+    for source, text, touches in document.errata:
+        touched = new_line() + small(f"{document.words['touches']}: {touches}") if touches else ""
+        body.listed([bold(f"{source}: ") + rich(prose(text)) + touched])
+
+
 def appendix(body: WordBody, document: ReportDocument) -> None:
-    """Self-tests, curves, errata, and the configuration as given."""
+    """Self-tests, curves, and the configuration as given."""
     words = document.words
     body.heading(1, "5", words["appendix"], "appendix")
     body.heading(2, "5.1", words["self_test_list"], "self-tests")
@@ -282,12 +292,6 @@ def appendix(body: WordBody, document: ReportDocument) -> None:
         body.subheading(f"{part.letter} {part.title}")
         for table in part.curves:
             body.data_table(table)
-    body.heading(2, "5.3", words["errata"], "errata")
-    if not document.errata:
-        body.tell(words["no_errata"])
-    for source, text, touches in document.errata:
-        touched = new_line() + small(f"{words['touches']}: {touches}") if touches else ""
-        body.listed([bold(f"{source}: ") + rich(prose(text)) + touched])
-    body.heading(2, "5.4", words["configuration"], "configuration")
+    body.heading(2, "5.3", words["configuration"], "configuration")
     for line in document.config["source_text"].splitlines():
         body.parts.append(f'<w:p><w:pPr><w:pStyle w:val="Listing"/></w:pPr>{run(line)}</w:p>')
