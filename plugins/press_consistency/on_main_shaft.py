@@ -11,7 +11,7 @@ TIMES = (
     ListedColumn("what", "What"), ListedColumn("time", "At the productivity", "t", "ms"),
     ListedColumn("actual_time", "At the rate that the gears give", "t_a", "ms"),
 )  # fmt: skip
-DWELL = "dwell"  # phase of a transport
+DWELL = ".dwell"  # phase of a transport
 PHASE, MARGIN_START, MARGIN_END, PHASE_TIME = 1, 5, 6, 7  # columns of the cyclogram's tables
 
 
@@ -45,9 +45,7 @@ def dwell_margin(timing: GivenMechanism) -> float:
 def _dwell_margins(timing: GivenMechanism) -> list[float]:
     turns = dict(zip(timing.texts("lines.mechanism"), timing.parts("line_turns"), strict=True))
     held = zip(timing.texts("interlocks.within"), timing.parts("margin_least"), strict=True)
-    return [
-        turns[line] * margin for line, phase, margin in ((*w.split(".", 1), m) for w, m in held if w) if phase == DWELL
-    ]
+    return [turns[within.removesuffix(DWELL)] * margin for within, margin in held if within.endswith(DWELL)]
 
 
 def listed(drives: tuple[str, ...]) -> str:
