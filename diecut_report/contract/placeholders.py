@@ -95,15 +95,15 @@ class OneOf:
                 "{listed} are both given, but only one can hold; give {told}.", listed=listed(heads), told=told
             )
         complete = [group for group in self.groups if known.issuperset(group)]
-        if complete:
-            idle = [key for group in self.groups for key in group if key in known - {*complete[0], *self.shared}]
+        idle = known & {key for group in self.groups for key in group} - {*self.shared}.union(*complete[:1])
+        if complete and not idle:
+            return ""
+        fuller = [group for group in self.groups if complete and {*complete[0], *idle} <= {*group}]
+        if complete and not fuller:
+            unused = [key for group in self.groups for key in group if key in idle]
             without = Phrase("has no use beside {listed}; remove it", listed=listed(complete[0]))
-            return (
-                Phrase("{listed} {without}, or give {told}.", listed=listed(idle), without=without, told=told)
-                if idle
-                else ""
-            )
-        begun = [group for group in self.groups if known & set(group) - set(self.shared)]
+            return Phrase("{listed} {without}, or give {told}.", listed=listed(unused), without=without, told=told)
+        begun = fuller or [group for group in self.groups if known & set(group) - set(self.shared)]
         if begun:
             nearest = min(begun, key=lambda group: len(set(group) - known))
             missing = [key for key in nearest if key not in known]

@@ -353,6 +353,10 @@ def test_half_the_sheets_heat_each_end(tmp_path: Path, press: str, impacts: floa
             "elastic_modulus: 8, mass: 80, inertia: 1, rolling_radius: 100",
             ("velocity is missing beside mass, inertia",),
         ),
+        (
+            "elastic_modulus: 8, mass: 80, inertia: 1, rolling_radius: 100, velocity: 0.5, static_unbalance: 2",
+            ("carriage_mass and contact_distance is missing beside mass",),
+        ),
         (SURE + ", loss_tangent: 1.5", ("out of range", "≤ 1")),
         ("kinetic_energy: 150, velocity: 0.5, shore_hardness: 19.9", ("out of range", "≥ 20", "≤ 80")),
         (SURE + ", damper_count: 0", ("out of range", "≥ 1")),
