@@ -5,6 +5,8 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from typing import NamedTuple
 
+import numpy as np
+
 from diecut_report.config.basis import ASSUMED, GIVEN, Basis, is_founded, weakest
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
@@ -54,7 +56,7 @@ class Bases:
     def unfounded(self, instance: Instance, block: Block) -> frozenset[str]:
         """Return the inputs of which a check asks a basis that can be looked up, and which have none; a typed default is a default."""
         asked = {name for check in instance.mechanism.checks for name in check.founded} if instance.mechanism else ()
-        typed = [name for name in asked if getattr(block, name) != type(block).model_fields[name].get_default()]
+        typed = [name for name in asked if np.any(getattr(block, name) != type(block).model_fields[name].get_default())]
         return frozenset(name for name in typed if not self.is_founded((instance.name, name)))
 
     def _of(self, node: Node) -> str:

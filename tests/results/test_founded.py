@@ -5,6 +5,7 @@ from __future__ import annotations
 from pathlib import Path
 from typing import Any
 
+import numpy as np
 import pytest
 
 from diecut_report.config.discovery import Discovery
@@ -12,6 +13,8 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.yaml_tree import load
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
+from diecut_report.study.execution.press_batch import calculated
+from diecut_report.study.execution.result_columns import verdicts
 from tests.configs import EXAMPLES, saved
 
 HEAD = "schema_version: 1\nproject: {title: Gears}\npress: {name: P}\nmechanisms:\n"
@@ -66,9 +69,6 @@ def test_factors_that_are_left_out_are_counted_as_before(tmp_path: Path) -> None
 
 
 def test_many_machines_are_judged_as_each_alone(tmp_path: Path) -> None:
-    from diecut_report.study.execution.press_batch import calculated
-    from diecut_report.study.execution.result_columns import verdicts
-
     for basis, is_left in (("assumed", True), ("measured", False)):
         typed = {key: {"value": value, "basis": basis} for key, value in DEFAULTS.items()}
         config = load_config(saved(tmp_path, HEAD + f"  a: {gears(**typed)!r}\n"), Discovery())
@@ -77,6 +77,14 @@ def test_many_machines_are_judged_as_each_alone(tmp_path: Path) -> None:
         assert ("a.checks.k_factors" in found.unchecked) == is_left
         assert ("a.checks.k_factors" in found.names) != is_left
         made.release()
+
+
+def test_a_factor_that_varies_is_typed_in_all_machines(tmp_path: Path) -> None:
+    typed = {key: {"value": value, "basis": "assumed"} for key, value in DEFAULTS.items()}
+    config = load_config(saved(tmp_path, HEAD + f"  a: {gears(**typed)!r}\n"), Discovery())
+    made = calculated(config, {"mechanisms.a.dynamic_factor": np.array([1.05, 1.1, 1.2])}, 3)
+    assert "a.checks.k_factors" in verdicts(made.calculations, 3).unchecked
+    made.release()
 
 
 def mended(**changes: dict[str, Any]) -> dict[str, Any]:
