@@ -13,6 +13,7 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.yaml_tree import load
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
+from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.press_batch import calculated
 from diecut_report.study.execution.result_columns import verdicts
 from tests.configs import EXAMPLES, saved
@@ -82,7 +83,7 @@ def test_many_machines_are_judged_as_each_alone(tmp_path: Path) -> None:
 def test_a_factor_that_varies_is_typed_in_all_machines(tmp_path: Path) -> None:
     typed = {key: {"value": value, "basis": "assumed"} for key, value in DEFAULTS.items()}
     config = load_config(saved(tmp_path, HEAD + f"  a: {gears(**typed)!r}\n"), Discovery())
-    made = calculated(config, {"mechanisms.a.dynamic_factor": np.array([1.05, 1.1, 1.2])}, 3)
+    made = calculated(config, {find_input(config, "mechanisms.a.dynamic_factor"): np.array([1.05, 1.1, 1.2])}, 3)
     assert "a.checks.k_factors" in verdicts(made.calculations, 3).unchecked
     made.release()
 
