@@ -78,6 +78,7 @@ def calculate(
     }
     calc = Calculation(mechanism, curves, variants)
     calc.is_partial = only is not None
+    named_parts.distinct(calc)
     with np.errstate(all="ignore"):
         steps = [step for _, step in mechanism.active(calc.given) if only is None or step.id in only]
         for i, step in enumerate(steps):
