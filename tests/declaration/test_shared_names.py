@@ -24,6 +24,8 @@ def copy(name: str, of: str, **changes: Any) -> Value:
 
 
 ZEROS = Crossings(id="zero", symbol="φ_0", unit="deg", description="Zeros", of="torque")
+
+
 class Placed(Arm):
     peak_at: Annotated[float, Quantity("φ_p", "deg", "Place")] = 3
 
@@ -50,7 +52,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     "a requirement of another matter": (made(copy("arm", "moment"), require(key="arm")), f"step arm: {HIDES} arm counts nowhere"),
     "a fact with the id of an input": (made(FACT), f"step width: {HIDES} width counts nowhere with width"),
-    "a step with the name of a place": (made(value("peak_at", "P")), "step peak: gives peak_at as the place of its extreme, and this name is that of another step (at test_faults.py:"),
+    "a step with the name of a place": (
+        made(value("peak_at", "P")),
+        "gives peak_at as the place of its extreme, and this name is that of another step (at ",
+    ),
     "a step before it": (made(first=(value("peak_at", "P"), value("moment", "M"), ANGLE, TORQUE, PEAK)), "step peak: gives peak_at as the place"),
     "a count of crossings": (made(ZEROS, value("zero_count", "n")), "step zero: gives zero_count as the number of its crossings"),
     "a crossing": (made(ZEROS, value("zero_2", "n")), "step zero: gives zero_2 as one of its crossings"),
@@ -65,7 +70,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
              value("zero_at1", "Q")),
         "step bar: gives zero_at1 as one of its parts",
     ),
-    "an input with the name of a place": (made(inputs=Placed), "step peak: gives peak_at as the place of its extreme, and this name is that of an input"),
+    "an input with the name of a place": (made(inputs=Placed), "gives peak_at as the place of its extreme, and this name is that of an input"),
 }  # fmt: skip
 
 
