@@ -16,9 +16,9 @@ from diecut_report.languages.phrases import Phrase, phrase
 
 def distinct(calc: Calculation) -> None:
     """Refuse parts of one name, and a part whose check would be called as another one: one of the two would be lost."""
-    named_by = {declared.named_by for declared in (*calc.steps.values(), *calc.mechanism.checks)} - {""}
+    named_by = {step.named_by for step in calc.steps.values()} | {check.named_by for check in calc.mechanism.checks}
     named_by |= {path for path in list_inputs(calc.mechanism.inputs) if path.endswith(".name")}
-    for path in sorted(named_by):
+    for path in sorted(named_by - {""}):
         names = calc.inputs.get(path) or ()
         for index, name in enumerate(names):
             if name is not None and name in names[:index]:
