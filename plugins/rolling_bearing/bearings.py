@@ -159,14 +159,11 @@ def bearings(given: Known) -> Bearings:
 
 def _of_names(names: tuple[str, ...]) -> None:
     for index, name in enumerate(names):
-        key = f"bearings.{index}.name"
         if not name.isidentifier() or not name.isascii():
             raise Refusal(
-                key,
+                f"bearings.{index}.name",
                 Phrase(
                     "is “{name}”; results are called by it, so take letters, digits and underscores, a letter first",
                     name=name,
                 ),
             )
-        if name in names[:index]:
-            raise Refusal(key, Phrase("is {name}, as that of another bearing; give each its own name", name=name))

@@ -141,7 +141,7 @@ def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
     ("parts", "key", "words"),
     [
         ([], "bearings", "empty"),
-        ([BALL, BALL], "bearings.1.name", "another bearing"),
+        ([BALL, BALL], "bearings.1.name", "as is that of part 1 of bearings"),
         ([BALL | {"name": "left bearing"}], "bearings.0.name", "letters, digits and underscores"),
         ([BALL | {"name": "system"}], "bearings.0.name", "called as another one"),
         ([BALL | {"radial_force": 0}], "bearings.0.radial_force", "give the force"),
