@@ -27,7 +27,7 @@ PERMITTED_TILTS = {
     "ball": 0.58e-3,
     ROLLER: 0.29e-3,
 }  # rad, 2′ and 1′: the least of the makers, of needles
-CYLINDRICAL, CYLINDRICAL_TILT = re.compile(r"(N|NJ|NU)\d"), 0.87e-3  # rad, 3′; with ribs on both rings (NUP) less
+CYLINDRICAL, CYLINDRICAL_TILT = re.compile(r"(N|NJ|NU)[0-9]"), 0.87e-3  # rad, 3′; with ribs on both rings (NUP) less
 MARGIN = 1e-6  # by which a bearing must hold that is chosen with fewer places of the cycle
 
 
