@@ -112,7 +112,7 @@ def test_a_check_on_a_row_judges_every_part_and_the_worst_governs() -> None:
 def test_a_margin_that_is_the_rounding_of_equal_sides_is_none() -> None:
     limit = 8.812338466287342  # kg·m² of a wheel's side, added up in another order
     for above, margin in ((1.8e-15, 0), (1e-6, -1e-6)):
-        (found,) = check_results(calculated(check(limit + above, limit, tolerance=1e-3)))
+        (found,) = check_results(calculated(check(limit + above, limit, tolerance=1e-3, unit="kg*m**2")))
         assert found["status"] == "pass" and float(found["margin_display"]["text"]) == margin
 
 
