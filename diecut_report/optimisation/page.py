@@ -22,7 +22,7 @@ from diecut_report.optimisation.result import OptimisationResult
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number
-from diecut_report.report.page_engine import HTML, URLFetcher
+from diecut_report.report.page_engine import HTML
 from diecut_report.study.summary import matrix, questions
 from diecut_report.study.summary.figures import SummaryFigure
 from diecut_report.study.summary.quantity_names import display, named, titled, utilised, value_told
@@ -47,8 +47,7 @@ def page(found: OptimisationResult) -> str:
 
 def sheets(found: OptimisationResult) -> bytes:
     """Return it as PDF (A4, PDF/UA-1)."""
-    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
-    with pdf._without_collection():
+    with pdf.setting() as fetcher:
         content: bytes = HTML(string=_filled(found, "print"), url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
     return content
 

@@ -16,7 +16,7 @@ from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import localised, said, say, spoken_language
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Catalogue
-from diecut_report.report.page_engine import HTML, URLFetcher
+from diecut_report.report.page_engine import HTML
 from diecut_report.study.machines.verdicts import STATES, MachineComparison, Verdict
 from diecut_report.study.storage.spreadsheets import workbook
 
@@ -35,8 +35,7 @@ def page(made: MachineComparison) -> bytes:
 
 def sheets(made: MachineComparison) -> bytes:
     """Return the comparison as PDF (PDF/UA-1)."""
-    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
-    with pdf._without_collection():
+    with pdf.setting() as fetcher:
         content: bytes = HTML(string=_filled(made, "print"), url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
     return content
 
