@@ -240,7 +240,9 @@ def _for_temporary_files() -> Path:
     try:
         return Path(tempfile.gettempdir())
     except OSError as error:  # none of those that the system names can be written
-        words = phrase("There is no folder for temporary files with room in it. Make room, or name one in the variable TMPDIR.")
+        words = phrase(
+            "There is no folder for temporary files with room in it. Make room, or name one in the variable TMPDIR."
+        )
         raise Unwritable(Problem(words)) from error
 
 

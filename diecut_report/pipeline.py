@@ -281,13 +281,17 @@ def exported(results: Data, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
 
 
 def _pdf(rendering: Any) -> bytes:
-    try:
-        content: bytes = rendering.pdf()
-    except OSError as error:
-        if "cannot load library" not in str(error):
-            raise
-        library = str(error).split(":")[0].removeprefix("cannot load library ")
-        raise UserError(Problem(Phrase(NO_PANGO, library=library))) from error
+    """Set the sheets; the files of their fonts are removed here, since the command line does not wait until the page engine does it."""
+    from diecut_report.files import room
+
+    with room():
+        try:
+            content: bytes = rendering.pdf()
+        except OSError as error:
+            if "cannot load library" not in str(error):
+                raise
+            library = str(error).split(":")[0].removeprefix("cannot load library ")
+            raise UserError(Problem(Phrase(NO_PANGO, library=library))) from error
     return content
 
 

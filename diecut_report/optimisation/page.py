@@ -13,6 +13,7 @@ from markupsafe import Markup
 import diecut_report.report.figures  # noqa: F401  # before Matplotlib, for its settings
 from diecut_report import __version__
 from diecut_report.config import yaml_tree
+from diecut_report.files import room
 from diecut_report.languages.phrases import capital
 from diecut_report.languages.speech import localised, said, say, say_counted, spoken_language
 from diecut_report.optimisation import charts, texts
@@ -22,7 +23,7 @@ from diecut_report.optimisation.result import OptimisationResult
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number
-from diecut_report.report.page_engine import HTML
+from diecut_report.report.page_engine import HTML, URLFetcher
 from diecut_report.study.summary import matrix, questions
 from diecut_report.study.summary.figures import SummaryFigure
 from diecut_report.study.summary.quantity_names import display, named, titled, utilised, value_told
@@ -47,7 +48,8 @@ def page(found: OptimisationResult) -> str:
 
 def sheets(found: OptimisationResult) -> bytes:
     """Return it as PDF (A4, PDF/UA-1)."""
-    with pdf.setting() as fetcher:
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
+    with room(), pdf._without_collection():
         content: bytes = HTML(string=_filled(found, "print"), url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
     return content
 

@@ -11,7 +11,6 @@ from typing import Any
 
 from markupsafe import Markup, escape
 
-from diecut_report.files import room
 from diecut_report.report.backdrop import RULE, Backdrop
 from diecut_report.report.carried import DATE, CarriedFile
 from diecut_report.report.context import Material
@@ -109,8 +108,13 @@ def sheets(material: Material) -> bytes:
     """The whole PDF."""
     paper = Paper(material)
     source = filled(material, paper, "print")
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
     cache: dict[str, Any] = dict(paper.pictures)
-    with setting() as fetcher, fetching_refused(material.house.folder if material.house else ""):
+    with (
+        _without_collection(),
+        fetching_refused(material.house.folder if material.house else ""),
+        warnings.catch_warnings(action="ignore", category=ResourceWarning),
+    ):  # WeasyPrint's own file
         content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
             pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False,
             finisher=Archive(material.words, paper.letters, paper.formulas),
@@ -130,16 +134,6 @@ def _attached(file: CarriedFile, fetcher: URLFetcher) -> Attachment:
         modified=DATE,
         relationship=file.relationship,
     )
-
-
-@contextmanager
-def setting() -> Iterator[URLFetcher]:
-    """Give what fetches data addresses alone, for pages that are set within; the files of their fonts are removed at the end.
-
-    The page engine would remove them itself when the interpreter ends, which the command line does not wait for.
-    """
-    with room(), _without_collection(), warnings.catch_warnings(action="ignore", category=ResourceWarning):
-        yield URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
 
 
 @contextmanager

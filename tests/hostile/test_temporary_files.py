@@ -10,8 +10,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report.cli.output import UNWRITABLE
 from diecut_report.cli.main import main
+from diecut_report.cli.output import UNWRITABLE
 from tests.configs import SMALL, saved
 from tests.hostile.test_surroundings import PROGRAM, ran
 

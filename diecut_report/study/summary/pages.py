@@ -12,12 +12,13 @@ from typing import Any
 from markupsafe import Markup
 
 from diecut_report import __version__
+from diecut_report.files import room
 from diecut_report.languages.speech import decimal_sign, localised, said, say, say_counted, spoken_language
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report import html, pdf
 from diecut_report.report.i18n import Catalogue
 from diecut_report.report.number_format import number
-from diecut_report.report.page_engine import HTML
+from diecut_report.report.page_engine import HTML, URLFetcher
 from diecut_report.study.analysis.stored_variants import StoredColumn
 from diecut_report.study.summary.content import Summary
 from diecut_report.study.summary.quantity_names import WORDS, display, named, percent, titled, utilised, variants
@@ -32,8 +33,9 @@ def page(summary: Summary) -> str:
 
 def sheets(summary: Summary) -> bytes:
     """Return the summary as PDF (A4, PDF/UA-1)."""
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
     source = _filled(summary, "print")
-    with pdf.setting() as fetcher:
+    with room(), pdf._without_collection():
         content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
     return content
 
