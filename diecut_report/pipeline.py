@@ -247,13 +247,16 @@ def rendered(
     if set(DRAWN) & set(formats):
         tell(phrase("drawing the report"))
         from diecut_report.report import Rendering
+        from diecut_report.report.template_limits import bounded
 
         rendering = Rendering(results, catalogues, house)
         if "html" in formats:
-            contents["html"] = encoded(rendering.html())
+            with bounded(house):
+                contents["html"] = encoded(rendering.html())
         if "pdf" in formats:
             tell(phrase("setting the pages"))
-            contents["pdf"] = _pdf(rendering)
+            with bounded(house):
+                contents["pdf"] = _pdf(rendering)
         if "docx" in formats:
             tell(phrase("writing the document"))
             contents["docx"] = rendering.docx()
