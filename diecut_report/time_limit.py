@@ -44,13 +44,18 @@ def limited(seconds: float | None, *, own_process: bool = False) -> Iterator[Non
 def _by_signal(seconds: float) -> Iterator[None]:
     """The main thread is interrupted by the alarm clock, also while it sleeps."""
 
+    rung = []  # at each alarm: a library may have held the interruption for a fault of its own, and gone on without what took long
+
     def ring(number: int, frame: FrameType | None) -> None:
+        rung.append(number)
         raise Overran
 
     before = signal.signal(signal.SIGALRM, ring)
     signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN)
     try:
         yield
+        if rung:
+            raise Overran
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)

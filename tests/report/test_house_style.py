@@ -171,6 +171,13 @@ def test_what_only_print_would_fetch_is_told(brief: Data, tmp_path: Path, place:
         sheets(Material(brief, house=house))
 
 
+@pytest.mark.parametrize("text", ["<style>p{width:calc(1px/0)}@page{size:0 0}</style>", "<div>" * 1500])
+def test_what_the_page_engine_cannot_set_is_told(brief: Data, tmp_path: Path, text: str) -> None:
+    house = house_style(written(tmp_path, report__html__j2=closing(text)))
+    with pytest.raises(UserError, match="The sheets cannot be set with these templates"):
+        sheets(Material(brief, house=house))
+
+
 @pytest.mark.parametrize("letter", ["\0", "\x1b", "\ud800", "\uffff"])
 def test_letters_that_no_page_can_hold_are_refused(letter: str) -> None:
     with pytest.raises(UserError, match=f"A template writes U\\+{ord(letter):04X}"):

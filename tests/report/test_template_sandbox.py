@@ -187,6 +187,8 @@ ENDLESS = [
     ("{% include 'report.html.j2' %}", "was not made within 5 s, and was given up|maximum recursion"),
     ("{% macro m() %}{{ m() }}{% endmacro %}{{ m() }}", "maximum recursion"),
     ("{{ self.closing() }}", "maximum recursion"),
+    # a formula of the template's own, nested so deep that the library would overrun its stack
+    ("{{ math.display(namespace(latex='{' * 100000 ~ '}' * 100000)) }}", "nesting deeper than 64 levels"),
     # what goes wrong in Jinja itself
     ("{% filter attr('__class__') %}a{% endfilter %}", "cannot be filled"),
     ("{{ ('f' * 10000)|int(base=16) }}", "cannot be filled: Exceeds the limit"),
