@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import errno
 import os
+import subprocess
 import tempfile
 from pathlib import Path
 from typing import Any
@@ -60,3 +61,19 @@ def test_no_folder_for_temporary_files_is_told(
         patch.setattr(tempfile, "gettempdir", none)
         assert main([*map(str, command)]) == UNWRITABLE
     assert "There is no folder for temporary files with room in it." in capfd.readouterr().err
+
+
+@pytest.mark.parametrize("variable", ["HOME", "XDG_CACHE_HOME", "MPLCONFIGDIR"])
+def test_folders_of_the_user_that_cannot_be_written_are_done_without_in_silence(tmp_path: Path, variable: str) -> None:
+    (tmp_path / "tmp").mkdir()
+    config = saved(tmp_path, SMALL)
+    surroundings = {
+        key: value
+        for key, value in os.environ.items()
+        if key not in ("XDG_CACHE_HOME", "XDG_CONFIG_HOME", "MPLCONFIGDIR")
+    }
+    surroundings |= {"TMPDIR": str(tmp_path / "tmp"), variable: "/dev/null"}
+    command = [*PROGRAM, "report", str(config), "-o", str(tmp_path / "out"), "--format", "html", "--quiet"]
+    done = subprocess.run(command, env=surroundings, capture_output=True, text=True, check=False, timeout=120)
+    told = [line for line in done.stderr.splitlines() if not line.startswith("not checked")]
+    assert (done.returncode, told, [*(tmp_path / "tmp").iterdir()]) == (0, [], [])
