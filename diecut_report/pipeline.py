@@ -250,12 +250,10 @@ def rendered(
         from diecut_report.report.template_limits import bounded
 
         rendering = Rendering(results, catalogues, house)
-        if "html" in formats:
-            with bounded(house):
-                contents["html"] = encoded(rendering.html())
-        if "pdf" in formats:
-            tell(phrase("setting the pages"))
-            with bounded(house):
+        with bounded(house):
+            contents |= {"html": encoded(rendering.html())} if "html" in formats else {}
+            if "pdf" in formats:
+                tell(phrase("setting the pages"))
                 contents["pdf"] = _pdf(rendering)
         if "docx" in formats:
             tell(phrase("writing the document"))
@@ -284,18 +282,16 @@ def exported(results: Data, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
 
 
 def _pdf(rendering: Any) -> bytes:
-    """Set the sheets; the files of their fonts are removed here, since the command line does not wait until the page engine does it."""
     from diecut_report.files import room
 
-    with room():
+    with room():  # for the files of fonts: the command line does not wait until the page engine removes them
         try:
-            content: bytes = rendering.pdf()
+            return rendering.pdf()  # type: ignore[no-any-return]
         except OSError as error:
             if "cannot load library" not in str(error):
                 raise
-            library = str(error).split(":")[0].removeprefix("cannot load library ")
-            raise UserError(Problem(Phrase(NO_PANGO, library=library))) from error
-    return content
+            missing = Phrase(NO_PANGO, library=str(error).split(":")[0].removeprefix("cannot load library "))
+            raise UserError(Problem(missing)) from error
 
 
 def _write(files: dict[Path, bytes], config: Source, *, through: bool = False) -> None:
