@@ -246,11 +246,10 @@ def rendered(
     contents = {"json": encoded(results_text(results))} if "json" in formats else {}
     if set(DRAWN) & set(formats):
         tell(phrase("drawing the report"))
-        from diecut_report.report import Rendering
-        from diecut_report.report.template_limits import bounded
+        from diecut_report.report import Rendering, template_limits
 
         rendering = Rendering(results, catalogues, house)
-        with bounded(house):
+        with template_limits.bounded(house):
             contents |= {"html": encoded(rendering.html())} if "html" in formats else {}
             if "pdf" in formats:
                 tell(phrase("setting the pages"))
