@@ -220,15 +220,30 @@ def write(path: Path, content: bytes | memoryview, *, instead_of: str | None = N
 
 
 @contextmanager
-def room(folder: Path) -> Iterator[None]:
-    """Let temporary files of libraries go into the folder, on whose disk room is wanted; they are removed at the end."""
+def room(folder: Path | None = None) -> Iterator[None]:
+    """Let temporary files of libraries go into the folder, on whose disk room is wanted; they are removed at the end.
+
+    Without a folder they go where temporary files go.
+    """
+    after = KEPT if folder else phrase("Nothing was written; make room, or name another folder in the variable TMPDIR.")
+    folder = folder or _for_temporary_files()
     before = tempfile.tempdir
-    with in_words(folder), tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as place:
+    with in_words(folder, after), tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as place:
         tempfile.tempdir = place
         try:
             yield
         finally:
             tempfile.tempdir = before
+
+
+def _for_temporary_files() -> Path:
+    try:
+        return Path(tempfile.gettempdir())
+    except OSError as error:  # none of those that the system names can be written
+        words = phrase(
+            "There is no folder for temporary files with room in it. Make room, or name one in the variable TMPDIR."
+        )
+        raise Unwritable(Problem(words)) from error
 
 
 def remove_stale(folder: Path) -> None:

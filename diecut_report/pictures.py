@@ -24,6 +24,13 @@ DRAWING = {
     "linearGradient", "radialGradient", "stop", "clipPath",
 }  # fmt: skip
 """Elements that draw, or say what is drawn: none that runs, embeds, repeats, or is set in letters of a font that may be missing."""
+OTHERS_DRAWING = re.compile(
+    ".*(clippath|filter|gradient|marker|mask|pattern).*|svg|g|style|rect|circle|ellipse|line|poly(line|gon)|path|stop|"
+    "a|image|symbol|text(path)?|tspan|tref|use",
+    re.IGNORECASE,
+)
+"""Names that the page engine goes by in whatever name space they stand: no element of an editor has them."""
+MOST_STEPS = 200_000  # of drawing: elements times those that a clipping path or a gradient adds to each, or the rules tried on each
 _OUTSIDE = re.compile(r"@import|@font-face|url\(\s*['\"]?(?!#)", re.IGNORECASE)
 PIXELS = {"": 1.0, "px": 1.0, "pt": 96 / 72, "pc": 16.0, "mm": 96 / 25.4, "cm": 960 / 25.4, "in": 96.0}
 """Of the units of CSS."""
@@ -112,6 +119,7 @@ class _SvgJudge:
 
     def __init__(self) -> None:
         self.depth = self.count = self.clips = 0  # clips: elements of clipping paths that are open
+        self.parts = self.most_parts = self.rules = 0  # elements since the last definition began; rules of styles
         self.style: list[str] | None = None  # the parts of the open style sheet, which a comment may have cut
         self.parser = expat.ParserCreate(namespace_separator=" ")
         self.parser.buffer_text = True
@@ -134,6 +142,12 @@ class _SvgJudge:
             ValueError,
         ) as error:  # of an encoding that Python does not know, or the parser does not read
             raise PictureFault(phrase("is an SVG picture in another encoding than UTF-8; save it as UTF-8")) from error
+        if self.count * max(self.most_parts, self.rules) > MOST_STEPS:
+            raise PictureFault(
+                phrase(
+                    "takes too long to draw: its clipping paths, gradients or styles have too many parts; give a simpler one"
+                )
+            )
 
     def _start(self, tag: str, given: Mapping[str, str]) -> None:
         space, _, name = tag.rpartition(" ")
@@ -149,7 +163,8 @@ class _SvgJudge:
             )
         if self.depth == 1:
             _judge_root(space, name, given)
-        if (space == SPACE and name not in DRAWING) or space in ("", PAGES):
+        is_drawing = name in DRAWING if space == SPACE else not (space in ("", PAGES) or OTHERS_DRAWING.fullmatch(name))
+        if not is_drawing:
             raise PictureFault(
                 Phrase(
                     "holds <{name}>; a logo holds shapes alone: save it as plain SVG, with its texts as paths",
@@ -160,6 +175,8 @@ class _SvgJudge:
             raise PictureFault(Phrase("holds <{name}> within a style", name=name))
         self.style = [] if name == "style" else None
         self.clips += bool(self.clips or name == "clipPath")
+        self.parts = 0 if name.endswith("Gradient") or self.clips == 1 else self.parts + 1
+        self.most_parts = max(self.most_parts, self.parts * (self.clips > 0 or name == "stop"))
         for key, value in given.items():
             _judge_attribute(key, value)
             if self.clips and "clip-path" in (key, *re.findall(r"[\w-]+", value.lower() if key == "style" else "")):
@@ -168,7 +185,9 @@ class _SvgJudge:
     def _end(self, _tag: str) -> None:
         self.depth -= 1
         self.clips = max(self.clips - 1, 0)
-        _judge_style("".join(self.style or ()))
+        style = "".join(self.style or ())
+        _judge_style(style)
+        self.rules += style.count("{")
         self.style = None
 
     def _text(self, text: str) -> None:
@@ -187,6 +206,7 @@ class _SvgJudge:
 def _judge_style(text: str) -> None:
     if _OUTSIDE.search(text) or "\\" in text:
         raise PictureFault(phrase("has a style that loads something from outside; embed nothing and refer to nothing"))
+    _judge_repetition(text)
     if "clip-path" in text.lower():
         raise PictureFault(phrase("clips by a style sheet; save it with presentation attributes"))
 
@@ -201,12 +221,26 @@ def _judge_root(space: str, name: str, given: Mapping[str, str]) -> None:
             )
         )
     sized = all(_LENGTH.fullmatch(given.get(key, "")) for key in ("width", "height"))
-    if not sized and len(given.get("viewBox", "").replace(",", " ").split()) != 4:
+    if not (_is_view(given["viewBox"]) if "viewBox" in given else sized):
         raise PictureFault(phrase("does not say its size; give it a viewBox, or width and height"))
+
+
+def _is_view(text: str) -> bool:
+    sides = [_number(each) for each in text.replace(",", " ").split()]
+    return len(sides) == 4 and None not in sides
+
+
+def _judge_repetition(text: str) -> None:
+    if re.search(r"\b(repeat|reflect)\b", text, re.IGNORECASE):
+        raise PictureFault(phrase("repeats a gradient, which may never end; let it run once (spreadMethod pad)"))
 
 
 def _judge_attribute(key: str, value: str) -> None:
     name = key.rpartition(" ")[2]
+    if name == "viewBox" and not _is_view(value):
+        raise PictureFault(phrase("does not say its size; give it a viewBox, or width and height"))
+    if name in ("spreadMethod", "style"):
+        _judge_repetition(value)
     if name.lower().startswith("on"):
         raise PictureFault(Phrase("holds a script ({name}); a logo holds shapes alone", name=name))
     if (key == LINK or name.lower() in ("href", "src")) and not value.startswith("#"):

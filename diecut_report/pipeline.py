@@ -246,14 +246,14 @@ def rendered(
     contents = {"json": encoded(results_text(results))} if "json" in formats else {}
     if set(DRAWN) & set(formats):
         tell(phrase("drawing the report"))
-        from diecut_report.report import Rendering
+        from diecut_report.report import Rendering, template_limits
 
         rendering = Rendering(results, catalogues, house)
-        if "html" in formats:
-            contents["html"] = encoded(rendering.html())
-        if "pdf" in formats:
-            tell(phrase("setting the pages"))
-            contents["pdf"] = _pdf(rendering)
+        with template_limits.bounded(house):
+            contents |= {"html": encoded(rendering.html())} if "html" in formats else {}
+            if "pdf" in formats:
+                tell(phrase("setting the pages"))
+                contents["pdf"] = _pdf(rendering)
         if "docx" in formats:
             tell(phrase("writing the document"))
             contents["docx"] = rendering.docx()
@@ -281,14 +281,16 @@ def exported(results: Data, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
 
 
 def _pdf(rendering: Any) -> bytes:
-    try:
-        content: bytes = rendering.pdf()
-    except OSError as error:
-        if "cannot load library" not in str(error):
-            raise
-        library = str(error).split(":")[0].removeprefix("cannot load library ")
-        raise UserError(Problem(Phrase(NO_PANGO, library=library))) from error
-    return content
+    from diecut_report.files import room
+
+    with room():  # for the files of fonts: the command line does not wait until the page engine removes them
+        try:
+            return rendering.pdf()  # type: ignore[no-any-return]
+        except OSError as error:
+            if "cannot load library" not in str(error):
+                raise
+            missing = Phrase(NO_PANGO, library=str(error).split(":")[0].removeprefix("cannot load library "))
+            raise UserError(Problem(missing)) from error
 
 
 def _write(files: dict[Path, bytes], config: Source, *, through: bool = False) -> None:

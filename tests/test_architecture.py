@@ -24,7 +24,7 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 
 # A module of diecut_report may import modules of its own line and of the lines above it ("" is the package itself).
 LAYERS = [
-    {"", "errors", "limits", "quantities", "languages"},
+    {"", "errors", "limits", "quantities", "languages", "time_limit"},
     {"standards"},
     {"expressions"},
     {"conditions"},
@@ -161,7 +161,7 @@ def test_imports_make_no_loop() -> None:
 
 
 def test_a_report_is_made_of_results_alone() -> None:
-    allowed = {"report", "results", "languages", "quantities", "errors", "pictures", ""}
+    allowed = {"report", "results", "languages", "quantities", "errors", "pictures", "time_limit", ""}
     parts = {(name, [*m.split("."), ""][1]) for name in PROGRAM if layer(name) == REPORT for m in own_imports(name)}
     assert {(name, part) for name, part in parts if part not in allowed} == set()
 

@@ -46,6 +46,15 @@ DRAWN = [
     svg(
         '<clipPath id="c"><rect width="1" height="1"/></clipPath><g clip-path="url(#c)"><rect clip-path="url(#c)"/></g>'
     ),
+    svg('<x:path-effect xmlns:x="x"/><x:perspective xmlns:x="x"/>'),
+    svg(
+        '<clipPath id="c">'
+        + "<path/>" * 9
+        + '</clipPath><linearGradient id="a" spreadMethod="pad">'
+        + "<stop/>" * 9
+        + "</linearGradient>"
+        + "<path/>" * 4000
+    ),
     svg('<x:namedview xmlns:x="http://sodipodi.sourceforge.net/DTD/sodipodi-0.dtd" pagecolor="#fff"/>'),
 ]
 
@@ -82,6 +91,23 @@ REFUSED = [
     (svg("<style>rect{clip-path:url(#c)}</style>"), "clips by a style sheet"),
     (b'<?xml version="1.0" encoding="utf-7"?>' + svg(""), "another encoding than UTF-8"),
     (b'<?xml version="1.0" encoding="none"?>' + svg(""), "another encoding than UTF-8"),
+    (svg('<x:g id="a" xmlns:x="x"><x:use href="#a"/></x:g>'), "holds <g>"),
+    (svg('<x:use href="#a" xmlns:x="x"/>'), "holds <use>"),
+    (svg('<x:BigMask id="a" xmlns:x="x"/>'), "holds <BigMask>"),
+    (svg('<linearGradient spreadMethod="repeat" x2="0.0000001"/>'), "repeats a gradient"),
+    (svg('<rect style="spreadMethod: Reflect"/>'), "repeats a gradient"),
+    (svg("<style>#a{spreadMethod:repeat}</style>"), "repeats a gradient"),
+    (
+        svg('<clipPath id="c">' + "<path/>" * 2400 + "</clipPath>" + '<rect clip-path="url(#c)"/>' * 2400),
+        "too long to draw",
+    ),
+    (
+        svg('<linearGradient id="a">' + "<stop/>" * 2400 + "</linearGradient>" + '<rect fill="url(#a)"/>' * 400),
+        "too long to draw",
+    ),
+    (svg("<style>" + "rect+rect{}" * 1000 + "</style>" + "<rect/>" * 1000), "too long to draw"),
+    (svg('<svg viewBox="a b c d"/>'), "does not say its size"),
+    (svg("", '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1">'), "does not say its size"),
     (b'<?xml-stylesheet href="a.css"?>' + svg(""), "processing instruction"),
     (b'<!DOCTYPE svg [<!ENTITY a "b">]>' + svg("&a;"), "document type"),
     (svg("", '<svg xmlns="http://www.w3.org/2000/svg">'), "does not say its size"),

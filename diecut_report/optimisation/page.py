@@ -13,6 +13,7 @@ from markupsafe import Markup
 import diecut_report.report.figures  # noqa: F401  # before Matplotlib, for its settings
 from diecut_report import __version__
 from diecut_report.config import yaml_tree
+from diecut_report.files import room
 from diecut_report.languages.phrases import capital
 from diecut_report.languages.speech import localised, said, say, say_counted, spoken_language
 from diecut_report.optimisation import charts, texts
@@ -48,7 +49,7 @@ def page(found: OptimisationResult) -> str:
 def sheets(found: OptimisationResult) -> bytes:
     """Return it as PDF (A4, PDF/UA-1)."""
     fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
-    with pdf._without_collection():
+    with room(), pdf._without_collection():
         content: bytes = HTML(string=_filled(found, "print"), url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
     return content
 

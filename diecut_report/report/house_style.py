@@ -22,6 +22,8 @@ from jinja2 import (
     TemplateSyntaxError,
     nodes,
 )
+from jinja2 import compiler as jinja_compiler
+from jinja2 import environment as jinja_environment
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.languages.phrases import Phrase
@@ -169,9 +171,7 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
     except Exception as cause:  # of any kind: a template may call, divide, index whatever it likes
         files = {house.path(name) for name in house.templates} if house else set()
         places = [frame for frame in traceback.extract_tb(cause.__traceback__) if frame.filename in files]
-        if (
-            house and files and isinstance(cause, SyntaxError | RecursionError)
-        ):  # in what Jinja makes of it, whose lines tell nothing
+        if house and files and (isinstance(cause, RecursionError | MemoryError) or _is_of_jinja(cause)):
             places = places or [traceback.FrameSummary(house.folder, None, "")]
         if not places:
             raise
@@ -180,3 +180,9 @@ def in_words(house: HouseStyle | None) -> Iterator[None]:
             said = Phrase("{name} is not a template of the folder or the program", name=repr(cause.name))
         words = Phrase("The template cannot be filled: {reason}.", reason=said.rstrip(".") or type(cause).__name__)
         raise UserError(Problem(words, places[-1].filename, places[-1].lineno)) from cause
+
+
+def _is_of_jinja(cause: Exception) -> bool:
+    """Whether it went wrong in what Jinja makes of a template or joins of its texts, whose lines tell nothing."""
+    *_, last = traceback.extract_tb(cause.__traceback__)
+    return last.filename in (jinja_compiler.__file__, jinja_environment.__file__)

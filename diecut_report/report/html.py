@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import base64
 from collections.abc import Callable, Mapping
+from contextlib import nullcontext
 from functools import cache, partial
 from hashlib import sha256
 from importlib import import_module
@@ -22,6 +23,7 @@ from diecut_report.report.page_policy import refuse_fetching
 from diecut_report.report.reader_data import reader_data
 from diecut_report.report.symbol_list import in_blocks
 from diecut_report.report.symbols import cited, letters_declared, own_words, pieces, prose, symbol
+from diecut_report.report.template_limits import bounded_memory
 from diecut_report.report.title_block import machine_named
 from diecut_report.report.value_lines import in_lines
 from diecut_report.report.value_rows import ValueRow
@@ -147,10 +149,10 @@ def filled(material: Material, medium: Medium, kind: str, *scripts: str) -> str:
     style += f"\n{house.css}" if house else ""
     given = template_variables(material, medium, kind, style, policy(*scripts))
     environment = _environment() if house is None else house.environment(folder(), FILTERS, template_functions(given))
-    with in_words(house), letters_declared(*material.letters):
+    with in_words(house), letters_declared(*material.letters), bounded_memory() if house else nullcontext():
         made = environment.get_template(MAIN).render(given)
-    if house:
-        refuse_fetching(made, house.folder, "; ".join(POLICY) if kind == "screen" else "", MAIN)
+        if house:
+            refuse_fetching(made, house.folder, given["policy"] if kind == "screen" else "", MAIN)
     return made
 
 

@@ -28,13 +28,13 @@ __all__ = [
     "String",
     "URLFetcher",
     "block_layout",
-    "fetching_refused",
+    "told_of_page",
 ]
 
 
 @contextmanager
-def fetching_refused(folder: str) -> Iterator[None]:
-    """Tell in words what a page asks for from elsewhere, which the templates of this folder brought in."""
+def told_of_page(folder: str) -> Iterator[None]:
+    """Tell in words what a page asks for from elsewhere, or cannot be set for, which the templates of this folder brought in."""
     try:
         yield
     except FatalURLFetchingError as error:  # no Exception: it would pass by all who tell of faults
@@ -45,6 +45,16 @@ def fetching_refused(folder: str) -> Iterator[None]:
                 Phrase("{error}: a report fetches nothing. Put what it needs into the folder.", error=error), folder
             )
         ) from error
+    except (OSError, UserError):
+        raise
+    except Exception as error:  # of any kind: a template or a style may ask for anything
+        if not folder:
+            raise
+        words = Phrase(
+            "The sheets cannot be set with these templates: {error}. Give HTML alone, or plainer ones.",
+            error=f"{type(error).__name__}: {error}",
+        )
+        raise UserError(Problem(words, folder)) from error
 
 
 def _references(pdf: Any) -> tuple[bytes, ...]:

@@ -18,6 +18,7 @@ RUNNING = {
     "iframe",
     "frame",
     "frameset",
+    "link",
     "object",
     "embed",
     "applet",
@@ -30,6 +31,8 @@ RUNNING = {
 """Elements that run, embed, change addresses, or are read otherwise where scripts are off."""
 ADDRESSES = {"src", "srcset", "data", "poster", "background", "href", "imagesrcset", "action", "formaction", "ping", "manifest", "longdesc",
              "lowsrc", "dynsrc", "codebase", "archive", "classid", "icon", "profile"}  # fmt: skip
+SETS = {"srcset", "imagesrcset"}
+"""Attributes that hold many addresses, of which each screen takes another."""
 LINKS = re.compile(r"(https?:|mailto:|tel:|data:|#)", re.IGNORECASE)
 """What a link may lead to: nothing is fetched before a reader follows it."""
 FETCHING_FUNCTIONS = {
@@ -49,7 +52,7 @@ _UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]
 def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
     """Raise UserError for a page that would fetch or run something, that lost its policy, or holds characters which none may hold.
 
-    ``policy`` is how the policy begins; a page that is only printed has none. ``main`` is the template that holds it.
+    ``policy`` is what a browser is to obey; a page that is only printed has none. ``main`` is the template that holds it.
     """
     from tinyhtml5 import parse
 
@@ -76,18 +79,18 @@ def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
 
 
 def _is_protected(tree: Any, policy: str) -> bool:
-    """Return whether the page has one policy, in its head, where browsers look for it, before anything that it is to judge."""
-    policies = [
+    """Return whether the page has this policy alone, at the begin of its head, behind its encoding, in which it was judged."""
+    of_policy = [
         each for each in tree.iter(f"{{{HTML}}}meta") if _lower(each, "http-equiv") == "content-security-policy"
     ]
     head = tree.find(f"{{{HTML}}}head")
-    before = [each.tag for each in head][:2] if head is not None else []
-    in_place = (
-        len(policies) == 1
-        and any(each is policies[0] for each in list(head)[:2])
-        and set(before) == {f"{{{HTML}}}meta"}
+    first = [] if head is None else [each for each in head if isinstance(each.tag, str)][:2]
+    return (
+        len(first) == 2
+        and _lower(first[0], "charset") == "utf-8"
+        and [first[1]] == of_policy
+        and first[1].get("content") == policy
     )
-    return in_place and policies[0].get("content", "").startswith(policy)
 
 
 def _lower(element: Any, name: str) -> str:
@@ -113,10 +116,16 @@ def _fetched_by_attribute(tag: str, name: str, value: str) -> Iterator[str]:
     address = value.strip().lower()
     if name.startswith("on"):
         yield f"<{tag} {name}>"
+    elif name == "rel" and "attachment" in address.split():
+        yield f"<{tag} rel={value[:80]}>"  # into the sheets, beside what the program carries there
     elif name in ("href", "xlink:href") and tag.lower() in ("a", "area"):
         if not LINKS.match(re.sub(r"[\s\0-\x1f]", "", address)):
             yield f"<{tag}> {value[:80]}"
-    elif name.removeprefix("xlink:") in ADDRESSES and address and not address.startswith(("data:", "#")):
+    elif (
+        name.removeprefix("xlink:") in ADDRESSES
+        and address
+        and (name in SETS or not address.startswith(("data:", "#")))
+    ):
         yield f"<{tag}> {value[:80]}"
     if name == "style" or "(" in value:
         yield from (what for what, _ in fetched_by_css(value))

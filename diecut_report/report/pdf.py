@@ -17,7 +17,7 @@ from diecut_report.report.context import Material
 from diecut_report.report.equations import Equation
 from diecut_report.report.html import filled
 from diecut_report.report.model import Item
-from diecut_report.report.page_engine import Attachment, URLFetcher, block_layout, fetching_refused
+from diecut_report.report.page_engine import Attachment, URLFetcher, block_layout, told_of_page
 from diecut_report.report.page_reading import read_page
 from diecut_report.report.pdf_archive import Archive
 from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
@@ -112,7 +112,7 @@ def sheets(material: Material) -> bytes:
     cache: dict[str, Any] = dict(paper.pictures)
     with (
         _without_collection(),
-        fetching_refused(material.house.folder if material.house else ""),
+        told_of_page(material.house.folder if material.house else ""),
         warnings.catch_warnings(action="ignore", category=ResourceWarning),
     ):  # WeasyPrint's own file
         content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(

@@ -7,8 +7,10 @@ figures. WeasyPrint's search for its libraries starts a compiler where a name is
 from __future__ import annotations
 
 import ctypes.util
+import logging
 import os
 import sys
+import tempfile
 from collections.abc import Iterator
 from contextlib import contextmanager
 from importlib.util import find_spec
@@ -19,20 +21,37 @@ from pathlib import Path
 def settings_of_its_own() -> Iterator[None]:
     """Import Matplotlib with nothing but the settings that it comes with, and without a screen.
 
-    It looks for a ``matplotlibrc`` in the current folder before all others, so that is the folder of its own meanwhile.
+    It looks for a ``matplotlibrc`` in the current folder before all others, so that is the folder of its own meanwhile. Where it cannot write
+    into the user's folders, it would tell that at each start, and leave one among the temporary files: the command line ends without its help.
     """
     spec = find_spec("matplotlib")
     assert spec is not None and spec.submodule_search_locations
     own = Path(spec.submodule_search_locations[0]) / "mpl-data"
-    asked = os.environ.get("MPLBACKEND")
+    before = {name: os.environ.get(name) for name in ("MPLBACKEND", "MPLCONFIGDIR")}
+    logger = logging.getLogger("matplotlib")
+    level = logger.level
     os.environ["MPLBACKEND"] = "agg"
+    logger.setLevel(logging.ERROR)
     try:
-        with _inside(own):
+        with _inside(own), _without_temporary_files():
             yield
     finally:
-        del os.environ["MPLBACKEND"]
-        if asked is not None:
-            os.environ["MPLBACKEND"] = asked
+        logger.setLevel(level)
+        for name, value in before.items():
+            os.environ.pop(name, None)
+            os.environ |= {} if value is None else {name: value}
+
+
+@contextmanager
+def _without_temporary_files() -> Iterator[None]:
+    """Remove at the end what is put among the temporary files meanwhile."""
+    before = tempfile.tempdir
+    with tempfile.TemporaryDirectory(prefix="diecut-report-") as folder:
+        tempfile.tempdir = folder
+        try:
+            yield
+        finally:
+            tempfile.tempdir = before
 
 
 @contextmanager

@@ -13,10 +13,12 @@ from types import BuiltinFunctionType, FunctionType, MethodType
 from typing import Any
 
 from jinja2.environment import TemplateModule
-from jinja2.runtime import BlockReference, LoopContext, Macro, TemplateReference, Undefined
+from jinja2.filters import do_round
+from jinja2.runtime import BlockReference, Context, LoopContext, Macro, TemplateReference, Undefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from jinja2.utils import Cycler, Joiner, Namespace
 
+from diecut_report.languages.phrases import phrase
 from diecut_report.report.i18n import Catalogue
 
 TEXT = frozenset(
@@ -72,6 +74,8 @@ METHODS: Mapping[type, frozenset[str]] = {
 """What may be read of values that are no data classes, by their type."""
 GLOBALS = ("cycler", "joiner", "namespace", "range")
 """Jinja's own functions that templates may call."""
+LONGEST = 10_000  # bits of a whole number; Python itself prints no longer ones
+MOST_DECIMALS = 300  # a float has no more
 PLAIN = (str, int, float, bytes, type(None), list, tuple, set, frozenset, Mapping)
 OF_JINJA = (Macro, LoopContext, BlockReference, TemplateReference, TemplateModule, Cycler, Joiner, Namespace, Undefined)
 
@@ -79,12 +83,23 @@ OF_JINJA = (Macro, LoopContext, BlockReference, TemplateReference, TemplateModul
 class TemplateSandbox(ImmutableSandboxedEnvironment):
     """Fill templates that see plain data; of functions and methods they call those of a list, and Jinja's."""
 
+    intercepted_binops = frozenset({"*", "**", "/", "//", "%"})
+
     def __init__(self, functions: Collection[Callable[..., Any]], **options: Any) -> None:
         """Take the functions, and methods as they stand in their classes, that templates may call."""
         super().__init__(**options)
         self.functions = frozenset(functions)
+        self.filters = {**self.filters, "round": _rounded}
         self.globals = {name: self.globals[name] for name in GLOBALS}
         self.allowed = self.functions | frozenset(self.globals.values())
+
+    def call_binop(self, context: Context, operator: str, left: Any, right: Any) -> Any:
+        """Return what an operator makes of two values; ValueError for whole numbers so long that Python would reckon without an end."""
+        longest = max(each.bit_length() if isinstance(each, int) else 0 for each in (left, right))
+        is_power = operator == "**" and isinstance(left, int) and isinstance(right, int)
+        if longest * (abs(right) if is_power else 1) > LONGEST:
+            raise ValueError(phrase("a whole number of too many digits"))
+        return super().call_binop(context, operator, left, right)
 
     def is_safe_attribute(self, obj: Any, attr: str, value: Any) -> bool:
         """Return whether a template may read an attribute."""
@@ -129,6 +144,13 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
         if not isinstance(obj, FunctionType | BuiltinFunctionType | MethodType | type):
             return False
         return obj in self.allowed or (isinstance(obj, MethodType) and obj.__func__ in self.functions)
+
+
+def _rounded(value: float, precision: int = 0, method: str = "common") -> float:
+    """Return a number rounded by Jinja's filter, which would raise ten to any power."""
+    if abs(precision) > MOST_DECIMALS:
+        raise ValueError(phrase("a number is rounded to too many decimals"))
+    return do_round(value, precision, method)  # type: ignore[arg-type]  # another method raises its own message
 
 
 def _names(obj: Any) -> frozenset[str]:

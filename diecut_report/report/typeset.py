@@ -9,6 +9,7 @@ import mathra
 from math_core import LatexToMathML
 
 _SIZE = re.compile(r'viewBox="([-\d.]+) ([-\d.]+) ([-\d.]+) ([-\d.]+)".*?vertical-align: ([-\d.]+)em', re.DOTALL)
+SHALLOW = 2000  # letters, in which no formula is nested too deep
 
 
 class Outline(NamedTuple):
@@ -49,5 +50,9 @@ class Typesetter:
         """The formula as MathML."""
         key = latex, display
         if key not in self._mathml:
+            if len(latex) > SHALLOW:
+                self.outline(
+                    latex, display=display
+                )  # refuses what is nested so deep that the other library would overrun its stack
             self._mathml[key] = self._core.convert_with_local_state(latex, displaystyle=display)
         return self._mathml[key]

@@ -16,14 +16,16 @@ from diecut_report.exchange.page_comparison import other_templates
 from diecut_report.house_folder import house_style
 from diecut_report.report.context import Material
 from diecut_report.report.house_style import HouseStyle, blocks
-from diecut_report.report.html import POLICY, Screen, filled, folder, page
+from diecut_report.report.html import Screen, filled, folder, page, policy
 from diecut_report.report.page_policy import refuse_fetching
 from diecut_report.report.pdf import Paper, sheets
 from tests.configs import SMALL, saved
 
 Data = dict[str, Any]
 DOCS = Path(__file__).parents[2] / "docs"
-HEAD = f'<meta http-equiv="Content-Security-Policy" content="{POLICY[0]}; script-src x">'
+OBEYED = policy("x")
+CHARSET, META = '<meta charset="utf-8">', f'<meta http-equiv="Content-Security-Policy" content="{OBEYED}">'
+HEAD = CHARSET + META
 EXTENDS = '{% extends "program/report.html.j2" %}\n'
 
 
@@ -169,10 +171,17 @@ def test_what_only_print_would_fetch_is_told(brief: Data, tmp_path: Path, place:
         sheets(Material(brief, house=house))
 
 
+@pytest.mark.parametrize("text", ["<style>p{width:calc(1px/0)}@page{size:0 0}</style>", "<div>" * 1500])
+def test_what_the_page_engine_cannot_set_is_told(brief: Data, tmp_path: Path, text: str) -> None:
+    house = house_style(written(tmp_path, report__html__j2=closing(text)))
+    with pytest.raises(UserError, match="The sheets cannot be set with these templates"):
+        sheets(Material(brief, house=house))
+
+
 @pytest.mark.parametrize("letter", ["\0", "\x1b", "\ud800", "\uffff"])
 def test_letters_that_no_page_can_hold_are_refused(letter: str) -> None:
     with pytest.raises(UserError, match=f"A template writes U\\+{ord(letter):04X}"):
-        refuse_fetching(f"{HEAD}a{letter}b", "house", POLICY[0], "report.html.j2")
+        refuse_fetching(f"{HEAD}a{letter}b", "house", OBEYED, "report.html.j2")
 
 
 @pytest.mark.parametrize(
@@ -199,6 +208,31 @@ def test_letters_that_no_page_can_hold_are_refused(letter: str) -> None:
         ("<style>p{background:u/**/rl(//x) url( '//y' )}</style>", "url(//y would be fetched"),
         ("<style>@font-face{src:url(//x)}</style>", "url(//x would be fetched"),
         ("<svg><style>@import 'x'</style></svg>", "@import would be fetched"),
+        (
+            '<img srcset="data:image/png;base64,AA== 1x, //x 2x" alt="">',
+            "<img> data:image/png;base64,AA== 1x, //x 2x would be fetched",
+        ),
+        (
+            '<link rel="stylesheet" href="data:text/css,@import url(//x)">',
+            "<link> data:text/css,@import url(//x) would be fetched",
+        ),
+        ('<a rel="nofollow Attachment" href="data:,x">x</a>', "<a rel=nofollow Attachment> would be fetched"),
+        ("<template shadowrootmode=open><img src=//x></template>", "<img> //x would be fetched"),
+        ("<svg><foreignObject><p><img src=//x></p></foreignObject></svg>", "<img> //x would be fetched"),
+        (
+            "<math><annotation-xml encoding=text/html><img src=//x></annotation-xml></math>",
+            "<img> //x would be fetched",
+        ),
+        ("<svg><title><style>@import '//x'</style></title></svg>", "@import would be fetched"),
+        ("<style><title/>@import '//x'</style>", "@import would be fetched"),
+        ("<math><mi xlink:href=javascript:x>", "<mi> javascript:x would be fetched"),
+        ("<style>p{--x:url(//x)}</style>", "url(//x would be fetched"),
+        ("<style>p{content:src('//x')}</style>", "src(//x would be fetched"),
+        ("<style>@namespace url(//x);</style>", "url(//x would be fetched"),
+        ("<style>@media print{@\\69 mport '//x';p{cursor:URL(//x)}}</style>", "url(//x would be fetched"),
+        ("<input type=image src=//x>", "<input> //x would be fetched"),
+        ("<body background=//x>", "<body> //x would be fetched"),
+        ("<a ping=//x href='#x'>", "<a> //x would be fetched"),
         ("<script>x</script>", "<script> would be fetched"),
         ("<noscript><img src=//x></noscript>", "<noscript> would be fetched"),
         ('<meta http-equiv="Content-Security-Policy" content="">', "has lost its Content-Security-Policy"),
@@ -206,7 +240,7 @@ def test_letters_that_no_page_can_hold_are_refused(letter: str) -> None:
 )
 def test_a_page_that_fetches_is_refused(text: str, words: str) -> None:
     with pytest.raises(UserError) as error:
-        refuse_fetching(f"{HEAD}{text}", "house", POLICY[0], "report.html.j2")
+        refuse_fetching(f"{HEAD}{text}", "house", OBEYED, "report.html.j2")
     assert words in str(error.value)
 
 
@@ -214,12 +248,14 @@ def test_a_page_that_fetches_is_refused(text: str, words: str) -> None:
     "head",
     [
         f"<textarea>{HEAD}</textarea>", f"<body>{HEAD}", f"<title>{HEAD}</title>", f"<noscript>{HEAD}</noscript>", f"<!--{HEAD}-->",
-        f"<template>{HEAD}</template>", f"<p>x</p>{HEAD}", f"<style>p{{}}</style>{HEAD}", f"<link rel=x><meta charset=utf-8>{HEAD}",
+        f"<template>{HEAD}</template>", f"<p>x</p>{HEAD}", f"<style>p{{}}</style>{HEAD}", f"<template></template>{HEAD}",
+        META, f"<meta charset=gbk>{META}", f"<meta name=x>{META}", f"{META}{CHARSET}", f"{HEAD}{META}",
+        HEAD.replace(OBEYED, OBEYED + " 'unsafe-inline'"), HEAD.replace(OBEYED, OBEYED + "; connect-src *"), HEAD.replace(OBEYED, OBEYED[:-9]),
     ],
 )  # fmt: skip
 def test_a_policy_that_browsers_do_not_obey_is_lost(head: str) -> None:
     with pytest.raises(UserError, match="has lost its Content-Security-Policy"):
-        refuse_fetching(f"<!DOCTYPE html>{head}", "house", POLICY[0], "report.html.j2")
+        refuse_fetching(f"<!DOCTYPE html>{head}", "house", OBEYED, "report.html.j2")
 
 
 def test_pages_are_judged_whatever_their_medium(brief: Data, tmp_path: Path) -> None:
@@ -232,7 +268,7 @@ def test_pages_are_judged_whatever_their_medium(brief: Data, tmp_path: Path) -> 
 
 def test_what_lies_in_the_page_and_links_are_not_fetched() -> None:
     text = '<a href="https://example.com">x</a><img src="data:image/png;base64,AA=="><use xlink:href="#a"/><p style="fill: url(#b)">'
-    refuse_fetching(f"{HEAD}{text}", "house", POLICY[0], "report.html.j2")
+    refuse_fetching(f"{HEAD}{text}", "house", OBEYED, "report.html.j2")
 
 
 def test_a_fault_of_the_program_itself_stays_one(brief: Data, tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import resource
 from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import cached_property
@@ -13,6 +14,8 @@ from jinja2 import defaults
 from markupsafe import Markup
 
 from diecut_report.errors import UserError
+from diecut_report.pipeline import rendered
+from diecut_report.report import template_limits, template_sandbox
 from diecut_report.report.context import Material
 from diecut_report.report.house_style import HouseStyle
 from diecut_report.report.html import (
@@ -20,7 +23,6 @@ from diecut_report.report.html import (
     MathFunctions,
     Screen,
     folder,
-    page,
     template_functions,
     template_variables,
 )
@@ -86,7 +88,7 @@ def test_all_that_a_template_reaches_is_plain_data_or_a_listed_function(plain: D
 
 def test_filters_and_tests_are_those_of_jinja_and_of_the_report() -> None:
     environment = HouseStyle("house").environment(folder(), FILTERS, [])
-    assert environment.filters == defaults.DEFAULT_FILTERS | FILTERS
+    assert environment.filters == defaults.DEFAULT_FILTERS | FILTERS | {"round": template_sandbox._rounded}
     assert environment.tests == defaults.DEFAULT_TESTS
     for each in FILTERS.values():
         assert isinstance(getattr(each, "func", each), FunctionType) and not isinstance(each, MethodType)
@@ -137,21 +139,72 @@ WAYS_OUT = [
     "{{ ''.maketrans('a', 'b') }}",
     "{{ {}.fromkeys([1]) }}",
     "{{ [].sort() }}",
+    "{{ ({}|items).gi_frame.f_globals }}",
+    "{{ ([1]|map('string')).gi_code }}",
+    "{{ cycler(figure).current.__self__ }}",
+    "{{ namespace(x=figure).x.__func__ }}",
+    "{{ picture.__self__.templates }}",
+    "{{ namespace(**{'__self__': 'x', '__name__': 'upper', '__call__': figure}).__call__ }}",
 ]  # fmt: skip
 
 
-@pytest.mark.parametrize("text", WAYS_OUT)
-def test_a_way_out_of_the_sandbox_is_closed(plain: Data, text: str) -> None:
-    brief = plain | {
-        "mechanisms": {"cylinder": plain["mechanisms"]["cylinder"]},
-        "comparisons": {},
-        "report": {"detail": "brief"},
-    }
+@pytest.fixture
+def brief(plain: Data) -> Data:
+    """A brief report of one mechanism, which is soon made."""
+    mechanisms = {"cylinder": plain["mechanisms"]["cylinder"]}
+    return plain | {"mechanisms": mechanisms, "comparisons": {}, "report": {"detail": "brief"}}
+
+
+def closed(results: Data, text: str) -> str:
+    """The page with a template's text at its end."""
     template = '{% extends "program/report.html.j2" %}\n{% block closing %}\n' + text + "\n{% endblock %}\n"
+    made, _ = rendered(results, ["html"], lambda _: None, house=HouseStyle("house", {"report.html.j2": template}))
+    return made["html"].decode()
+
+
+@pytest.mark.parametrize("text", WAYS_OUT)
+def test_a_way_out_of_the_sandbox_is_closed(brief: Data, text: str) -> None:
     with pytest.raises(
         UserError, match=r"unsafe|not safely callable|has no attribute|is undefined|no blocks? named|no parent block"
     ):
-        page(Material(brief, house=HouseStyle("house", {"report.html.j2": template})))
+        closed(brief, text)
+
+
+ENDLESS = [
+    # whole numbers, which Python reckons without looking up
+    ("{{ 2 ** 100000000 }}", "a whole number of too many digits"),
+    ("{{ 1 if (9 ** 9) ** (9 ** 9) }}", "a whole number of too many digits"),
+    ("{% set n = namespace(x=3) %}{% for i in range(40) %}{% set n.x = n.x * n.x %}{% endfor %}", "a whole number of too many digits"),
+    ("{% set x = ('f' * 100000)|int(base=16) %}{{ x // 3 }}", "a whole number of too many digits"),
+    ("{{ 1.5|round(1000000000, 'ceil') }}", "a number is rounded to too many decimals"),
+    ("{{ 1|round(-1000000000) }}", "a number is rounded to too many decimals"),
+    # memory
+    ("{{ 'a' * 10 ** 12 }}", "MemoryError"),
+    ("{{ [1]|batch(10 ** 12, 0)|list }}", "MemoryError"),
+    ("{% set n = namespace(x='aaaa') %}{% for i in range(60) %}{% set n.x = n.x ~ n.x %}{% endfor %}", "MemoryError"),
+    # loops
+    ("{% for i in range(99999) %}{% for j in range(99999) %}{% endfor %}{% endfor %}", "was not made within 5 s, and was given up"),
+    ("{% include 'report.html.j2' %}", "was not made within 5 s, and was given up|maximum recursion"),
+    ("{% macro m() %}{{ m() }}{% endmacro %}{{ m() }}", "maximum recursion"),
+    ("{{ self.closing() }}", "maximum recursion"),
+    # a formula of the template's own, nested so deep that the library would overrun its stack
+    ("{{ math.display(namespace(latex='{' * 100000 ~ '}' * 100000)) }}", "nesting deeper than 64 levels"),
+    # what goes wrong in Jinja itself
+    ("{% filter attr('__class__') %}a{% endfilter %}", "cannot be filled"),
+    ("{{ ('f' * 10000)|int(base=16) }}", "cannot be filled: Exceeds the limit"),
+]  # fmt: skip
+
+
+@pytest.mark.parametrize(("text", "words"), ENDLESS)
+def test_what_never_ends_or_takes_all_memory_is_told(
+    brief: Data, text: str, words: str, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    monkeypatch.setattr(template_limits, "SECONDS", 5.0)
+    monkeypatch.setattr(template_limits, "MEMORY", 2**28)
+    before = resource.getrlimit(resource.RLIMIT_AS)
+    with pytest.raises(UserError, match=words):
+        closed(brief, text)
+    assert resource.getrlimit(resource.RLIMIT_AS) == before
 
 
 def test_what_is_plain_is_read_and_called() -> None:
@@ -163,6 +216,7 @@ def test_what_is_plain_is_read_and_called() -> None:
         ("{% set c = cycler('x', 'y') %}{{ c.next() }}{{ c.next() }}", "xy"),
         ("{% macro m(a) %}{{ a }}{{ caller() }}{% endmacro %}{% call m(1) %}2{% endcall %}", "12"),
         ("{{ ('<b>'|safe).upper() }}", str(Markup("<B>"))),
+        ("{{ 7.256|round(2) }}{{ 'a' * 3 }}{{ 2 ** 10 }}{{ '%03d' % 7 }}{{ 7 // 2 }}", "7.26aaa10240073"),
         ("{{ range(3)|list }}", "[0, 1, 2]"),
     ]:
         assert sandbox.from_string(text).render() == shown

@@ -6,4 +6,4 @@ Whatever draws with Matplotlib imports this package first, so that the library i
 from diecut_report.report.surroundings import settings_of_its_own
 
 with settings_of_its_own():
-    import matplotlib  # noqa: F401  # imported here for its settings
+    import matplotlib.font_manager  # noqa: F401  # imported here for its settings, and for the folder in which it keeps its list of fonts

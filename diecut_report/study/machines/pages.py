@@ -12,6 +12,7 @@ from typing import Any
 from markupsafe import Markup
 
 from diecut_report import __version__
+from diecut_report.files import room
 from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import localised, said, say, spoken_language
 from diecut_report.report import html, pdf
@@ -36,7 +37,7 @@ def page(made: MachineComparison) -> bytes:
 def sheets(made: MachineComparison) -> bytes:
     """Return the comparison as PDF (PDF/UA-1)."""
     fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
-    with pdf._without_collection():
+    with room(), pdf._without_collection():
         content: bytes = HTML(string=_filled(made, "print"), url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
     return content
 

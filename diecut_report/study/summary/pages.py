@@ -12,6 +12,7 @@ from typing import Any
 from markupsafe import Markup
 
 from diecut_report import __version__
+from diecut_report.files import room
 from diecut_report.languages.speech import decimal_sign, localised, said, say, say_counted, spoken_language
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report import html, pdf
@@ -34,7 +35,7 @@ def sheets(summary: Summary) -> bytes:
     """Return the summary as PDF (A4, PDF/UA-1)."""
     fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
     source = _filled(summary, "print")
-    with pdf._without_collection():
+    with room(), pdf._without_collection():
         content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
     return content
 

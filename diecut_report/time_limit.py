@@ -1,0 +1,82 @@
+"""A limit of time for what was written by others: plugins, and templates of firms."""
+
+from __future__ import annotations
+
+import ctypes
+import os
+import signal
+import threading
+from collections.abc import Iterator
+from contextlib import contextmanager
+from types import FrameType
+
+AGAIN = 1.0  # seconds after which what holds the interruption back is interrupted again
+HARD = 2.0  # times the limit: a process that was not interrupted until then is ended
+STUCK = 75  # with what it ends
+
+
+class Overran(BaseException):
+    """Interrupt what takes too long, wherever it is; not an Exception, which a plugin may catch."""
+
+
+@contextmanager
+def limited(seconds: float | None, *, own_process: bool = False) -> Iterator[None]:
+    """Raise Overran in what runs within, once it has taken so long.
+
+    What computes in a library without coming back to Python cannot be interrupted; a process of its own is ended then.
+    """
+    if seconds is None:
+        yield
+        return
+    hard = threading.Timer(HARD * seconds + AGAIN, os._exit, (STUCK,)) if own_process else None
+    if hard is not None:
+        hard.daemon = True
+        hard.start()
+    try:
+        with _by_signal(seconds) if threading.current_thread() is threading.main_thread() else _by_thread(seconds):
+            yield
+    finally:
+        if hard is not None:
+            hard.cancel()
+
+
+@contextmanager
+def _by_signal(seconds: float) -> Iterator[None]:
+    """The main thread is interrupted by the alarm clock, also while it sleeps."""
+
+    rung = []  # at each alarm: a library may have held the interruption for a fault of its own, and gone on without what took long
+
+    def ring(number: int, frame: FrameType | None) -> None:
+        rung.append(number)
+        raise Overran
+
+    before = signal.signal(signal.SIGALRM, ring)
+    signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN)
+    try:
+        yield
+        if rung:
+            raise Overran
+    finally:
+        signal.setitimer(signal.ITIMER_REAL, 0)
+        signal.signal(signal.SIGALRM, before)
+
+
+@contextmanager
+def _by_thread(seconds: float) -> Iterator[None]:
+    """Another thread is interrupted between two of its steps; signals reach the main one alone."""
+    own, is_done = threading.get_ident(), threading.Event()
+
+    def watch() -> None:
+        left = seconds
+        while not is_done.wait(left):
+            ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(own), ctypes.py_object(Overran))
+            left = AGAIN
+
+    watcher = threading.Thread(target=watch, daemon=True)
+    watcher.start()
+    try:
+        yield
+    finally:
+        is_done.set()
+        watcher.join()
+        ctypes.pythonapi.PyThreadState_SetAsyncExc(ctypes.c_ulong(own), None)  # what was asked for at the very end
