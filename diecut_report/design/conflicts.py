@@ -1,7 +1,7 @@
 """Which checks conflict where no machine passes: a least set of them, found by leaving out, each step calculated.
 
-A check that follows from none of the free inputs is told as proved, before anything is searched. Of others a search says that no machine was found in which they
-hold together; that each of them left out lets the others hold is shown by a machine that was calculated.
+A check that follows from none of the free inputs is told as proved, before anything is searched. Of others a search says that no
+machine was found in which they hold together; that each of them left out lets the others hold is shown by a machine that was calculated.
 """
 
 from __future__ import annotations

@@ -48,7 +48,9 @@ class Drawn:
 
     def __init__(self, base: Config, run: WarmRun, seed: int) -> None:
         self.random, self.numbers = np.random.default_rng(seed), given_numbers(base)
-        self.alike = dict[str, list[float]]()  # sizes of the machine by their units: those that are given, and those that follow
+        self.alike = dict[
+            str, list[float]
+        ]()  # sizes of the machine by their units: those that are given, and those that follow
         for each in self.numbers:
             self.alike.setdefault(each.meta.parsed_unit.si, []).append(float(each.today or 0.0))
         for calc in run.calculations.values():
@@ -107,7 +109,9 @@ def faults(file: Path, count: int, seed: int, alone: int = 1) -> tuple[list[Faul
         found[_kind(words)] = Fault(_kind(words), f"among many: {words}", "")
     exists = rows.status != "error"
     for i in np.flatnonzero(~exists | (np.arange(count) % alone == 0)):
-        for words in _wrong_alone(press, _changed(base, changes[i]), expected, rows.errors[i], printed=i % PRINTED == 0):
+        for words in _wrong_alone(
+            press, _changed(base, changes[i]), expected, rows.errors[i], printed=i % PRINTED == 0
+        ):
             found.setdefault(_kind(words), Fault(_kind(words), words, told(changes[i])))
     return [*found.values()], int(exists.sum())
 
@@ -123,7 +127,9 @@ def _changed(base: Config, changes: Changes) -> Config:
     return config
 
 
-def _wrong_alone(press: WarmPress, config: Config, expected: set[str], among: str | None, *, printed: bool) -> Iterator[str]:
+def _wrong_alone(
+    press: WarmPress, config: Config, expected: set[str], among: str | None, *, printed: bool
+) -> Iterator[str]:
     """What is wrong with a machine alone, and where it exists though it does not ``among`` others, or the other way round."""
     try:
         run = press.calculate(config)
@@ -161,7 +167,9 @@ def _may_be_absent(run: WarmRun, name: str) -> bool:
     home, _, own = name.partition(".")
     calc = run.calculations[home]
     check = next(each for each in checks_of(calc) if each.id == own)
-    return any(isinstance(side, str) and getattr(calc.steps.get(side), "exists", None) for side in (check.demand, check.limit))
+    return any(
+        isinstance(side, str) and getattr(calc.steps.get(side), "exists", None) for side in (check.demand, check.limit)
+    )
 
 
 def _kind(words: str) -> str:

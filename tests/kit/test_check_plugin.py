@@ -144,7 +144,10 @@ def test_a_machine_beside_the_example_may_be_refused(tmp_path: Path) -> None:
     """By plain code too, which refuses all of many for one of them."""
     body = 'if (travel > {limit}).any():\n        raise Refusal("travel", "is too long")\n    return {gives} * 1e5'
     for gives in ("travel", "travel.item()"):
-        changes = *odd(body.format(limit=0.01005, gives=gives)), ("import numpy as np", "import numpy as np\n\nfrom diecut_report.api import Refusal")
+        changes = (
+            *odd(body.format(limit=0.01005, gives=gives)),
+            ("import numpy as np", "import numpy as np\n\nfrom diecut_report.api import Refusal"),
+        )
         test = contract(tmp_path / gives, *changes)
         assert found(test, "alone").status == "note" and found(test, "speed").status == "pass"
 
