@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
@@ -16,7 +16,7 @@ from diecut_report.design.advised import Advised, advised
 from diecut_report.design.changeable import changeable, is_fixed, is_stepped, named_paths
 from diecut_report.design.changed_machines import MOST, ChangedMachines, Enough, Spent
 from diecut_report.design.choice_search import ChangeableChoice, changeable_choices, with_choices
-from diecut_report.design.conflicts import CheckConflict, conflict_of, scattered
+from diecut_report.design.conflicts import CheckConflict, conflict_of, follows_from_none, scattered
 from diecut_report.design.design_inputs import DesignInput, design_input
 from diecut_report.design.may_be_freed import nothing_free, untried
 from diecut_report.design.mending import MendingPath
@@ -96,6 +96,14 @@ def mended(
     begun = dict(advice.choices.values()) | advice.stepped
     if not inputs and not begun and not choices:
         raise UserError(Problem(nothing_free(config, {*only, *kept}), config.tree.file))
+    free_ones = [*(each.asked for each in inputs), *(each.asked for each in choices), *begun]
+    touched = {asked.instance for asked in free_ones}
+    left_out = () if free else untried(config, touched, {each.path for each in free_ones} | kept)
+    count = len(inputs) + len(choices)
+    failing = tuple(name for name, _ in before.checks("fail"))
+    if unreached := tuple(name for name in failing if follows_from_none(config, name, touched)):
+        conflict = CheckConflict(unreached, is_proved=True)  # no search can mend it
+        return Mended(before, left=failing, conflict=conflict, free=count, untried=left_out)
     run = ChangedMachines(config, inputs, begun, Spent(most))
     path, is_ended = _searched(MendingPath(run, inputs, _start(run, inputs, advice)), choices, tell)
     run = _machines(path)
@@ -103,14 +111,11 @@ def mended(
         tell(phrase("leaving out what is not needed"))
         run.spent.most = math.inf  # what is found is not lost for want of a few more
         return _shortest(config, discovery, before, run, path.share)
-    free_ones = [*(each.asked for each in inputs), *(each.asked for each in choices), *run.choices]
-    touched = {asked.instance for asked in free_ones}
     why = None
     if not is_ended:
-        why, is_ended = _conflict(config, path, touched, tell)
-    left_out = () if free else untried(config, touched, {each.path for each in free_ones} | kept)
+        why, is_ended = _conflict(path, tell)
     found = tuple(path.made.failing(0))
-    return Mended(before, (), None, found, why, len(inputs) + len(choices), run.spent.count, is_ended, left_out)
+    return Mended(before, (), None, found, why, count, run.spent.count, is_ended, left_out)
 
 
 def _searched(path: MendingPath, choices: Sequence[ChangeableChoice], tell: Tell) -> tuple[MendingPath, bool]:
@@ -127,12 +132,10 @@ def _searched(path: MendingPath, choices: Sequence[ChangeableChoice], tell: Tell
     return path, False
 
 
-def _conflict(
-    config: Config, path: MendingPath, touched: Collection[str], tell: Tell
-) -> tuple[CheckConflict | None, bool]:
+def _conflict(path: MendingPath, tell: Tell) -> tuple[CheckConflict | None, bool]:
     """Why no machine passes, as far as enough machines tell it, and whether it was ended before."""
     try:
-        return conflict_of(config, path, touched, tell), False
+        return conflict_of(path, tell), False
     except Enough:
         return None, True
 

@@ -67,12 +67,13 @@ def _said(typed: str) -> str:
 
 def _without(found: Mended) -> Iterator[Phrase]:
     words = "none of the {machines} machines that were calculated with other values of the free inputs ({free}) passes"
-    yield Phrase(words, machines=found.calculated, free=found.free)
+    if found.calculated:
+        yield Phrase(words, machines=found.calculated, free=found.free)
     if found.is_ended:
         yield phrase(
             "that is as many as the search may calculate: it is not at its end; let it calculate more with --most"
         )
-    if found.left:
+    if found.calculated and found.left:
         one = "of the best of them {n} check fails: {checks}"
         many = "of the best of them {n} checks fail: {checks}"
         yield Counted(len(found.left), one, many, checks=", ".join(found.left))

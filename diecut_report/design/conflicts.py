@@ -1,7 +1,7 @@
 """Which checks conflict where no machine passes: a least set of them, found by leaving out, each step calculated.
 
-A check that follows from none of the free inputs is told as proved. Of others a search says that no machine was found in which they
-hold together; that each of them left out lets the others hold is shown by a machine that was calculated.
+A check that follows from none of the free inputs is told as proved, before anything is searched. Of others a search says that no
+machine was found in which they hold together; that each of them left out lets the others hold is shown by a machine that was calculated.
 """
 
 from __future__ import annotations
@@ -78,12 +78,9 @@ class _ConflictSearch:
         yield self.scattered[int(np.argmin(path.merits(self.made, self.scattered)))]
 
 
-def conflict_of(config: Config, path: MendingPath, free: Collection[str], tell: Callable[[str], None]) -> CheckConflict:
-    """Return why the search that this path has gone found no machine that passes; ``free`` are the mechanisms whose inputs it may change."""
+def conflict_of(path: MendingPath, tell: Callable[[str], None]) -> CheckConflict:
+    """Return why the search that this path has gone found no machine that passes."""
     failing = path.made.failing(0)
-    fixed = tuple(name for name in failing if is_fixed(config, name, free))
-    if fixed:
-        return CheckConflict(fixed, is_proved=True)
     if not len(path.inputs):  # choices alone, each of whose values was tried
         return CheckConflict(tuple(failing))
     search = _ConflictSearch(
@@ -99,8 +96,8 @@ def scattered(inputs: int) -> Array:
     return draws.choice(WIDTHS, (SCATTERED, 1)) * draws.uniform(-1, 1, (SCATTERED, inputs))
 
 
-def is_fixed(config: Config, check: str, free: Collection[str]) -> bool:
-    """Return whether the mechanism of a check follows from none of those whose inputs are free."""
+def follows_from_none(config: Config, check: str, free: Collection[str]) -> bool:
+    """Return whether the mechanism of a check follows from none of those whose inputs are free: all their values leave it as it is."""
     return upstream(config, [check.split(".")[0]]).isdisjoint(free)
 
 

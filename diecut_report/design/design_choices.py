@@ -10,7 +10,7 @@ from diecut_report.config.instances import slots
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Block, Quantity, meta_of
+from diecut_report.contract.inputs import Block, Quantity, meta_of, nested
 from diecut_report.contract.texts import Text
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
 
@@ -45,9 +45,15 @@ def options_of(asked: Input) -> tuple[str, ...]:
 
 
 def texts_of(model: type[Block]) -> dict[str, tuple[str, ...]]:
-    """Return the texts that each key of a block may have, where these are a few."""
-    known = {name: (meta_of(model, name), field.annotation) for name, field in model.model_fields.items()}
-    return {name: _texts(meta, annotation) for name, (meta, annotation) in known.items() if isinstance(meta, Text)}
+    """Return the texts that each key of a block may have, where these are a few; keys of blocks in it by their paths."""
+    found = dict[str, tuple[str, ...]]()
+    for name, field in model.model_fields.items():
+        block, meta = nested(field.annotation), meta_of(model, name)
+        if block:
+            found |= {f"{name}.{path}": texts for path, texts in texts_of(block[0]).items()}
+        elif isinstance(meta, Text):
+            found[name] = _texts(meta, field.annotation)
+    return found
 
 
 def _texts(meta: Any, annotation: Any) -> tuple[str, ...]:

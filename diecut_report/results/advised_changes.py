@@ -10,10 +10,11 @@ from types import MappingProxyType
 from typing import Literal
 
 QUANTITY = r"[-+]?\d[\d.]*(?:e[-+]?\d+)?(?: ?[^\s,;:()]+)?"
-SET = re.compile(rf"\bset (?P<key>[a-z]\w*) to (?:(?P<sign>at least|at most) )?(?P<value>{QUANTITY}|true|false)")
-BETWEEN = re.compile(rf"\bset (?P<key>[a-z]\w*) to between (?P<value>{QUANTITY}) and (?P<other>{QUANTITY})")
-BESIDE = re.compile(rf"\bwith an? (?P<key>[a-z]\w*) of (?P<sign>at least|at most) (?P<value>{QUANTITY})")
-CHOSEN = re.compile(r"\((?P<key>[a-z]\w*): (?P<value>true|false|[a-z]\w*)\)")
+KEY = r"(?P<key>[a-z]\w*(?:\.\w+)*)"  # of a block or a part of a list by its path: bolt.diameter, sections.0.length
+SET = re.compile(rf"\bset {KEY} to (?:(?P<sign>at least|at most) )?(?P<value>{QUANTITY}|true|false)")
+BETWEEN = re.compile(rf"\bset {KEY} to between (?P<value>{QUANTITY}) and (?P<other>{QUANTITY})")
+BESIDE = re.compile(rf"\bwith an? {KEY} of (?P<sign>at least|at most) (?P<value>{QUANTITY})")
+CHOSEN = re.compile(rf"\({KEY}: (?P<value>true|false|[a-z]\w*)\)")
 OTHER_WAY = re.compile(r"[,;] or (?:set|leave|take|make)\b|; or ")
 NONE: Mapping[str, tuple[str, ...]] = MappingProxyType({})
 END = re.compile(r"[.,;:]+$")
@@ -36,16 +37,21 @@ def advised_changes(
 ) -> list[list[AdvisedChange]]:
     """Return what a message advises, each of its ways by itself, the first one first; none where it names no key of these with a value.
 
-    ``texts`` are the texts that keys may have, by the key: one of them may be advised as a number is.
+    ``texts`` are the texts that keys may have, by the key (of a list without the number of the part): one of them may be advised
+    as a number is.
     """
     patterns = (SET, BETWEEN, *(_set_text(key, own) for key, own in texts.items() if own))
     starts = [found.start() for pattern in patterns if (found := pattern.search(message))]
     if not starts:
         chosen = CHOSEN.search(message)
-        is_known = chosen is not None and chosen["key"] in keys
+        is_known = chosen is not None and _is_of(chosen["key"], keys)
         return [[AdvisedChange(chosen["key"], "to", chosen["value"])]] if chosen and is_known else []
     ways = (list(_changes(way, keys, (*patterns, BESIDE))) for way in _ways(message[min(starts) :]))
     return [way for way in ways if way]
+
+
+def _is_of(path: str, keys: Container[str]) -> bool:
+    return path.partition(".")[0] in keys
 
 
 def _ways(advice: str) -> Iterator[str]:
@@ -61,13 +67,14 @@ def _ways(advice: str) -> Iterator[str]:
 def _set_text(key: str, texts: tuple[str, ...]) -> re.Pattern[str]:
     """The way in which one of some texts is advised, the longest first."""
     known = "|".join(map(re.escape, sorted(texts, key=len, reverse=True)))
-    return re.compile(rf"\bset (?P<key>{re.escape(key)}) to (?P<sign>)(?P<value>{known})(?![\w-])")
+    path = r"\.(?:\d+\.)?".join(map(re.escape, key.split(".")))
+    return re.compile(rf"\bset (?P<key>{path}) to (?P<sign>)(?P<value>{known})(?![\w-])")
 
 
 def _changes(way: str, keys: Container[str], patterns: Iterable[re.Pattern[str]]) -> Iterator[AdvisedChange]:
     for pattern in patterns:
         for found in pattern.finditer(way):
-            if found["key"] in keys:
+            if _is_of(found["key"], keys):
                 yield _change(found.groupdict())
 
 

@@ -22,6 +22,8 @@ from diecut_report.results.checks import applies, judged
 CLOSE = 1e-9  # relative, of numbers and curves
 OF_SCALE = 1e-11  # of the greatest number of a unit: a difference of such numbers is not more exact than they are
 OF_PLACE = 1e-5  # of places that were found by search
+NUDGED = 8  # machines whose inputs differ by rounding
+FURTHER = 16  # times as far as these another rounding may lead
 Ranges = Mapping[str, tuple[float, float]]
 
 
@@ -67,19 +69,78 @@ def unlike(machine: MachineCase, count: int, alone: int, seed: int) -> Iterator[
     impossible, possible = sorted(together.flaws), [i for i in range(count) if i not in together.flaws]
     few = impossible[: max(alone // 3, alone - len(possible))]
     for i in [*few, *possible[: alone - len(few)]]:
+        values = {**machine.values, **one_of(varied, i)}
+        if found := list(_unlike_alone(machine.mechanism, values, together, i)):
+            moved = moved_by_rounding(machine.mechanism, values)
+            apart = _apart(machine.mechanism, values, together, i, {name for name, _ in found})
+            yield from ((name, words) for name, words in found if not apart[name] <= FURTHER * moved.get(name, -1.0))
+
+
+def _unlike_alone(
+    mechanism: Mechanism, values: Mapping[str, Any], together: Calculation, i: int
+) -> Iterator[tuple[str, str]]:
+    """What differs between one of many machines and the same alone."""
+    try:
+        single = calculate(mechanism, values)
+    except Impossible as refused:
+        if together.flaws.get(i) not in refused.reasons:
+            yield refused.key, _refused_alone(refused.message, together, i)
+    except Unproven as refused:
+        if together.flaws.get(i, ("", ""))[1] != str(refused):
+            yield "", _refused_alone(str(refused), together, i)
+    else:
+        yield from _differences(together, single, i)
+
+
+def moved_by_rounding(mechanism: Mechanism, values: Mapping[str, Any]) -> dict[str, float]:
+    """Return how far apart machines alone are whose inputs differ by rounding, by the ids of what differs in them.
+
+    NumPy rounds arrays otherwise than single numbers, by less than the inputs are moved here. What moves with them beyond ``CLOSE``
+    is what is left of numbers that cancel, or a verdict at its limit.
+    """
+    draw, moved = np.random.default_rng(0), dict[str, float]()
+    counts = {name for name, meta in fields(mechanism.inputs) if isinstance(meta, Quantity) and meta.integer}
+    for _ in range(NUDGED):
+        nudged = {name: value if name in counts else _nudged(value, draw) for name, value in values.items()}
         try:
-            single = calculate(machine.mechanism, {**machine.values, **one_of(varied, i)})
-        except Impossible as refused:
-            if together.flaws.get(i) not in refused.reasons:
-                yield (
-                    refused.key,
-                    _refused_alone(refused.message, together, i),
-                )
-        except Unproven as refused:
-            if together.flaws.get(i, ("", ""))[1] != str(refused):
-                yield "", _refused_alone(str(refused), together, i)
-        else:
-            yield from _differences(together, single, i)
+            among = calculate(mechanism, nudged)
+        except (Impossible, Unproven) as refused:
+            among = Calculation(mechanism, nudged, 1)
+            among.flaws[0] = refused.reasons[0] if isinstance(refused, Impossible) else ("", str(refused))
+        names = {name for name, _ in _unlike_alone(mechanism, values, among, 0)}
+        apart = _apart(mechanism, values, among, 0, names)
+        moved |= {name: max(apart[name], moved.get(name, 0.0)) for name in names}
+    return moved
+
+
+def _apart(
+    mechanism: Mechanism, values: Mapping[str, Any], among: Calculation, i: int, names: set[str]
+) -> dict[str, float]:
+    """How far numbers and curves of one among others are from those of the same alone; zero of verdicts and refusals."""
+    try:
+        alone = calculate(mechanism, values)
+    except (Impossible, Unproven):
+        return dict.fromkeys(names, 0.0)
+    return {name: _distance(among, i, alone, name) for name in names}
+
+
+def _distance(among: Calculation, i: int, alone: Calculation, name: str) -> float:
+    if name in among.curves and name in alone.curves:
+        found, own = among.curve_samples(name)[i], alone.curve_samples(name)[0]
+    elif name in among.values and name in alone.values:
+        found, own = among.values[name][i], alone.values[name][0]
+    else:
+        return 0.0
+    if found.dtype == object:
+        return 0.0
+    length = min(len(found), len(own))
+    return float(np.nanmax(np.abs(found[:length] - own[:length]), initial=0.0))
+
+
+def _nudged(value: Any, draw: np.random.Generator) -> Any:
+    if isinstance(value, tuple):
+        return tuple(_nudged(part, draw) for part in value)
+    return value * (1 + draw.integers(-4, 5) * np.finfo(float).eps) if isinstance(value, float) else value
 
 
 def _refused_alone(why: str, together: Calculation, i: int) -> str:

@@ -244,14 +244,16 @@ class Statics:
 
     @property
     def energy_difference(self) -> Array:
-        """Return the energy of the bent shaft less the work of its loads, to the energy, the greatest of some instants."""
+        """Return the energy of the bent shaft less the work of its loads, beyond rounding, to the energy: the greatest of some instants."""
         count = self.loads.torque.shape[2]
         some = self.some_instants(np.unique(np.linspace(0, count - 1, PROVED).astype(int)))
         stiffness = self.elastic.stiffness_of(self.x)
         energy = sum(beams.bending_energy(self.x, stiffness, plane) for plane in some.planes)
         work = sum(beams.work(line, plane) for line, plane in zip(some.lines, some.planes, strict=True))
-        greatest = np.max(energy, axis=1, keepdims=True)
-        found: Array = np.max(np.abs(energy - work), axis=1) / np.where(greatest > 0, greatest, 1)[:, 0]
+        rounding = sum(beams.energy_rounding(self.x, stiffness, plane, self.supports) for plane in some.planes)
+        beyond = np.max(np.maximum(np.abs(energy - work) - rounding, 0), axis=1)
+        greatest = np.max(energy, axis=1)
+        found: Array = beyond / np.where(greatest > 0, greatest, 1)
         return found
 
 

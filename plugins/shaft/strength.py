@@ -96,7 +96,7 @@ bending.computed_curve("stress_along", "σ_vM(x)", "MPa", "Greatest nominal stre
                        "under_load", "position", "of bending moment, torque and axial force at each instant, without notches", source="Shigley 7-15")
 bending.computed_curve("deflection", "v(x)", "um", "Deflection at the instant of its greatest value", curves.deflection, "under_load", "position",
                        INTEGRATED, source="Euler–Bernoulli")
-_number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft less the work of its loads, to the greatest energy",
+_number(bending, "energy_difference", "ΔU/U", "1", "Energy of the bent shaft less the work of its loads, beyond rounding, to the greatest energy",
         "energy_difference", "∫ M²/(2 E I) dx against half the loads times their ways (Castigliano)", output=False)
 
 fatigue = Chapter("Fatigue", text="Stress of a material point that turns with the shaft by θ, at ψ from y: σ = N/A − (M_xy cos(ψ + θ) + "

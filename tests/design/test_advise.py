@@ -91,7 +91,7 @@ def test_what_cannot_be_mended_names_the_checks(press: Path, capfd: Capture, tmp
     text = TEXT.replace('arm: "${a.arm} + 20 mm", allowable_moment: 320 N*m', "arm: 100 mm, allowable_moment: 400 N*m")
     assert advise(saved(tmp_path, text), "--free", "b.arm", "-o", tmp_path / "new.yaml") == 1
     out, err = capfd.readouterr()
-    assert "of the best of them 1 check fails: a.moment" in out
+    assert "of the best of them" not in out  # nothing had to be tried
     assert "proved: a.moment follows from none of the free inputs, and fails with all of their values" in out
     assert err.endswith(f"not written: {tmp_path / 'new.yaml'}\n") and not (tmp_path / "new.yaml").exists()
 
@@ -124,7 +124,10 @@ def test_bad_input_is_told_and_ends_with_2(press: Path, capfd: Capture, more: li
          [[AdvisedChange("bore", "between", "46.09 mm", "180 mm")], [AdvisedChange("angle", "between", "59", "80")]]),
         ("set angle to 30°, which asks for more.", [[AdvisedChange("angle", "to", "30°")]]),
         ("take one that engages at one angle only (single: true).", [[AdvisedChange("single", "to", "true")]]),
+        ("yields; set bore.depth to at least 12.62 mm, or set radius.2.size to 3.",
+         [[AdvisedChange("bore.depth", "at least", "12.62 mm")], [AdvisedChange("radius.2.size", "to", "3")]]),
         ("set unknown to at least 5 mm.", []),
+        ("set unknown.bore to at least 5 mm.", []),
         ("make it stiffer.", []),
     ],
 )  # fmt: skip
@@ -132,7 +135,7 @@ def test_advice_is_read_where_it_names_a_key_and_a_value(message: str, changes: 
     assert advised_changes(message, {"bore", "radius", "angle", "single"}) == changes
 
 
-TEXTS = {"size": ("GM3-6", "GM3-60", "GM 4"), "way": ("mean",)}
+TEXTS = {"size": ("GM3-6", "GM3-60", "GM 4"), "way": ("mean",), "bore.fit": ("tight",)}
 BORE = [AdvisedChange("bore", "at most", "3 mm")]
 
 
@@ -143,6 +146,8 @@ BORE = [AdvisedChange("bore", "at most", "3 mm")]
         ("slips; set size to GM 4, or set bore to at most 3 mm.", [[AdvisedChange("size", "to", "GM 4")], BORE]),
         ("slips; set size to GM3-600, or set bore to at most 3 mm.", [BORE]),
         ("slips; set size to the next, or set bore to at most 3 mm.", [BORE]),
+        ("slips; set bore.fit to tight.", [[AdvisedChange("bore.fit", "to", "tight")]]),
+        ("slips; set bore.2.fit to tight.", [[AdvisedChange("bore.2.fit", "to", "tight")]]),
         ("slips; set bore to mean, or set way to mean.", [[AdvisedChange("way", "to", "mean")]]),
     ],
 )
@@ -196,3 +201,34 @@ def test_the_published_press_is_mended_by_advice_alone(config: Path) -> None:
 )
 def test_a_share_of_any_size_is_told_without_a_power_of_ten(share: float, told: str) -> None:
     assert share_told(share) == told
+
+
+SCREWED = '''
+"""A screw that holds a bracket."""
+from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, Quantity, Source, bind
+
+class Screw(Block):
+    preload: Annotated[float, Quantity("F_V", "kN", "Preload", gt=0)]
+
+class Bracket(Inputs):
+    force: Annotated[float, Quantity("F", "kN", "Force", gt=0)]
+    screw: Annotated[Screw, "The screw"]
+
+joint = Chapter("Joint")
+joint.value("opening", "F_o", "kN", "Force that opens the joint", lambda force: 5 * force, source="lever")
+MECHANISM = Mechanism(
+    kind="bracket", version="1.0", title="Bracket", summary="A screw holds a bracket.", inputs=Bracket, chapters=(joint,), key_results=("opening",),
+    checks=(Check(id="joint", check_class="strength", title="Joint", demand="opening", limit="screw.preload", unit="kN", demand_label="force",
+                  limit_label="preload", source="lever", consequence="the joint opens; set screw.preload to at least {opening:up}."),),
+    sources=(Source("lever", "Lever arms, by measure."),),
+)
+'''
+
+
+def test_advice_on_a_key_of_a_block_is_followed(tmp_path: Path, capfd: Capture) -> None:
+    """Nothing else mends it: a preload is neither a size nor an angle, and is freed because the check names it."""
+    (tmp_path / "bracket.py").write_text(SCREWED, "utf-8")
+    press = saved(tmp_path, HEAD + "  b: {kind: bracket, force: 50 kN, screw: {preload: 40 kN}}\n")
+    assert main(["advise", str(press), "--plugins", str(tmp_path), "--format", "json"]) == 0
+    answer = found(capfd)
+    assert [(each["name"], each["after"]) for each in answer["changes"]] == [("b.screw.preload", "250 kN")]

@@ -129,6 +129,29 @@ def test_a_machine_that_is_another_one_among_others_is_told(tmp_path: Path) -> N
     assert "odd: is " in tried.faults[0] and " among others, " in tried.faults[0]
 
 
+CANCELLED = "return (np.sin(1e6 * travel) ** 2 + np.cos(1e6 * travel) ** 2) * 1e9 - 1e9"
+
+
+def test_what_rounding_leaves_of_numbers_that_cancel_is_no_difference(tmp_path: Path) -> None:
+    """Arrays are rounded otherwise than single numbers: here by a share of the whole, of which nothing is left."""
+    other = CANCELLED.replace("1e9 - 1e9", "1e9 * (1 + 3e-17 * len(travel)) - 1e9")  # by 4e-7 among others
+    assert found(contract(tmp_path / "same", *odd(CANCELLED)), "alone").status == "pass"
+    assert found(contract(tmp_path / "more", *odd(other)), "alone").status == "pass"
+    assert found(contract(tmp_path / "else", *odd(f"{CANCELLED} + len(travel)")), "alone").status == "fail"
+
+
+def test_a_machine_beside_the_example_may_be_refused(tmp_path: Path) -> None:
+    """By plain code too, which refuses all of many for one of them."""
+    body = 'if (travel > {limit}).any():\n        raise Refusal("travel", "is too long")\n    return {gives} * 1e5'
+    for gives in ("travel", "travel.item()"):
+        changes = (
+            *odd(body.format(limit=0.01005, gives=gives)),
+            ("import numpy as np", "import numpy as np\n\nfrom diecut_report.api import Refusal"),
+        )
+        test = contract(tmp_path / gives, *changes)
+        assert found(test, "alone").status == "note" and found(test, "speed").status == "pass"
+
+
 PICKED = (  # a size of a series by the travel, and what is wrong among others as soon as they have another size
     'springs.total("rate"',
     'springs.pick("wire_size", "d_n", "mm", "Size", "above", of="travel", series=(8, 12.5, 20, 40))\n'

@@ -85,6 +85,21 @@ def test_stepped_beams_bend_as_finite_elements_do(seed: int) -> None:
     assert_allclose(line.slope[:, 0, 0], slope, rtol=1e-8, atol=1e-11)
     energy = beams.bending_energy(column(*x), stiffness, loading)
     assert_allclose(energy, beams.work(line, loading), rtol=1e-9)
+    bound = beams.energy_rounding(column(*x), stiffness, loading, Supports(np.array([first]), np.array([second])))
+    assert (abs(energy - beams.work(line, loading)) <= bound).all() and (bound < 1e-8 * energy).all()
+
+
+@pytest.mark.parametrize("seed", range(20))
+def test_loads_on_the_supports_store_no_energy_but_for_rounding(seed: int) -> None:
+    """The forces pass into the supports; which of both sums is greater, rounding decides."""
+    draw = np.random.default_rng(seed)
+    x = np.sort(draw.uniform(0, 0.5, 7))
+    first, second = x[1], x[5]
+    loads = [(float(x[1]), draw.uniform(-5e4, 5e4), 0.0), (float(x[5]), draw.uniform(-5e4, 5e4), 0.0)]
+    line, loading, stiffness = bent(x, INERTIA, loads, first, second)
+    difference = beams.bending_energy(column(*x), stiffness, loading) - beams.work(line, loading)
+    bound = beams.energy_rounding(column(*x), stiffness, loading, Supports(np.array([first]), np.array([second])))
+    assert (abs(difference) <= bound).all()
 
 
 def test_the_stepped_shaft_of_the_method_bends_by_virtual_work_as_by_integration() -> None:

@@ -123,3 +123,15 @@ def test_variants_and_crank_angles_broadcast() -> None:
 @pytest.mark.parametrize("ratios", [(5, 5, 0.9), (2, 5, 2.05), (8, 5, 2.05), (0.9, 5, 5), (6, 5, 2)])
 def test_what_is_no_crank_rocker_is_seen(ratios: tuple[float, float, float]) -> None:
     assert not four_bar.is_crank_rocker(*ratios)
+
+
+def test_rounding_does_not_decide_whether_a_linkage_that_folds_flat_turns() -> None:
+    """Lengths of tenths of a millimetre, of which the least and the greatest are together as long as the others."""
+    crank, first, second = np.random.default_rng(1).integers(1, 2000, (3, 20_000))
+    frame = first + second - crank
+    crank, coupler, rocker, frame = (
+        each[crank < np.minimum(first, second)] * 0.1 * 1e-3 for each in (crank, first, second, frame)
+    )
+    assert not four_bar.is_crank_rocker(frame / crank, coupler / crank, rocker / crank).any()
+    shorter = crank * (1 - 1e-9)
+    assert four_bar.is_crank_rocker(frame / shorter, coupler / shorter, rocker / shorter).mean() > 0.99

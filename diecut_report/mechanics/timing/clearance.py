@@ -106,9 +106,11 @@ class LeastClearance:
 
 
 def least_clearance(height: Heights, period: Array) -> LeastClearance:
-    """Return the least height over the period (rad) of each machine, shape (machines,), to 1e-9 of it."""
-    shares = np.linspace(0, 1, 1 + round(float(np.max(period)) / EVERY))
-    machines = np.arange(len(period))
+    """Return the least height over the period (rad) of each machine, shape (machines,), to 1e-9 of it; infinite where one has no period."""
+    machines = np.flatnonzero(np.isfinite(period))
+    if not len(machines):
+        return LeastClearance(np.full(len(period), np.inf), np.zeros(len(period)))
+    shares = np.linspace(0, 1, 1 + round(float(np.max(period[machines])) / EVERY))
     parts = np.array_split(machines, -(-len(machines) // TOGETHER))
     found = [_candidates(height, shares, period, each) for each in parts]
     machine, angle = (np.concatenate([part[index] for part in found]) for index in (0, 1))

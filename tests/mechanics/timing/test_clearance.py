@@ -129,6 +129,15 @@ def test_the_least_heights_of_many_stations_are_those_of_each() -> None:
         assert found.height[index] == pytest.approx(alone.height[0], rel=1e-9)
 
 
+def test_machines_without_a_period_leave_the_others_theirs() -> None:
+    def height(angle: Array, _: Array) -> Array:
+        return 2 + np.cos(angle)
+
+    found = clearance.least_clearance(height, np.array([np.nan, 2 * np.pi]))
+    assert found.height[0] == np.inf and found.height[1] == pytest.approx(1)
+    assert clearance.least_clearance(height, np.array([np.nan])).height == np.inf
+
+
 def test_of_some_machines_come_their_own_numbers_and_those_that_all_share() -> None:
     column = np.array([[0.3], [0.4], [0.5]])
     some = clearance.Station(column, np.array([[0.7]]), 0.2, True, 0.1, column / 2, 0.02).of(np.array([2, 0]))
