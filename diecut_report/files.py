@@ -1,7 +1,7 @@
 """Writes files so that none is ever half-written: each is complete beside its place before it takes that place.
 
-A link by that name is replaced, not what it points to. A file that is replaced keeps its mode, owner and attributes. One that was read and is rewritten
-(`write` with ``instead_of``) keeps all its names (hard links); an output leaves what has another name as it is.
+A link by that name is replaced, not what it points to. A file that is replaced keeps its mode, owner and attributes. One that was read and is
+rewritten (`write` with ``instead_of``) keeps all its names (hard links); an output leaves what has another name as it is.
 `write_all` writes the files of a run, all or none; `write` and `replaced` a file of a study's folder, on the disk when they return.
 """
 

@@ -13,6 +13,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report import files
+from diecut_report.errors import Unwritable, UserError
 from diecut_report.study.storage.state_form import continuing
 
 Write = Callable[[Path, bytes], None]
@@ -57,7 +58,9 @@ def test_a_file_keeps_its_owner_where_that_may_be(
 
 
 ACCESS = "system.posix_acl_access"
-LIST = struct.pack("<I" + "HHI" * 5, 2, 1, 6, 2**32 - 1, 2, 6, 12345, 4, 4, 2**32 - 1, 16, 6, 2**32 - 1, 32, 0, 2**32 - 1)
+LIST = struct.pack(
+    "<I" + "HHI" * 5, 2, 1, 6, 2**32 - 1, 2, 6, 12345, 4, 4, 2**32 - 1, 16, 6, 2**32 - 1, 32, 0, 2**32 - 1
+)
 """An access list: u::rw-,u:12345:rw-,g::r--,m::rw-,o::---"""
 
 
@@ -120,7 +123,7 @@ def test_a_full_disk_leaves_all_names_of_a_file_as_they_were(tmp_path: Path, mon
         raise OSError(errno.ENOSPC, "full")
 
     monkeypatch.setattr(os, "posix_fallocate", full)
-    with pytest.raises(files.Unwritable, match=r"the disk is full\. Nothing was written; make room and try again"):
+    with pytest.raises(Unwritable, match=r"the disk is full\. Nothing was written; make room and try again"):
         files.write(path, b"after, and longer", instead_of=hashlib.sha256(b"before").hexdigest())
     assert other.read_bytes() == b"before" and len(list(tmp_path.iterdir())) == 2
 
@@ -136,7 +139,7 @@ def test_a_link_is_replaced_and_what_it_points_to_kept(write: Write, tmp_path: P
 def test_a_file_that_is_another_by_now_is_not_replaced(tmp_path: Path) -> None:
     path = tmp_path / "a"
     path.write_bytes(b"saved meanwhile")
-    with pytest.raises(files.UserError, match="Another program has saved this file"):
+    with pytest.raises(UserError, match="Another program has saved this file"):
         files.write(path, b"after", instead_of="0" * 64)
     assert path.read_bytes() == b"saved meanwhile" and list(tmp_path.iterdir()) == [path]
 
@@ -152,13 +155,13 @@ def test_what_another_program_saves_until_the_last_moment_stays(
         path.write_bytes(b"saved meanwhile")
 
     monkeypatch.setattr(files, "_sync", saved_meanwhile)  # it takes longest of all
-    with pytest.raises(files.UserError, match="Another program has saved this file"):
+    with pytest.raises(UserError, match="Another program has saved this file"):
         files.write(path, b"after", instead_of=hashlib.sha256(b"before").hexdigest())
     assert path.read_bytes() == b"saved meanwhile"
 
 
 def test_a_file_that_is_gone_by_now_is_not_made_again(tmp_path: Path) -> None:
-    with pytest.raises(files.UserError, match="Another program has saved this file"):
+    with pytest.raises(UserError, match="Another program has saved this file"):
         files.write(tmp_path / "a", b"after", instead_of="0" * 64)
     assert not list(tmp_path.iterdir())
 
