@@ -21,7 +21,7 @@ OF_ROOT = {
     "/DSS",
     "/Perms",
 }  # with what proves certificates, and what a signer allows
-OF_TIMESTAMP = {"/Type", "/Subtype", "/FT", "/T", "/V", "/Rect", "/F", "/P", "/M", "/Ff"}
+OF_TIMESTAMP = {"/Type", "/Subtype", "/FT", "/T", "/TU", "/V", "/Rect", "/F", "/P", "/M", "/Ff"}
 REFERENCE = re.compile(rb"\b(\d+) (\d+) R\b")
 
 

@@ -24,6 +24,7 @@ from diecut_report.results.unchecked import check_unit
 Data = dict[str, Any]
 Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-9  # of the limit: a demand below this share is the rounding of a difference that is none
+COMPUTER = 1e-12  # of the limit: a margin below this share is the rounding of equal sides
 MARGIN_DIGITS = (4, 3, 2)
 NOTHING_BESIDE = 1e-6  # of the limit: a demand below this share takes nothing visible of it
 
@@ -270,7 +271,7 @@ def _texts(demand: float, limit: float, display: str) -> dict[str, dict[str, str
     A demand that is nothing but rounding beside its limit is reported as zero.
     """
     demand = 0.0 if abs(demand) < ROUNDING * abs(limit) else demand
-    margin = limit - demand
+    margin = 0.0 if abs(limit - demand) < COMPUTER * abs(limit) else limit - demand
     for digits in range(4, 10):
         texts = [shown(value, display, digits) for value in (demand, limit)]
         seen = (float(texts[1]["text"]) - float(texts[0]["text"])) * unit(display).factor

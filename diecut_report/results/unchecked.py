@@ -35,7 +35,17 @@ def missing(calc: Calculation, check: Check) -> tuple[str, ...]:
     """Return the keys without which a check is not made; none where it is made, does not apply, or tests the calculation itself."""
     if not is_of_machine(check) or any(_does_not_exist(calc, side) for side in (check.demand, check.limit)):
         return ()
-    return missing_keys(calc.mechanism, check, calc.given) or ()
+    return missing_keys(calc.mechanism, check, calc.given) or _left_out(calc, check)
+
+
+def _left_out(calc: Calculation, check: Check) -> tuple[str, ...]:
+    """Return the optional keys of a list that the part which a check judges leaves out, though others give them."""
+    rows = {key: calc.inputs[key] for key in check.named if key in calc.inputs}
+    return tuple(
+        key
+        for key, row in rows.items()
+        if check.index is not None and isinstance(row, tuple) and row[check.index] is None
+    )
 
 
 def _does_not_exist(calc: Calculation, side: str | float) -> bool:
@@ -47,7 +57,7 @@ def _does_not_exist(calc: Calculation, side: str | float) -> bool:
 
 def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
     """Return a check that is not made, in the form of those that are."""
-    demand = _known(calc, check.demand)
+    demand = _known(calc, check.demand, check.index)
     text = None if demand is None else shown(demand, check_unit(calc, check, [demand]))
     return {
         "id": check.id,
@@ -92,7 +102,10 @@ def check_unit(calc: Calculation, check: Check, sides: list[float]) -> str:
 
 def _message(calc: Calculation, check: Check, keys: tuple[str, ...]) -> str:
     """What is known of either side, and what is not given."""
-    sides = ((check.demand_label, _known(calc, check.demand)), (check.limit_label, _known(calc, check.limit)))
+    sides = (
+        (check.demand_label, _known(calc, check.demand, check.index)),
+        (check.limit_label, _known(calc, check.limit, check.index)),
+    )
     known = [
         Phrase(
             "{label} {value}",
@@ -118,12 +131,13 @@ def _of_partners(calc: Calculation, keys: tuple[str, ...]) -> Iterator[str]:
             yield Phrase(none, kinds=named(partner.kinds, " or "), key=partner.key)
 
 
-def _known(calc: Calculation, side: str | float) -> float | None:
-    """One side of a check as a number in SI, of repeated parts the greatest; None where it is not known, or a curve."""
+def _known(calc: Calculation, side: str | float, index: int | None) -> float | None:
+    """One side of a check as a number in SI, of repeated parts the one that is judged or the greatest; None where it is not known, or a curve."""
     if not isinstance(side, str) or not (side in calc.values or side in calc.inputs):
         return None
     found: Any = calc[side]
     if isinstance(found, tuple):  # of parts that do not all have it
         found = np.array([[np.nan if part is None else part for part in found]], dtype=float)
     row = np.asarray(found, dtype=float)[0]
+    row = row if index is None else row[[index]]
     return float(np.nanmax(row)) if np.isfinite(row).any() else None

@@ -43,7 +43,7 @@ MECHANISM = Mechanism(
         Erratum("003", "The text gives 13.12 first as the sector's greatest speed in its return, then as the gear's. The sector's is "
                 "2·80°/0.2593 = 10.771 rad per turn; 13.127 = 10.771 + 2.356 is the gear's, referred to the sector (times R₁/R₃). The gear "
                 "itself turns 5.5714 times as fast as the disc.",
-                ("sector_speed_return_peak", "gear_speed_peak", "gear_speed_peak_sector_referred")),
+                ("sector_speed_return_peak", "gear_speed", "gear_speed_peak", "gear_speed_peak_sector_referred")),
     ),
     exports=tuple(
         Profile(id=f"cam_{n}", title=f"Cam {n}", columns=(f"cam_{n}_x", f"cam_{n}_y", f"cam_{n}_pitch_x", f"cam_{n}_pitch_y"), needs=CAMS)

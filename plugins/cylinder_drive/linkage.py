@@ -101,7 +101,7 @@ kinematics.abscissa("crank_angle", "φ", "deg", "Crank angle from the frame line
 kinematics.breakpoints("strokes", "crank_angle", "dead_center_outer", "dead_center_inner", "cut_begin_forward", "cut_end_forward", "cut_begin_return",
                        "cut_end_return")
 kinematics.value("diagonal", "D", "1", "Distance of the crank pin from the rocker's pivot, in crank lengths", four_bar.diagonal,
-                 source="000 eq. 3, corrected", output=False)
+                 source="000 eq. 3", output=False)
 kinematics.value("diagonal_direction", "γ_1", "deg", "Direction from the rocker's pivot to the crank pin", four_bar.diagonal_direction,
                  source="000 eq. 2, over the full turn", output=False)
 kinematics.value("pin_angle", "γ_2", "deg", "Angle at the crank pin between diagonal and coupler", four_bar.pin_angle, source="000 eq. 3, corrected",

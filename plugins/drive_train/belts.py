@@ -59,9 +59,9 @@ def tension_ratio(groove_friction: Any, wrap: Any) -> Any:
 
 
 @formula
-def wrap_factor(tension_ratio: Any) -> Any:
-    """Factor of the wrap: the pull that the friction of the grooves gives, to that of half a turn at 5 : 1 (ISO 5292)."""
-    return 1.25 * (1 - 1 / tension_ratio)
+def wrap_factor(wrap: Any) -> Any:
+    """Factor of the wrap on what the maker states for half a turn, where the tensions are 5 : 1 (ISO 5292)."""
+    return 1.25 * (1 - 5 ** (-wrap / np.pi))
 
 
 @formula

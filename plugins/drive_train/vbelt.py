@@ -93,7 +93,7 @@ count = Chapter("Number of belts",
                      "rated power with the service factor.")
 count.value("tension_ratio", "m", "1", "Tension of the tight side to that of the slack side",
             bind(belts.tension_ratio, groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
-count.value("wrap_factor", "c_1", "1", "Factor of the wrap", belts.wrap_factor, source="ISO 5292")
+count.value("wrap_factor", "c_1", "1", "Factor of the wrap", bind(belts.wrap_factor, wrap="vbelt_wrap"), source="ISO 5292")
 count.lookup("reference_length", "L_r", "mm", "Reference length of the section", REFERENCE_LENGTHS, by="vbelt.section", source="Optibelt",
              output=False)
 count.value("length_factor", "c_3", "1", "Factor of the length", bind(belts.length_factor, length="vbelt_standard_length",

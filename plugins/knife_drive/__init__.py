@@ -43,9 +43,10 @@ MECHANISM = Mechanism(
     errata=(
         Erratum("004", "Eq. 2 prints y = 1 + λ₁cos φ − λ₁cos β; its derivative is not the printed V. The displacement that fits V and W is "
                 "r(1 + λ − cos φ − λcos β).", ("crank_slider_displacement",)),
-        Erratum("004", "Eq. 3 prints λ₃ω₂² in ε₃; the closed loop of the links gives λ₂ω₂².", ("crank_rocker_acceleration",)),
+        Erratum("004", "Eq. 3 prints λ₃ω₂² in ε₃; the closed loop of the links gives λ₂ω₂².",
+                ("crank_rocker_acceleration", "crank_rocker_rocker_acceleration_ratio")),
         Erratum("004", "Eq. 3 prints sin(δ − φ) in ω₂ᵢ, where δ is the direction of the coupler; it is sin(γ − φ), with that of the rocker.",
-                ("crank_rocker_acceleration",)),
+                ("crank_rocker_acceleration", "crank_rocker_coupler_speed_ratio")),
         Erratum("004", "The 3 to 6 times lower accelerations are put down to the kind of drive. At equal stroke the drives differ little "
                 "(planetary to crank-slider 1/(1 + r/l)); what lowers them is a stroke 3 to 6 times shorter at the same working depth.",
                 ("acceleration_ratio_planetary",)),

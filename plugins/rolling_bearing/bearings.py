@@ -11,7 +11,6 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Phrase, Refusal, joined
-from diecut_report.plugins.rolling_bearing.catalogue import DEEP_GROOVE, ROLLER
 from diecut_report.plugins.rolling_bearing.duty import Duty
 from diecut_report.plugins.rolling_bearing.nodes import Nodes
 from diecut_report.plugins.rolling_bearing.part import EXPONENTS, ChosenBearing, GivenBearing
@@ -31,7 +30,6 @@ TAKEN = (
 )
 
 USUAL_ELEMENTS = 8
-PERMITTED_TILTS = {DEEP_GROOVE: 0.58e-3, "ball": 0.58e-3, ROLLER: 0.87e-3}  # rad, 2′ and 3′: the least of the makers
 
 
 @dataclass(frozen=True)
@@ -153,20 +151,17 @@ def bearings(given: Known) -> Bearings:
         tuple(names), tuple(types or ()), duties, tuple(part.taken(duty) for part, duty in zip(parts, duties, strict=True)),
         tuple(each.number("cycle_speed", 0.0) for each in parts), tuple(each.number("rolling_elements", USUAL_ELEMENTS) for each in parts),
         tuple(each.knows_factors() for each in parts),
-        tuple(each.number("permitted_tilt", PERMITTED_TILTS[str(each.text("type"))]) for each in parts), variants,
+        tuple(each.permitted_tilt() for each in parts), variants,
     )  # fmt: skip
 
 
 def _of_names(names: tuple[str, ...]) -> None:
     for index, name in enumerate(names):
-        key = f"bearings.{index}.name"
         if not name.isidentifier() or not name.isascii():
             raise Refusal(
-                key,
+                f"bearings.{index}.name",
                 Phrase(
                     "is “{name}”; results are called by it, so take letters, digits and underscores, a letter first",
                     name=name,
                 ),
             )
-        if name in names[:index]:
-            raise Refusal(key, Phrase("is {name}, as that of another bearing; give each its own name", name=name))

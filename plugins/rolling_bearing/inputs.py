@@ -82,7 +82,10 @@ class Bearing(Block):
     permitted_tilt: Annotated[
         float | None,
         Quantity(
-            "ψ_zul,g", "mrad", "Tilt that the maker permits; without it 0.58 of balls (2′), 0.87 of rollers (3′)", gt=0
+            "ψ_zul,g",
+            "mrad",
+            "Tilt that the maker permits; without it 0.58 of balls (2′), 0.87 of the rollers N, NJ and NU (3′), 0.29 of others (1′)",
+            gt=0,
         ),
     ] = None
     limiting_speed: Annotated[

@@ -114,7 +114,6 @@ value(limits, "dynamic_valid", "C_val", "kN", "Dynamic rating from which on the 
 value(limits, "most_rating", "C_most", "kN", "Dynamic rating with which the load is not too small", lambda equivalent_load, least_share:
       equivalent_load / least_share, exists=lambda equivalent_load: equivalent_load > 0, source="SKF catalogue", output=False)
 row(limits, "tilt_limit", "ψ_zul", "mrad", "Permitted tilt", lambda known: known.row(lambda i: known.permitted_tilt[i]),
-    "as given, else 0.58 of balls and 0.87 of rollers", output=False)
-value(limits, "tilt_twice", "2ψ_zul", "mrad", "Twice the permitted tilt", lambda tilt_limit: 2 * tilt_limit, source=PRACTICE, output=False)
+    "as given, else 0.58 of balls, 0.87 of the rollers N, NJ and NU, and 0.29 of others", output=False)
 limits.part_table("limits_table", "Limits and needs of all bearings", "bearings",
                   ("static_required", "least_load", "valid_load", "rating_needed", "static_needed"))

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
@@ -21,6 +22,12 @@ Known = Mapping[str, Any]
 
 EXPONENTS = {DEEP_GROOVE: 3.0, "ball": 3.0, ROLLER: 10 / 3}
 STATIC_SAFETIES = {DEEP_GROOVE: 1.0, "ball": 1.0, ROLLER: 1.5}
+PERMITTED_TILTS = {
+    DEEP_GROOVE: 0.58e-3,
+    "ball": 0.58e-3,
+    ROLLER: 0.29e-3,
+}  # rad, 2′ and 1′: the least of the makers, of needles
+CYLINDRICAL, CYLINDRICAL_TILT = re.compile(r"(N|NJ|NU)[0-9]"), 0.87e-3  # rad, 3′; with ribs on both rings (NUP) less
 MARGIN = 1e-6  # by which a bearing must hold that is chosen with fewer places of the cycle
 
 
@@ -90,6 +97,12 @@ class GivenBearing:
         if self.text("type") == DEEP_GROOVE:
             return self.raw("f0") is not None or self.raw("dynamic_rating") is None
         return self.raw("x") is not None and self.raw("x0") is not None
+
+    def permitted_tilt(self) -> Array:
+        """Return the tilt that is permitted: as given, else the least of the bearings that it may be."""
+        kind, name = str(self.text("type")), written(self.text("designation") or self.text("series") or "")
+        cylindrical = kind == ROLLER and CYLINDRICAL.match(name)
+        return self.number("permitted_tilt", CYLINDRICAL_TILT if cylindrical else PERMITTED_TILTS[kind])
 
     # --- ratings ------------------------------------------------------------------------------------------------------------
 

@@ -31,8 +31,8 @@ MECHANISM = Mechanism(
         "deflection and gyroscopic effect. Its own weight does not bend it unless it is given as loads.",
         "Infinite life only. Ranges of bending and torsion are combined as if in phase, the axial stress takes the notch factor of bending, and a "
         "compressive mean stress counts like a tensile one: all on the safe side. The shear stress of the transverse force is neglected.",
-        "The seats of the two bearings weaken the shaft like press fits, unless they are given as loose. Seats of hubs count where they are given as "
-        "notches (press_fit, keyseats), else as smooth.",
+        "The seats of the two bearings and of what brings the loads weaken the shaft like press fits, unless they are given as loose or as none; "
+        "of a seat and a keyseat at one place the greater factor holds.",
         "Keyseats and press fits have the notch factors of DIN 743-2, which hold for the nominal stress of the full diameter; their size factor is "
         "in the formulas of two public implementations, one of which refers the keyseat's to 15 mm in place of 40 mm.",
         "Published fits of stress concentrations differ by up to a tenth; no more of their digits mean anything.",

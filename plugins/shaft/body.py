@@ -120,7 +120,7 @@ class Body:
 
 def body(
     lengths: Any, diameters: Any, bores: Any, fillets: Any, notch_x: Any, types: Any, radii: Any, k_t: Any, k_ts: Any, k_f: Any, k_fs: Any,
-    names: Any, load_x: Any, bearing_a: Array, bearing_b: Array, *seats: str,
+    names: Any, load_x: Any, hub_seats: Any, bearing_a: Array, bearing_b: Array, *seats: str,
 ) -> Body:  # fmt: skip
     """Return the body of what is given; Refusal where a list is empty, or a notch does not say what it is."""
     if names is None:
@@ -137,8 +137,8 @@ def body(
     _complete(types or (), own)
     steps = [FILLET if np.isfinite(fillet[i]).all() else SHARP for i in range(count - 1)]
     rest = 2 + len(names)
-    supports = (PRESS_FIT if seat == "tight" else NO_NOTCH for seat in seats)
-    kinds = (*steps, *(types or ()), *supports, *[NO_NOTCH] * len(names))
+    seated = (PRESS_FIT if seat == "tight" else NO_NOTCH for seat in (*seats, *hub_seats))
+    kinds = (*steps, *(types or ()), *seated)
     told = (
         *(Phrase("shoulder {i}", i=i + 1) for i in range(count - 1)),
         *(

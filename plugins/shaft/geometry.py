@@ -14,8 +14,8 @@ from diecut_report.plugins.shaft.body import PRESS_FIT, body
 # fmt: off
 
 BODY = ("sections.length", "section_diameter", "sections.bore", "sections.fillet_radius", "notches.position", "notches.type",
-        "notches.radius", "notches.k_t", "notches.k_ts", "notches.k_f", "notches.k_fs", "loads.name", "loads.position", "bearing_a", "bearing_b",
-        "seat_a", "seat_b")
+        "notches.radius", "notches.k_t", "notches.k_ts", "notches.k_f", "notches.k_fs", "loads.name", "loads.position", "loads.seat",
+        "bearing_a", "bearing_b", "seat_a", "seat_b")
 BEARINGS = 2
 GIVEN = "as it is given, or of the type of notch"
 

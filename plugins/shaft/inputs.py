@@ -7,6 +7,7 @@ from typing import Any, ClassVar, Literal
 from diecut_report.api import POINTS, Annotated, Block, FromTable, Inputs, OneOf, Quantity, Text, Varying
 
 Seat = Literal["tight", "loose"]
+HubSeat = Literal["tight", "loose", "none"]
 NotchType = Literal["keyseat_end_mill", "keyseat_pair", "keyseat_sled_runner", "groove_ring", "press_fit", "custom"]
 
 
@@ -87,6 +88,13 @@ class Load(Block):
         float, Quantity("e", "mm", "How far the plane of the forces lies beyond the position, along +x")
     ] = 0
     gear: Annotated[Gear | None, Text("Toothing, whose forces follow from the torque")] = None
+    seat: Annotated[
+        HubSeat,
+        Text(
+            "Seat of the hub or ring that brings the load: tight, which weakens the shaft like a press fit, loose (g6, h6), or none: "
+            "cut on the shaft, or a force alone"
+        ),
+    ] = "tight"
     mass: Annotated[float, Quantity("m_i", "kg", "Mass that turns there, for the critical speed", ge=0)] = 0
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import io
 import os
 import subprocess
 import sys
@@ -21,10 +20,17 @@ from cryptography.hazmat.primitives.asymmetric import ec
 from cryptography.hazmat.primitives.serialization import pkcs12
 from cryptography.x509.oid import NameOID
 from page import validate_pdf
-from pyhanko.pdf_utils.generic import DictionaryObject, NameObject, NumberObject
 
 from diecut_report.exchange.signatures import signatures
-from diecut_report.exchange.signing import Additions
+from tests.exchange.forgeries import (
+    filled_field,
+    later,
+    moved_field,
+    turned,
+    with_action,
+    with_other_results,
+    without_sheet,
+)
 from tests.exchange.reports import run, saved_pdf
 
 Capture = pytest.CaptureFixture[str]
@@ -135,57 +141,14 @@ def test_a_byte_that_is_changed_after_signing_is_told(signed: Path, capfd: Captu
     assert "what was signed has been changed since" in told and "Not everything agrees." in told
 
 
-def later(path: Path, change: Callable[[Any], Any]) -> bytes:
-    """A signed PDF with a later version of an object of it, as a program adds that."""
-    writer = Additions(io.BytesIO(path.read_bytes()))
-    writer.update_container(change(writer.root))
-    made = io.BytesIO()
-    writer.write(made)
-    return made.getvalue()
-
-
-def turned(root: Any) -> Any:
-    sheet = root["/Pages"]["/Kids"][0]
-    sheet["/Rotate"] = NumberObject(90)
-    return sheet
-
-
-def without_sheet(root: Any) -> Any:
-    root["/Pages"]["/Kids"].pop()
-    return root["/Pages"]
-
-
-def with_other_results(root: Any) -> Any:
-    file = root["/Names"]["/EmbeddedFiles"]["/Names"][3]["/EF"]["/F"]
-    file._data, file._encoded_data = b"{}", None
-    return file
-
-
-def moved_field(root: Any) -> Any:
-    field = root["/AcroForm"]["/Fields"][0]
-    field["/Rect"][0] = NumberObject(0)
-    return field
-
-
-def filled_field(root: Any) -> Any:
-    field = root["/AcroForm"]["/Fields"][0]
-    field["/V"] = DictionaryObject({NameObject("/Type"): NameObject("/Sig")})
-    return field
-
-
-def with_action(root: Any) -> Any:
-    root["/OpenAction"] = DictionaryObject({NameObject("/S"): NameObject("/JavaScript")})
-    return root
-
-
 def test_an_object_that_is_written_again_as_it_was_is_no_change(signed: Path) -> None:
-    found = signatures(later(signed, lambda root: root["/Pages"]["/Kids"][0]))
+    found = signatures(later(signed.read_bytes(), lambda root: root["/Pages"]["/Kids"][0]))
     assert found[0].holds and "added to the file after the last signature" in found[1].words
 
 
 @pytest.mark.parametrize("change", [turned, without_sheet, with_other_results, moved_field, filled_field, with_action])
 def test_an_object_that_is_changed_after_signing_is_told(signed: Path, change: Callable[[Any], Any]) -> None:
-    found = next(iter(signatures(later(signed, change))))
+    found = next(iter(signatures(later(signed.read_bytes(), change))))
     assert not found.holds and "the document has been changed since" in found.words
 
 

@@ -141,7 +141,7 @@ def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
     ("parts", "key", "words"),
     [
         ([], "bearings", "empty"),
-        ([BALL, BALL], "bearings.1.name", "another bearing"),
+        ([BALL, BALL], "bearings.1.name", "as is that of part 1 of bearings"),
         ([BALL | {"name": "left bearing"}], "bearings.0.name", "letters, digits and underscores"),
         ([BALL | {"name": "system"}], "bearings.0.name", "called as another one"),
         ([BALL | {"radial_force": 0}], "bearings.0.radial_force", "give the force"),
@@ -219,9 +219,32 @@ def test_a_bearing_that_bears_too_little_or_too_much_is_warned_of() -> None:
 
 
 def test_speeds_are_held_against_the_makers_limit_where_it_is_known() -> None:
-    fast = checks(bearings(BALL, ANGULAR | {"speed": 9500}, ROLLER))["speed"]
-    assert fast["status"] == "warn" and fast["part_name"] == "angular"
-    assert checks(bearings(BALL))["speed"]["status"] == "not_checked"
+    found = checks(bearings(BALL, ANGULAR | {"speed": 9500}, ROLLER))
+    assert {name: found[f"{name}_speed"]["status"] for name in ("ball", "angular", "roller")} == {
+        "ball": "not_checked", "angular": "warn", "roller": "not_checked",
+    }  # fmt: skip
+
+
+def test_a_bearing_whose_tilt_is_not_given_is_not_checked_though_others_hold() -> None:
+    found = checks(bearings(BALL | {"tilt": 0.5}, ROLLER, ANGULAR | {"tilt": 0.6}))
+    assert {name: found[f"{name}_tilt"]["status"] for name in ("ball", "roller", "angular")} == {
+        "ball": "pass", "roller": "not_checked", "angular": "warn",
+    }  # fmt: skip
+    unknown = found["roller_tilt"]
+    assert unknown["missing"] == ["bearings.tilt"] and "0.29 mrad" in str(unknown["message"])
+
+
+@pytest.mark.parametrize(
+    ("designation", "permitted"),
+    [("NU 2208", 0.87), ("n208e", 0.87), ("NJ 208", 0.87), ("NUP 208", 0.29), ("NA 4908", 0.29), ("", 0.29)],
+)
+def test_of_rollers_those_are_allowed_the_tilt_of_cylindrical_ones_that_are_known_to_be(
+    designation: str, permitted: float
+) -> None:
+    """By the makers: 3′ of N and NU, 2′ of NUP, 1′ of needles; what it is is known by the designation alone."""
+    found = checks(one(ROLLER | ({"designation": designation} if designation else {}), tilt=0.28))["roller_tilt"]
+    assert found["limit"] * 1e3 == pytest.approx(permitted) and found["status"] == "pass"
+    assert checks(one(ROLLER, tilt=0.59))["roller_tilt"]["status"] == "fail"  # beyond twice what is permitted
 
 
 def test_advice_on_ratings_is_enough() -> None:

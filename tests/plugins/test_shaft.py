@@ -212,12 +212,21 @@ def test_reactions_over_the_cycle_are_in_balance_with_the_loads() -> None:
     )
 
 
+def test_the_seat_of_what_brings_a_load_weakens_the_shaft_unless_it_is_loose_or_none() -> None:
+    """By DIN 743-2, R_m 900 MPa: 2.7 · 0.9^0.43 = 2.580 of 40 mm, 2.604 of 55 mm."""
+    found = {seat: row(shaft(CRANKSHAFT, notches=[], loads=[GEAR | seated, CRANK]), "k_f")["load gear"]
+             for seat, seated in (("default", {}), *((seat, {"seat": seat}) for seat in ("tight", "loose", "none")))}  # fmt: skip
+    assert found == pytest.approx({"default": 2.604, "tight": 2.604, "loose": 1, "none": 1}, rel=1e-3)
+    keyed = row(shaft(CRANKSHAFT), "k_f")["load gear"]
+    assert keyed == pytest.approx(2.912, rel=1e-3)  # of the keyseat there, the greater
+
+
 def test_of_two_notches_at_one_place_the_greater_factors_hold() -> None:
     both = [
         {"position": 130, "type": "custom", "k_f": 2.5, "k_fs": 1.2},
         {"position": 130, "type": "custom", "k_f": 1.5, "k_fs": 2.2},
     ]
-    calculation = shaft(CRANKSHAFT, notches=both)
+    calculation = shaft(CRANKSHAFT, notches=both, loads=[GEAR | {"seat": "none"}, CRANK])
     for place in ("notch 1 (custom)", "notch 2 (custom)", "load gear"):
         assert [row(calculation, name)[place] for name in ("k_f", "k_fs")] == [2.5, 2.2]
 

@@ -124,6 +124,13 @@ def test_what_was_found_wrong_in_the_sources_is_printed_in_every_report_that_cit
         assert "erratum" not in " ".join(row.source for part in printed.chapters for row in part.checks)
 
 
+@pytest.mark.parametrize("kind", Discovery().origins)
+def test_what_is_said_to_be_corrected_is_touched_by_an_erratum_that_says_how(kind: str) -> None:
+    mechanism = Discovery().mechanism(kind)
+    corrected = {step.id for _, step in mechanism.steps if "corrected" in step.source}
+    assert corrected <= {name for erratum in mechanism.errata for name in erratum.touches}
+
+
 def test_formulas_have_the_same_numbers_in_standard_and_full(pages: dict[str, str]) -> None:
     steps = {detail: re.findall(r'id="eq-([A-Z.\d]+)"', pages[detail]) for detail in DETAILS[1:]}
     assert steps["standard"] == steps["full"] and len(steps["full"]) > 5

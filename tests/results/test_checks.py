@@ -109,6 +109,13 @@ def test_a_check_on_a_row_judges_every_part_and_the_worst_governs() -> None:
     assert found["message"] == "Force 12 N, allowed 10 N at part 2 of 3: relieve bar 2, that of 6 N"
 
 
+def test_a_margin_that_is_the_rounding_of_equal_sides_is_none() -> None:
+    limit = 8.812338466287342  # kg·m² of a wheel's side, added up in another order
+    for above, margin in ((1.8e-15, 0), (1e-6, -1e-6)):
+        (found,) = check_results(calculated(check(limit + above, limit, tolerance=1e-3, unit="kg*m**2")))
+        assert found["status"] == "pass" and float(found["margin_display"]["text"]) == margin
+
+
 def test_a_row_may_be_the_limit_too() -> None:
     found = judged(check(3.0, "force"), loads=(5, 1, 1))
     assert (found["status"], found["part"], found["limit"]) == ("fail", 2, 2)  # of two alike the first

@@ -1,0 +1,326 @@
+"""The known ways of changing a report, each with the line of ``verify`` that finds it.
+
+They are tried by ``test_forgeries`` and listed in docs/trust.md, which ``python -m tests.exchange.forgeries`` writes anew.
+"""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Callable
+from dataclasses import dataclass
+from pathlib import Path
+from typing import Any
+
+import pikepdf
+from pyhanko.pdf_utils.generic import DictionaryObject, NameObject, NumberObject
+
+from diecut_report.exchange.signing import Additions
+from tests.exchange.reports import saved_pdf
+
+Data = dict[str, Any]
+TRUST = Path(__file__).parents[2] / "docs" / "trust.md"
+BEGIN, END = "<!-- forgeries: written by python -m tests.exchange.forgeries -->", "<!-- end of forgeries -->"
+
+
+@dataclass(frozen=True)
+class Forgery:
+    """A way of changing a report: in words, what it does, and the line of ``verify`` that finds it."""
+
+    way: str
+    change: Callable[[Any], Any]
+    line: str
+
+
+# --- results that a report carries, its pages made again of them by this program -----------------------------------------
+
+
+def _set(path: str, value: object) -> Callable[[Data], None]:
+    """Change what stands at a path (``mechanisms/knife/status``); a list's number is a number."""
+    *way, last = (int(key) if key.isdigit() else key for key in path.split("/"))
+
+    def change(data: Any) -> None:
+        for key in way:
+            data = data[key]
+        assert data[last] != value
+        data[last] = value
+
+    return change
+
+
+def _remove(path: str) -> Callable[[Data], None]:
+    *way, last = path.split("/")
+
+    def change(data: Any) -> None:
+        for key in way:
+            data = data[key]
+        del data[last]
+
+    return change
+
+
+def _added(path: str, key: str, value: object) -> Callable[[Data], None]:
+    """Say at a path what the report does not say."""
+
+    def change(data: Any) -> None:
+        for each in path.split("/"):
+            data = data[each]
+        assert key not in data
+        data[key] = value
+
+    return change
+
+
+def other_text(data: Data) -> None:
+    """The text of a sentence in another language: its template, of which the translation is made."""
+    bounds = next(iter(data["wordings"].values()))["values"]["bounds:capital"]
+    bounds["values"]["first"] = "30.2 mm"
+
+
+def shown_number(data: Data) -> None:
+    data["mechanisms"]["knife"]["outputs"]["torque_max"]["display"]["text"] = "0.9"
+
+
+def without_check(data: Data) -> None:
+    checks = data["mechanisms"]["knife"]["checks"]
+    checks[:] = [check for check in checks if check["id"] != "torque"]
+
+
+def curve_value(data: Data) -> None:
+    curve = next(curve for curve in data["mechanisms"]["knife"]["curves"].values() if "abscissa" in curve)
+    curve["values"][3] += 1.0
+
+
+def figure_title(data: Data) -> None:
+    data["mechanisms"]["knife"]["figures"][0]["title"] = "Another figure"
+
+
+def printed_step(data: Data) -> None:
+    section = data["mechanisms"]["knife"]["sections"][0]
+    item = next(item for item in section["items"] if item.get("source"))
+    item["source"] = "ISO 1"
+
+
+def of_config(data: Data) -> None:
+    data["config"]["source_text"] = data["config"]["source_text"].replace("1 N*m", "9 N*m")
+
+
+def of_former(data: Data) -> None:
+    data["former"]["source_text"] = data["former"]["source_text"].replace("20 mm", "21 mm")
+
+
+NUMBERS = "✗ numbers"
+OF_RESULTS = (
+    Forgery("the configuration that it carries", of_config, "✗ configuration"),
+    Forgery("a number, as results", _set("mechanisms/knife/outputs/torque_max/value", 0.9), NUMBERS),
+    Forgery("a number, as it is printed alone", shown_number, NUMBERS),
+    Forgery("the unit of a number", _set("mechanisms/knife/outputs/torque_max/display/unit", "kN·m"), NUMBERS),
+    Forgery("a sentence, in the language of the report alone (`wordings`)", other_text, NUMBERS),
+    Forgery("the verdict of a check", _set("mechanisms/knife/checks/0/status", "warn"), NUMBERS),
+    Forgery("a check, left out", without_check, NUMBERS),
+    Forgery("the verdict on the machine", _set("status", "pass"), NUMBERS),
+    Forgery("the counts of page 1", _set("summary/fail", 0), NUMBERS),
+    Forgery("the first line of page 1", _set("summary/conclusion", "All checks pass."), NUMBERS),
+    Forgery("what is assumed, left out of page 1", _set("summary/assumed", []), NUMBERS),
+    Forgery("which assumed values matter, left out (`summary.moves`)", _remove("summary/moves"), NUMBERS),
+    Forgery("what comes of the advice (`summary.advice`)", _added("summary", "advice", {"changes": [], "failing": [], "error": None}), NUMBERS),
+    Forgery("the influence of the inputs", _set("influence/tornados", []), NUMBERS),
+    Forgery("the influence of the inputs, left out", _remove("influence"), NUMBERS),
+    Forgery("the status of the document (draft, released)", _set("report/status", "released"), NUMBERS),
+    Forgery("the frame of its sheets", _set("report/frame", "plain"), NUMBERS),
+    Forgery("the units in which it shows numbers", _set("report/units", {"length": "m"}), NUMBERS),
+    Forgery("the title block", _set("project/document_number", "D-2"), NUMBERS),
+    Forgery("who prepared it", _set("project/prepared_by", "Another designer"), NUMBERS),
+    Forgery("the changes since the former revision, left out", _remove("changes"), NUMBERS),
+    Forgery("the former revision that it names", of_former, "✗ options"),
+    Forgery("a value of a curve", curve_value, NUMBERS),
+    Forgery("the title of a figure", figure_title, NUMBERS),
+    Forgery("the source of a formula", printed_step, NUMBERS),
+    Forgery("the basis of an input", _set("mechanisms/knife/inputs/friction/basis", "measured"), NUMBERS),
+    Forgery("that a plugin was found faulty (`plugin_check`)", _added("mechanisms/knife", "plugin_check", "sound"), NUMBERS),
+    Forgery("the version of the program", _set("program/version", "0.9.0"), "✗ program"),
+    Forgery("the source of the program", _set("program/source_sha256", 64 * "0"), "✗ program"),
+    Forgery("the source of a plugin", _set("mechanisms/knife/plugin_sha256", 64 * "0"), "✗ plugins"),
+    Forgery("that it was set with templates of a firm (`template_sha256`)", _added("report", "template_sha256", 64 * "a"), "✗ pages"),
+)  # fmt: skip
+
+
+# --- pages that show something else than the results which they carry ---------------------------------------------------
+
+
+def _replaced(old: bytes, new: bytes) -> Callable[[bytes], bytes]:
+    def change(page: bytes) -> bytes:
+        assert old in page, old
+        return page.replace(old, new, 1)
+
+    return change
+
+
+PAGES = "✗ pages"
+OF_PAGE = (
+    Forgery("a number of the page", lambda page: re.sub(rb">2[.,]213<", b">0,913<", page, count=1), PAGES),
+    Forgery("a style that hides or replaces text", _replaced(b"</style>", b".fail{display:none}</style>"), PAGES),
+    Forgery("a script", _replaced(b"</body>", b"<script>document.title=''</script></body>"), PAGES),
+    Forgery("a picture", _replaced(b"<svg ", b'<svg opacity="0" '), PAGES),
+    Forgery("the policy that keeps it from loading anything", _replaced(b"default-src", b"default-data"), PAGES),
+    Forgery("something behind its end", lambda page: page + b"<p>released</p>", PAGES),
+    Forgery("other results beside its own", lambda page: page + page, "two results"),
+)
+
+
+# --- what is added to a PDF, or changed in it ------------------------------------------------------------------------------
+
+
+def later(content: bytes, change: Callable[[Any], Any]) -> bytes:
+    """Return a PDF with a later version of an object of it, as a program adds that."""
+    writer = Additions(io.BytesIO(content))
+    writer.update_container(change(writer.root))
+    made = io.BytesIO()
+    writer.write(made)
+    return made.getvalue()
+
+
+def added(change: Callable[[Any], Any]) -> Callable[[bytes], bytes]:
+    return lambda content: later(content, change)
+
+
+def painted(root: Any) -> Any:
+    """The first sheet with other contents."""
+    sheet = root["/Pages"]["/Kids"][0]
+    while "/Kids" in sheet:
+        sheet = sheet["/Kids"][0]
+    return _written(sheet["/Contents"], b"1 1 1 rg 0 0 999 999 re f")
+
+
+def _written(stream: Any, data: bytes) -> Any:
+    """A stream with other contents."""
+    stream._data, stream._encoded_data = data, None
+    return stream
+
+
+def turned(root: Any) -> Any:
+    sheet = root["/Pages"]["/Kids"][0]
+    sheet["/Rotate"] = NumberObject(90)
+    return sheet
+
+
+def cropped(root: Any) -> Any:
+    sheet = root["/Pages"]["/Kids"][0]
+    sheet["/MediaBox"][3] = NumberObject(300)
+    return sheet
+
+
+def without_sheet(root: Any) -> Any:
+    root["/Pages"]["/Kids"].pop()
+    return root["/Pages"]
+
+
+def with_other_results(root: Any) -> Any:
+    return _written(root["/Names"]["/EmbeddedFiles"]["/Names"][3]["/EF"]["/F"], b"{}")
+
+
+def moved_field(root: Any) -> Any:
+    field = root["/AcroForm"]["/Fields"][0]
+    field["/Rect"][0] = NumberObject(0)
+    return field
+
+
+def filled_field(root: Any) -> Any:
+    field = root["/AcroForm"]["/Fields"][0]
+    field["/V"] = DictionaryObject({NameObject("/Type"): NameObject("/Sig")})
+    return field
+
+
+def with_action(root: Any) -> Any:
+    root["/OpenAction"] = DictionaryObject({NameObject("/S"): NameObject("/JavaScript")})
+    return root
+
+
+def other_letters(root: Any) -> Any:
+    """Letters of a font that read as others where they are copied or searched."""
+    sheet = root["/Pages"]["/Kids"][0]
+    return _written(next(iter(sheet["/Resources"]["/Font"].values())).get_object()["/ToUnicode"], b"begincmap endcmap")
+
+
+def annotated(content: bytes) -> bytes:
+    """A note over the first sheet, saved by another program."""
+    with pikepdf.open(io.BytesIO(content)) as pdf:
+        note = pikepdf.Dictionary(
+            Type=pikepdf.Name.Annot, Subtype=pikepdf.Name.FreeText, Rect=[0, 0, 99, 99], Contents="pass"
+        )
+        pdf.pages[0].obj.Annots = pikepdf.Array([*pdf.pages[0].obj.get("/Annots", []), pdf.make_indirect(note)])
+        return saved_pdf(pdf)
+
+
+def saved_again(content: bytes) -> bytes:
+    with pikepdf.open(io.BytesIO(content)) as pdf:
+        return saved_pdf(pdf)
+
+
+def with_second_results(content: bytes) -> bytes:
+    """Another file of the name results.json, which some readers show in the place of the first."""
+    with pikepdf.open(io.BytesIO(content)) as pdf:
+        names = pdf.Root.Names.EmbeddedFiles.Names
+        stream = pdf.make_stream(b"{}")
+        label = pikepdf.String("results.json")
+        spec = pikepdf.Dictionary(Type=pikepdf.Name("/Filespec"), F=label, UF=label, EF=pikepdf.Dictionary(F=stream))
+        names.extend([label, pdf.make_indirect(spec)])
+        return saved_pdf(pdf)
+
+
+OF_PDF = (
+    Forgery("what a sheet shows, painted over", added(painted), PAGES),
+    Forgery("a sheet, turned", added(turned), PAGES),
+    Forgery("a sheet, cut smaller", added(cropped), PAGES),
+    Forgery("a sheet, taken out", added(without_sheet), PAGES),
+    Forgery("letters that are copied and found as others", added(other_letters), PAGES),
+    Forgery("an action that runs when it is opened", added(with_action), PAGES),
+    Forgery("a signature field, moved", added(moved_field), PAGES),
+    Forgery("a signature field, filled without a signature", added(filled_field), PAGES),
+    Forgery("a note upon a sheet", annotated, PAGES),
+    Forgery("saved by another program, all else alike", saved_again, PAGES),
+    Forgery("something behind its end", lambda content: content + b"\n% more\n%%EOF\n", PAGES),
+    Forgery("the results that are attached", added(with_other_results), "refused"),
+    Forgery("a second results file, attached", with_second_results, "refused"),
+)
+
+
+# --- docs/trust.md --------------------------------------------------------------------------------------------------------
+
+OF_SIGNED = (
+    ("any of these, before somebody signs it by another program (`sign` refuses it)", PAGES),
+    ("any of these, after it was signed", "✗ signature"),
+    ("a byte of what was signed", "✗ signature"),
+    ("signed by a certificate that was not valid then, or is not now and no timestamp proves it", "✗ signature"),
+    ("signed with SHA-1, or with a key of RSA-1024", "✗ signature"),
+    ("signed by somebody whom `--trust` does not name", "✗ signature"),
+    ("a name of a signer or a file that looks like a line of `verify`", "written with its control characters escaped"),
+)
+
+
+def table() -> str:
+    """Return the list for docs/trust.md."""
+    groups = (
+        ("the results in a report of any form, its pages made again of them by this program", [(f.way, f.line) for f in OF_RESULTS]),
+        ("an HTML page", [(f.way, f.line) for f in OF_PAGE]),
+        ("a PDF", [(f.way, f.line) for f in OF_PDF]),
+        ("a signed PDF", list(OF_SIGNED)),
+    )  # fmt: skip
+    lines = [BEGIN, "", "| what is changed | line of `verify` |", "| --- | --- |"]
+    for head, rows in groups:
+        lines += [f"| **{head}** | |", *(f"| {way} | {_shown(line)} |" for way, line in rows)]
+    return "\n".join([*lines, "", END])
+
+
+def _shown(line: str) -> str:
+    words = {"refused": "refused as no report of this program", "two results": "refused: it carries two results"}
+    return words.get(line, f"`{line}`" if line.startswith("✗") else line)
+
+
+def page(text: str) -> str:
+    """Return docs/trust.md with the list as it is now."""
+    return text[: text.index(BEGIN)] + table() + text[text.index(END) + len(END) :]
+
+
+if __name__ == "__main__":
+    TRUST.write_text(page(TRUST.read_text("utf-8")), "utf-8")

@@ -1,0 +1,297 @@
+"""Whatever a reader sees in a report follows from the configuration in it, by this program, or ``verify`` says that it does not."""
+
+from __future__ import annotations
+
+import copy
+import io
+import json
+from collections.abc import Callable, Iterator
+from datetime import UTC, datetime, timedelta
+from pathlib import Path
+from random import Random
+from typing import Any
+
+import pytest
+from cryptography import x509
+from cryptography.hazmat.primitives import hashes, serialization
+from cryptography.hazmat.primitives.asymmetric import ec, rsa
+from cryptography.hazmat.primitives.serialization import pkcs12
+from cryptography.x509.oid import ExtendedKeyUsageOID, NameOID
+from pyhanko.keys.internal import (
+    translate_pyca_cryptography_cert_to_asn1,
+    translate_pyca_cryptography_key_to_asn1,
+)
+from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
+from pyhanko.sign import signers
+from pyhanko.sign.timestamps import DummyTimeStamper
+from pyhanko_certvalidator.registry import SimpleCertificateStore
+
+from diecut_report import pipeline
+from diecut_report.exchange.signing import Additions
+from tests.configs import saved
+from tests.examples import few
+from tests.exchange.forgeries import OF_PAGE, OF_PDF, OF_RESULTS, TRUST, Forgery, added, page, painted
+from tests.exchange.reports import page_with, run
+
+Capture = pytest.CaptureFixture[str]
+Patch = pytest.MonkeyPatch
+KNIFE = """\
+schema_version: 1
+project: {title: Ніж, document_number: D-1, revision: A, language: uk, prepared_by: Designer}
+report: {influence: {}, frame: iso7200, status: draft, units: {length: mm}}
+press: {name: P, productivity: 3600 1/h, sheet: {length: 500 mm, width: 350 mm, thickness: 0.5 mm}}
+mechanisms:
+  knife:
+    kind: circular_knife
+    eccentricity: {value: 20 mm, basis: assumed, note: by eye}
+    edge_radius: {value: 100 mm, basis: assumed}
+    depth: {value: 112 mm, basis: assumed}
+    front_distance: {value: 26 mm, basis: assumed}
+    thickness: ${press.sheet.thickness}
+    cut_length: {value: 15 mm, basis: assumed}
+    sharpening_angle: {value: 20 deg, basis: assumed}
+    speed: {value: 60 rpm, basis: assumed}
+    shear_resistance: {value: 42 N/mm**2, basis: assumed}
+    rule_force: {value: 21 N/mm, basis: assumed}
+    friction: {value: 0.3, basis: assumed}
+    allowable_torque: 1 N*m
+"""
+
+
+@pytest.fixture(scope="module")
+def knife(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    """The folder of a report that shows all that one can show: assumed values, influence, changes since a former revision, in Ukrainian."""
+    folder = tmp_path_factory.mktemp("knife")
+    old, new = (
+        saved(folder, KNIFE, "old.yaml"),
+        KNIFE.replace("revision: A", "revision: B").replace("20 mm", "20.5 mm", 1),
+    )
+    assert run("report", old, "-o", folder, "--format", "json", "--quiet") == 1
+    saved(folder, new, "new.yaml")
+    options = ["--previous", folder / "old.json", "--format", "html,json", "--quiet"]
+    assert run("report", folder / "new.yaml", "-o", folder, *options) == 1
+    return folder
+
+
+@pytest.fixture
+def calculated_once(monkeypatch: Patch) -> None:
+    """A configuration is calculated once, however often it is verified."""
+    known: dict[str, Any] = {}
+    calc = pipeline.calc
+
+    def again(tree: Any, *given: Any, **named: Any) -> Any:
+        key = f"{tree.text}{tree.name}{[name for name, value in sorted(named.items()) if value]}"
+        outcome, text = known[key] if key in known else known.setdefault(key, calc(tree, *given, **named))
+        return type(outcome)(
+            copy.deepcopy(outcome.results), *[getattr(outcome, name) for name in ("written", "broken", "warnings")]
+        ), text
+
+    monkeypatch.setattr(pipeline, "calc", again)
+
+
+def verified(content: bytes, folder: Path, capfd: Capture, *options: object) -> tuple[int, str]:
+    (folder / "report").write_bytes(content)
+    code = run("verify", folder / "report", *options, "--quiet")
+    told = capfd.readouterr()
+    return code, told.out + told.err
+
+
+def test_the_report_itself_agrees(knife: Path, tmp_path: Path, capfd: Capture) -> None:
+    code, told = verified((knife / "new.html").read_bytes(), tmp_path, capfd)
+    assert code == 0 and "Everything agrees." in told
+
+
+@pytest.mark.usefixtures("calculated_once")
+@pytest.mark.parametrize("forgery", OF_RESULTS, ids=lambda forgery: forgery.way)
+def test_changed_results_are_found(knife: Path, tmp_path: Path, capfd: Capture, forgery: Forgery) -> None:
+    data = json.loads((knife / "new.json").read_text("utf-8"))
+    forgery.change(data)
+    code, told = verified(page_with(json.dumps(data).encode()), tmp_path, capfd)
+    assert code == 1 and forgery.line in told and "Not everything agrees." in told
+
+
+def leaves(data: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
+    if isinstance(data, dict | list) and data:
+        for key, value in data.items() if isinstance(data, dict) else enumerate(data):
+            yield from leaves(value, (*path, key))
+    else:
+        yield path, data
+
+
+def one_of_each(data: Any, random: Random) -> list[tuple[Any, ...]]:
+    """A leaf for each way of keys that leads to one, whatever the numbers in lists."""
+    found: dict[tuple[Any, ...], list[tuple[Any, ...]]] = {}
+    for path, _ in leaves(data):
+        found.setdefault(tuple("" if isinstance(key, int) else key for key in path), []).append(path)
+    return [random.choice(paths) for paths in found.values()]
+
+
+def other(value: Any) -> Any:
+    if isinstance(value, bool):
+        return not value
+    if isinstance(value, int | float):
+        return value + 1 if isinstance(value, int) else value * 1.01 + 0.01
+    return f"{value}0" if isinstance(value, str) else 1
+
+
+def is_told_apart(path: tuple[Any, ...]) -> bool:
+    """Whether another value is said, and no fault: the versions of libraries, and the name of the former configuration's file."""
+    return path[:2] == ("program", "libraries")
+
+
+@pytest.mark.usefixtures("calculated_once")
+@pytest.mark.parametrize("count", [40, pytest.param(2000, marks=pytest.mark.nightly)])
+def test_no_value_of_the_results_can_be_changed(knife: Path, tmp_path: Path, capfd: Capture, count: int) -> None:
+    random, text = Random(count), (knife / "new.json").read_text("utf-8")
+    paths = [path for path in one_of_each(json.loads(text), random) if not is_told_apart(path)]
+    unnoticed = []
+    for path in random.sample(paths, min(count, len(paths))):
+        data = json.loads(text)
+        place = data
+        for key in path[:-1]:
+            place = place[key]
+        place[path[-1]] = other(place[path[-1]])
+        if verified(page_with(json.dumps(data).encode()), tmp_path, capfd, "--numbers")[0] == 0:
+            unnoticed.append(path)
+    assert unnoticed == []
+
+
+# --- pages ----------------------------------------------------------------------------------------------------------------
+
+
+@pytest.mark.usefixtures("calculated_once")
+@pytest.mark.parametrize("forgery", OF_PAGE, ids=lambda forgery: forgery.way)
+def test_a_changed_page_is_found(knife: Path, tmp_path: Path, capfd: Capture, forgery: Forgery) -> None:
+    content = (knife / "new.html").read_bytes()
+    changed = forgery.change(content)
+    assert changed != content
+    code, told = verified(changed, tmp_path, capfd)
+    assert (code == 1 and forgery.line in told) or (forgery.line == "two results" and code == 2)
+
+
+@pytest.mark.parametrize(
+    "forgery", few(OF_PDF, keep=lambda each: each.line != "✗ pages" or each is OF_PDF[0]), ids=lambda each: each.way
+)
+def test_a_changed_pdf_is_found(small_report: Path, tmp_path: Path, capfd: Capture, forgery: Forgery) -> None:
+    changed = forgery.change((small_report / "small.pdf").read_bytes())
+    code, told = verified(changed, tmp_path, capfd)
+    assert (code == 1 and forgery.line in told) or (forgery.line == "refused" and code == 2 and "Traceback" not in told)
+
+
+# --- signatures -----------------------------------------------------------------------------------------------------------
+
+Private = ec.EllipticCurvePrivateKey | rsa.RSAPrivateKey
+
+
+def certified(
+    private: Private, name: str = "Chief engineer", first: int = -9, last: int = 9, *, stamps: bool = False
+) -> x509.Certificate:
+    named, now = x509.Name([x509.NameAttribute(NameOID.COMMON_NAME, name)]), datetime.now(UTC)
+    made = x509.CertificateBuilder().subject_name(named).issuer_name(named).public_key(private.public_key())
+    made = made.serial_number(x509.random_serial_number())
+    made = made.not_valid_before(now + timedelta(first)).not_valid_after(now + timedelta(last))
+    if stamps:
+        made = made.add_extension(x509.ExtendedKeyUsage([ExtendedKeyUsageOID.TIME_STAMPING]), critical=True)
+    return made.sign(private, hashes.SHA256())
+
+
+def signed_elsewhere(content: bytes, private: Private, certificate: x509.Certificate, **options: Any) -> bytes:
+    """Signed by another program, which asks nothing."""
+    hidden = serialization.NoEncryption()
+    stored = pkcs12.serialize_key_and_certificates(b"key", private, certificate, None, hidden)  # type: ignore[arg-type]
+    signer = signers.SimpleSigner.load_pkcs12_data(stored, other_certs=[])
+    asked = signers.PdfSignatureMetadata(field_name="approved", **options)
+    made = signers.sign_pdf(IncrementalPdfFileWriter(io.BytesIO(content)), asked, signer=signer)
+    return bytes(made.getvalue())
+
+
+def signed(path: Path, private: ec.EllipticCurvePrivateKey, monkeypatch: Patch) -> int:
+    """Sign a report by the command; its exit code."""
+    monkeypatch.setenv("DIECUT_REPORT_KEY_PASSWORD", "")
+    hidden = serialization.NoEncryption()
+    key = path.with_name("key.p12")
+    key.write_bytes(pkcs12.serialize_key_and_certificates(b"k", private, certified(private), None, hidden))
+    return run("sign", path, "--key", key, "--field", "approved", "--quiet")
+
+
+@pytest.fixture(scope="module")
+def private() -> ec.EllipticCurvePrivateKey:
+    return ec.generate_private_key(ec.SECP256R1())
+
+
+def test_what_was_painted_over_is_not_signed(
+    small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey, monkeypatch: Patch
+) -> None:
+    forged = added(painted)((small_report / "small.pdf").read_bytes())
+    (tmp_path / "a.pdf").write_bytes(forged)
+    assert signed(tmp_path / "a.pdf", private, monkeypatch) == 2
+    assert "is not signed" in capfd.readouterr().err and (tmp_path / "a.pdf").read_bytes() == forged
+    code, told = verified(signed_elsewhere(forged, private, certified(private)), tmp_path, capfd)
+    assert code == 1 and "✗ pages" in told
+
+
+WEAK: dict[str, tuple[Callable[[], Private], dict[str, Any], dict[str, int], str]] = {
+    "expired": (lambda: ec.generate_private_key(ec.SECP256R1()), {}, {"first": -9, "last": -1}, "the certificate was not valid when it was used"),
+    "SHA-1": (lambda: ec.generate_private_key(ec.SECP256R1()), {"md_algorithm": "sha1"}, {}, "SHA1 can be forged"),
+    "RSA-1024": (lambda: rsa.generate_private_key(65537, 1024), {}, {}, "1024"),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("name", WEAK)
+def test_a_weak_or_outdated_signature_does_not_hold(
+    small_report: Path, tmp_path: Path, capfd: Capture, name: str
+) -> None:
+    make, options, times, words = WEAK[name]
+    key = make()
+    content = signed_elsewhere((small_report / "small.pdf").read_bytes(), key, certified(key, **times), **options)  # type: ignore[arg-type]
+    code, told = verified(content, tmp_path, capfd, "--numbers")
+    assert code == 1 and "✗ signature" in told and words in told
+
+
+def test_a_document_timestamp_holds_and_tells_its_time(
+    small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey, monkeypatch: Patch
+) -> None:
+    (tmp_path / "a.pdf").write_bytes((small_report / "small.pdf").read_bytes())
+    assert signed(tmp_path / "a.pdf", private, monkeypatch) == 0
+    key = rsa.generate_private_key(65537, 2048)
+    hidden = serialization.NoEncryption()
+    packed = key.private_bytes(serialization.Encoding.DER, serialization.PrivateFormat.PKCS8, hidden)
+    authority = translate_pyca_cryptography_cert_to_asn1(certified(key, "Time stamps", stamps=True))
+    stamper = DummyTimeStamper(authority, translate_pyca_cryptography_key_to_asn1(serialization.load_der_private_key(packed, None)),
+                               SimpleCertificateStore())  # fmt: skip
+    made = signers.PdfTimeStamper(stamper).timestamp_pdf(
+        Additions(io.BytesIO((tmp_path / "a.pdf").read_bytes())), "sha256"
+    )
+    code, told = verified(made.getvalue(), tmp_path, capfd)
+    assert (code, told.count("✓ signature")) == (0, 2), told
+
+
+def test_a_name_forges_no_line(
+    small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey
+) -> None:
+    name = "x\n✓ signature      approved: Chief\x1b[1A\u202e"
+    content = signed_elsewhere((small_report / "small.pdf").read_bytes(), private, certified(private, name))
+    (tmp_path / "a\n✓ pages").mkdir()
+    _, told = verified(content, tmp_path / "a\n✓ pages", capfd, "--numbers")
+    assert not any(line.startswith(("✓ signature      approved: Chief", "✓ pages")) for line in told.splitlines())
+    assert "\x1b" not in told and "\u202e" not in told
+
+
+@pytest.mark.parametrize("count", [12, pytest.param(400, marks=pytest.mark.nightly)])
+def test_a_damaged_signed_report_ends_in_words(
+    small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey, count: int
+) -> None:
+    whole, random = (
+        signed_elsewhere((small_report / "small.pdf").read_bytes(), private, certified(private)),
+        Random(count),
+    )
+    for _ in range(count):
+        place, length = random.randrange(len(whole)), random.choice([1, 3, 40, 4000])
+        damage = bytes(random.randrange(256) for _ in range(length)) if random.random() < 0.7 else b""
+        code, told = verified(whole[:place] + damage + whole[place + length :], tmp_path, capfd, "--numbers")
+        assert code in (0, 1, 2) and "Traceback" not in told, (place, length, told)
+
+
+def test_the_list_of_forgeries_is_that_of_the_documentation() -> None:
+    text = TRUST.read_text("utf-8")
+    assert page(text) == text
