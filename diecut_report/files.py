@@ -1,7 +1,7 @@
 """Writes files so that none is ever half-written: each is complete beside its place before it takes that place.
 
-A link by that name is replaced, not what it points to. A file that is replaced keeps its mode and owner. One that was read and is rewritten
-(`write` with ``instead_of``) keeps all its names (hard links); an output leaves what has another name as it is.
+A link by that name is replaced, not what it points to. A file that is replaced keeps its mode, owner and attributes. One that was read and is
+rewritten (`write` with ``instead_of``) keeps all its names (hard links); an output leaves what has another name as it is.
 `write_all` writes the files of a run, all or none; `write` and `replaced` a file of a study's folder, on the disk when they return.
 """
 
@@ -127,7 +127,7 @@ def _make_folder(folder: Path, made: list[Path]) -> None:
 
 
 def _take_place(temporary: Path, place: Path, *, under_all_names: bool = False) -> None:
-    """Let a complete file take the place of another one, with its mode and owner."""
+    """Let a complete file take the place of another one, with its mode, owner and attributes."""
     try:
         before = place.lstat()
     except FileNotFoundError:
@@ -135,18 +135,60 @@ def _take_place(temporary: Path, place: Path, *, under_all_names: bool = False) 
         return
     is_file = stat.S_ISREG(before.st_mode)
     if is_file and under_all_names and before.st_nlink > 1:
-        shutil.copyfile(temporary, place)
-        temporary.unlink()
+        _write_over(place, temporary.read_bytes())
         return
     if is_file:
-        with suppress(PermissionError):  # only root gives a file away; then it is the writer's, as a new one is
-            os.chown(temporary, before.st_uid, before.st_gid)
+        _give(temporary, before.st_uid, before.st_gid)
+        _give_attributes(temporary, place)
         temporary.chmod(stat.S_IMODE(before.st_mode) & 0o777)
     temporary.replace(place)
 
 
+def _write_over(place: Path, content: bytes) -> None:
+    """Write into a file itself, whose other names then hold it too. It has the room before anything in it changes."""
+    with place.open("r+b") as file:
+        before = os.fstat(file.fileno()).st_size
+        try:
+            os.posix_fallocate(file.fileno(), 0, max(len(content), 1))
+        except OSError:
+            file.truncate(before)
+            raise
+        file.write(content)
+        file.truncate()
+        file.flush()
+        os.fsync(file.fileno())
+
+
+def _give(file: Path, user: int, group: int) -> None:
+    """Give a file to its owner where that may be, else to the group: colleagues who share it would lose it."""
+    for owner in (user, -1):  # only root gives a file away
+        with suppress(PermissionError):
+            os.chown(file, owner, group)
+            return
+
+
+def _give_attributes(file: Path, place: Path) -> None:
+    """Give a file the access list and the user's attributes of the one in whose place it comes, and none that the folder has given it."""
+    kept, given = _attributes(place), _attributes(file)
+    for name in given.keys() - kept.keys():
+        os.removexattr(file, name)
+    for name, value in kept.items():
+        os.setxattr(file, name, value)
+
+
+def _attributes(file: Path) -> dict[str, bytes]:
+    try:
+        names = [name for name in os.listxattr(file) if name.startswith(("user.", "system.posix_acl_access"))]
+        return {name: os.getxattr(file, name) for name in names}
+    except OSError:  # a disk without them, or a file that may not be read
+        return {}
+
+
 def _temporary(place: Path) -> Path:
-    return place.with_name(f".{os.urandom(8).hex()}.part")
+    """Make an empty file beside ``place``; where that is there, it may be one that not everybody reads."""
+    made = place.with_name(f".{os.urandom(8).hex()}.part")
+    made.touch(0o600 if place.exists() else 0o666, exist_ok=False)
+    return made
 
 
 @contextmanager
@@ -192,17 +234,30 @@ def cache_folder(name: str) -> Path | None:
 
 
 @contextmanager
-def replaced(path: Path, *, under_all_names: bool = False) -> Iterator[Path]:
-    """Give a temporary name beside ``path``; what was written there takes the place of ``path`` at the end, or is removed."""
-    with in_words(path):
+def replaced(path: Path, *, instead_of: str | None = None) -> Iterator[Path]:
+    """Give a temporary name beside ``path``; what was written there takes the place of ``path`` at the end, or is removed.
+
+    ``instead_of`` as in `write`.
+    """
+    with in_words(path, KEPT if instead_of is None else NOTHING):
         temporary = _temporary(path)
         try:
             yield temporary
             _sync(temporary)
-            _take_place(temporary, path, under_all_names=under_all_names)
+            if instead_of is not None:
+                _require_same(path, instead_of)
+            _take_place(temporary, path, under_all_names=instead_of is not None)
             _sync(path.parent)
         finally:
             temporary.unlink(missing_ok=True)
+
+
+def _require_same(path: Path, sha256: str) -> None:
+    with suppress(FileNotFoundError):
+        if hashlib.sha256(path.read_bytes()).hexdigest() == sha256:
+            return
+    words = phrase("Another program has saved this file meanwhile. Nothing was written; look at it and write again.")
+    raise UserError(Problem(words, str(path)))
 
 
 def write(path: Path, content: bytes | memoryview, *, instead_of: str | None = None) -> None:
@@ -210,13 +265,8 @@ def write(path: Path, content: bytes | memoryview, *, instead_of: str | None = N
 
     ``instead_of`` is the SHA-256 of what it is to replace: UserError, and nothing is written, where another program has saved the file since.
     """
-    with replaced(path, under_all_names=instead_of is not None) as temporary:
+    with replaced(path, instead_of=instead_of) as temporary:
         temporary.write_bytes(content)
-        if instead_of is not None and hashlib.sha256(path.read_bytes()).hexdigest() != instead_of:
-            words = phrase(
-                "Another program has saved this file meanwhile. Nothing was written; look at it and write again."
-            )
-            raise UserError(Problem(words, str(path)))
 
 
 @contextmanager

@@ -3,9 +3,10 @@
 #
 #   scripts/debian.sh [SUITE…]   by default bookworm (12), trixie (13) and testing
 #
-# Each system is built by debootstrap with nothing but Python, git and certificates, and removed afterwards. Root only. The mirror is the one
-# that this machine's apt uses (MIRROR names another); its certificates and the configuration of pip are taken over, and pip's cache.
-# Takes some ten minutes and 3 GB for each system; KEEP=1 keeps the logs of those that pass, too.
+# Each system is built by debootstrap with nothing but Python, git and certificates, and removed afterwards; KEEP=1 keeps it, with its log, to look
+# into. Root only. The mirror is the one that this machine's apt uses (MIRROR names another); its certificates and the configuration of pip are
+# taken over, and pip's cache.
+# Takes some ten minutes and 3 GB for each system.
 set -euo pipefail
 exec </dev/null
 
@@ -20,7 +21,8 @@ mirror=${MIRROR:-$(targets | head -n 1)}
 [ -n "$mirror" ] || stop "this machine's apt knows no mirror of Debian: give MIRROR=…"
 
 work=$(mktemp -d "${TMPDIR:-/var/tmp}/debian.XXXXXX")
-trap 'rm -rf --one-file-system "$work"' EXIT
+remove() { if [ -n "${KEEP:-}" ]; then printf 'kept: %s\n' "$1"; else rm -rf --one-file-system "$1"; fi; }
+trap 'remove "$work"' EXIT
 
 # Copies a file or folder of this machine to the same place in the system, where there is one.
 take_over() {
@@ -65,7 +67,7 @@ try_system() {
             printf 'FAILED\n' && tail -n 60 "$system.log" && failed=1 && break
         fi
     done
-    rm -rf --one-file-system "$system"
+    remove "$system"
     return "$failed"
 }
 

@@ -17,12 +17,14 @@ scripts/site.sh
 # In a clone of the last commit each: an environment belongs to one interpreter. Those of pyenv are not on the PATH.
 clones=$(mktemp -d)
 trap 'rm -rf "$clones"' EXIT
+failed=""
 version='import sys; print("{}.{}".format(*sys.version_info))'
 tried=$("$python" -c "$version")
-for other in python3.11 python3.12 python3.13 python3.14 "$HOME"/.pyenv/versions/3.1[1-9].*/bin/python3; do
+for other in python3.11 python3.12 python3.13 python3.14 "${PYENV_ROOT:-$HOME/.pyenv}"/versions/3.1[1-9].*/bin/python3; do
     found=$("$other" -c "$version" 2>/dev/null) || continue
     case " $tried " in *" $found "*) continue ;; esac
     tried="$tried $found"
     git clone -q . "$clones/$found"
-    PYTHON=$other "$clones/$found/run-tests"
+    PYTHON=$other "$clones/$found/run-tests" || failed="$failed $found" # the others are tried all the same
 done
+[ -z "$failed" ] || { echo "nightly.sh: the tests fail with Python$failed" >&2; exit 1; }

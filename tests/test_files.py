@@ -1,16 +1,19 @@
-"""A file that is replaced keeps its mode, owner and names."""
+"""A file that is replaced keeps its mode, owner, attributes and names."""
 
 from __future__ import annotations
 
+import errno
 import hashlib
 import os
 import stat
+import struct
 from collections.abc import Callable
 from pathlib import Path
 
 import pytest
 
 from diecut_report import files
+from diecut_report.errors import Unwritable, UserError
 from diecut_report.study.storage.state_form import continuing
 
 Write = Callable[[Path, bytes], None]
@@ -43,12 +46,63 @@ def test_a_file_keeps_its_owner_where_that_may_be(
     write(path, b"after")
     assert given == [(path.stat().st_uid, path.stat().st_gid)]
 
-    def refused(*_: object) -> None:
+    def refused(_path: object, user: int, group: int) -> None:
+        given.append((user, group))
         raise PermissionError
 
+    given.clear()
     monkeypatch.setattr(os, "chown", refused)
     write(path, b"again")
     assert path.read_bytes() == b"again"
+    assert given[1] == (-1, path.stat().st_gid)  # whoever may not give it away leaves it at least to its group
+
+
+ACCESS = "system.posix_acl_access"
+LIST = struct.pack(
+    "<I" + "HHI" * 5, 2, 1, 6, 2**32 - 1, 2, 6, 12345, 4, 4, 2**32 - 1, 16, 6, 2**32 - 1, 32, 0, 2**32 - 1
+)
+"""An access list: u::rw-,u:12345:rw-,g::r--,m::rw-,o::---"""
+
+
+def given(path: Path, name: str, value: bytes) -> None:
+    """Set an attribute; skip the test where the disk has none."""
+    try:
+        os.setxattr(path, name, value)
+    except OSError as error:
+        pytest.skip(f"no attributes here: {error}")
+
+
+def test_a_file_keeps_its_access_list_and_attributes(write: Write, tmp_path: Path) -> None:
+    path = tmp_path / "a"
+    path.write_bytes(b"before")
+    given(path, ACCESS, LIST)
+    given(path, "user.origin", b"office")
+    write(path, b"after")
+    assert os.getxattr(path, ACCESS) == LIST and os.getxattr(path, "user.origin") == b"office"
+
+
+def test_a_file_without_an_access_list_does_not_get_that_of_its_folder(write: Write, tmp_path: Path) -> None:
+    path = tmp_path / "a"
+    path.write_bytes(b"before")
+    path.chmod(0o640)
+    given(tmp_path, "system.posix_acl_default", LIST)
+    write(path, b"after")
+    assert ACCESS not in os.listxattr(path) and stat.S_IMODE(path.stat().st_mode) == 0o640
+
+
+def test_what_is_to_take_the_place_of_a_file_is_read_by_nobody_else_meanwhile(tmp_path: Path) -> None:
+    path = tmp_path / "a"
+    with files.replaced(path) as temporary:
+        assert stat.S_IMODE(temporary.stat().st_mode) == 0o666 & ~umask()
+    with files.replaced(path) as temporary:
+        assert stat.S_IMODE(temporary.stat().st_mode) == 0o600
+
+
+def umask() -> int:
+    """Return what this process takes from the modes of new files."""
+    found = os.umask(0)
+    os.umask(found)
+    return found
 
 
 def test_all_names_of_a_file_hold_what_it_is_rewritten_with(tmp_path: Path) -> None:
@@ -58,6 +112,20 @@ def test_all_names_of_a_file_hold_what_it_is_rewritten_with(tmp_path: Path) -> N
     files.write(path, b"after", instead_of=hashlib.sha256(b"before, and longer").hexdigest())
     assert other.read_bytes() == b"after" and path.samefile(other)
     assert sorted(each.name for each in tmp_path.iterdir()) == ["a", "b"]
+
+
+def test_a_full_disk_leaves_all_names_of_a_file_as_they_were(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    path, other = tmp_path / "a", tmp_path / "b"
+    path.write_bytes(b"before")
+    other.hardlink_to(path)
+
+    def full(*_: object) -> None:
+        raise OSError(errno.ENOSPC, "full")
+
+    monkeypatch.setattr(os, "posix_fallocate", full)
+    with pytest.raises(Unwritable, match=r"the disk is full\. Nothing was written; make room and try again"):
+        files.write(path, b"after, and longer", instead_of=hashlib.sha256(b"before").hexdigest())
+    assert other.read_bytes() == b"before" and len(list(tmp_path.iterdir())) == 2
 
 
 def test_a_link_is_replaced_and_what_it_points_to_kept(write: Write, tmp_path: Path) -> None:
@@ -71,9 +139,31 @@ def test_a_link_is_replaced_and_what_it_points_to_kept(write: Write, tmp_path: P
 def test_a_file_that_is_another_by_now_is_not_replaced(tmp_path: Path) -> None:
     path = tmp_path / "a"
     path.write_bytes(b"saved meanwhile")
-    with pytest.raises(files.UserError, match="Another program has saved this file"):
+    with pytest.raises(UserError, match="Another program has saved this file"):
         files.write(path, b"after", instead_of="0" * 64)
     assert path.read_bytes() == b"saved meanwhile" and list(tmp_path.iterdir()) == [path]
+
+
+def test_what_another_program_saves_until_the_last_moment_stays(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    path, synced = tmp_path / "a", files._sync
+    path.write_bytes(b"before")
+
+    def saved_meanwhile(file: Path) -> None:
+        synced(file)
+        path.write_bytes(b"saved meanwhile")
+
+    monkeypatch.setattr(files, "_sync", saved_meanwhile)  # it takes longest of all
+    with pytest.raises(UserError, match="Another program has saved this file"):
+        files.write(path, b"after", instead_of=hashlib.sha256(b"before").hexdigest())
+    assert path.read_bytes() == b"saved meanwhile"
+
+
+def test_a_file_that_is_gone_by_now_is_not_made_again(tmp_path: Path) -> None:
+    with pytest.raises(UserError, match="Another program has saved this file"):
+        files.write(tmp_path / "a", b"after", instead_of="0" * 64)
+    assert not list(tmp_path.iterdir())
 
 
 def test_the_command_that_continues_a_study_is_one_that_can_be_typed() -> None:

@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+import signal
 import webbrowser
 from collections.abc import Iterator
-from contextlib import suppress
+from contextlib import contextmanager, suppress
 from pathlib import Path
 from tempfile import TemporaryDirectory
+from threading import Thread
 from typing import TYPE_CHECKING
 
 import click
@@ -57,14 +59,29 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     def ready(address: str) -> None:
         emit(f"{address}\n")
         tell([] if quiet else [follows])
-        tell([unopened] if is_opened and not webbrowser.open(_door(doors, address)) else [])
+        if is_opened:  # beside the server: a browser in a terminal comes back when it is closed, and waits for the page
+            Thread(target=show, args=[_door(doors, address)], daemon=True).start()
+
+    def show(door: str) -> None:
+        tell([] if webbrowser.open(door) else [unopened])
 
     language = asked_language() or _of_project(session) or spoken_language()
     spoken = speaking(language, catalogues_of(language, discovery))
-    with TemporaryDirectory(prefix="diecut-report-") as doors, spoken, suppress(KeyboardInterrupt):  # how one ends it
+    with TemporaryDirectory(prefix="diecut-report-") as doors, spoken, _until_ended():
         serve(LiveApplication(session, folders, asked_language()), port, ready)
     tell(_unwritten(session))
     return PASSED
+
+
+@contextmanager
+def _until_ended() -> Iterator[None]:
+    """Let Ctrl-C, or the system (SIGTERM), end what runs within, and go on behind it."""
+    before = signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        with suppress(KeyboardInterrupt):
+            yield
+    finally:
+        signal.signal(signal.SIGTERM, before)
 
 
 def _door(folder: str, address: str) -> str:

@@ -186,14 +186,15 @@ def test_page_script_numbers_and_refusals_are_in_the_language_that_is_asked_for(
     assert "Рух протягом розрізу" in told and "маса" in json.loads(refused)["refused"]
 
 
-def test_ctrl_c_ends_it_and_tells_what_is_not_written(tmp_path: Path) -> None:
+@pytest.mark.parametrize("ending", [signal.SIGINT, signal.SIGTERM])
+def test_it_tells_what_is_not_written_when_it_is_ended(tmp_path: Path, ending: signal.Signals) -> None:
     file = tmp_path / "knife.yaml"
     file.write_bytes(KNIFE.read_bytes())
     server = Server(file)
     with closing(server.events()) as events:
         next(events)
         server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "111 mm"}})
-        server.process.send_signal(signal.SIGINT)
+        server.process.send_signal(ending)
         _, told = server.process.communicate(timeout=SECONDS)
     assert (server.process.returncode, told) == (0, "changed on the page and not written: knife.depth: 111 mm\n")
 

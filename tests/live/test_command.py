@@ -6,6 +6,7 @@ import json
 import stat
 from collections.abc import Callable
 from pathlib import Path
+from threading import Event
 from urllib.parse import urlsplit
 from urllib.request import url2pathname
 
@@ -33,16 +34,26 @@ def test_a_study_ends_it_at_once_with_what_to_give(study: Path, capfd: Capture) 
     assert told.out == ""
 
 
-def test_the_address_stands_on_no_command_line(tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture) -> None:
+def test_the_address_stands_on_no_command_line_and_the_page_waits_for_no_browser(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: Capture
+) -> None:
     opened: list[str] = []
-    address = "http://127.0.0.1:1/secret/"
+    address, is_opened, is_closed = "http://127.0.0.1:1/secret/", Event(), Event()
+
+    def browser(url: str) -> bool:
+        opened.append(url)
+        is_opened.set()
+        assert is_closed.wait(20), "the page waits for the browser"  # which comes back when it is closed, as one in a terminal does
+        return True
 
     def serve(_application: object, _port: int, ready: Callable[[str], None]) -> None:
         ready(address)
+        assert is_opened.wait(60) and not is_closed.is_set()
+        is_closed.set()
         page = Path(url2pathname(urlsplit(opened[0]).path))
         assert stat.S_IMODE(page.stat().st_mode) == 0o600 and address in page.read_text("utf-8")
 
-    monkeypatch.setattr("webbrowser.open", lambda url: bool(opened.append(url)) or True)
+    monkeypatch.setattr("webbrowser.open", browser)
     monkeypatch.setattr("diecut_report.live.server.serve", serve)
     file = tmp_path / "knife.yaml"
     file.write_bytes(KNIFE.read_bytes())
