@@ -152,7 +152,10 @@ def _write(
 
 
 def _counts(verdicts: Sequence[Verdict]) -> list[Line]:
-    found = [(status, sum(v.face == status for v in verdicts)) for status in ("pass", "incomplete", "warn", "fail", "error", "bad")]
+    found = [
+        (status, sum(v.face == status for v in verdicts))
+        for status in ("pass", "incomplete", "warn", "fail", "error", "bad")
+    ]
     named = [
         part
         for status, count in found
