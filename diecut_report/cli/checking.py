@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from diecut_report.study.machines.verdicts import Verdict
 
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
-COLOURED = {"bad": "error"}  # states with the colour of another one
+COLOURED = {"bad": "error", "incomplete": "warn"}  # states with the colour of another one
 HEADS = (
     phrase("machine"),
     phrase("verdict"),
@@ -50,6 +50,7 @@ HEADS = (
     phrase("failed"),
     phrase("not checked"),
     phrase("warnings"),
+    phrase("assumed"),
 )
 path_of = click.Path(path_type=Path)
 
@@ -118,15 +119,15 @@ def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
 
 def _row(verdict: Verdict) -> tuple[str, ...]:
     if verdict.status == "bad":
-        return verdict.machine, said(WORDS["bad"]), "", "", "", "", ""
+        return verdict.machine, said(WORDS["bad"]), "", "", "", "", "", ""
     share = "" if verdict.utilisation is None else localised(f"{100 * verdict.utilisation:.1f} %")
-    counts = (verdict.failed, verdict.not_checked, verdict.warnings)
+    counts = (verdict.failed, verdict.not_checked, verdict.warnings, verdict.assumed)
     return verdict.machine, _status(verdict), verdict.governing, share, *map(str, counts)
 
 
 def _status(verdict: Verdict) -> str:
     """The verdict in words; one that formulas with faults gave says so."""
-    told = said(WORDS[verdict.status])
+    told = said(WORDS[verdict.face])
     return say("{status}, formulas with faults", status=told) if verdict.formulas_with_faults else told
 
 
@@ -151,7 +152,10 @@ def _write(
 
 
 def _counts(verdicts: Sequence[Verdict]) -> list[Line]:
-    found = [(status, sum(v.status == status for v in verdicts)) for status in ("pass", "warn", "fail", "error", "bad")]
+    found = [
+        (status, sum(v.face == status for v in verdicts))
+        for status in ("pass", "incomplete", "warn", "fail", "error", "bad")
+    ]
     named = [
         part
         for status, count in found

@@ -78,7 +78,7 @@ def _judged(file: Path, discovery: Discovery, tries: bool) -> JudgedFile:
     shown = SHOWN if file == DASH else str(file)
     try:
         with without_output():
-            tree = from_standard_input() if file == DASH else yaml_tree.load(file)
+            tree = from_standard_input() if file == DASH else yaml_tree.read(file)
             if not (isinstance(tree.data, dict) and "base" in tree.data and "mechanisms" not in tree.data):
                 from diecut_report import pipeline
                 from diecut_report.design.report_influence import misnamed

@@ -21,6 +21,7 @@ Command = TypeVar("Command", bound=Callable[..., Any])
 ORDER = ("fail", "warn", "not_checked")
 WORDS = {
     "pass": phrase("pass"),
+    "incomplete": phrase("conditional"),
     "warn": phrase("warn"),
     "fail": phrase("fail"),
     "error": phrase("error"),

@@ -85,10 +85,10 @@ def load_config(given: Path | Tree, discovery: Discovery, *, find: Find | None =
 
 def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = None) -> tuple[Config, list[Problem]]:
     """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
-    tree = given if isinstance(given, Tree) else yaml_tree.load(given)
+    tree = given if isinstance(given, Tree) else yaml_tree.read(given)
     refuse_study(tree)
     if excess := too_much(tree):
-        raise UserError(excess)
+        raise UserError([*tree.problems, *excess])
     discovery.extend()
     tables = OwnTables.read(tree, find)
     reader = _ConfigReader(tree, discovery, tables)
@@ -103,10 +103,17 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
         problems += [
             reader.place.problem(("mechanisms", name, "kind"), str(error)) for name, error in reader.broken.items()
         ]
+    problems = beside(tree, problems)
     project = reader.project or Project.model_validate({"title": "?"})  # of a file with problems
     config = Config(tree, project, reader.instances, reader.kinds, linker.links, tuple(order), reader.broken,
                     dict(sorted(discovery.extended.items())), tables.trees, reader.report or ReportSettings(), logo)  # fmt: skip
     return config, problems
+
+
+def beside(tree: Tree, problems: Iterable[Problem]) -> list[Problem]:
+    """Return the problems of the form of a file, and those that these do not make."""
+    told = {(each.file, each.line, each.column) for each in tree.problems}
+    return [*tree.problems, *(each for each in problems if (each.file, each.line, each.column) not in told)]
 
 
 def in_order(problems: Iterable[Problem]) -> list[Problem]:

@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping
 from typing import Any
 
 from diecut_report.config.instances import Instance
-from diecut_report.config.validation import ConfigPlace
+from diecut_report.config.validation import ConfigPlace, told
 from diecut_report.contract.inputs import Quantity, fields
 from diecut_report.contract.steps import Step
 from diecut_report.errors import Problem, nearest
@@ -31,7 +31,7 @@ def faults(given: Any, instances: Mapping[str, Instance | None], place: ConfigPl
     if not isinstance(given, dict):
         words = Phrase(
             "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}",
-            given=repr(given),
+            given=told(given),
         )
         yield place.problem((UNITS,), words)
         return

@@ -52,6 +52,8 @@ def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: boo
     UserError in words where a value cannot be written: it is shared by an anchor, or an expression stands there which is not
     to be written over.
     """
+    if tree.problems or not values:
+        return tree
     spans, edits = _spans(tree.text), []
     for path, value in values.items():
         typed = tree.typed(path)

@@ -13,7 +13,7 @@ from __future__ import annotations
 import hashlib
 import math
 import re
-from collections.abc import Iterator
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from pathlib import Path
 from typing import Any, NoReturn
@@ -21,6 +21,7 @@ from typing import Any, NoReturn
 import yaml
 
 from diecut_report.config.hidden_letters import CONTROL, HIDDEN, HIDDEN_IN_KEY
+from diecut_report.config.yaml_syntax import syntax_problem
 from diecut_report.errors import Problem, UserError
 from diecut_report.given_files import content
 from diecut_report.languages.phrases import Phrase, phrase
@@ -70,13 +71,16 @@ class YamlNode:
 class Tree:
     """A YAML file as data, with its places.
 
-    `data` holds plain dicts, lists and scalars; `text` the file's text; `sha256` its hash; `name` what documents call it.
+    `data` holds plain dicts, lists and scalars; `text` the file's text; `sha256` its hash; `name` what documents call it;
+    `problems` what is wrong with its form, such as keys that stand twice: it is not to be used, but what else is wrong can be told.
     """
 
-    def __init__(self, root: YamlNode, file: str, text: str, sha256: str, name: str = "") -> None:
+    def __init__(
+        self, root: YamlNode, file: str, text: str, sha256: str, name: str = "", problems: Sequence[Problem] = ()
+    ) -> None:
         self.root = root
         self.data: Any = root.plain()
-        self.file, self.name, self.text, self.sha256 = file, name or file, text, sha256
+        self.file, self.name, self.text, self.sha256, self.problems = file, name or file, text, sha256, tuple(problems)
 
     def position(self, path: KeyPath) -> Position:
         """Line and column (from 1) of the value at `path`, or of its nearest parent that exists.
@@ -116,6 +120,22 @@ class Tree:
 
 def load(path: Path, raw: bytes | None = None) -> Tree:
     """Read a YAML file, or take what it holds. UserError with all that is wrong with it, or the reason why it cannot be read."""
+    return _sound(read(path, raw))
+
+
+def parse(text: str, file: str) -> Tree:
+    """The same for a text; `file` is the name that messages show."""
+    return _sound(read_text(text, file))
+
+
+def _sound(tree: Tree) -> Tree:
+    if tree.problems:
+        raise UserError(tree.problems)
+    return tree
+
+
+def read(path: Path, raw: bytes | None = None) -> Tree:
+    """Read a YAML file for a reader who tells the problems of the tree beside its own; UserError where it cannot be read at all."""
     raw = content(path, MAX_BYTES, phrase("a YAML file")) if raw is None else raw
     try:
         text = raw.decode("utf-8-sig")
@@ -126,7 +146,7 @@ def load(path: Path, raw: bytes | None = None) -> Tree:
     return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
 
 
-def parse(text: str, file: str) -> Tree:
+def read_text(text: str, file: str) -> Tree:
     """The same for a text; `file` is the name that messages show."""
     return _parse(text, file, hashlib.sha256(text.encode("utf-8")).hexdigest())
 
@@ -142,31 +162,8 @@ def _parse(text: str, file: str, sha256: str) -> Tree:
     try:
         root = builder.build(yaml.parse(text, Loader=LOADER))
     except yaml.MarkedYAMLError as error:
-        builder.problems.append(_syntax_problem(error, text, file))
-    if builder.problems:
-        raise UserError(builder.problems)
-    return Tree(root, file, text, sha256)
-
-
-def _syntax_problem(error: Any, text: str, file: str) -> Problem:
-    mark = error.problem_mark
-    line = [*text.splitlines(), ""][mark.line]
-    indentation = len(line) - len(line.lstrip())
-    tab = line.find("\t", 0, max(indentation, mark.column + 1))
-    if tab in range(indentation) or tab == mark.column:
-        return Problem(phrase("A tab stands here; YAML is indented with spaces. Put spaces."), file, mark.line + 1, tab + 1)  # fmt: skip
-    return Problem(Phrase("This is not valid YAML: {explained}", explained=_explained(error, line)), file, mark.line + 1,
-        mark.column + 1)  # fmt: skip
-
-
-def _explained(error: Any, line: str) -> str:
-    if "mapping values are not allowed" in error.problem:
-        return phrase("a second colon or a wrong indentation. Align keys of one block; put text that holds ': ' in quotes.")  # fmt: skip
-    begin = Phrase(" that begins in line {line}", line=error.context_mark.line + 1) if error.context_mark else ""
-    said = f"{error.problem} {error.context}{begin}" if error.context else error.problem
-    if "${" in line and "flow" in (error.context or ""):
-        return phrase('a reference stands in braces or brackets without quotes, and YAML reads its brace as a map. Quote it: "${…}".')  # fmt: skip
-    return Phrase("{said}. Check quotes, brackets and indentation here and just above.", said=said)
+        raise UserError([*builder.problems, syntax_problem(error, text, file)]) from None
+    return Tree(root, file, text, sha256, problems=builder.problems)
 
 
 class _Builder:
@@ -243,7 +240,7 @@ class _Builder:
             fault = phrase("stands in its own anchor, a loop") if name in self._anchors else fault
             advice = phrase("Write the value itself, or put text that begins with * in quotes.")
             self._report(Phrase("The alias *{name} {fault}. {advice}", name=name, fault=fault, advice=advice), place, path)  # fmt: skip
-            return YamlNode(place)
+            return YamlNode(place, f"*{name}", f"*{name}")  # something stands there: what refers to it is not to blame
         self._count(anchored.size, event, path)
         self._check_depth(anchored, event, path)
         return anchored

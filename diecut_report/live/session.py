@@ -73,7 +73,7 @@ class LiveSession:
         """Read the file again and calculate; changes of the page stay over it, but those that stand in it now."""
         self._read = self._marks()  # before the reading: what is saved meanwhile is another
         try:
-            self.tree = yaml_tree.load(self.file)
+            self.tree = yaml_tree.read(self.file)
         except UserError as error:
             self._failed(error.problems)
             return

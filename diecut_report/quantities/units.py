@@ -20,7 +20,7 @@ from typing import Any
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.limits import MAX_QUANTITY
 from diecut_report.quantities.pint_registry import pint_registry
-from diecut_report.quantities.unit_spelling import normalised
+from diecut_report.quantities.unit_spelling import normalised, suggestion
 
 TABLE_FILE = Path(__file__).with_name("units_table.json")
 DIMENSIONS = ("mass", "length", "time", "temperature", "current", "substance", "luminosity", "angle")
@@ -125,19 +125,11 @@ def _read_with_pint(canonical: str, typed: str) -> Unit:
     measured = measure_with_pint(canonical) if readable else None
     if measured is None:
         words = "{text} is not a known unit.{suggestion}"
-        raise UnitError(Phrase(words, text=_shortened(typed), suggestion=_suggestion(canonical)))
+        raise UnitError(
+            Phrase(words, text=_shortened(typed), suggestion=suggestion(typed[:MAX_UNIT_LENGTH], _table()["units"]))
+        )
     factor, kind = measured
     return Unit(canonical, factor, si_text(kind), kind)
-
-
-def _suggestion(text: str) -> str:
-    names = list(_table()["units"])
-    same_letters = [name for name in names if name.casefold() == text.casefold()]
-    if not same_letters:
-        import difflib
-
-        same_letters = difflib.get_close_matches(text[:MAX_UNIT_LENGTH], names, n=1, cutoff=0.6)
-    return Phrase(" Did you mean {same_letters}?", same_letters=same_letters[0]) if same_letters else ""
 
 
 def _shortened(text: str) -> str:

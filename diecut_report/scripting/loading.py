@@ -11,7 +11,7 @@ import yaml
 
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.config.yaml_tree import Tree, parse
+from diecut_report.config.yaml_tree import Tree, parse, read_text
 from diecut_report.exchange.carried_results import carried_results
 from diecut_report.scripting.loaded_press import LoadedPress
 from diecut_report.scripting.results import Results
@@ -41,7 +41,7 @@ def loads(text: str, *, plugins: Iterable[Folder] = (), language: str | None = N
     """Return the press of a configuration that is given as text; tables that it names are sought in the current folder."""
     spoken = known_language(language)
     with told_in(spoken):
-        return _press(parse(text, GIVEN), plugins, spoken)
+        return _press(read_text(text, GIVEN), plugins, spoken)
 
 
 def load_results(file: Folder, *, plugins: Iterable[Folder] = (), language: str | None = None) -> Results:

@@ -39,12 +39,31 @@ def test_a_folder_gives_one_table(firm: Path, capfd: Capture) -> None:
     assert check(firm, jobs=2) == 1
     out, err = capfd.readouterr()
     assert [line.split() for line in out.splitlines()[1:]] == [
-        ["firm/good", "pass", "a.moment", "80.0", "%", "0", "0", "0"],
-        ["old/good", "pass", "a.moment", "75.0", "%", "0", "0", "0"],
-        ["firm/weak", "fail", "a.moment", "133.3", "%", "1", "0", "0"],
+        ["firm/good", "pass", "a.moment", "80.0", "%", "0", "0", "0", "0"],
+        ["old/good", "pass", "a.moment", "75.0", "%", "0", "0", "0", "0"],
+        ["firm/weak", "fail", "a.moment", "133.3", "%", "1", "0", "0", "0"],
     ]
     told = "passed over: it is a study, which batch calculates"
     assert err == f"{firm / 'study.yaml'}: {told}\n3 machines: 2 pass, 1 fail.\n"
+
+
+def test_a_machine_that_passes_on_what_is_assumed_is_conditional(tmp_path: Path, capfd: Capture) -> None:
+    folder, text = tmp_path / "firm", LIMITED.replace("150", "250")
+    folder.mkdir()
+    saved(folder, text, "good.yaml")
+    saved(folder, text.replace("2 kN", "{value: 2 kN, basis: assumed}"), "guessed.yaml")
+    assert check(folder, "-o", tmp_path / "out", "--format", "json,csv,html") == 0
+    out, err = capfd.readouterr()
+    assert [line.split()[:2] + line.split()[-1:] for line in out.splitlines()[1:]] == [
+        ["good", "pass", "0"],
+        ["guessed", "conditional", "1"],
+    ]
+    assert "2 machines: 1 pass, 1 conditional.\n" in err
+    stored = json.loads((tmp_path / "out" / "machines.json").read_text("utf-8"))["machines"]
+    assert [each["conclusion"] for each in stored] == ["All checks pass.", "No check fails, but 1 value is assumed."]
+    page = (tmp_path / "out" / "machines.html").read_text("utf-8")
+    assert "No check fails, but 1 value is assumed." in page and 'class="st-incomplete">conditional' in page
+    assert "guessed,conditional," in (tmp_path / "out" / "machines.csv").read_text("utf-8")
 
 
 def test_all_pass_ends_with_0(firm: Path) -> None:

@@ -8,7 +8,10 @@ from pathlib import Path
 
 import pytest
 
+import diecut_report as dr
 from diecut_report.cli.main import main, program
+from diecut_report.config.discovery import Discovery
+from diecut_report.live.session import LiveSession
 from tests.configs import saved
 from tests.examples import few
 
@@ -188,3 +191,66 @@ def test_every_command_reports_every_slip(
         saved(tmp_path, slipped(typed, instead))
         assert re.search(r"press\.yaml:\d+:\d+: ", reported(command, arguments, capfd)), (command, instead)
         assert not (tmp_path / "out").exists()
+
+
+FORMS = [  # of YAML that is read and refused, beside which all else is told; what is typed, what instead, and what the message holds
+    (WIDTH, "*width", "no anchor"), (WIDTH, "!mm 470.7", "The tag"), (WIDTH, "{value: 470.7 mm, value: 1 mm}", "stands here again"),
+    (WIDTH, "{<<: {value: 470.7 mm}}", "Merge keys"), ("    torque:", "    wedge_angle:", "stands here again"), ("  clutch:", "  2:", "not text"),
+    ("schema_version: 1", "schema_version: 1\nschema_version: 1", "stands here again"),
+]  # fmt: skip
+BESIDE = slipped(HEIGHT, "40 kg")
+
+
+@pytest.mark.parametrize(("typed", "instead", "words"), FORMS)
+def test_what_is_refused_of_the_form_hides_no_other_fault(
+    typed: str, instead: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    text = BESIDE.replace(typed, instead, 1)
+    saved(tmp_path, text)
+    saved(tmp_path, STUDY, "study.yaml")
+    for command, arguments in (("validate", "press.yaml"), ("check", "press.yaml"), ("batch", "study.yaml")):
+        told = reported(command, [arguments], capfd)
+        assert words in told and "is a mass; a length is needed" in told, command
+        assert len(re.findall(rf"(?m)^press.yaml:\d+:\d+: .*{words}", told)) == 1
+    with pytest.raises(dr.ConfigError, match="is a mass") as raised:
+        dr.loads(text)
+    assert words in str(raised.value)
+    session = LiveSession(tmp_path / "press.yaml", Discovery())
+    assert {words, "is a mass"} <= {
+        part for part in (words, "is a mass") for each in session.faults if part in str(each)
+    }
+
+
+def test_a_study_that_names_a_key_twice_is_told_with_its_other_faults(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    saved(tmp_path, PRESS)
+    saved(tmp_path, STUDY.replace("9 deg", "9 kg") + "base: press.yaml\n", "study.yaml")
+    told = reported("validate", ["study.yaml"], capfd)
+    assert "stands here again" in told and "is a mass" in told
+
+
+def test_a_quote_that_is_never_closed_is_told_where_it_begins(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    saved(tmp_path, slipped(WIDTH, "'470.7 mm"))
+    assert "press.yaml:8:12: " in reported("validate", ["press.yaml"], capfd)
+
+
+@pytest.mark.parametrize(
+    ("typed", "instead", "words"),
+    [
+        (WIDTH, "470.7 мм", "Did you mean mm?"), (WIDTH, "470.7 mм", "Did you mean mm?"), (RATE, "6000 1/год", "Did you mean 1/h?"),
+        ("300 N*m", "300 Н*м", r"Did you mean N\*m?"), ("    torque:", "    tоrque:", "'torque', in Latin letters alone"),
+        (WIDTH, "${cylinder.mаss}", "'mass', in Latin letters alone"), (WIDTH, "470.7 ± 1 mm", "unit. A length"),
+    ],
+)  # fmt: skip
+def test_letters_of_another_alphabet_are_told(
+    typed: str, instead: str, words: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:  # fmt: skip
+    monkeypatch.chdir(tmp_path)
+    saved(tmp_path, slipped(typed, instead))
+    assert re.search(words, reported("validate", ["press.yaml"], capfd))

@@ -37,7 +37,7 @@ def results(tmp_path: Path, units: str) -> Any:
         ("{moment: J}", 19, "report.units.moment: is a unit of an energy; one of a moment is needed, such as N*m"),
         ("{knife.forcemax: kN}", 11, "names forcemax, which is not a quantity of knife with a number (did you mean 'force_max'?)"),
         ("{blade.force: kN}", 11, "names blade, which is not there; known: press, knife"),
-        ("mm", 10, "report.units: is 'mm'; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}"),
+        ("mm", 10, "report.units: is “mm”; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}"),
     ],
 )  # fmt: skip
 def test_what_is_wrong_with_a_chosen_unit_is_said_at_its_place(

@@ -181,7 +181,7 @@ def test_a_tab_after_a_dash_is_shown_at_the_tab() -> None:
 
 def test_a_syntax_error_names_its_place_and_what_to_check() -> None:
     problem = only_problem("a: 1\nb: 'open\n")
-    assert problem.line == 3
+    assert problem.line == 2
     assert "unexpected end of stream while scanning a quoted scalar that begins in line 2" in problem.message
     assert "Check quotes" in problem.message
 

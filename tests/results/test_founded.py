@@ -109,3 +109,10 @@ def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
         assert told["consistency.clutch_position"] == told["gear_key.reversing"] == expected
     told = mended(consistency={"single_position": False})
     assert told["consistency.clutch_position"] == "fail"
+
+
+@pytest.mark.parametrize(("typed", "status"), [({}, "not_checked"), ({"basis": "measured"}, "pass")])
+def test_changes_of_flank_that_are_only_typed_prove_nothing(tmp_path: Path, typed: dict[str, str], status: str) -> None:
+    key = {"kind": "parallel_key", "shaft_diameter": "40 mm", "yield_shaft": "600 MPa", "yield_hub": "600 MPa"}
+    own = key | {"torque_curve": ["300 N*m", "-200 N*m", "100 N*m", "300 N*m"], "flank_changes": {"value": 1, **typed}}
+    assert judged(tmp_path, own, "reversing")["status"] == status

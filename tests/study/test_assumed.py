@@ -12,7 +12,8 @@ from diecut_report.cli.main import main
 from diecut_report.config.yaml_tree import load
 from diecut_report.results.assumed import Assumed, ordered
 from diecut_report.study.analysis.variant_config import _value
-from tests.configs import GOOD, HEAD, saved
+from tests.configs import GOOD, HEAD, LEVER, saved
+from tests.study.studies import varied
 
 # the moment is force times arm, 200 N·m of 250 N·m allowed; nothing judges the width
 TEXT = HEAD.replace("thickness: 0.6 mm", "width: {value: 400 mm, basis: assumed}") + (
@@ -72,3 +73,20 @@ def test_a_variants_value_stands_in_the_block_of_its_quantity(tmp_path: Path) ->
     assert _value(tree, ("mechanisms", "a", "force")) == ("mechanisms", "a", "force", "value")
     assert _value(tree, ("mechanisms", "a", "arm")) == ("mechanisms", "a", "arm")
     assert _value(tree, ("mechanisms", "a", "parts", 0, "length")) == ("mechanisms", "a", "parts", 0, "length")
+
+
+@pytest.mark.parametrize("assumed", [True, False])
+def test_a_study_of_a_base_with_assumed_values_passes_no_more_than_it_checks(tmp_path: Path, assumed: bool) -> None:
+    text = LEVER.replace(
+        "2 kN",
+        "{value: 2 kN, basis: assumed}, allowable_moment: 9 kN*m" if assumed else "2 kN, allowable_moment: 9 kN*m",
+    )
+    saved(tmp_path, text)
+    study = saved(tmp_path, varied("[100 mm, 110 mm]", path="mechanisms.a.arm"), "study.yaml")
+    assert (
+        main(["batch", str(study), "-o", str(tmp_path / "out"), "--plugins", str(GOOD), "--quiet", "--jobs", "1"]) == 0
+    )
+    told = re.sub(r"<[^>]+>", "", (tmp_path / "out" / "summary.html").read_text("utf-8"))
+    assert ("2 of 2 variants pass all checks." in told) != assumed
+    assert ("2 of 2 variants pass all checks that are made." in told) == assumed
+    assert ("1 value of the base is assumed." in told) == assumed

@@ -12,7 +12,7 @@ from typing import Any
 from diecut_report.conditions.words import ConditionError
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
-from diecut_report.config.loader import Config, as_typed, load_config
+from diecut_report.config.loader import Config, as_typed, beside, load_config
 from diecut_report.config.model import PRESS
 from diecut_report.config.validation import ConfigPlace, validate
 from diecut_report.config.yaml_tree import Tree
@@ -76,11 +76,11 @@ def load_study(given: Path | Tree, discovery: Discovery, places: Mapping[str, Pa
 
     ``places``: where the files are that the study names, where they are not sought from its folder.
     """
-    tree = given if isinstance(given, Tree) else yaml_tree.load(given)
+    tree = given if isinstance(given, Tree) else yaml_tree.read(given)
     reader = _StudyReader(Path(tree.file), tree, discovery, places or {})
     study = reader.study()
-    if study is None or reader.problems:
-        raise UserError(_in_order(reader.problems, tree.file))
+    if study is None or reader.problems or tree.problems:
+        raise UserError(_in_order(beside(tree, reader.problems), tree.file))
     return study
 
 

@@ -24,7 +24,7 @@ from diecut_report.study.storage.spreadsheets import workbook
 NAME = "machines"
 HEADS = (
     phrase("machine"), phrase("verdict"), phrase("governing check"), phrase("utilisation"), phrase("failed"),
-    phrase("not checked"), phrase("warnings"), phrase("file"), phrase("what is wrong"),
+    phrase("not checked"), phrase("warnings"), phrase("assumed"), phrase("file"), phrase("what is wrong"),
 )  # fmt: skip
 Rows = list[list[Any]]
 
@@ -96,12 +96,13 @@ def _tables(made: MachineComparison) -> dict[str, Rows]:
 def _verdict(of: Verdict) -> list[Any]:
     return [
         of.machine,
-        said(STATES[of.status]),
+        said(STATES[of.face]),
         of.governing,
         of.utilisation,
         of.failed,
         of.not_checked,
         of.warnings,
+        of.assumed,
         of.file,
         "\n".join(map(said, of.words)),
     ]

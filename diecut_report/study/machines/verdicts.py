@@ -17,9 +17,10 @@ from diecut_report.results.summary import SELF_TEST
 from diecut_report.study.machines.calculation import BAD, BROKEN, CheckedMachine
 
 Data = Mapping[str, Any]
-NOT_CHECKED = "not_checked"
+NOT_CHECKED, INCOMPLETE = "not_checked", "incomplete"
 STATES = {
     "pass": phrase("pass"),
+    INCOMPLETE: phrase("conditional"),
     "warn": phrase("warn"),
     "fail": phrase("fail"),
     BROKEN: phrase("error"),
@@ -43,6 +44,14 @@ class Verdict:
     warnings: int = 0
     words: tuple[str, ...] = ()
     formulas_with_faults: bool = False
+    assumed: int = 0
+    conclusion: str = ""
+
+    @property
+    def face(self) -> str:
+        """Return the verdict as it is shown: one that passes, but leaves something open, is conditional."""
+        is_open = self.not_checked or self.assumed or self.formulas_with_faults
+        return INCOMPLETE if self.status == "pass" and is_open else self.status
 
 
 @dataclass(frozen=True)
@@ -79,14 +88,15 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
     if machine.status == BAD:
         return Verdict(name, machine.file, BAD, words=tuple(machine.words))
     checks = list(_checks(machine))
-    found = machine.results.get("governing")
+    found, whole = machine.results.get("governing"), machine.results.get("summary", {})
     named = f"{found['mechanism']}.{found['check']}" if found else ""
     ratio = next((check["utilisation"] for key, check in checks if key == named), None)
     return Verdict(
         name, machine.file, machine.status, named, ratio,
         sum(check["status"] == "fail" for _, check in checks),
-        machine.results.get("summary", {}).get(NOT_CHECKED, sum(check["status"] == NOT_CHECKED for _, check in checks)),
+        whole.get(NOT_CHECKED, sum(check["status"] == NOT_CHECKED for _, check in checks)),
         sum(check["status"] == "warn" for _, check in checks), tuple(machine.words), bool(machine.results and doubtful_kinds(machine.results)),
+        len(whole.get("assumed", ())), whole.get("conclusion", ""),
     )  # fmt: skip
 
 

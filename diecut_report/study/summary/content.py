@@ -6,6 +6,7 @@ from dataclasses import dataclass
 from typing import Any
 
 from diecut_report.config import yaml_tree
+from diecut_report.config.basis import ASSUMED
 from diecut_report.config.discovery import Discovery
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.languages.speech import localised, said, say, say_counted
@@ -49,6 +50,7 @@ class Summary:
     utilisations: list[Utilisation]
     unmade: list[str]
     unchecked: int
+    assumed: int
     idle: int
     matrices: list[matrix.Matrix]
     is_whole: bool
@@ -87,10 +89,10 @@ class Summary:
 
     @property
     def status(self) -> str:
-        """Return what the whole looks like: pass where some variant passes all checks, by formulas without faults."""
+        """Return what the whole looks like: pass where some variant passes all checks, on nothing assumed and by formulas without faults."""
         return (
             "incomplete"
-            if (self.doubtful or self.unchecked) and self.statuses["pass"]
+            if (self.doubtful or self.unchecked or self.assumed) and self.statuses["pass"]
             else "pass"
             if self.statuses["pass"]
             else "warn"
@@ -136,7 +138,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
         total=total, statuses=states, facts=_facts(stored, total), asked=questions.asked(stored),
         failures=failures, governing=governing, passing=passing_values.values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
-        unchecked=len(verdict_counts.unchecked(stored)),
+        unchecked=len(verdict_counts.unchecked(stored)), assumed=_assumed(_base(stored)),
         idle=len(made) - len(matrix.telling(made)),
         matrices=list(matrix.matrices(stored, groups, [row.check for row in matrix.telling(made)])),
         is_whole=total <= matrix.ALL,
@@ -214,9 +216,19 @@ def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
 
 def _title(stored: Stored) -> str:
     """The title of the base's project, else the study's file."""
+    return str((_base(stored).get("project") or {}).get("title") or stored.description.study.file)
+
+
+def _base(stored: Stored) -> Any:
+    """What stands in the base; nothing where its copy is not as it was."""
     content = stored.description.base.content
-    project = yaml_tree.parse(content.decode(), "base").data.get("project") if content else None
-    return str((project or {}).get("title") or stored.description.study.file)
+    return yaml_tree.parse(content.decode(), "base").data if content else {}
+
+
+def _assumed(data: Any) -> int:
+    """How many values of a configuration say that they are assumed."""
+    parts = data.values() if isinstance(data, dict) else data if isinstance(data, list) else ()
+    return (isinstance(data, dict) and data.get("basis") == ASSUMED) + sum(map(_assumed, parts))
 
 
 def _margin(stored: Stored) -> list[tuple[str, str]]:
