@@ -21,16 +21,18 @@ from pyhanko.keys.internal import (
     translate_pyca_cryptography_cert_to_asn1,
     translate_pyca_cryptography_key_to_asn1,
 )
-from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
+from pyhanko.pdf_utils.generic import NumberObject
 from pyhanko.sign import signers
 from pyhanko.sign.timestamps import DummyTimeStamper
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report import pipeline
 from diecut_report.exchange.signing import Additions
+from diecut_report.exchange.later_changes import only_signed
+from diecut_report.exchange.signing import Additions
 from tests.configs import saved
 from tests.examples import few
-from tests.exchange.forgeries import OF_PAGE, OF_PDF, OF_RESULTS, TRUST, Forgery, added, page, painted
+from tests.exchange.forgeries import OF_PAGE, OF_PDF, OF_RESULTS, TRUST, Forgery, added, page, painted, with_two_contents
 from tests.exchange.reports import page_with, run
 
 Capture = pytest.CaptureFixture[str]
@@ -195,13 +197,14 @@ def certified(
     return made.sign(private, hashes.SHA256())
 
 
-def signed_elsewhere(content: bytes, private: Private, certificate: x509.Certificate, **options: Any) -> bytes:
-    """Signed by another program, which asks nothing."""
+def signed_elsewhere(content: bytes | Additions, private: Private, certificate: x509.Certificate, **options: Any) -> bytes:
+    """Signed by another program, which asks nothing; it leaves the metadata as they are, or these alone would tell."""
     hidden = serialization.NoEncryption()
     stored = pkcs12.serialize_key_and_certificates(b"key", private, certificate, None, hidden)  # type: ignore[arg-type]
     signer = signers.SimpleSigner.load_pkcs12_data(stored, other_certs=[])
     asked = signers.PdfSignatureMetadata(field_name="approved", **options)
-    made = signers.sign_pdf(IncrementalPdfFileWriter(io.BytesIO(content)), asked, signer=signer)
+    writer = Additions(io.BytesIO(content)) if isinstance(content, bytes) else content
+    made = signers.sign_pdf(writer, asked, signer=signer)
     return bytes(made.getvalue())
 
 
@@ -228,6 +231,25 @@ def test_what_was_painted_over_is_not_signed(
     assert "is not signed" in capfd.readouterr().err and (tmp_path / "a.pdf").read_bytes() == forged
     code, told = verified(signed_elsewhere(forged, private, certified(private)), tmp_path, capfd)
     assert code == 1 and "✗ pages" in told
+
+
+def test_contents_that_only_some_readers_show_are_no_signature(small_report: Path) -> None:
+    whole = (small_report / "small.pdf").read_bytes()
+    assert only_signed(whole, added(lambda root: root["/Pages"]["/Kids"][0])(whole))
+    assert not only_signed(whole, with_two_contents(whole))
+
+
+@pytest.mark.parametrize(("flags", "holds"), [(4 | 128, True), (4 | 8, False), (4 | 16, False)])
+def test_a_signed_field_does_not_grow_over_its_sheet(
+    small_report: Path, private: ec.EllipticCurvePrivateKey, flags: int, holds: bool
+) -> None:
+    whole = (small_report / "small.pdf").read_bytes()
+    writer = Additions(io.BytesIO(whole))
+    fields = [each.get_object() for each in writer.root["/AcroForm"]["/Fields"]]
+    field = next(each for each in fields if each["/T"] == "approved")
+    field["/F"] = NumberObject(flags)
+    writer.update_container(field)
+    assert only_signed(whole, signed_elsewhere(writer, private, certified(private))) is holds
 
 
 WEAK: dict[str, tuple[Callable[[], Private], dict[str, Any], dict[str, int], str]] = {
