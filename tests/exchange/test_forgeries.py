@@ -22,14 +22,19 @@ from pyhanko.keys.internal import (
     translate_pyca_cryptography_key_to_asn1,
 )
 from pyhanko.pdf_utils.generic import NumberObject
+from pyhanko.pdf_utils.misc import PdfError
 from pyhanko.sign import signers
 from pyhanko.sign.timestamps import DummyTimeStamper
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report import pipeline
+from diecut_report.exchange.signatures import signatures
 from diecut_report.exchange.signing import Additions
+from diecut_report.languages.phrases import cell
 from diecut_report.exchange.later_changes import only_signed
+from diecut_report.exchange.signatures import signatures
 from diecut_report.exchange.signing import Additions
+from diecut_report.languages.phrases import cell
 from tests.configs import saved
 from tests.examples import few
 from tests.exchange.forgeries import OF_PAGE, OF_PDF, OF_RESULTS, TRUST, Forgery, added, page, painted, with_two_contents
@@ -297,6 +302,56 @@ def test_a_name_forges_no_line(
     _, told = verified(content, tmp_path / "a\n✓ pages", capfd, "--numbers")
     assert not any(line.startswith(("✓ signature      approved: Chief", "✓ pages")) for line in told.splitlines())
     assert "\x1b" not in told and "\u202e" not in told
+
+
+def test_a_name_forges_no_other_part_of_its_line(
+    small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey
+) -> None:
+    name = "Chief, nothing changed since, trusted"
+    content = signed_elsewhere(
+        (small_report / "small.pdf").read_bytes(), private, certified(private, name), reason=f'"{100 * " "}✓ x'
+    )
+    _, told = verified(content, tmp_path, capfd, "--numbers")
+    assert f'approved: "{name}", ' in told and r', "\" ✓ x", nothing changed' in told
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("Олена П'ятигорська", "Олена П'ятигорська"),
+        ("out/a-1.pdf", "out/a-1.pdf"),
+        ("a, b", '"a, b"'),
+        ("a  \u2003\n b", "a b"),
+        ("", '""'),
+        (200 * "x", f"{80 * 'x'}…"),
+    ],
+)
+def test_a_text_of_others_is_one_part_of_a_line(text: str, shown: str) -> None:
+    assert cell(text) == shown
+
+
+SHOWN = [each for each in OF_PDF if each.way != "something behind its end"]  # which no object refers to then
+
+
+@pytest.mark.parametrize("forgery", SHOWN, ids=lambda each: each.way)
+def test_a_changed_pdf_that_somebody_signs_is_found(
+    small_report: Path, private: ec.EllipticCurvePrivateKey, forgery: Forgery
+) -> None:
+    whole = (small_report / "small.pdf").read_bytes()
+    changed = forgery.change(whole)
+    try:
+        signed = signed_elsewhere(changed, private, certified(private))
+    except PdfError:  # the other program refuses it as well
+        signed = changed
+    assert not (signed.startswith(whole) and only_signed(whole, signed))
+
+
+@pytest.mark.parametrize("forgery", OF_PDF, ids=lambda each: each.way)
+def test_a_pdf_that_is_changed_after_it_was_signed_is_found(
+    small_report: Path, private: ec.EllipticCurvePrivateKey, forgery: Forgery
+) -> None:
+    signed = signed_elsewhere((small_report / "small.pdf").read_bytes(), private, certified(private))
+    assert not all(each.holds for each in signatures(forgery.change(signed)))
 
 
 @pytest.mark.parametrize("count", [12, pytest.param(400, marks=pytest.mark.nightly)])
