@@ -61,7 +61,7 @@ def tell(lines: Iterable[Line]) -> None:
 
 def tell_written(paths: Iterable[Path]) -> None:
     """Which files were written."""
-    tell(Phrase("written: {path}", path=path) for path in paths)
+    tell(Phrase("written: {path}", path=in_line(str(path))) for path in paths)
 
 
 def tell_problems(problems: Sequence[Problem]) -> None:

@@ -50,4 +50,7 @@ def hidden(text: str) -> str:
 
 def printable(name: str) -> str:
     """Return a name without what no document can show: control and invisible characters, and bytes that are not UTF-8."""
-    return "".join(letter if letter.isprintable() and not INVISIBLE.match(letter) else "\N{REPLACEMENT CHARACTER}" for letter in name)
+    return "".join(
+        letter if letter.isprintable() and not INVISIBLE.match(letter) else "\N{REPLACEMENT CHARACTER}"
+        for letter in name
+    )

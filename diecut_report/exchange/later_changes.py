@@ -22,7 +22,9 @@ OF_ROOT = {
     "/Perms",
 }  # with what proves certificates, and what a signer allows
 OF_TIMESTAMP = {"/Type", "/Subtype", "/FT", "/T", "/TU", "/V", "/Rect", "/F", "/P", "/M", "/Ff"}
-FLAGS = 4 | 128 | 512  # printed, locked, its contents locked; others let a field grow over the sheet where it is shown small
+FLAGS = (
+    4 | 128 | 512
+)  # printed, locked, its contents locked; others let a field grow over the sheet where it is shown small
 REFERENCE = re.compile(rb"\b(\d+) (\d+) R\b")
 
 

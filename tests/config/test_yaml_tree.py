@@ -302,7 +302,20 @@ def test_a_control_character_is_shown_at_its_place() -> None:
 # --- files -----------------------------------------------------------------------------------------------------------
 
 
-INVISIBLE = ["\\xAD", "\\u034F", "\\u061C", "\\u200B", "\\u200E", "\\u200F", "\\u2062", "\\u2800", "\\u3164", "\\uFE0F", "\\uFEFF", "\\U000E0041"]
+INVISIBLE = [
+    "\\xAD",
+    "\\u034F",
+    "\\u061C",
+    "\\u200B",
+    "\\u200E",
+    "\\u200F",
+    "\\u2062",
+    "\\u2800",
+    "\\u3164",
+    "\\uFE0F",
+    "\\uFEFF",
+    "\\U000E0041",
+]
 
 
 @pytest.mark.parametrize("escape", INVISIBLE)

@@ -28,16 +28,23 @@ from pyhanko.sign.timestamps import DummyTimeStamper
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report import pipeline
-from diecut_report.exchange.signatures import signatures
-from diecut_report.exchange.signing import Additions
-from diecut_report.languages.phrases import cell
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.signatures import signatures
 from diecut_report.exchange.signing import Additions
 from diecut_report.languages.phrases import cell
-from tests.configs import saved
+from tests.configs import SMALL, saved
 from tests.examples import few
-from tests.exchange.forgeries import OF_PAGE, OF_PDF, OF_RESULTS, TRUST, Forgery, added, page, painted, with_two_contents
+from tests.exchange.forgeries import (
+    OF_PAGE,
+    OF_PDF,
+    OF_RESULTS,
+    TRUST,
+    Forgery,
+    added,
+    page,
+    painted,
+    with_two_contents,
+)
 from tests.exchange.reports import page_with, run
 
 Capture = pytest.CaptureFixture[str]
@@ -202,7 +209,9 @@ def certified(
     return made.sign(private, hashes.SHA256())
 
 
-def signed_elsewhere(content: bytes | Additions, private: Private, certificate: x509.Certificate, **options: Any) -> bytes:
+def signed_elsewhere(
+    content: bytes | Additions, private: Private, certificate: x509.Certificate, **options: Any
+) -> bytes:
     """Signed by another program, which asks nothing; it leaves the metadata as they are, or these alone would tell."""
     hidden = serialization.NoEncryption()
     stored = pkcs12.serialize_key_and_certificates(b"key", private, certificate, None, hidden)  # type: ignore[arg-type]
@@ -313,6 +322,22 @@ def test_a_name_forges_no_other_part_of_its_line(
     )
     _, told = verified(content, tmp_path, capfd, "--numbers")
     assert f'approved: "{name}", ' in told and r', "\" ✓ x", nothing changed' in told
+
+
+def test_the_name_of_a_file_forges_no_line(tmp_path: Path, capfd: Capture) -> None:
+    names = ("a\n✓ pass.yaml", "b\x1b[1A\u202e\u3164.yaml", "c       pass  ok.yaml", "bad\n✓ pass.yaml")
+    for name in names:
+        saved(tmp_path, SMALL.replace("300 N", "-300 N") if name.startswith("bad") else SMALL, name)
+    run("check", tmp_path)
+    rows, told = (text.splitlines() for text in capfd.readouterr())
+    assert len(rows) == 5 and rows[1].startswith('"a ✓ pass"  ') and rows[-1].startswith("c pass ok  ")
+    for name in names:
+        run("validate", tmp_path / name)
+        run("report", tmp_path / name, "--format", "json", "-o", tmp_path / "out")
+    told += capfd.readouterr().err.splitlines()
+    assert any(line.endswith("\\n✓ pass.yaml: valid") for line in told)
+    assert any(line.startswith("written: ") and line.endswith("\\n✓ pass.json") for line in told)
+    assert not any(line.strip().startswith("✓") or set(line) & set("\x1b\u202e\u3164") for line in [*rows, *told])
 
 
 @pytest.mark.parametrize(
