@@ -23,6 +23,7 @@ from diecut_report.cli.output import (
     coloured,
     common,
     emit_lines,
+    in_line,
     tell,
     tell_written,
     without_output,
@@ -32,7 +33,7 @@ from diecut_report.cli.verdict import WORDS
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.discovery import Discovery
 from diecut_report.errors import TOLD, Problem, UserError
-from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.phrases import Counted, Phrase, cell, phrase
 from diecut_report.languages.speech import localised, said, say, speaking
 
 if TYPE_CHECKING:
@@ -114,15 +115,16 @@ def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
     rows: list[tuple[str, ...]] = [tuple(map(said, HEADS)), *map(_row, verdicts)]
     widths = [max(map(len, column)) for column in zip(*rows, strict=True)]
     for row in rows:
-        yield "  ".join(cell.ljust(width) for cell, width in zip(row, widths, strict=True)).rstrip()
+        yield "  ".join(each.ljust(width) for each, width in zip(row, widths, strict=True)).rstrip()
 
 
 def _row(verdict: Verdict) -> tuple[str, ...]:
+    machine = in_line(cell(verdict.machine))  # before its width is taken
     if verdict.status == "bad":
-        return verdict.machine, said(WORDS["bad"]), "", "", "", "", "", ""
+        return machine, said(WORDS["bad"]), "", "", "", "", "", ""
     share = "" if verdict.utilisation is None else localised(f"{100 * verdict.utilisation:.1f} %")
     counts = (verdict.failed, verdict.not_checked, verdict.warnings, verdict.assumed)
-    return verdict.machine, _status(verdict), verdict.governing, share, *map(str, counts)
+    return machine, _status(verdict), verdict.governing, share, *map(str, counts)
 
 
 def _status(verdict: Verdict) -> str:

@@ -20,6 +20,7 @@ import click
 from diecut_report.cli.exit_codes import DONE, HEAD
 from diecut_report.cli.language import language_option
 from diecut_report.cli.progress import is_styled
+from diecut_report.config.hidden_letters import INVISIBLE
 from diecut_report.errors import TOLD, Problem, Unwritable
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE
 from diecut_report.languages.phrases import Counted, Phrase, phrase
@@ -35,8 +36,6 @@ COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "not_chec
 LETTERS, END = 2_000, 500  # of a message, and of its end where it is longer
 # what may make a terminal do something, end a line, show a text as another one, or stand in it unseen
 _ACTIVE = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
-_BLANK = "\u034f\u115f\u1160\u17b4\u17b5\u2800\u3164\uffa0"  # letters and marks without a shape
-_VARIANTS = re.compile("[\ufe00-\ufe0f\U000e0100-\U000e01ef]")
 
 Command = TypeVar("Command", bound=Callable[..., Any])
 
@@ -62,7 +61,7 @@ def tell(lines: Iterable[Line]) -> None:
 
 def tell_written(paths: Iterable[Path]) -> None:
     """Which files were written."""
-    tell(Phrase("written: {path}", path=path) for path in paths)
+    tell(Phrase("written: {path}", path=in_line(str(path))) for path in paths)
 
 
 def tell_problems(problems: Sequence[Problem]) -> None:
@@ -103,7 +102,7 @@ def shown(text: str, kept: str = "\n\t") -> str:
 
 
 def _is_active(letter: str) -> bool:
-    return category(letter) in _ACTIVE or letter in _BLANK or _VARIANTS.match(letter) is not None
+    return category(letter) in _ACTIVE or INVISIBLE.match(letter) is not None
 
 
 def in_line(text: str) -> str:

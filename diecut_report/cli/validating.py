@@ -19,6 +19,7 @@ from diecut_report.cli.output import (
     common,
     emit,
     emit_lines,
+    in_line,
     tell,
     tell_problems,
     without_output,
@@ -112,7 +113,7 @@ def _tell(found: JudgedFile, *, alone: bool, quiet: bool) -> None:
     tell_problems(found.problems)
     tell(str(error) if alone else f"{found.shown}: " + phrase(str(error)) for error in found.broken)
     if found.code == PASSED and not quiet:
-        tell([Phrase("{file}: valid", file=found.shown)])
+        tell([Phrase("{file}: valid", file=in_line(found.shown))])
     if found.tried is not None:
         from diecut_report.study.execution.dry_run_text import lines
 

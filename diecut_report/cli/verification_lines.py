@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Iterator
 from typing import TYPE_CHECKING
 
-from diecut_report.languages.phrases import Counted, Phrase, phrase
+from diecut_report.languages.phrases import Counted, Phrase, cell, phrase
 from diecut_report.languages.speech import said, say
 
 if TYPE_CHECKING:
@@ -21,7 +21,7 @@ def verification_lines(carried: CarriedResults, found: Verification) -> Iterator
     """Give what was found of a report line by line, and last whether everything agrees."""
     project = carried.results["project"]
     named = [str(project.get(key) or "") for key in ("title", "document_number", "revision")]
-    yield f"{carried.path}: {', '.join(filter(None, named))}"
+    yield f"{carried.path}: {', '.join(map(cell, filter(None, named)))}"
     yield _line(say("program"), found.program)
     yield from (_line(say("plugins"), told) for told in found.plugins)
     yield _line(say("configuration"), found.config)

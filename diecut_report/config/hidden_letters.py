@@ -11,8 +11,13 @@ _BIDI = "\u202a-\u202e\u2066-\u2069"  # they turn the letters after them around
 
 CONTROL = re.compile(f"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|[{_BIDI}]")
 """What a file as a whole may not hold."""
-HIDDEN = re.compile(f"{CONTROL.pattern}|[\x85\u2028\u2029]")
-"""What a decoded text may not hold: an escape may bring NEL, and separators that end a line for some readers and not for others."""
+INVISIBLE = re.compile(
+    "[\u00ad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b-\u200f\u202a-\u202e\u2060-\u206f\u2800\u3164\ufe00-\ufe0f\ufeff"
+    "\uffa0\ufff0-\ufffb\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e0fff]"
+)
+"""What stands in a text unseen: Default_Ignorable_Code_Point of Unicode, marks of annotations, and the empty Braille pattern."""
+HIDDEN = re.compile(f"{CONTROL.pattern}|{INVISIBLE.pattern}|[\x85\u2028\u2029]")
+"""What a decoded text may not hold; an escape may bring NEL, and separators that end a line for some readers and not for others."""
 HIDDEN_IN_KEY = re.compile(f"{HIDDEN.pattern}|[\t\n\r]")
 """What a decoded key may not hold."""
 
@@ -44,5 +49,8 @@ def hidden(text: str) -> str:
 
 
 def printable(name: str) -> str:
-    """Return a file's name without what no document can hold: control characters, and bytes that are not UTF-8."""
-    return "".join(letter if letter.isprintable() else "\N{REPLACEMENT CHARACTER}" for letter in name)
+    """Return a name without what no document can show: control and invisible characters, and bytes that are not UTF-8."""
+    return "".join(
+        letter if letter.isprintable() and not INVISIBLE.match(letter) else "\N{REPLACEMENT CHARACTER}"
+        for letter in name
+    )

@@ -229,7 +229,8 @@ class _Builder:
     def _refuse_hidden(self, what: str, found: re.Match[str] | None, event: Any, path: KeyPath) -> None:
         """Report what a text holds when it is decoded: escapes within quotes bring what the file itself may not hold."""
         if found:
-            message = Phrase("This {what} holds the control character U+{ord}. Write it without.", what=what, ord=f"{ord(found[0]):04X}")  # fmt: skip
+            words = "This {what} holds the invisible character U+{ord}. Write it without."
+            message = Phrase(words, what=what, ord=f"{ord(found[0]):04X}")
             self._report(message, _position(event), path)
 
     def _alias(self, event: Any, path: KeyPath) -> YamlNode:

@@ -33,7 +33,7 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
     for path, value in values.items():
         if isinstance(value, str) and (found := hidden(value)):
             words = Phrase(
-                "The value that is to stand here holds the control character {found}; it is not taken.", found=found
+                "The value that is to stand here holds the invisible character {found}; it is not taken.", found=found
             )
             raise UserError(Problem(words, tree.file, path=".".join(map(str, path))))
         root = _with_value(root, path, value)

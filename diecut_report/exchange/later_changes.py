@@ -22,6 +22,9 @@ OF_ROOT = {
     "/Perms",
 }  # with what proves certificates, and what a signer allows
 OF_TIMESTAMP = {"/Type", "/Subtype", "/FT", "/T", "/TU", "/V", "/Rect", "/F", "/P", "/M", "/Ff"}
+FLAGS = (
+    4 | 128 | 512
+)  # printed, locked, its contents locked; others let a field grow over the sheet where it is shown small
 REFERENCE = re.compile(rb"\b(\d+) (\d+) R\b")
 
 
@@ -38,7 +41,8 @@ def only_signed(before: bytes, after: bytes) -> bool:
             )
             lists = set(_lists(old))
             kept = (_is_kept(each, new.get_object(each.objgen), old, new, lists) for each in old.objects)
-            return same and all(kept) and not _filled_gaps(old, new)
+            same = same and all(kept) and not _filled_gaps(old, new)
+            return same and not new.get_warnings()  # a key that stands twice is for each reader another one
     except FAULTS:
         return False
 
@@ -100,7 +104,8 @@ def _is_kept(first: Any, second: Any, old: pikepdf.Pdf, new: pikepdf.Pdf, lists:
             old.Root.get("/AcroForm", _NONE), new.Root.get("/AcroForm", _NONE)
         )
     if first.get("/FT") == "/Sig" and "/V" not in first:
-        return _same_but(first, second, OF_FIELD) and "/ByteRange" in second.get("/V", _NONE)
+        added = int(second.get("/F", 0)) & ~int(first.get("/F", 0)) & ~FLAGS
+        return not added and _same_but(first, second, OF_FIELD) and "/ByteRange" in second.get("/V", _NONE)
     if first.get("/Type") == "/Page":
         return _same_but(first, second, {"/Annots"}) and _grown(first.get("/Annots"), second.get("/Annots"))
     return first.objgen == old.Root.get("/AcroForm", _NONE).objgen and _is_form(first, second)

@@ -20,7 +20,7 @@ from diecut_report.exchange.carried_results import CarriedResults
 from diecut_report.exchange.rendering import TEMPLATE, template_of
 from diecut_report.exchange.results_form import parsed
 from diecut_report.languages.catalogues import languages
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.languages.phrases import Phrase, cell, phrase
 from diecut_report.results.changes import compare_with
 from diecut_report.results.results_file import config_content, encoded, results_text
 
@@ -131,7 +131,7 @@ def _options(given: Data, again: Data, asked: pipeline.AskedReport) -> Found:
 
 def _former_file(given: Data) -> str:
     said = given.get("former")
-    return f"{said['file']} (SHA-256 {said['sha256'][:SHORT]})" if said else "…"
+    return f"{cell(said['file'])} (SHA-256 {said['sha256'][:SHORT]})" if said else "…"
 
 
 # --- the former revision -----------------------------------------------------------------------------------------------

@@ -11,7 +11,7 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.exchange.pdf_faults import PDF_FAULTS
 from diecut_report.given_files import content
-from diecut_report.languages.phrases import Phrase, joined, phrase
+from diecut_report.languages.phrases import Phrase, cell, joined, phrase
 
 if TYPE_CHECKING:
     from datetime import datetime
@@ -76,7 +76,7 @@ def _all_judged(embedded: Sequence[Any], whole: bytes, roots: list[x509.Certific
 
 
 def _judged(signature: Any, status: Status, *, asks_trust: bool) -> Signature:
-    named = f"{signature.field_name}: {_signer(signature, status)}"
+    named = f"{cell(signature.field_name)}: {_signer(signature, status)}"
     if why := _why_not(status):
         return Signature(Phrase("{named}: {why}", named=named, why=why), False, end=status.end)
     since = phrase("nothing changed since") if status.is_last else phrase("since then others have signed")
@@ -103,20 +103,22 @@ def _signer(signature: Any, status: Status) -> str:
     """Who signed, when, and why, as the signature has it; of a timestamp who tells the time."""
     found = signature.signer_cert.subject.native
     told = signature.self_reported_timestamp
+    own = [found.get("common_name"), found.get("organization_name"), signature.sig_object.get("/Reason")]
+    name, firm, reason = (cell(str(each)) if each else "" for each in own)
     parts = [
-        found.get("common_name", ""),
-        found.get("organization_name", ""),
+        name,
+        firm,
         f"{told:%Y-%m-%d %H:%M} UTC" if told else "",
-        signature.sig_object.get("/Reason"),
+        reason,
         Phrase("time stamped {time} UTC", time=f"{status.time:%Y-%m-%d %H:%M}") if status.time else "",
     ]
-    return joined(filter(None, (part if isinstance(part, Phrase) else str(part or "") for part in parts)), ", ")
+    return joined(filter(None, parts), ", ")
 
 
 def _fingerprint(signature: Any) -> str:
     digest = signature.signer_cert.sha256.hex()[:SHORT]
     cert = signature.signer_cert
-    by = phrase("itself") if cert.self_signed != "no" else cert.issuer.human_friendly
+    by = phrase("itself") if cert.self_signed != "no" else cell(cert.issuer.human_friendly)
     return Phrase(
         "; certificate {digest} by {by}, whose name anybody may have chosen: compare it, or give --trust",
         digest=digest,

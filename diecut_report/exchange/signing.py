@@ -22,6 +22,7 @@ from pyhanko.sign.signers import PdfSignatureMetadata, PdfSigner, SimpleSigner
 from pyhanko.stamp import StaticStampStyle
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
+from diecut_report.config.hidden_letters import printable
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.exchange.carried_results import MOST, form_of
 from diecut_report.exchange.pdf_faults import PDF_FAULTS
@@ -90,7 +91,7 @@ def _signed(whole: bytes, field: str, asked: Signing, key: SigningKey) -> bytes:
     form = PdfSignatureMetadata(
         field_name=field, md_algorithm="sha256", name=key.name, reason=asked.reason, subfilter=SigSeedSubFilter.PADES
     )
-    signer = PdfSigner(form, _signer(key), stamp_style=_appearance(told, abs(x2 - x1), abs(y2 - y1)))
+    signer = PdfSigner(form, _signer(key), stamp_style=_appearance(printable(told), abs(x2 - x1), abs(y2 - y1)))
     made: Any = signer.sign_pdf(writer, existing_fields_only=True)
     content: bytes = made.getvalue()
     return content

@@ -16,7 +16,7 @@ from diecut_report.exchange.carried_results import CarriedResults
 from diecut_report.exchange.page_comparison import compared, other_templates
 from diecut_report.exchange.recalculation import SHORT, Found, ReportParts, recalculated
 from diecut_report.exchange.signatures import Signature, signatures
-from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
+from diecut_report.languages.phrases import Counted, Phrase, cell, joined, phrase
 from diecut_report.report.house_style import HouseStyle
 
 Data = Mapping[str, Any]
@@ -179,12 +179,12 @@ def _config(carried: CarriedResults) -> Found:
         if found != hashes[name]:
             words = Phrase(
                 "{name} is not the one that the report names (SHA-256 {hashes}, found {found})",
-                name=name,
+                name=cell(name),
                 hashes=hashes[name][:SHORT],
                 found=found[:SHORT],
             )
             return words, False
-    told = {"files": ", ".join(contents), "digest": said["sha256"][:SHORT]}
+    told = {"files": ", ".join(map(cell, contents)), "digest": said["sha256"][:SHORT]}
     return Counted(
         len(contents),
         "{files}, SHA-256 {digest}: the one that the report names",

@@ -6,6 +6,7 @@ the results are finished.
 
 from __future__ import annotations
 
+import json
 import re
 from collections.abc import Iterable, Mapping, Sequence
 from functools import reduce
@@ -14,6 +15,8 @@ from typing import Any
 
 PLACE = re.compile(r"\{(\w[\w.]*(?::[a-z]+)?)\}")  # ``{name}``; ``{name:capital}`` begins with a capital letter
 CAPITAL = ":capital"
+PLAIN = re.compile(r"[\w./@+'’-]+(?: [\w./@+'’-]+)*…?")  # names of people and files
+LONGEST_CELL = 80
 NOTHING: Mapping[str, str] = MappingProxyType({})
 Wording = dict[str, Any]
 
@@ -150,3 +153,10 @@ def _collect(parts: Iterable[Any], found: dict[str, Wording]) -> None:
             _collect(part.values(), found)
         elif (kind is list or kind is tuple) and part and type(part[0]) is not float:
             _collect(part, found)
+
+
+def cell(text: str) -> str:
+    """Return a text of others as one part of a line: in quotes where it could read as more than one, and not without end."""
+    short = " ".join(text.split())
+    short = short if len(short) <= LONGEST_CELL else f"{short[:LONGEST_CELL]}…"
+    return short if PLAIN.fullmatch(short) else json.dumps(short, ensure_ascii=False)

@@ -13,6 +13,7 @@ import pytest
 import yaml
 
 from diecut_report.config import yaml_tree
+from diecut_report.config.hidden_letters import printable
 from diecut_report.config.yaml_tree import MAX_BYTES, MAX_DEPTH, load, parse
 from diecut_report.errors import Problem, UserError
 
@@ -301,12 +302,37 @@ def test_a_control_character_is_shown_at_its_place() -> None:
 # --- files -----------------------------------------------------------------------------------------------------------
 
 
+INVISIBLE = [
+    "\\xAD",
+    "\\u034F",
+    "\\u061C",
+    "\\u200B",
+    "\\u200E",
+    "\\u200F",
+    "\\u2062",
+    "\\u2800",
+    "\\u3164",
+    "\\uFE0F",
+    "\\uFEFF",
+    "\\U000E0041",
+]
+
+
+@pytest.mark.parametrize("escape", INVISIBLE)
+def test_a_text_holds_nothing_that_does_not_show(escape: str) -> None:
+    letter = ast.literal_eval(f"'{escape}'")
+    for place in ("title: a{}", "x{}: a", "unit: 5 m{}m", "note: '{}'"):
+        assert "holds the invisible character U+" in problems(place.format(letter))[0].message
+    assert parse(f"a: b  # {letter}\n", "press.yaml").data == {"a": "b"}
+    assert printable(f"a{letter}b.yaml") == "a\N{REPLACEMENT CHARACTER}b.yaml"
+
+
 @pytest.mark.parametrize(
-    "escape", ["\\0", "\\a", "\\e", "\\x7f", "\\x9b", "\\N", "\\L", "\\P", "\\u202E", "\\u2066", "\\uFFFE"]
+    "escape", ["\\0", "\\a", "\\e", "\\x7f", "\\x9b", "\\N", "\\L", "\\P", "\\u202E", "\\u2066", "\\uFFFE", *INVISIBLE]
 )
 def test_escapes_bring_no_control_characters(escape: str) -> None:
     code = {"0": 0, "a": 7, "e": 27, "N": 0x85, "L": 0x2028, "P": 0x2029}.get(escape[1]) or int(escape[2:] or "0", 16)
-    words = f"holds the control character U+{code:04X}. Write it without."
+    words = f"holds the invisible character U+{code:04X}. Write it without."
     assert [str(p) for p in problems(f'a:\n  b: "x{escape}y"\n')] == [f"press.yaml:2:6: a.b: This text {words}"]
     below = problems(f'a:\n  "x{escape}y": {{b: "{escape}"}}\n')
     assert [str(p) for p in below] == [
@@ -318,7 +344,7 @@ def test_escapes_bring_no_control_characters(escape: str) -> None:
 @pytest.mark.parametrize("escape", ["\\n", "\\r", "\\t"])
 def test_a_text_may_have_lines_but_a_key_may_not(escape: str) -> None:
     assert parse(f'a: "x{escape}y"', "press.yaml").data == {"a": f"x{ast.literal_eval(f'{chr(34)}{escape}{chr(34)}')}y"}
-    assert "This key holds the control character" in problems(f'"x{escape}y": 1')[0].message
+    assert "This key holds the invisible character" in problems(f'"x{escape}y": 1')[0].message
 
 
 @pytest.mark.parametrize("mark", ["\u202a", "\u202e", "\u2069"])

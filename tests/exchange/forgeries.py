@@ -268,8 +268,25 @@ def with_second_results(content: bytes) -> bytes:
         return saved_pdf(pdf)
 
 
+def with_two_contents(content: bytes) -> bytes:
+    """The first sheet written again, with contents twice: a reader shows the first of them or the last."""
+    with pikepdf.open(io.BytesIO(content)) as pdf:
+        sheet, size, root = pdf.pages[0].obj, int(pdf.trailer.Size), pdf.Root.objgen[0]
+        number, written = sheet.objgen[0], sheet.unparse(resolved=True).removeprefix(b"<<")
+    data = b"1 1 1 rg 0 0 999 999 re f"
+    first = b"\n%d 0 obj\n<< /Contents %d 0 R%s\nendobj\n" % (number, size, written)
+    second = b"%d 0 obj\n<< /Length %d >>\nstream\n%s\nendstream\nendobj\n" % (size, len(data), data)
+    places = len(content) + 1, len(content) + len(first)
+    table = b"xref\n%d 1\n%010d 00000 n \n%d 1\n%010d 00000 n \n" % (number, places[0], size, places[1])
+    previous = re.findall(rb"startxref\s+(\d+)", content)[-1]
+    trailer = b"trailer\n<< /Size %d /Root %d 0 R /Prev %s >>" % (size + 1, root, previous)
+    end = b"\nstartxref\n%d\n%%%%EOF\n" % (places[1] + len(second))
+    return content + first + second + table + trailer + end
+
+
 OF_PDF = (
     Forgery("what a sheet shows, painted over", added(painted), PAGES),
+    Forgery("contents of a sheet that only some readers show", with_two_contents, PAGES),
     Forgery("a sheet, turned", added(turned), PAGES),
     Forgery("a sheet, cut smaller", added(cropped), PAGES),
     Forgery("a sheet, taken out", added(without_sheet), PAGES),
@@ -290,6 +307,7 @@ OF_PDF = (
 OF_SIGNED = (
     ("any of these, before somebody signs it by another program (`sign` refuses it)", PAGES),
     ("any of these, after it was signed", "✗ signature"),
+    ("a field that grows over the sheet where it is shown small, by another program that signs", PAGES),
     ("a byte of what was signed", "✗ signature"),
     ("signed by a certificate that was not valid then, or is not now and no timestamp proves it", "✗ signature"),
     ("signed with SHA-1, or with a key of RSA-1024", "✗ signature"),

@@ -21,16 +21,30 @@ from pyhanko.keys.internal import (
     translate_pyca_cryptography_cert_to_asn1,
     translate_pyca_cryptography_key_to_asn1,
 )
-from pyhanko.pdf_utils.incremental_writer import IncrementalPdfFileWriter
+from pyhanko.pdf_utils.generic import NumberObject
+from pyhanko.pdf_utils.misc import PdfError
 from pyhanko.sign import signers
 from pyhanko.sign.timestamps import DummyTimeStamper
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report import pipeline
+from diecut_report.exchange.later_changes import only_signed
+from diecut_report.exchange.signatures import signatures
 from diecut_report.exchange.signing import Additions
-from tests.configs import saved
+from diecut_report.languages.phrases import cell
+from tests.configs import SMALL, saved
 from tests.examples import few
-from tests.exchange.forgeries import OF_PAGE, OF_PDF, OF_RESULTS, TRUST, Forgery, added, page, painted
+from tests.exchange.forgeries import (
+    OF_PAGE,
+    OF_PDF,
+    OF_RESULTS,
+    TRUST,
+    Forgery,
+    added,
+    page,
+    painted,
+    with_two_contents,
+)
 from tests.exchange.reports import page_with, run
 
 Capture = pytest.CaptureFixture[str]
@@ -195,13 +209,16 @@ def certified(
     return made.sign(private, hashes.SHA256())
 
 
-def signed_elsewhere(content: bytes, private: Private, certificate: x509.Certificate, **options: Any) -> bytes:
-    """Signed by another program, which asks nothing."""
+def signed_elsewhere(
+    content: bytes | Additions, private: Private, certificate: x509.Certificate, **options: Any
+) -> bytes:
+    """Signed by another program, which asks nothing; it leaves the metadata as they are, or these alone would tell."""
     hidden = serialization.NoEncryption()
     stored = pkcs12.serialize_key_and_certificates(b"key", private, certificate, None, hidden)  # type: ignore[arg-type]
     signer = signers.SimpleSigner.load_pkcs12_data(stored, other_certs=[])
     asked = signers.PdfSignatureMetadata(field_name="approved", **options)
-    made = signers.sign_pdf(IncrementalPdfFileWriter(io.BytesIO(content)), asked, signer=signer)
+    writer = Additions(io.BytesIO(content)) if isinstance(content, bytes) else content
+    made = signers.sign_pdf(writer, asked, signer=signer)
     return bytes(made.getvalue())
 
 
@@ -228,6 +245,25 @@ def test_what_was_painted_over_is_not_signed(
     assert "is not signed" in capfd.readouterr().err and (tmp_path / "a.pdf").read_bytes() == forged
     code, told = verified(signed_elsewhere(forged, private, certified(private)), tmp_path, capfd)
     assert code == 1 and "✗ pages" in told
+
+
+def test_contents_that_only_some_readers_show_are_no_signature(small_report: Path) -> None:
+    whole = (small_report / "small.pdf").read_bytes()
+    assert only_signed(whole, added(lambda root: root["/Pages"]["/Kids"][0])(whole))
+    assert not only_signed(whole, with_two_contents(whole))
+
+
+@pytest.mark.parametrize(("flags", "holds"), [(4 | 128, True), (4 | 8, False), (4 | 16, False)])
+def test_a_signed_field_does_not_grow_over_its_sheet(
+    small_report: Path, private: ec.EllipticCurvePrivateKey, flags: int, holds: bool
+) -> None:
+    whole = (small_report / "small.pdf").read_bytes()
+    writer = Additions(io.BytesIO(whole))
+    fields = [each.get_object() for each in writer.root["/AcroForm"]["/Fields"]]
+    field = next(each for each in fields if each["/T"] == "approved")
+    field["/F"] = NumberObject(flags)
+    writer.update_container(field)
+    assert only_signed(whole, signed_elsewhere(writer, private, certified(private))) is holds
 
 
 WEAK: dict[str, tuple[Callable[[], Private], dict[str, Any], dict[str, int], str]] = {
@@ -275,6 +311,72 @@ def test_a_name_forges_no_line(
     _, told = verified(content, tmp_path / "a\n✓ pages", capfd, "--numbers")
     assert not any(line.startswith(("✓ signature      approved: Chief", "✓ pages")) for line in told.splitlines())
     assert "\x1b" not in told and "\u202e" not in told
+
+
+def test_a_name_forges_no_other_part_of_its_line(
+    small_report: Path, tmp_path: Path, capfd: Capture, private: ec.EllipticCurvePrivateKey
+) -> None:
+    name = "Chief, nothing changed since, trusted"
+    content = signed_elsewhere(
+        (small_report / "small.pdf").read_bytes(), private, certified(private, name), reason=f'"{100 * " "}✓ x'
+    )
+    _, told = verified(content, tmp_path, capfd, "--numbers")
+    assert f'approved: "{name}", ' in told and r', "\" ✓ x", nothing changed' in told
+
+
+def test_the_name_of_a_file_forges_no_line(tmp_path: Path, capfd: Capture) -> None:
+    names = ("a\n✓ pass.yaml", "b\x1b[1A\u202e\u3164.yaml", "c       pass  ok.yaml", "bad\n✓ pass.yaml")
+    for name in names:
+        saved(tmp_path, SMALL.replace("300 N", "-300 N") if name.startswith("bad") else SMALL, name)
+    run("check", tmp_path)
+    rows, told = (text.splitlines() for text in capfd.readouterr())
+    assert len(rows) == 5 and rows[1].startswith('"a ✓ pass"  ') and rows[-1].startswith("c pass ok  ")
+    for name in names:
+        run("validate", tmp_path / name)
+        run("report", tmp_path / name, "--format", "json", "-o", tmp_path / "out")
+    told += capfd.readouterr().err.splitlines()
+    assert any(line.endswith("\\n✓ pass.yaml: valid") for line in told)
+    assert any(line.startswith("written: ") and line.endswith("\\n✓ pass.json") for line in told)
+    assert not any(line.strip().startswith("✓") or set(line) & set("\x1b\u202e\u3164") for line in [*rows, *told])
+
+
+@pytest.mark.parametrize(
+    ("text", "shown"),
+    [
+        ("Олена П'ятигорська", "Олена П'ятигорська"),
+        ("out/a-1.pdf", "out/a-1.pdf"),
+        ("a, b", '"a, b"'),
+        ("a  \u2003\n b", "a b"),
+        ("", '""'),
+        (200 * "x", f"{80 * 'x'}…"),
+    ],
+)
+def test_a_text_of_others_is_one_part_of_a_line(text: str, shown: str) -> None:
+    assert cell(text) == shown
+
+
+SHOWN = [each for each in OF_PDF if each.way != "something behind its end"]  # which no object refers to then
+
+
+@pytest.mark.parametrize("forgery", SHOWN, ids=lambda each: each.way)
+def test_a_changed_pdf_that_somebody_signs_is_found(
+    small_report: Path, private: ec.EllipticCurvePrivateKey, forgery: Forgery
+) -> None:
+    whole = (small_report / "small.pdf").read_bytes()
+    changed = forgery.change(whole)
+    try:
+        signed = signed_elsewhere(changed, private, certified(private))
+    except PdfError:  # the other program refuses it as well
+        signed = changed
+    assert not (signed.startswith(whole) and only_signed(whole, signed))
+
+
+@pytest.mark.parametrize("forgery", OF_PDF, ids=lambda each: each.way)
+def test_a_pdf_that_is_changed_after_it_was_signed_is_found(
+    small_report: Path, private: ec.EllipticCurvePrivateKey, forgery: Forgery
+) -> None:
+    signed = signed_elsewhere((small_report / "small.pdf").read_bytes(), private, certified(private))
+    assert not all(each.holds for each in signatures(forgery.change(signed)))
 
 
 @pytest.mark.parametrize("count", [12, pytest.param(400, marks=pytest.mark.nightly)])

@@ -1,4 +1,4 @@
-"""Control characters in texts that are no YAML: a stored study brings its own."""
+"""Control and invisible characters in texts that are no YAML: a stored study brings its own."""
 
 from __future__ import annotations
 
@@ -16,9 +16,9 @@ from tests.configs import GOOD, saved
 from tests.study.studies import BASE, STUDY
 
 
-@pytest.mark.parametrize("text", ["a\0b", "a\x1b]0;t\a", "a\u202eb", "a\u2028b", "a\ufffe"])
+@pytest.mark.parametrize("text", ["a\0b", "a\x1b]0;t\a", "a\u202eb", "a\u2028b", "a\ufffe", "a\u00adb", "\u3164"])
 def test_a_value_that_is_put_into_a_tree_is_judged_as_one_that_is_read(text: str) -> None:
-    with pytest.raises(UserError, match=r"press.yaml: project.title: The value .* holds the control character U\+"):
+    with pytest.raises(UserError, match=r"press.yaml: project.title: The value .* holds the invisible character U\+"):
         with_values(parse("project: {title: a}", "press.yaml"), {("project", "title"): text}, "name", "heading")
 
 
@@ -33,4 +33,4 @@ def test_a_stored_study_brings_no_control_characters_into_a_report(
     state = json.loads((out / "study.json").read_text("utf-8"))
     write_state(out, state | {"study": "\x1b[2J\n\u202ex.yaml"})  # by somebody who seals it too
     assert main(["calc", f"{out}#1", "--plugins", str(GOOD)]) == 2
-    assert "holds the control character U+001B" in capfd.readouterr().err
+    assert "holds the invisible character U+001B" in capfd.readouterr().err

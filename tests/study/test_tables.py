@@ -222,7 +222,7 @@ def test_a_text_has_no_unit(tmp_path: Path) -> None:
 def test_a_text_has_no_control_characters(tmp_path: Path) -> None:
     path = tmp_path / "t.parquet"
     pq.write_table(pa.table({"law": ["x", "a\x1b[2J", "y"]}), path)
-    assert "law: row 2: the text holds the control character U+001B" in fault(read_table(path).column("law").texts)
+    assert "law: row 2: the text holds the invisible character U+001B" in fault(read_table(path).column("law").texts)
 
 
 def test_a_date_in_a_workbook_is_no_number(tmp_path: Path) -> None:

@@ -63,7 +63,7 @@ class ReadColumn:
         places = (place for place, text in enumerate(found) if text in held)
         self._refuse(
             Faults.of(
-                places, lambda place: Phrase("the text holds the control character {held}", held=held[found[place]])
+                places, lambda place: Phrase("the text holds the invisible character {held}", held=held[found[place]])
             )
         )
         return found
