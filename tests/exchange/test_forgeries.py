@@ -35,6 +35,7 @@ from diecut_report.languages.phrases import cell
 from tests.configs import SMALL, saved
 from tests.examples import few
 from tests.exchange.forgeries import (
+    OF_OPTIONS,
     OF_PAGE,
     OF_PDF,
     OF_RESULTS,
@@ -124,6 +125,17 @@ def test_changed_results_are_found(knife: Path, tmp_path: Path, capfd: Capture, 
     assert code == 1 and forgery.line in told and "Not everything agrees." in told
 
 
+@pytest.mark.usefixtures("calculated_once")
+@pytest.mark.parametrize("forgery", OF_OPTIONS, ids=lambda forgery: forgery.way)
+def test_what_is_chosen_beside_the_configuration_is_told(
+    knife: Path, tmp_path: Path, capfd: Capture, forgery: Forgery
+) -> None:
+    data = json.loads((knife / "new.json").read_text("utf-8"))
+    forgery.change(data)
+    code, told = verified(page_with(json.dumps(data).encode()), tmp_path, capfd, "--numbers")
+    assert code == 0 and forgery.line in told
+
+
 def leaves(data: Any, path: tuple[Any, ...] = ()) -> Iterator[tuple[tuple[Any, ...], Any]]:
     if isinstance(data, dict | list) and data:
         for key, value in data.items() if isinstance(data, dict) else enumerate(data):
@@ -149,7 +161,7 @@ def other(value: Any) -> Any:
 
 
 def is_told_apart(path: tuple[Any, ...]) -> bool:
-    """Whether another value is said, and no fault: the versions of libraries, and the name of the former configuration's file."""
+    """Whether another value is told, and no fault: the versions of libraries."""
     return path[:2] == ("program", "libraries")
 
 
