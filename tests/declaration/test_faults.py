@@ -79,6 +79,11 @@ def same(value: Any) -> Any:
 
 
 @formula
+def turned(force: Any, arm: Any) -> Any:
+    return 1 * arm * (force + 0)
+
+
+@formula
 def least(one: Any, other: Any) -> Any:
     return np.minimum(one, other)
 
@@ -181,6 +186,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "a check of a quantity with its copy": (
         made(value("copy", "Q", formula=bind(same, value="moment")), checks=(check(demand="copy", limit="moment"),)),
         "compares copy with moment, which is the same expression: it can never fail",
+    ),
+    "a check of one formula written another way": (
+        made(value("other", "Q", formula=turned), checks=(check(limit="other"),)),
+        "compares moment with other, which is the same expression: it can never fail",
     ),
     "a check of a constant with a constant": (
         made(value("fixed", "Q", formula=bind(same, value=2.0)), checks=(check(demand="fixed"),)),
