@@ -162,7 +162,9 @@ class _ConfigReader:
             named = instance.data.get(partner.key)
             if named is not None and (fault := partners.fault(partner, named, self.kinds)):
                 self.problems.append(instance.place.problem((partner.key,), fault))
-        instance.take(partners.taken(instance.mechanism, instance.data, self.instances, self.kinds))
+        known = instance.mechanism, instance.data, self.instances, self.kinds
+        self.problems += [instance.place.problem((key,), words) for key, words in partners.overruled(*known)]
+        instance.take(partners.taken(*known))
         self._probe(name, self.kinds[name])
 
     def _add(
