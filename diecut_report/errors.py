@@ -89,5 +89,10 @@ class PluginError(Exception):
 
 def nearest(given: str, known: Iterable[str]) -> str:
     """A suggestion to append, " (did you mean 'crank_speed'?)", or nothing where none is near."""
-    found = difflib.get_close_matches(given[:100], list(known), n=1, cutoff=0.6)
-    return Phrase(" (did you mean {key}?)", key=repr(found[0])) if found else ""
+    found = closest(given, known)
+    return Phrase(" (did you mean {key}?)", key=repr(found)) if found else ""
+
+
+def closest(given: str, known: Iterable[str]) -> str:
+    """Return the known name that is nearest to what was typed, or nothing where none is near."""
+    return next(iter(difflib.get_close_matches(given[:100], list(known), n=1, cutoff=0.6)), "")
