@@ -41,7 +41,7 @@ if TYPE_CHECKING:
     from diecut_report.study.machines.verdicts import Verdict
 
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
-COLOURED = {"bad": "error"}  # states with the colour of another one
+COLOURED = {"bad": "error", "conditional": "warn"}  # states with the colour of another one
 HEADS = (
     phrase("machine"),
     phrase("verdict"),
@@ -126,7 +126,7 @@ def _row(verdict: Verdict) -> tuple[str, ...]:
 
 def _status(verdict: Verdict) -> str:
     """The verdict in words; one that formulas with faults gave says so."""
-    told = said(WORDS[verdict.status])
+    told = said(WORDS[verdict.face])
     return say("{status}, formulas with faults", status=told) if verdict.formulas_with_faults else told
 
 
@@ -151,7 +151,8 @@ def _write(
 
 
 def _counts(verdicts: Sequence[Verdict]) -> list[Line]:
-    found = [(status, sum(v.status == status for v in verdicts)) for status in ("pass", "warn", "fail", "error", "bad")]
+    known = ("pass", "conditional", "warn", "fail", "error", "bad")
+    found = [(status, sum(verdict.face == status for verdict in verdicts)) for status in known]
     named = [
         part
         for status, count in found

@@ -47,6 +47,19 @@ def test_a_folder_gives_one_table(firm: Path, capfd: Capture) -> None:
     assert err == f"{firm / 'study.yaml'}: {told}\n3 machines: 2 pass, 1 fail.\n"
 
 
+def test_a_machine_that_leaves_something_open_passes_conditionally(tmp_path: Path, capfd: Capture) -> None:
+    for number, text in enumerate((LEVER, LIMITED.replace("150 N*m", "{value: 250 N*m, basis: assumed}"))):
+        file = saved(tmp_path, text, f"open{number}.yaml")
+        assert check(file, "-o", tmp_path / "out") == 0
+        out, err = capfd.readouterr()
+        assert out.splitlines()[1].split()[:2] == [f"open{number}", "conditional"] and "1 machine: 1 conditional." in err
+        (found,) = json.loads((tmp_path / "out" / "machines.json").read_text("utf-8"))["machines"]
+        assert (found["status"], found["is_open"]) == ("pass", True)
+        assert ",conditional," in (tmp_path / "out" / "machines.csv").read_text("utf-8")
+        page = (tmp_path / "out" / "machines.html").read_text("utf-8")
+        assert '<td class="st-warn">conditional' in page
+
+
 def test_all_pass_ends_with_0(firm: Path) -> None:
     assert check(firm / "good.yaml", firm / "old") == 0
 
@@ -129,5 +142,5 @@ def test_what_is_not_checked_is_counted_from_the_results() -> None:
     from diecut_report.study.machines.calculation import CheckedMachine
     from diecut_report.study.machines.verdicts import verdict
 
-    results = {"mechanisms": {}, "summary": {"not_checked": 7}}
+    results = {"mechanisms": {}, "summary": {"warn": 0, "not_checked": 7}}
     assert verdict(CheckedMachine("a.yaml", "pass", results), "a").not_checked == 7

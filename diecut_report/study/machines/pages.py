@@ -95,7 +95,7 @@ def _tables(made: MachineComparison) -> dict[str, Rows]:
 def _verdict(of: Verdict) -> list[Any]:
     return [
         of.machine,
-        said(STATES[of.status]),
+        said(STATES[of.face]),
         of.governing,
         of.utilisation,
         of.failed,

@@ -12,12 +12,13 @@ from diecut_report.languages.phrases import phrase
 from diecut_report.languages.speech import localised
 from diecut_report.quantities.units import pretty
 from diecut_report.report.translated import translated
+from diecut_report.results.conclusion import is_open
 from diecut_report.results.doubtful_plugins import doubtful_kinds
 from diecut_report.results.summary import SELF_TEST
 from diecut_report.study.machines.calculation import BAD, BROKEN, CheckedMachine
 
 Data = Mapping[str, Any]
-NOT_CHECKED = "not_checked"
+NOT_CHECKED, CONDITIONAL = "not_checked", "conditional"
 STATES = {
     "pass": phrase("pass"),
     "warn": phrase("warn"),
@@ -26,6 +27,7 @@ STATES = {
     BAD: phrase("bad"),
     "skipped": phrase("skipped"),
     NOT_CHECKED: phrase("not checked"),
+    CONDITIONAL: phrase("conditional"),
 }
 
 
@@ -43,6 +45,12 @@ class Verdict:
     warnings: int = 0
     words: tuple[str, ...] = ()
     formulas_with_faults: bool = False
+    is_open: bool = False
+
+    @property
+    def face(self) -> str:
+        """The verdict as it is shown: one that passes, but leaves something open, is conditional."""
+        return CONDITIONAL if self.status == "pass" and self.is_open else self.status
 
 
 @dataclass(frozen=True)
@@ -87,6 +95,7 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
         sum(check["status"] == "fail" for _, check in checks),
         machine.results.get("summary", {}).get(NOT_CHECKED, sum(check["status"] == NOT_CHECKED for _, check in checks)),
         sum(check["status"] == "warn" for _, check in checks), tuple(machine.words), bool(machine.results and doubtful_kinds(machine.results)),
+        bool(machine.results and is_open(machine.results)),
     )  # fmt: skip
 
 
