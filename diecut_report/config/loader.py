@@ -28,7 +28,7 @@ from diecut_report.config.validation import ConfigPlace, declared, keys_of, spre
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text
 from diecut_report.contract.unit_variants import in_form
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, closest
 from diecut_report.languages.phrases import Phrase
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
@@ -144,12 +144,13 @@ class _ConfigReader:
         self.report = document.report if document else None
         data = whole if isinstance(whole, dict) else {}
         self.instances[PRESS] = None
-        if isinstance(data.get(PRESS), dict):
-            self._add(PRESS, Press, data[PRESS], ConfigPlace(self.tree, (PRESS,)))
-        mechanisms = data.get("mechanisms")
+        press, home = _written(PRESS, data), _written("mechanisms", data)
+        if isinstance(data.get(press), dict):
+            self._add(PRESS, Press, data[press], ConfigPlace(self.tree, (press,)))
+        mechanisms = data.get(home)
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)
-            self._mechanism(name, body, ConfigPlace(self.tree, ("mechanisms", name)))
+            self._mechanism(name, body, ConfigPlace(self.tree, (home, name)))
         for kind in partners.BY_THEMSELVES:
             self._by_itself(kind)
         for name in self.with_partners:
@@ -169,7 +170,9 @@ class _ConfigReader:
             named = instance.data.get(partner.key)
             if named is not None and (fault := partners.fault(partner, named, self.kinds)):
                 self.problems.append(instance.place.problem((partner.key,), fault))
-        instance.take(partners.taken(instance.mechanism, instance.data, self.instances, self.kinds))
+        known = instance.mechanism, instance.data, self.instances, self.kinds
+        self.problems += [instance.place.problem((key,), words) for key, words in partners.overruled(*known)]
+        instance.take(partners.taken(*known))
         self._probe(name, self.kinds[name])
 
     def _add(
@@ -220,6 +223,11 @@ class _ConfigReader:
             _ = instance.given, instance.results
         except Exception as cause:
             raise PluginError(Phrase("it declares what cannot be: {said}", said=said(cause)), kind) from cause
+
+
+def _written(key: str, data: Mapping[str, Any]) -> str:
+    """The key of a block as it is typed: a slip in it, which is told, hides nothing of what stands below."""
+    return key if key in data else closest(key, [name for name in data if name not in keys_of(ConfigDocument)]) or key
 
 
 def _of_instance(error: DuplicateKind | PluginError, kind: str, name: str) -> PluginError:
