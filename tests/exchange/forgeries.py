@@ -340,7 +340,7 @@ def table() -> str:
     """Return the list for docs/trust.md."""
     groups = (
         ("the results in a report of any form, its pages made again of them by this program", [(f.way, f.line) for f in OF_RESULTS]),
-        ("what is chosen beside the configuration, its pages made again by this program; told, and no fault", [(f.way, _told(f.line)) for f in OF_OPTIONS]),
+        ("what is chosen beside the configuration, its pages made again; told, and no fault", [(f.way, _told(f.line)) for f in OF_OPTIONS]),
         ("an HTML page", [(f.way, f.line) for f in OF_PAGE]),
         ("a PDF", [(f.way, f.line) for f in OF_PDF]),
         ("a signed PDF", list(OF_SIGNED)),
