@@ -270,3 +270,13 @@ def test_names_longer_than_a_file_system_takes_are_told(
         ("live", f"{name}.yaml"),
     ):
         assert name in reported(command, [given], capfd)
+
+
+@pytest.mark.parametrize("base", ["Base: press.yaml", ""])
+def test_a_study_without_a_base_is_judged_as_a_study(
+    base: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    saved(tmp_path, STUDY.replace("base: press.yaml", base), "study.yaml")
+    told = reported("validate", ["study.yaml"], capfd)
+    assert "base: is missing" in told and "project" not in told
