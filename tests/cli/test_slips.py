@@ -276,3 +276,29 @@ def test_letters_of_another_alphabet_are_told(
     monkeypatch.chdir(tmp_path)
     saved(tmp_path, slipped(typed, instead))
     assert re.search(words, reported("validate", ["press.yaml"], capfd))
+
+
+def test_names_longer_than_a_file_system_takes_are_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    name = "n" * 400
+    saved(tmp_path, PRESS.replace("press:\n", f"materials: {name}.yaml\nreport: {{logo: {name}.png}}\npress:\n", 1))
+    saved(tmp_path, STUDY.replace("press.yaml", f"{name}.yaml"), "study.yaml")
+    for command, given in (
+        ("validate", "press.yaml"),
+        ("validate", "study.yaml"),
+        ("check", f"{name}.yaml"),
+        ("live", f"{name}.yaml"),
+    ):
+        assert name in reported(command, [given], capfd)
+
+
+@pytest.mark.parametrize("base", ["Base: press.yaml", ""])
+def test_a_study_without_a_base_is_judged_as_a_study(
+    base: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    saved(tmp_path, STUDY.replace("base: press.yaml", base), "study.yaml")
+    told = reported("validate", ["study.yaml"], capfd)
+    assert "base: is missing" in told and "project" not in told
