@@ -52,7 +52,9 @@ def test_a_machine_that_leaves_something_open_passes_conditionally(tmp_path: Pat
         file = saved(tmp_path, text, f"open{number}.yaml")
         assert check(file, "-o", tmp_path / "out") == 0
         out, err = capfd.readouterr()
-        assert out.splitlines()[1].split()[:2] == [f"open{number}", "conditional"] and "1 machine: 1 conditional." in err
+        assert (
+            out.splitlines()[1].split()[:2] == [f"open{number}", "conditional"] and "1 machine: 1 conditional." in err
+        )
         (found,) = json.loads((tmp_path / "out" / "machines.json").read_text("utf-8"))["machines"]
         assert (found["status"], found["is_open"]) == ("pass", True)
         assert ",conditional," in (tmp_path / "out" / "machines.csv").read_text("utf-8")

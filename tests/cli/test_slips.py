@@ -87,7 +87,8 @@ SLIPS = [  # what is typed, what is typed instead, and what the message holds
     ("schema_version: 1", "schema_version: 2", "schema_version"),
     ("schema_version: 1", "", "schema_version"), ("{title: Test}", "{titel: Test}", "titel"), ("{title: Test}", "{title: Test", "."),
     ("press.sheet.width}", "press.sheet.width)", "reference|{"),
-    (RATE, "12:30", "unit"), (RATE, "on", "number"), (RATE, "6_000 1/h", "unit|number"), (RATE, "6000–7000 1/h", "unit"), (RATE, "٦٠٠٠ 1/h", "number"),
+    (RATE, "12:30", "unit"), (RATE, "on", "number"), (RATE, "6_000 1/h", "unit|number"), (RATE, "6000–7000 1/h", "unit"), 
+    (RATE, "٦٠٠٠ 1/h", "number"),
     (ANGLE, "10°30'", "unit"), (ANGLE, "[10 deg, 20 deg]", "list"), (ANGLE, "{value: {value: 1}}", "value"), (ANGLE, "{a: 1}", "a block without"),
     (ANGLE, "{value: 10 deg, basis: }", "basis"), (ANGLE, "{value: , basis: assumed}", "without a value"), (ANGLE, "${press.sheet}", "list|block"),
     ("300 N*m", "300 Н*м", "unit"), ("    torque:", "    tоrque:", "tоrque"), ("${cylinder.seg", "${суlinder.seg", "Latin"),
@@ -166,7 +167,9 @@ SECOND = "  other: {kind: clutch, wedge_angel: 10 deg}\n"
 
 
 @pytest.mark.parametrize(
-    ("typed", "instead"), [each[:2] for each in SLIPS], ids=[f"{number}: {each[1].strip()[:30]}" for number, each in enumerate(SLIPS)]
+    ("typed", "instead"),
+    [each[:2] for each in SLIPS],
+    ids=[f"{number}: {each[1].strip()[:30]}" for number, each in enumerate(SLIPS)],
 )
 def test_a_slip_hides_no_other_of_the_file(typed: str, instead: str, tmp_path: Path) -> None:
     told = "\n".join(problems(tmp_path, slipped(typed, instead) + SECOND))
