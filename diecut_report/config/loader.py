@@ -16,7 +16,7 @@ from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, substituted
 from diecut_report.config.logo import Logo, logo_of
-from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings
+from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings, written
 from diecut_report.config.own_tables import Find, OwnTables
 from diecut_report.config.plain_data import texts
 from diecut_report.config.references import Linker
@@ -28,7 +28,7 @@ from diecut_report.config.validation import ConfigPlace, declared, keys_of, spre
 from diecut_report.config.yaml_tree import KeyPath, Tree
 from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text
 from diecut_report.contract.unit_variants import in_form
-from diecut_report.errors import PluginError, Problem, UserError, closest
+from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.languages.phrases import Phrase
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
@@ -144,7 +144,7 @@ class _ConfigReader:
         self.report = document.report if document else None
         data = whole if isinstance(whole, dict) else {}
         self.instances[PRESS] = None
-        press, home = _written(PRESS, data), _written("mechanisms", data)
+        press, home = written(PRESS, data), written("mechanisms", data)
         if isinstance(data.get(press), dict):
             self._add(PRESS, Press, data[press], ConfigPlace(self.tree, (press,)))
         mechanisms = data.get(home)
@@ -223,11 +223,6 @@ class _ConfigReader:
             _ = instance.given, instance.results
         except Exception as cause:
             raise PluginError(Phrase("it declares what cannot be: {said}", said=said(cause)), kind) from cause
-
-
-def _written(key: str, data: Mapping[str, Any]) -> str:
-    """The key of a block as it is typed: a slip in it, which is told, hides nothing of what stands below."""
-    return key if key in data else closest(key, [name for name in data if name not in keys_of(ConfigDocument)]) or key
 
 
 def _of_instance(error: DuplicateKind | PluginError, kind: str, name: str) -> PluginError:
