@@ -43,7 +43,7 @@ def decimal_commas(entries: Sequence[Any]) -> Iterator[tuple[int, Phrase]]:
     """
     glued = [
         isinstance(one, yaml.ScalarEvent) and isinstance(other, yaml.ScalarEvent) and one.implicit[0] and other.implicit[0]
-        and other.start_mark.index == one.end_mark.index + 1 and bool(re.fullmatch(r"[-+−]?\d+", one.value) and re.match(r"\d", other.value))
+        and _index(other.start_mark) == _index(one.end_mark) + 1 and bool(re.fullmatch(r"[-+−]?\d+", one.value) and re.match(r"\d", other.value))
         for one, other in pairwise(entries)
     ]  # fmt: skip
     for index, is_glued in enumerate(glued):
@@ -51,3 +51,8 @@ def decimal_commas(entries: Sequence[Any]) -> Iterator[tuple[int, Phrase]]:
         if is_glued and (not all(glued) or not re.fullmatch(r"[\d.eE+-]+", following)):
             words = "{typed} is read as two values. Write a decimal point, or a space after the comma."
             yield index, Phrase(words, typed=f"{entries[index].value},{following}")
+
+
+def _index(mark: Any) -> int:
+    """Where a mark stands in the text; PyYAML gives one with each event of a text."""
+    return int(mark.index)
