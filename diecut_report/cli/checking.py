@@ -32,7 +32,7 @@ from diecut_report.cli.progress import Progress
 from diecut_report.cli.verdict import WORDS
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.discovery import Discovery
-from diecut_report.config.standard_input import NAME as STANDARD_INPUT
+from diecut_report.config.standard_input import SHOWN as STANDARD_INPUT
 from diecut_report.errors import TOLD, Problem, UserError
 from diecut_report.languages.phrases import Counted, Phrase, cell, phrase
 from diecut_report.languages.speech import localised, said, say, speaking
