@@ -229,9 +229,8 @@ class _Builder:
     def _refuse_hidden(self, what: str, found: re.Match[str] | None, event: Any, path: KeyPath) -> None:
         """Report what a text holds when it is decoded: escapes within quotes bring what the file itself may not hold."""
         if found:
-            words = "This {what} holds the invisible character U+{ord}. Write it without."
-            message = Phrase(words, what=what, ord=f"{ord(found[0]):04X}")
-            self._report(message, _position(event), path)
+            words, code = "This {what} holds the invisible character U+{ord}. Write it without.", f"{ord(found[0]):04X}"
+            self._report(Phrase(words, what=what, ord=code), _position(event), path)
 
     def _alias(self, event: Any, path: KeyPath) -> YamlNode:
         name, place = event.anchor, _position(event)
