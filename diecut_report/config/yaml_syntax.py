@@ -41,11 +41,7 @@ def decimal_commas(entries: Sequence[Any]) -> Iterator[tuple[int, Phrase]]:
 
     [1,2,3] is a list of three: the comma is suspected where others are followed by a space, or where a unit stands behind it.
     """
-    glued = [
-        isinstance(one, yaml.ScalarEvent) and isinstance(other, yaml.ScalarEvent) and one.implicit[0] and other.implicit[0]
-        and _index(other.start_mark) == _index(one.end_mark) + 1 and bool(re.fullmatch(r"[-+−]?\d+", one.value) and re.match(r"\d", other.value))
-        for one, other in pairwise(entries)
-    ]  # fmt: skip
+    glued = [_is_glued(one, other) for one, other in pairwise(entries)]
     for index, is_glued in enumerate(glued):
         following = entries[index + 1].value if is_glued else ""
         if is_glued and (not all(glued) or not re.fullmatch(r"[\d.eE+-]+", following)):
@@ -53,6 +49,9 @@ def decimal_commas(entries: Sequence[Any]) -> Iterator[tuple[int, Phrase]]:
             yield index, Phrase(words, typed=f"{entries[index].value},{following}")
 
 
-def _index(mark: Any) -> int:
-    """Where a mark stands in the text; PyYAML gives one with each event of a text."""
-    return int(mark.index)
+def _is_glued(one: Any, other: Any) -> bool:
+    """Whether a whole number and what begins with a digit stand with nothing but a comma between them."""
+    if not all(isinstance(each, yaml.ScalarEvent) and each.implicit[0] for each in (one, other)):
+        return False
+    beside = other.start_mark.index == one.end_mark.index + 1
+    return beside and bool(re.fullmatch(r"[-+−]?\d+", one.value) and re.match(r"\d", other.value))
