@@ -47,7 +47,7 @@ CHECKS = (
           severity="warn", tolerance=ROUNDING, demand_label="bearing length", limit_label="1.3 diameters", source=METHOD,
           consequence="the load no longer spreads over so long a key; take a thicker shaft, two keys or stronger material."),
     Check(id="reversing", check_class="practice", title="Reversing torque", demand="reversal_left_out", limit=0.0, unit="1", severity="warn",
-          founded=("load_direction_factor",),
+          founded=("load_direction_factor", "flank_changes"),
           demand_label="torques that change their sign, judged as steady", limit_label="accepted", source=METHOD,
           consequence="the key works loose where the torque turns round often; give required_life and cycle_speed, by which the changes of flank are "
                       "counted, or flank_changes itself."),

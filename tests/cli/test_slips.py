@@ -87,7 +87,7 @@ SLIPS = [  # what is typed, what is typed instead, and what the message holds
     ("schema_version: 1", "schema_version: 2", "schema_version"),
     ("schema_version: 1", "", "schema_version"), ("{title: Test}", "{titel: Test}", "titel"), ("{title: Test}", "{title: Test", "."),
     ("press.sheet.width}", "press.sheet.width)", "reference|{"),
-    (RATE, "12:30", "unit"), (RATE, "on", "number"), (RATE, "6_000 1/h", "unit|number"), (RATE, "6000–7000 1/h", "unit"), 
+    (RATE, "12:30", "unit"), (RATE, "on", "number"), (RATE, "6_000 1/h", "unit|number"), (RATE, "6000–7000 1/h", "unit"),
     (RATE, "٦٠٠٠ 1/h", "number"),
     (ANGLE, "10°30'", "unit"), (ANGLE, "[10 deg, 20 deg]", "list"), (ANGLE, "{value: {value: 1}}", "value"), (ANGLE, "{a: 1}", "a block without"),
     (ANGLE, "{value: 10 deg, basis: }", "basis"), (ANGLE, "{value: , basis: assumed}", "without a value"), (ANGLE, "${press.sheet}", "list|block"),
