@@ -10,9 +10,10 @@ from diecut_report.contract.checks import Check
 from diecut_report.contract.steps import Value
 from diecut_report.declaration.names import DeclaredNames, Giver
 from diecut_report.expressions import FormulaError
-from diecut_report.expressions.tree import Node, substitute, symbols
+from diecut_report.expressions.tree import LEAVES, Node, substitute, symbols
 from diecut_report.languages.phrases import Phrase, phrase
 
+COMMUTE = ("+", "*")
 DEEP = 40  # formulas within formulas, of which a declaration may have a circle that is reported elsewhere
 
 
@@ -30,7 +31,7 @@ def told(names: DeclaredNames, check: Check) -> Iterator[str]:
 
 def _empty(demand: Node, limit: Node) -> str:
     """Return why two expressions are no check; nothing where they are one."""
-    if demand == limit:
+    if _in_order(demand) == _in_order(limit):
         return phrase("compares {one} with {other}, which is the same expression: it can never fail")
     if not symbols(demand) and not symbols(limit):
         return phrase(
@@ -39,6 +40,14 @@ def _empty(demand: Node, limit: Node) -> str:
     if limit in _least(demand) or demand in _greatest(limit):
         return phrase("compares {one} with {other}, by which it is bounded itself: it can never fail")
     return ""
+
+
+def _in_order(node: Node) -> Node:
+    """The expression with the parts of sums and products in one order, whichever way they are written."""
+    if node.op in LEAVES:
+        return node
+    parts = [_in_order(part) if isinstance(part, Node) else part for part in node.args]
+    return Node(node.op, tuple(sorted(parts, key=repr) if node.op in COMMUTE else parts))
 
 
 def _ways(names: DeclaredNames, side: str | float) -> list[Node]:
