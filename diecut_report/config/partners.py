@@ -14,8 +14,6 @@ from diecut_report.languages.phrases import Phrase
 BY_THEMSELVES = ("press_consistency",)  # known by name: to ask every plugin, all would have to be loaded
 FEWEST = 2  # partners that a kind needs to run by itself: a single mechanism cannot contradict another
 
-TYPED = "is typed here, but {reference} has it, which is compared with the others. Remove the key; change it there."
-
 Instances = Mapping[str, Instance | None]
 Kinds = Mapping[str, str]  # of the mechanisms, by their names
 
@@ -34,7 +32,13 @@ def overruled(
     names = {partner.key for partner in mechanism.partners}
     for key, reference in _offered(mechanism, data, instances, kinds).items():
         if key not in names and data.get(key) not in (None, reference):
-            yield key, Phrase(TYPED, reference=reference)
+            yield key, typed_beside(reference)
+
+
+def typed_beside(reference: str) -> Phrase:
+    """Return what is wrong with a value in place of what a block that compares others takes from them."""
+    words = "is typed here, but {reference} has it, which is compared with the others. Remove the key; change it there."
+    return Phrase(words, reference=reference)
 
 
 def compared(instance: Instance) -> dict[str, str]:

@@ -69,6 +69,11 @@ class Arm(Inputs):
 
 
 @formula
+def turned_round(force: Any, arm: Any) -> Any:
+    return arm * force
+
+
+@formula
 def product(force: Any, arm: Any) -> Any:
     return force * arm
 
@@ -181,6 +186,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     "a check of one formula under two names": (
         made(value("other", "Q"), checks=(check(limit="other"),)),
+        "compares moment with other, which is the same expression: it can never fail",
+    ),
+    "a check of one product, written the other way round": (
+        made(value("other", "Q", formula=turned_round), checks=(check(limit="other"),)),
         "compares moment with other, which is the same expression: it can never fail",
     ),
     "a check of a quantity with its copy": (

@@ -254,7 +254,7 @@ def _typed(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
         instance = base.instances[asked.instance]
         taken = partners.compared(instance) if instance else {}
         if instance and (reference := taken.get(str(asked.key[0]))):
-            yield instance.place.problem(asked.key, Phrase(partners.TYPED, reference=reference))
+            yield instance.place.problem(asked.key, partners.typed_beside(reference))
 
 
 def _stand_in(instance: Instance, key: KeyPath, target: Target) -> Any:
