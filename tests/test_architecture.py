@@ -24,7 +24,7 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 
 # A module of diecut_report may import modules of its own line and of the lines above it ("" is the package itself).
 LAYERS = [
-    {"", "errors", "limits", "quantities", "languages"},
+    {"", "errors", "limits", "time_limits", "quantities", "languages"},
     {"standards"},
     {"expressions"},
     {"conditions"},

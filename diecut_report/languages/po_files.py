@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from io import BytesIO
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
 from babel.messages.catalog import Catalog, Message
 from babel.messages.pofile import PoFileParser, read_po, write_po
@@ -51,7 +51,7 @@ def read(file: Path, language: str) -> Catalog:
 class _EachOnce(Catalog):
     """A catalogue that has each text once: of two Babel keeps the first translation, and says nothing of the other."""
 
-    def __setitem__(self, id: str, message: Message) -> None:
+    def __setitem__(self, id: Any, message: Message) -> None:
         before = self.get(id, message.context) if id else None
         if before is not None:
             words = "line {line} translates {id}, as line {before} does; keep one of them"

@@ -27,7 +27,6 @@ from diecut_report.report import Rendering
 from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
-from diecut_report.study.execution.time_limit import Overran, limited
 from diecut_report.testing import wide_machines
 from diecut_report.testing.constant_verdicts import constant
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
@@ -35,6 +34,7 @@ from diecut_report.testing.many_machines import MachineCase, one_of, unlike
 from diecut_report.testing.plugin_words import PluginWords
 from diecut_report.testing.single_machine import Keys, WithMechanism, configured
 from diecut_report.testing.tried_rules import TITLES, TOLD, TriedRule, rule
+from diecut_report.time_limits import Overran, limited
 
 TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
 FAR = 400  # machines of which each is far from the example

@@ -12,7 +12,8 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.study.execution import study_run
-from diecut_report.study.execution.time_limit import ChunkClock, Overran, limited
+from diecut_report.study.execution.time_limit import ChunkClock
+from diecut_report.time_limits import Overran, limited
 from tests.configs import saved
 from tests.study.test_broken_plugins import BASE, COMPUTED, PLUGIN
 

@@ -20,9 +20,10 @@ from diecut_report.languages.phrases import Phrase
 from diecut_report.study.conditions.constraints import Constraint
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.process_settings import settle
-from diecut_report.study.execution.time_limit import Overran, blamed, limited
+from diecut_report.study.execution.time_limit import blamed
 from diecut_report.study.execution.variant_rows import Given, Rows, calculate_rows
 from diecut_report.study.storage.description import code_told
+from diecut_report.time_limits import Overran, limited
 
 Values = Array | list[str]
 
