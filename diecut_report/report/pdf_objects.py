@@ -58,7 +58,7 @@ def _stream(stream: Any, body: bytes) -> bytes:
     packing = {"Filter": "/FlateDecode"} if stream.compress else {}
     head = Dictionary({**stream.extra, **packing, "Length": len(body)})
     # the line before the end is \r\n: behind a body that ends with \r, \n alone is taken as \r\n, and the body as too short
-    return head.data + b"\nstream\n" + body + b"\r\nendstream"
+    return b"".join((head.data, b"\nstream\n", body, b"\r\nendstream"))
 
 
 def _bytes(item: Any) -> bytes:
