@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import ast
 import builtins
+import os
 import sys
 from collections import ChainMap
 from collections.abc import Iterator
@@ -23,12 +24,26 @@ CLOCK, CHANCE = phrase("the clock"), phrase("chance")
 FILE, AROUND = phrase("a file"), phrase("what is around the program")
 OF_MODULE = {"time": CLOCK, "random": CHANCE, "secrets": CHANCE, "uuid": CHANCE, "numpy.random": CHANCE,
              "io": FILE, "_io": FILE, "tempfile": FILE, "glob": FILE, "shutil": FILE,
-             "os": AROUND, "posix": AROUND, "nt": AROUND, "platform": AROUND, "socket": AROUND, "subprocess": AROUND,
+             "platform": AROUND, "socket": AROUND,
              "urllib.request": AROUND, "locale": AROUND}  # fmt: skip
 NOW = {"now", "today", "utcnow"}  # of a date
 READERS = {"read_text", "read_bytes"}  # of a path, which is known by its name alone
 TABLES = {"load", "loadtxt", "genfromtxt", "fromfile", "memmap"}  # of NumPy
 SEEDED = {"default_rng", "Random", "RandomState"}  # with a number to begin with they give the same each time
+OF_SYSTEM = {
+    "getenv",
+    "getcwd",
+    "listdir",
+    "scandir",
+    "walk",
+    "stat",
+    "getpid",
+    "times",
+    "urandom",
+    "cpu_count",
+    "getlogin",
+    "uname",
+}
 FUNCTIONS = ("function", "joints", "lines")
 Scope = ChainMap[str, Any]
 Used = tuple[ast.expr, str]  # where something is asked for, and what it is
@@ -146,10 +161,14 @@ def _of(value: Any) -> str:
     if value is None or isinstance(value, ModuleType | str | int | float | tuple):
         return ""
     name, owner = getattr(value, "__name__", ""), getattr(value, "__self__", None)
+    if name == "sleep":  # it tells nothing
+        return ""
     if isinstance(owner, type) and name in NOW:
         return CLOCK
     if name in TABLES and getattr(value, "__module__", "") in ("numpy", "numpy.lib._npyio_impl", "numpy.lib.npyio"):
         return FILE
+    if value is os.environ or (name in OF_SYSTEM and getattr(value, "__module__", "") in ("os", "posix", "nt")):
+        return AROUND
     homes = {str(getattr(each, "__module__", None)) for each in (value, type(value), type(owner))}
     homes |= {owner.__name__} if isinstance(owner, ModuleType) else set()
     found = (what for home, what in OF_MODULE.items() if any(f"{each}.".startswith(f"{home}.") for each in homes))

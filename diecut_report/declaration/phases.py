@@ -103,7 +103,7 @@ def _of_period(step: Abscissa) -> Iterator[str]:
         words = "has the period {given}, a number without a unit; name the input or the step that gives it, by its id"
         yield Phrase(words, given=f"{given:g}")
     elif not isclose(parts := PARTS_OF_A_TURN * given / pi, round(parts), rel_tol=1e-12):
-        words = "has the period {given}, a number of radians that is no part of a turn; write 2 * np.pi for a turn, or name what gives it by its id"
+        words = "has the period {given}, a number of radians that is not a part of a turn; write 2 * np.pi for a turn, or name what gives it"
         yield Phrase(words, given=f"{given:g}")
 
 

@@ -34,8 +34,10 @@ def require_whole(calc: Calculation, curve: str) -> None:
     if place is None:
         return
     smooth_pieces.require(calc, curve, curve)  # tells the condition that jumps there, if one does
-    words = "{where} jumps or has a pole inside a smooth piece, near {place}; {instead}"
-    raise Unproven(_told(calc, words, curve, place), calc.curves[curve].at)
+    words = Phrase(
+        "{where} jumps or has a pole inside a smooth piece, near {place}; {instead}", _told(calc, curve, place)
+    )
+    raise Unproven(words, calc.curves[curve].at)
 
 
 def sharpest(calc: Calculation, step: Step) -> str:
@@ -43,16 +45,16 @@ def sharpest(calc: Calculation, step: Step) -> str:
     curve = getattr(step, "of", "")
     if calc.count > 1 or curve not in calc.curves:
         return ""
-    words = "; {where} bends most near {place}: if it has a corner, a jump or a pole there, {instead}"
-    return _told(calc, words, curve, _sharpest(calc, curve))
+    found = _told(calc, curve, _sharpest(calc, curve))
+    return Phrase("; {where} bends most near {place}: if it has a corner, a jump or a pole there, {instead}", found)
 
 
-def _told(calc: Calculation, words: str, curve: str, place: float) -> str:
+def _told(calc: Calculation, curve: str, place: float) -> dict[str, str]:
     step, axis = calc.curves[curve], calc.steps[calc.axis[curve]]
     where = Phrase("{description} ({id}, {place})", description=step.description, id=curve, place=Path(step.at).name)
     instead = Phrase("declare that place among the breakpoints of {id}, above what asks for the curve, or require what keeps away from it",
                      id=axis.id)  # fmt: skip
-    return Phrase(words, where=where, place=f"{axis.symbol} = {told(place, axis.unit)}", instead=instead)
+    return {"where": where, "place": f"{axis.symbol} = {told(place, axis.unit)}", "instead": instead}
 
 
 def _pieces(calc: Calculation, curve: str) -> tuple[Array, Array]:
