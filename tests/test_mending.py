@@ -36,8 +36,8 @@ UNFOUNDED = {
     "main_gears.k_factors",
 }
 ELEMENTS = {
-    "gear_key.reversing",
-    "crank_key.reversing",
+    "crank_key.pressure_hub",
+    "crank_key.pressure_key",
     "sector.k_factors",
     "main_gears.k_factors",
     "gripper_chain.slack_side",

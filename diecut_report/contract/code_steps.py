@@ -88,7 +88,7 @@ class Fact(SilentStep):
     """Declare what other steps stand on: they name its id among their ``needs``, as they do with an input.
 
     Where the condition does not hold for a machine, they are left out for it, and what refers to them is not calculated;
-    ``words`` say why.
+    ``words`` say why. A check that stands on it is then not checked for want of the first key of ``lacks``, with which the fact is not asked.
     """
 
     condition: Binding

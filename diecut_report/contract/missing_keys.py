@@ -7,6 +7,7 @@ from functools import lru_cache
 from itertools import product
 
 from diecut_report.contract.checks import Check
+from diecut_report.contract.code_steps import Fact
 from diecut_report.contract.inputs import Block, nested
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.placeholders import OneOf
@@ -27,7 +28,7 @@ def missing_keys(mechanism: Mechanism, check: Check, given: frozenset[str]) -> t
     if not given.issuperset(check.only_with):
         return None
     found = [
-        _completing(mechanism, needs - given, given, check.asks_for)
+        _completing(mechanism, _settling(mechanism, needs - given) - given, given, check.asks_for)
         for needs, lacks in _ways(mechanism, check)
         if not lacks & given
     ]
@@ -52,6 +53,13 @@ def _givers(mechanism: Mechanism, name: str) -> Iterator[Way]:
     for chapter, step in mechanism.steps:
         if read(name, step):
             yield frozenset(chapter.needs + step.needs), frozenset(step.lacks)
+
+
+def _settling(mechanism: Mechanism, missing: frozenset[str]) -> frozenset[str]:
+    """The missing tokens; in place of a fact that does not hold the first key with which nobody asks it, and those that go with that."""
+    keys = {step.id: step.lacks[0] for _, step in mechanism.steps if isinstance(step, Fact) and step.lacks}
+    groups = {group[0]: group for _, rule in _rules(mechanism.inputs) for group in rule.groups}
+    return frozenset().union(*(groups.get(keys[each], (keys[each],)) if each in keys else (each,) for each in missing))
 
 
 def _completing(

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Chapter, Check, Phrase, phrase, told
 from diecut_report.plugins.parallel_key.dimensions import LONGEST
-from diecut_report.plugins.parallel_key.load import METHOD
+from diecut_report.plugins.parallel_key.load import JUDGED, METHOD
 
 ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
 
@@ -30,7 +30,7 @@ SIZED = ("key_length",)
 
 def _pressure(part: str) -> Check:
     return Check(id=f"pressure_{part}", check_class="strength", title=f"Pressure of the {part}", demand=f"pressure_{part}", limit=f"allowed_{part}",
-                 unit="MPa", tolerance=ROUNDING, sized_unless=SIZED, demand_label="pressure", limit_label="allowed", source=METHOD,
+                 unit="MPa", tolerance=ROUNDING, needs=JUDGED, sized_unless=SIZED, demand_label="pressure", limit_label="allowed", source=METHOD,
                  consequence=f"the {part} yields where the key bears; {{length_advice}}.")
 
 
@@ -48,7 +48,7 @@ CHECKS = (
           consequence="the load no longer spreads over so long a key; take a thicker shaft, two keys or stronger material."),
     Check(id="reversing", check_class="practice", title="Reversing torque", demand="reversal_left_out", limit=0.0, unit="1", severity="warn",
           founded=("load_direction_factor", "flank_changes"),
-          demand_label="torques that change their sign, judged as steady", limit_label="accepted", source=METHOD,
+          demand_label="torques whose reversals are not counted", limit_label="accepted", source=METHOD,
           consequence="the key works loose where the torque turns round often; give required_life and cycle_speed, by which the changes of flank are "
                       "counted, or flank_changes itself."),
     Check(id="two_keys", check_class="practice", title="Two keys in a brittle hub", demand="key_count", limit=1.0, unit="1", severity="warn",

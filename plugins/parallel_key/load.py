@@ -14,7 +14,8 @@ REVERSED = 1e-6  # share of the torque's size up to which the other sign is roun
 ROUNDING = 1e-9
 METHOD = "DIN 6892:2012, method B"
 BY_LIFE = ("required_life",)
-KNOWN = ("load_direction_factor", "flank_changes", *BY_LIFE)
+KNOWN = (*BY_LIFE, "flank_changes", "load_direction_factor")
+JUDGED = ("flank_known",)
 SELDOM = 1024  # changes of flank up to which the formula gives 1
 DIAGRAM = 1e7  # changes of flank up to which the factor is confirmed
 
@@ -63,7 +64,11 @@ for needs in (BY_LIFE, ("flank_changes",)):
                 COUNTED, case(f.direction_factor, "by the changes of flank; beyond 10⁷ of them the formula is extrapolated"), source=METHOD,
                 needs=needs)
 load.value(*FACTOR, lambda load_direction_factor: load_direction_factor, needs=("load_direction_factor",), source="input")
-load.value(*FACTOR, lambda: 1, lacks=KNOWN, source="this method")
+load.fact("flank_known", lambda reversing: reversing <= 0, "the torque changes its sign, and it is not known how often in the life",
+          lacks=KNOWN)
+load.choice(*FACTOR, case(lambda: 1, "the torque keeps its sign", lambda reversing: reversing <= 0),
+            case(lambda: 0.2, "as for 10¹⁰ changes of flank, since the torque changes its sign and it is not known how often in the life"), lacks=KNOWN,
+            source="this method")
 load.choice("key_share", "φ_k", "1", "Share of the second key", case(lambda: 1, "one key", lambda key_count: key_count < 2),
             case(lambda: 0.75, "the second key of two bears less"), source=METHOD, output=False)
 load.choice("key_share_peak", "φ_k,max", "1", "Share of the second key under the greatest load",

@@ -86,10 +86,10 @@ pressures.pick("nearest_length", "l_std", "mm", "Nearest standard length", "near
                source="DIN 6885-1", output=False)
 pressures.value("length_off", "Δl", "mm", "Difference from it", lambda key_length, nearest_length: abs(key_length - nearest_length),
                 source="this method", output=False)
-pressures.choice("reversal_left_out", "n_w", "1", "Reversing torques that are judged as steady",
+pressures.choice("reversal_left_out", "n_w", "1", "Torques whose reversals are not counted",
                  case(lambda: 1, "the torque changes its sign, and it is not known how often in the life",
                       lambda reversing: reversing > 0),
                  case(lambda: 0, "the torque keeps its sign"), source="this method", output=False, lacks=KNOWN)
 for known in KNOWN:
-    pressures.value("reversal_left_out", "n_w", "1", "Reversing torques that are judged as steady: none, the factor counts them", lambda: 0,
+    pressures.value("reversal_left_out", "n_w", "1", "Torques whose reversals are not counted: none, the factor counts them", lambda: 0,
                     source="this method", output=False, needs=(known,))

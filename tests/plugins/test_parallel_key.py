@@ -64,13 +64,13 @@ def test_the_keys_of_gear_and_crank(diameter: float, length: float, expected: tu
         key_length=length,
         torque_curve=[494.1107, 100, -327.404, 0],
         load_distribution_factor=1,
+        load_direction_factor=1,
     )
     sizes = [number(calc, name) * 1e3 for name in ("width", "height", "bearing_length")]
     stresses = [number(calc, name) / 1e6 for name in ("pressure_shaft", "pressure_hub", "shear_stress")]
     utilisation = number(calc, "pressure_hub") / number(calc, "allowed_hub")
     found = [*sizes, number(calc, "key_force"), *stresses, utilisation]
     assert found == pytest.approx(expected, rel=2e-4)
-    assert checks(calc)["reversing"]["status"] == "warn"
     assert calc["governing"][0, 0] == "key, equivalent load"  # pressed as the hub is, of weaker steel
 
 
@@ -299,3 +299,31 @@ def test_a_reversal_that_nothing_counts_is_told_and_only_that(keys: dict[str, An
     calc = key(keys)
     assert number(calc, "reversal_left_out") == left_out
     assert checks(calc)["reversing"]["status"] == ("warn" if left_out else "pass")
+
+
+REGULAR = ("pressure_shaft", "pressure_hub", "pressure_key")
+
+
+def test_a_reversing_torque_without_a_life_gives_no_verdict_on_the_regular_pressures() -> None:
+    """Judged as steady this key passes; so often as a press reverses it fails."""
+    found = checks(key(TURNING, key_count=1))
+    assert {found[name]["status"] for name in REGULAR} == {"not_checked"}
+    assert all(found[name]["missing"] == ["required_life", "cycle_speed"] for name in REGULAR)
+    assert found["pressure_peak"]["status"] == found["shear"]["status"] == "pass"  # no factor of reversals is in them
+    assert {checks(key(TURNING | LIFE, key_count=1))[name]["status"] for name in REGULAR} >= {"fail"}
+    steady = checks(key(TURNING | {"torque_curve": [494.11, 130, 20, 50]}, key_count=1))
+    assert {steady[name]["status"] for name in REGULAR} == {"pass"}
+
+
+def test_what_is_printed_of_a_reversing_torque_without_a_life_is_on_the_safe_side() -> None:
+    assert number(key(TURNING), "direction_factor") == 0.2
+    assert number(key(TURNING), "safety") < number(key(TURNING | LIFE), "safety")
+    sized = {name: value for name, value in TURNING.items() if name != "key_length"}
+    assert number(key(sized), "key_length") >= number(key(sized | LIFE), "key_length")
+
+
+@pytest.mark.parametrize("more", [LIFE, {"flank_changes": 1e6}, {"load_direction_factor": 0.4}], ids=lambda more: min(more))
+def test_each_way_to_tell_the_reversals_makes_the_verdict(more: dict[str, Any]) -> None:
+    found = checks(key(TURNING | more))
+    assert {found[name]["status"] for name in REGULAR} <= {"pass", "fail"}
+
