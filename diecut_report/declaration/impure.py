@@ -8,6 +8,7 @@ import os
 import sys
 from collections import ChainMap
 from collections.abc import Iterator
+from functools import partial
 from inspect import getclosurevars
 from pathlib import Path
 from types import FunctionType, ModuleType
@@ -22,6 +23,7 @@ from diecut_report.languages.phrases import Phrase, phrase
 
 CLOCK, CHANCE = phrase("the clock"), phrase("chance")
 FILE, AROUND = phrase("a file"), phrase("what is around the program")
+END, ENDS = "end", {"_exit", "abort", "execv", "execve", "kill"}  # what ends the program, of the module os
 OF_MODULE = {"time": CLOCK, "random": CHANCE, "secrets": CHANCE, "uuid": CHANCE, "numpy.random": CHANCE,
              "io": FILE, "_io": FILE, "tempfile": FILE, "glob": FILE, "shutil": FILE,
              "platform": AROUND, "socket": AROUND,
@@ -57,13 +59,39 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         for node in _definitions(parsed(file), code.co_firstlineno):
             for where, what in _used(node, _scope(function)):
                 yield _fault(file, where, what, code.co_name)
+            for where in _of_loops(parsed(file), node):
+                words = "takes {name} of the loop around it, which is the last one when it is called; write functools.partial(function, {name})"
+                subject = Phrase("function {name}", name=code.co_name)
+                yield Fault(f"{file}:{where.lineno}", subject, Phrase(words, name=where.id))
     for file in files.values():
         module = next((each for each in [*sys.modules.values()] if getattr(each, "__file__", "") == str(file)), None)
         for where, what in _used_at_load(parsed(file), vars(module) if module else {}):
             yield _fault(file, where, what, phrase("the module"))
 
 
+def _of_loops(tree: ast.Module, node: ast.AST) -> Iterator[ast.Name]:
+    """The names in a function that a loop around it gives: all that it makes would take the last of them."""
+    own = {each.arg for each in ast.walk(node) if isinstance(each, ast.arg)}
+    own |= {each.id for each in ast.walk(node) if isinstance(each, ast.Name) and not isinstance(each.ctx, ast.Load)}
+    given = {
+        each.id
+        for loop in ast.walk(tree)
+        if isinstance(loop, ast.For) and any(each is node for each in ast.walk(loop))
+        for each in ast.walk(loop.target)
+        if isinstance(each, ast.Name)
+    } - own
+    body = getattr(node, "body", node)
+    for part in body if isinstance(body, list) else [body]:
+        yield from (each for each in ast.walk(part) if isinstance(each, ast.Name) and each.id in given)
+
+
 def _fault(file: Path, where: ast.expr, what: str, name: str) -> Fault:
+    if what == END:
+        text = Phrase(
+            "ends the whole program ({code}), without a word to who uses it; raise Refusal(…), or an exception",
+            code=ast.unparse(where),
+        )
+        return Fault(f"{file}:{where.lineno}", Phrase("function {name}", name=name), text)
     text = Phrase(
         "asks {what} ({code}), so that equal inputs give unlike results; take it as an input, or read a table when the module is loaded",
         what=what,
@@ -76,7 +104,7 @@ def _functions(mechanism: Mechanism, files: set[str]) -> Iterator[FunctionType]:
     """The plugin's own functions that steps and drawings call, and those that these name."""
     given = [getattr(step, name, None) for _, step in mechanism.steps for name in FUNCTIONS]
     given += [figure.build for figure in mechanism.figures if isinstance(figure, Drawing | Chart)]
-    waiting, known = [each for each in given if isinstance(each, FunctionType)], set()
+    waiting, known = [each for each in _whole(given) if isinstance(each, FunctionType)], set()
     while waiting:
         function = waiting.pop()
         if function in known or function.__code__.co_filename not in files:
@@ -85,6 +113,11 @@ def _functions(mechanism: Mechanism, files: set[str]) -> Iterator[FunctionType]:
         yield function
         named = (_scope(function).get(name) for name in function.__code__.co_names)
         waiting += [each for each in named if isinstance(each, FunctionType)]
+
+
+def _whole(given: list[Any]) -> Iterator[Any]:
+    """Functions, and what those are made of that have some of their parameters already."""
+    yield from (each.func if isinstance(each, partial) else each for each in given)
 
 
 def _definitions(tree: ast.Module, line: int) -> Iterator[ast.AST]:
@@ -126,7 +159,9 @@ def _used_at_load(tree: ast.Module, scope: dict[str, Any]) -> Iterator[Used]:
     for statement in tree.body:
         if not isinstance(statement, ast.FunctionDef | ast.ClassDef | ast.Import | ast.ImportFrom):
             yield from (
-                found for found in _asked(statement, ChainMap(scope, vars(builtins))) if found[1] in (CLOCK, CHANCE)
+                found
+                for found in _asked(statement, ChainMap(scope, vars(builtins)))
+                if found[1] in (CLOCK, CHANCE, END)
             )
 
 
@@ -167,6 +202,8 @@ def _of(value: Any) -> str:
         return CLOCK
     if name in TABLES and getattr(value, "__module__", "") in ("numpy", "numpy.lib._npyio_impl", "numpy.lib.npyio"):
         return FILE
+    if name in ENDS and getattr(value, "__module__", "") in ("os", "posix", "nt"):
+        return END
     if value is os.environ or (name in OF_SYSTEM and getattr(value, "__module__", "") in ("os", "posix", "nt")):
         return AROUND
     homes = {str(getattr(each, "__module__", None)) for each in (value, type(value), type(owner))}

@@ -65,6 +65,10 @@ def _form(place: str, subject: str, form: tuple[str, str], keys: dict[str, Key])
 
 
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
+    if changed := [name for name, value in Block.model_config.items() if model.model_config.get(name) != value]:
+        words = "changes {names} in its model_config, so that keys that are misspelt may pass unread; take it away"
+        subject = Phrase("class {name}", name=model.__name__)
+        yield Fault(of_class(model, place), subject, Phrase(words, names=", ".join(changed)))
     for name, declared in model.model_fields.items():
         inner, subject = nested(declared.annotation), Phrase("input {path}", path=f"{prefix}{name}")
         for text in (*_absent(declared), *(() if inner else _wrong(name, declared, meta_of(model, name)))):

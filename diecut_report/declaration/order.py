@@ -72,6 +72,13 @@ def lacking(names: DeclaredNames, name: str, when: When, before: int | None = No
         return Phrase(
             "{name} before it is calculated (at {place}); move that step up, or this one down", name=name, place=place
         )
+    key = names.world.keys.get(name.removeprefix("inputs."))
+    home = names.world.keys.get(key.home) if key else None
+    if home and home.may_be_absent and home.path not in when.needs:
+        words = (
+            '{name}, but {home} may have no parts, by its default; write needs=("{home}",), or take its default away'
+        )
+        return Phrase(words, name=name, home=home.path)
     tokens = set().union(*(part for each in (when, *(giver.when for giver in givers)) for part in each))
     where = told(given, tokens)
     words = (

@@ -18,6 +18,8 @@ from diecut_report.declaration.words import Fault, short
 from diecut_report.declaration.world import When
 from diecut_report.languages.phrases import Phrase
 
+NO_SYMBOLS = frozenset("$\\{}<>&#%^~")  # letters that mean something to LaTeX or HTML
+
 
 class Printed(NamedTuple):
     """Hold what has a symbol: a quantity's name, its place, when it is there, and the step that gives it, if none an input.
@@ -38,10 +40,13 @@ class Printed(NamedTuple):
 
 
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
-    """Yield the second of two quantities with one symbol; texts, and what only takes another quantity over, may share it."""
+    """Yield the second of two quantities with one symbol, and those in LaTeX; texts, and what only takes another over, may share it."""
     by_symbol: dict[str, list[Printed]] = {}
     for symbol, each in chain(_whole(mechanism, names), _single(mechanism, names)):
         by_symbol.setdefault(symbol, []).append(each)
+        if letters := NO_SYMBOLS.intersection(symbol):
+            words = "has the symbol {symbol} with {letters}; a symbol is plain text, not LaTeX: write α_1, F_max, [σ]"
+            yield _of(mechanism, each, Phrase(words, symbol=symbol, letters=" ".join(sorted(letters))))
     told: set[tuple[str, str]] = set()
     for symbol, alike in by_symbol.items():
         for one, other in combinations(alike, 2):
@@ -53,7 +58,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 
 def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> Fault:
     """The fault of the other; inputs stand where they are declared, their quantity may be one of the program."""
-    at, there = (each.at if each.step else of_input(mechanism.inputs, each.name, each.at) for each in (other, one))
+    there = one.at if one.step else of_input(mechanism.inputs, one.name, one.at)
     text = Phrase(
         "has the symbol {symbol} of {name} ({points}at {place}): both would be printed as one quantity; give it another",
         symbol=symbol,
@@ -61,9 +66,14 @@ def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> F
         points="POINTS, " * one.is_points,
         place=short(there),
     )
-    return Fault(
-        at, Phrase("step {id}", id=other.name) if other.step else Phrase("input {path}", path=other.name), text
-    )
+    return _of(mechanism, other, text)
+
+
+def _of(mechanism: Mechanism, each: Printed, text: str) -> Fault:
+    """A fault where a quantity is declared."""
+    if each.step:
+        return Fault(each.at, Phrase("step {id}", id=each.name), text)
+    return Fault(of_input(mechanism.inputs, each.name, each.at), Phrase("input {path}", path=each.name), text)
 
 
 def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:

@@ -7,6 +7,7 @@ from collections import Counter
 from collections.abc import Iterator
 
 from diecut_report.contract.chapters import Chapter
+from diecut_report.contract.inputs import fields
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.sections import taken
 from diecut_report.contract.steps import Value
@@ -27,7 +28,19 @@ def doubts(mechanism: Mechanism) -> Iterator[str]:
             if float(number) in BY_HAND:
                 words = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
                 yield Phrase(words, place=short(step.at), id=step.id, number=number)
+    yield from _exchanged(mechanism)
     yield from _idle_chapters(mechanism)
+
+
+def _exchanged(mechanism: Mechanism) -> Iterator[str]:
+    """Checks whose demand is an input, and whose limit a result, by the signs that an author gives to what is allowed."""
+    symbols = {path: getattr(meta, "symbol", "") for path, meta in fields(mechanism.inputs)}
+    given = {step.id for _, step in mechanism.steps}
+    for check in mechanism.checks:
+        demand, limit = (str(side).removeprefix("inputs.") for side in (check.demand, check.limit))
+        if symbols.get(demand, "").startswith("[") and limit in given:
+            words = "{place}: check {id}: its demand {demand} ({symbol}) has the symbol of what is allowed, and its limit {limit} is calculated; exchange them where the limit is what must not be too great"  # noqa: E501
+            yield Phrase(words, place=short(check.at), id=check.id, demand=demand, symbol=symbols[demand], limit=limit)
 
 
 def _numbers(node: object) -> Iterator[str]:

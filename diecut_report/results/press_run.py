@@ -235,7 +235,7 @@ class Run:
         except SelfTestFailed as fault:
             self.self_tests[name] = fault.checks
             self._broke(instance, fault, str(fault))
-        except (Exception, SystemExit) as cause:
+        except (Exception, SystemExit, GeneratorExit) as cause:
             self._broke(instance, cause)
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:

@@ -43,6 +43,7 @@ def found(arm):
 
 chapter = Chapter("All")
 chapter.computed("reach", "r", "mm", "Reach", found, takes=("arm",), method="a search")
+{loop}
 MECHANISM = Mechanism(kind="asking", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
 """
 ASKED = {
@@ -64,6 +65,20 @@ ASKED = {
     "arm = arm * os.getpid()": "what is around the program (os.getpid)",
     "arm = (lambda: arm * time.time())()": "the clock (time.time)",
 }
+ENDING = ("os._exit(0)", "os.abort()", "os.kill(os.getppid(), 9)")
+LOOPS = {
+    "a lambda": 'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: k * arm, takes=("arm",), method="m")',
+    "a function": 'for k in (1, 2):\n    def many(arm):\n        return k * arm\n'
+    '    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", many, takes=("arm",), method="m")',
+    "of several": 'for k, _ in ((1, 2), (2, 3)):\n'
+    '    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: k * arm, takes=("arm",), method="m")',
+    "in a function": 'def declare():\n    for k in (1, 2):\n'
+    '        chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: k * arm, takes=("arm",), method="m")\n\n\ndeclare()',
+}  # fmt: skip
+SOUND_LOOPS = (
+    'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", partial(many, k), takes=("arm",), method="m")',
+    'for k in (1, 2):\n    chapter.computed(f"x{k}", f"X_{k}", "mm", "X", lambda arm: sum(k * arm for k in (1, 2)), takes=("arm",), method="m")',
+)
 SOUND = (
     "arm = arm * random.Random(3).random()",
     "arm = arm + 0 * np.random.default_rng(3).normal()",
@@ -75,7 +90,7 @@ SOUND = (
 
 
 def judged(folder: Path, **code: str) -> list[str]:
-    text = PLUGIN.format(**{"module": "", "helper": "pass", "body": "pass", **code})
+    text = PLUGIN.format(**{"module": "", "loop": "", "helper": "pass", "body": "pass", **code})
     (folder / "asking.py").write_text(text, "utf-8")
     try:
         Discovery([folder]).mechanism("asking")
@@ -91,6 +106,30 @@ def test_what_is_asked_beside_the_inputs_is_told(place: str, code: str, tmp_path
     name = {"body": "found", "helper": "helper"}[place]
     assert f"function {name}: asks {ASKED[code]}, so that equal inputs give unlike results; take it as an input" in line
     assert "asking.py:2" in line
+
+
+@pytest.mark.parametrize("code", ENDING)
+def test_what_ends_the_program_is_told(code: str, tmp_path: Path) -> None:
+    told = judged(tmp_path, body=code)
+    assert any(f"function found: ends the whole program ({code.partition('(')[0]})" in line for line in told)
+
+
+@pytest.mark.parametrize("name", LOOPS)
+def test_the_number_of_a_loop_in_plain_code_is_told(name: str, tmp_path: Path) -> None:
+    """All functions would take the last one, in silence."""
+    (line,) = judged(tmp_path, loop=LOOPS[name])
+    assert (
+        "takes k of the loop around it, which is the last one when it is called; write functools.partial(function, k)"
+        in line
+    )
+
+
+@pytest.mark.parametrize("code", SOUND_LOOPS)
+def test_the_number_of_a_loop_that_is_given_at_once_passes(code: str, tmp_path: Path) -> None:
+    assert (
+        judged(tmp_path, module="from functools import partial\n\n\ndef many(k, arm):\n    return k * arm", loop=code)
+        == []
+    )
 
 
 @pytest.mark.parametrize("code", SOUND)

@@ -40,6 +40,7 @@ from diecut_report.errors import PluginError
 from tests.declaration.test_faults import (
     PEAK,
     STEPS,
+    Arm,
     check,
     is_long,
     made,
@@ -160,6 +161,12 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "step x: takes extra.rate",
     ),
     "a need of a figure": (made(figures=(replace(plot(), needs=("widht",)),)), "figure turn: needs names widht"),
+    "keys that are not read": (
+        made(inputs=type("Loose", (Arm,), {"__module__": __name__, "model_config": {"extra": "ignore"}})),
+        "class Loose: changes extra in its model_config, so that keys that are misspelt may pass unread; take it away",
+    ),
+    "a symbol in LaTeX": (made(value("x", r"\frac{a}{b}")), r"step x: has the symbol \frac{a}{b} with \ { }; a symbol is plain text"),
+    "a symbol in dollars": (made(value("x", "$x_1$")), "step x: has the symbol $x_1$ with $"),
     "a whole number in a unit": (
         made(inputs=with_input(Annotated[int, Quantity("z", "mm", "Z", integer=True)], 3)),
         "input extra: is a whole number in mm; a count has the unit 1",

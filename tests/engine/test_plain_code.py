@@ -43,6 +43,7 @@ def test_numbers_of_any_kind_are_numbers(number: Any) -> None:
     [(None, "gives None"), ("long", "gives 'long'"), (np.zeros(3), r"gives an array of shape \(3,\)"), ([[1], [2, 3]], r"gives \[\[1\]"),
      (2j, "gives 2j"), ({"a": 1}, "gives {'a': 1}"), (np.array([[None]]), "gives array"), ([], r"gives an array of shape \(0,\)"),
      (True, "gives True; it must return a number in SI of mm"), (np.float32(2), r"gives (np\.float32\(2.0\)|2.0); it must"),
+     (np.array([[2]], np.int8), r"gives array\(\[\[2\]\], dtype=int8\); it must return numbers of 64 bits"),
      (np.ma.masked_greater([[2.0]], 1), "gives masked_array")],
 )  # fmt: skip
 def test_what_is_no_number_is_told(number: Any, words: str) -> None:

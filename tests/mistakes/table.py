@@ -8,6 +8,7 @@ from tests.mistakes.rows_formulas import FORMULAS
 from tests.mistakes.rows_inputs import INPUTS, MODULE
 from tests.mistakes.rows_names import NAMES, TWICE
 from tests.mistakes.rows_numbers import DIMENSIONS, NUMBERS
+from tests.mistakes.rows_silent import SILENT
 from tests.mistakes.runner import Mistake
 
 TABLE: tuple[Mistake, ...] = (
@@ -22,4 +23,5 @@ TABLE: tuple[Mistake, ...] = (
     *FORMULAS,
     *DIMENSIONS,
     *NUMBERS,
+    *SILENT,
 )

@@ -8,12 +8,13 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report.api import GRAVITY, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.api import GRAVITY, Chapter, Check, Inputs, Mechanism, Quantity
 from diecut_report.formula_checks.doubts import doubts
 
 
 class Drum(Inputs):
     rate: Annotated[float, Quantity("n", "1/min", "Rate", gt=0)] = 60
+    allowed: Annotated[float, Quantity("[n]", "1/min", "Allowed", gt=0)] = 60
     mass: Annotated[float, Quantity("m", "kg", "Mass", gt=0)] = 1
 
 
@@ -52,6 +53,17 @@ def test_a_number_that_may_stand_for_a_unit_is_noted(number: str) -> None:
     (note,) = doubts(made(DOUBTFUL[number], BOTH))
     assert f"found: holds {number}, a number without a unit; formulas are in SI and convert nothing" in note
     assert note.startswith("test_doubts.py:")
+
+
+def test_a_check_whose_sides_are_exchanged_is_noted() -> None:
+    mechanism = made(lambda rate: 2 * rate, BOTH)
+    right = Check(id="c", check_class="strength", title="C", demand="found", limit="allowed", unit="1/s", demand_label="d", limit_label="l",
+                  consequence="no.")  # fmt: skip
+    assert list(doubts(replace(mechanism, checks=(right,)))) == []
+    (note,) = doubts(replace(mechanism, checks=(replace(right, demand="allowed", limit="found"),)))
+    assert (
+        "check c: its demand allowed ([n]) has the symbol of what is allowed, and its limit found is calculated" in note
+    )
 
 
 def test_other_numbers_are_not_noted() -> None:

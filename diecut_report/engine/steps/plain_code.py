@@ -31,6 +31,9 @@ def _to_read(given: Any) -> Any:
     return own
 
 
+WIDE = 8  # bytes of a number
+
+
 def part_names(calc: Calculation, step: PartNames) -> None:
     """Name the parts that rows run over."""
     found = step.function(*taken(calc, step.takes))
@@ -132,8 +135,10 @@ def _numbers(step: Step, function: Callable[..., Any], found: Any, wanted: str) 
         return given.astype(float)
     if given.dtype.kind not in "biuf" or np.ma.is_masked(found):
         raise _told(step, function, reprlib.repr(found), wanted)
-    if given.dtype in (np.float16, np.float32):
-        raise _told(step, function, reprlib.repr(found), phrase("numbers of double precision, float64"))
+    if given.dtype.kind in "iuf" and given.dtype.itemsize < WIDE:
+        raise _told(
+            step, function, reprlib.repr(found), phrase("numbers of 64 bits, for shorter ones overflow or round")
+        )
     return given
 
 

@@ -29,8 +29,10 @@ LEAST = 1e-9  # of the sizes in the formula: a difference that is not rounding
 def require_whole(calc: Calculation, curve: str) -> None:
     """Raise Unproven where a curve of a single machine jumps or has a pole inside a smooth piece: its numbers there mean nothing."""
     with np.errstate(all="ignore"):
-        place = _pole(calc, curve)
-        place = _torn(calc, curve) if place is None else place
+        x, middles = _pieces(calc, curve)
+        values = _values(calc, curve, x, middles)
+        place = _pole(calc, curve, x, middles, values)
+        place = _torn(calc, curve, x, middles, values) if place is None else place
     if place is None:
         return
     smooth_pieces.require(calc, curve, curve)  # tells the condition that jumps there, if one does
@@ -72,12 +74,13 @@ def _values(calc: Calculation, curve: str, x: Array, middles: Array) -> Array:
     return np.broadcast_to(calc.sample(curve, x.reshape(1, -1), middle.reshape(1, -1)), (1, x.size)).reshape(x.shape)
 
 
-def _torn(calc: Calculation, curve: str) -> float | None:
+def _torn(calc: Calculation, curve: str, x: Array, middles: Array, values: Array) -> float | None:
     """The place where a formula stays apart however near it is looked at, as an angle that wraps; None where there is none."""
-    x, middles = _pieces(calc, curve)
-    values = _values(calc, curve, x, middles)
-    first = np.abs(np.diff(values)).max(initial=0.0)
-    if not isinstance(calc.curves[curve], Value | Choice) or not first > LEAST * _scale(calc, curve, x, middles):
+    steps = np.abs(np.diff(values))
+    first = steps.max(initial=0.0)
+    if not isinstance(calc.curves[curve], Value | Choice) or not _stands_out(steps, 1):
+        return None
+    if not first > LEAST * _scale(calc, curve, x, middles):
         return None
     for _ in range(ROUNDS):
         row, k = np.unravel_index(np.nanargmax(np.abs(np.diff(values))), (len(x), x.shape[1] - 1))
@@ -87,12 +90,21 @@ def _torn(calc: Calculation, curve: str) -> float | None:
     return float(x[0, WITHIN // 2]) if others[-1] > STAYS * first and others[-2] < APART * others[-1] else None
 
 
-def _pole(calc: Calculation, curve: str) -> float | None:
+def _stands_out(sizes: Array, beside: int) -> bool:
+    """Whether the greatest of some sizes (pieces, places) is twice as great as the least so near to it: as nothing smooth is on this grid."""
+    row, k = np.unravel_index(np.argmax(sizes), sizes.shape)
+    near = sizes[row, max(int(k) - beside, 0) : int(k) + beside + 1]
+    return bool(sizes[row, k] > 2 * near.min(initial=np.inf))
+
+
+def _pole(calc: Calculation, curve: str, x: Array, middles: Array, values: Array) -> float | None:
     """The place where a curve still grows however near it is looked at; None where there is none."""
-    x, middles = _pieces(calc, curve)
-    sizes = []
+    sizes: list[float] = []
+    if np.isfinite(values).all() and not _stands_out(np.abs(values), 2):
+        return None
     for _ in range(ROUNDS):
-        size = np.nan_to_num(np.abs(_values(calc, curve, x, middles)), posinf=np.inf)
+        values = _values(calc, curve, x, middles) if sizes else values
+        size = np.nan_to_num(np.abs(values), posinf=np.inf)
         if np.isinf(size).any():
             return float(x[np.isinf(size)][0])
         row, k = np.unravel_index(np.argmax(size), size.shape)
