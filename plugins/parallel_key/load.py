@@ -67,8 +67,8 @@ load.value(*FACTOR, lambda load_direction_factor: load_direction_factor, needs=(
 load.fact("flank_known", lambda reversing: reversing <= 0, "the torque changes its sign, and it is not known how often in the life",
           lacks=KNOWN)
 load.choice(*FACTOR, case(lambda: 1, "the torque keeps its sign", lambda reversing: reversing <= 0),
-            case(lambda: 0.2, "as for 10¹⁰ changes of flank, since the torque changes its sign and it is not known how often in the life"), lacks=KNOWN,
-            source="this method")
+            case(lambda: 0.2, "as for 10¹⁰ changes of flank, since the torque changes its sign and it is not known how often in the life"),
+            lacks=KNOWN, source="this method")
 load.choice("key_share", "φ_k", "1", "Share of the second key", case(lambda: 1, "one key", lambda key_count: key_count < 2),
             case(lambda: 0.75, "the second key of two bears less"), source=METHOD, output=False)
 load.choice("key_share_peak", "φ_k,max", "1", "Share of the second key under the greatest load",

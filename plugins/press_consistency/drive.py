@@ -76,7 +76,7 @@ ends_chapter.value("contact_speed", "v_k", "m/s", "Greater speed at contact",
                    bind(ends.greater, one="contact_speed_inner", other="contact_speed_outer"), source="kinematics", needs=("contact_distance",))
 ends_chapter.choice("end_impacts", "z_e", "1/h", "Impacts at one end of the travel",
                     case(lambda: 0, "dampers at the ends themselves are met in no stroke", lambda contact_distance: contact_distance <= 0),
-                    case(lambda crank_speed: as_number(crank_speed) / as_number(2 * np.pi), "dampers before the ends are met in every turn of the crank"),
+                    case(lambda crank_speed: as_number(crank_speed) / as_number(2 * np.pi), "dampers before the ends are met in every turn"),
                     source="kinematics", needs=("contact_distance", "crank_speed"))
 ends_chapter.computed("way_inner", "d_in", "mm", "Way before the inner end at which it has the speed that the dampers are calculated with",
                       function=ends.inner_way, takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics",

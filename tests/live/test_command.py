@@ -43,7 +43,9 @@ def test_the_address_stands_on_no_command_line_and_the_page_waits_for_no_browser
     def browser(url: str) -> bool:
         opened.append(url)
         is_opened.set()
-        assert is_closed.wait(20), "the page waits for the browser"  # which comes back when it is closed, as one in a terminal does
+        assert is_closed.wait(20), (
+            "the page waits for the browser"
+        )  # which comes back when it is closed, as one in a terminal does
         return True
 
     def serve(_application: object, _port: int, ready: Callable[[str], None]) -> None:

@@ -322,8 +322,9 @@ def test_what_is_printed_of_a_reversing_torque_without_a_life_is_on_the_safe_sid
     assert number(key(sized), "key_length") >= number(key(sized | LIFE), "key_length")
 
 
-@pytest.mark.parametrize("more", [LIFE, {"flank_changes": 1e6}, {"load_direction_factor": 0.4}], ids=lambda more: min(more))
+@pytest.mark.parametrize(
+    "more", [LIFE, {"flank_changes": 1e6}, {"load_direction_factor": 0.4}], ids=lambda more: min(more)
+)
 def test_each_way_to_tell_the_reversals_makes_the_verdict(more: dict[str, Any]) -> None:
     found = checks(key(TURNING | more))
     assert {found[name]["status"] for name in REGULAR} <= {"pass", "fail"}
-
