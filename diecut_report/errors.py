@@ -90,11 +90,14 @@ class PluginError(Exception):
 
 def nearest(given: str, known: Iterable[str]) -> str:
     """A suggestion to append, " (did you mean 'crank_speed'?)", or nothing where none is near."""
-    found = difflib.get_close_matches(given[:100], list(known), n=1, cutoff=0.6)
+    found = closest(given, known)
     if not found:
         return ""
-    if found[0].isascii() and any(
-        letter.isalpha() and not letter.isascii() for letter in given
-    ):  # as Cyrillic а, е, о, с
-        return Phrase(" (did you mean {key}, in Latin letters alone?)", key=repr(found[0]))
-    return Phrase(" (did you mean {key}?)", key=repr(found[0]))
+    if found.isascii() and any(letter.isalpha() and not letter.isascii() for letter in given):  # as Cyrillic а, е, о, с
+        return Phrase(" (did you mean {key}, in Latin letters alone?)", key=repr(found))
+    return Phrase(" (did you mean {key}?)", key=repr(found))
+
+
+def closest(given: str, known: Iterable[str]) -> str:
+    """Return the known name that is nearest to what was typed, or nothing where none is near."""
+    return next(iter(difflib.get_close_matches(given[:100], list(known), n=1, cutoff=0.6)), "")

@@ -6,17 +6,41 @@ import ctypes
 import os
 import signal
 import threading
+import time
 from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-AGAIN = 1.0  # seconds after which what holds the interruption back is interrupted again
+from diecut_report.languages.phrases import Phrase
+
+PATIENCE = 120.0  # seconds that a mechanism may be loaded, or calculated and printed
+AGAIN = 1.0  # seconds after which a plugin that holds the interruption back is interrupted again
 HARD = 2.0  # times the limit: a process that was not interrupted until then is ended
 STUCK = 75  # with what it ends
+SOON = 0.001  # seconds until an alarm that was due meanwhile
+_limited = threading.local()  # whether something in this thread waits for the end already
 
 
 class Overran(BaseException):
     """Interrupt what takes too long, wherever it is; not an Exception, which a plugin may catch."""
+
+
+class TooLong(Exception):
+    """Report code of a plugin that does not come back, as any other exception that it raises."""
+
+
+@contextmanager
+def in_time() -> Iterator[None]:
+    """Raise TooLong where what runs within takes longer than PATIENCE, with the trace of where it was; who asked for a limit of his own keeps it."""
+    if getattr(_limited, "is_so", False):
+        yield
+        return
+    try:
+        with limited(PATIENCE):
+            yield
+    except Overran as cause:
+        words = Phrase("it did not come back within {seconds} s; let its loops end", seconds=f"{PATIENCE:g}")
+        raise TooLong(words).with_traceback(cause.__traceback__) from cause
 
 
 @contextmanager
@@ -28,6 +52,7 @@ def limited(seconds: float | None, *, own_process: bool = False) -> Iterator[Non
     if seconds is None:
         yield
         return
+    before, _limited.is_so = getattr(_limited, "is_so", False), True
     hard = threading.Timer(HARD * seconds + AGAIN, os._exit, (STUCK,)) if own_process else None
     if hard is not None:
         hard.daemon = True
@@ -36,6 +61,7 @@ def limited(seconds: float | None, *, own_process: bool = False) -> Iterator[Non
         with _by_signal(seconds) if threading.current_thread() is threading.main_thread() else _by_thread(seconds):
             yield
     finally:
+        _limited.is_so = before
         if hard is not None:
             hard.cancel()
 
@@ -50,8 +76,8 @@ def _by_signal(seconds: float) -> Iterator[None]:
         rung.append(number)
         raise Overran
 
-    before = signal.signal(signal.SIGALRM, ring)
-    signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN)
+    began, before = time.monotonic(), signal.signal(signal.SIGALRM, ring)
+    left, every = signal.setitimer(signal.ITIMER_REAL, seconds, AGAIN)
     try:
         yield
         if rung:
@@ -59,6 +85,8 @@ def _by_signal(seconds: float) -> Iterator[None]:
     finally:
         signal.setitimer(signal.ITIMER_REAL, 0)
         signal.signal(signal.SIGALRM, before)
+        if left:  # the alarm of who uses the program as a library
+            signal.setitimer(signal.ITIMER_REAL, max(left + began - time.monotonic(), SOON), every)
 
 
 @contextmanager

@@ -83,7 +83,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }
 FOR_PLUGINS = {"diecut_report.api", "diecut_report.mechanics", "numpy", "scipy", *sys.stdlib_module_names}
-FUNCTION_LINES, MODULE_LINES = 50, 299
+FUNCTION_LINES, MODULE_LINES = 50, 600
 
 
 def modules() -> dict[str, Path]:

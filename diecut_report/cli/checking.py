@@ -32,6 +32,7 @@ from diecut_report.cli.progress import Progress
 from diecut_report.cli.verdict import WORDS
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.discovery import Discovery
+from diecut_report.config.standard_input import SHOWN as STANDARD_INPUT
 from diecut_report.errors import TOLD, Problem, UserError
 from diecut_report.languages.phrases import Counted, Phrase, cell, phrase
 from diecut_report.languages.speech import localised, said, say, speaking
@@ -119,7 +120,8 @@ def _table(verdicts: Sequence[Verdict]) -> Iterator[str]:
 
 
 def _row(verdict: Verdict) -> tuple[str, ...]:
-    machine = in_line(cell(verdict.machine))  # before its width is taken
+    is_stdin = verdict.machine == STANDARD_INPUT
+    machine = verdict.machine if is_stdin else in_line(cell(verdict.machine))  # before its width is taken
     if verdict.status == "bad":
         return machine, said(WORDS["bad"]), "", "", "", "", "", ""
     share = "" if verdict.utilisation is None else localised(f"{100 * verdict.utilisation:.1f} %")

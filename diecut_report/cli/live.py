@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 import signal
 import webbrowser
 from collections.abc import Iterator
@@ -102,15 +103,15 @@ def _require_file(config: Path) -> None:
             "The page follows a file that is saved again and again; standard input is read once. Name a file."
         )
         raise UserError(Problem(words, SHOWN))
-    if config.is_dir():
+    if os.path.isdir(config):
         raise UserError(Problem(phrase("This is a folder. Name one configuration in it."), str(config)))
     folder, _, number = str(config).rpartition("#")
-    if number.isdecimal() and Path(folder).is_dir() and not config.exists():
+    if number.isdecimal() and os.path.isdir(folder) and not os.path.exists(config):
         words = Phrase(
             "A stored variant is not a file. Make it one: diecut-report take {variant} -o my_press.yaml", variant=config
         )
         raise UserError(Problem(words, str(config)))
-    if not config.is_file():
+    if not os.path.isfile(config):
         raise UserError(Problem(phrase("There is no such file. Check the name and the folder."), str(config)))
     try:
         tree = yaml_tree.load(config)

@@ -27,6 +27,7 @@ from diecut_report.cli.output import (
 from diecut_report.config import yaml_tree
 from diecut_report.config.discovery import Discovery
 from diecut_report.config.standard_input import SHOWN
+from diecut_report.config.study_files import is_study
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.languages.phrases import Phrase, phrase
 
@@ -80,7 +81,7 @@ def _judged(file: Path, discovery: Discovery, tries: bool) -> JudgedFile:
     try:
         with without_output():
             tree = from_standard_input() if file == DASH else yaml_tree.read(file)
-            if not (isinstance(tree.data, dict) and "base" in tree.data and "mechanisms" not in tree.data):
+            if not is_study(tree):
                 from diecut_report import pipeline
                 from diecut_report.design.report_influence import misnamed
 

@@ -28,6 +28,7 @@ WORDS = {
     "skipped": phrase("skipped"),
     "not_checked": phrase("not checked"),
     "bad": phrase("bad file"),
+    "conditional": phrase("conditional"),
 }
 
 

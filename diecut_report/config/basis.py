@@ -85,7 +85,7 @@ class BasisReader:
         """The value of a quantity that stands as a block; the block itself where it is not one."""
         faults = list(self._faults(unit, given, key))
         self.problems += faults
-        if "value" not in given:
+        if given.get("value") is None:
             return 1.0 if faults else given  # what is wrong has been told
         own = self.place.inner(key)
         self.place = replace(self.place, listed={**self.place.listed, key: (*own, "value")})
@@ -94,7 +94,7 @@ class BasisReader:
         return given["value"]
 
     def _faults(self, unit: str, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
-        if "value" not in given:
+        if given.get("value") is None:
             words = Phrase(
                 "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone",
                 unit=unit,
@@ -109,7 +109,7 @@ class BasisReader:
                 )
                 yield self.place.problem((*key, name), words, at_key=True)
         basis, note = given.get("basis"), given.get("note")
-        if basis is not None and basis not in BASES:
+        if "basis" in given and basis not in BASES:
             near = nearest(basis, BASES) if isinstance(basis, str) else ""
             yield self.place.problem(
                 (*key, "basis"),

@@ -33,6 +33,7 @@ from diecut_report.contract.place import Misdeclared
 from diecut_report.errors import PluginError, Problem, UserError, nearest
 from diecut_report.expressions.source import FormulaError
 from diecut_report.languages.phrases import Phrase, joined, phrase
+from diecut_report.time_limit import in_time
 
 GROUP = "diecut_report.plugins"
 EXTENSIONS = "diecut_report.extensions"
@@ -85,7 +86,8 @@ class Discovery:
         while self._extensions:
             origin = self._extensions.pop()
             try:
-                origin.load()
+                with in_time():
+                    origin.load()
                 self.extended[origin.kind] = module_hash(origin.file())
             except (Exception, SystemExit) as cause:
                 raise UserError(
@@ -121,7 +123,8 @@ class Discovery:
 def _loaded(origin: Origin) -> Mechanism | PluginError:
     try:
         refuse_other_contract(origin.file)
-        found = origin.load()
+        with in_time():
+            found = origin.load()
         digest = module_hash(origin.file())
     except (Exception, SystemExit) as cause:
         words = "it cannot be loaded from {told}: {said}"

@@ -16,7 +16,7 @@ from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.hidden_letters import seeming_latin
 from diecut_report.config.instances import Instance, substituted
 from diecut_report.config.logo import Logo, logo_of
-from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings
+from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings, written
 from diecut_report.config.own_tables import Find, OwnTables
 from diecut_report.config.plain_data import texts
 from diecut_report.config.references import Linker
@@ -144,12 +144,13 @@ class _ConfigReader:
         self.report = document.report if document else None
         data = whole if isinstance(whole, dict) else {}
         self.instances[PRESS] = None
-        if isinstance(data.get(PRESS), dict):
-            self._add(PRESS, Press, data[PRESS], ConfigPlace(self.tree, (PRESS,)))
-        mechanisms = data.get("mechanisms")
+        press, home = written(PRESS, data), written("mechanisms", data)
+        if isinstance(data.get(press), dict):
+            self._add(PRESS, Press, data[press], ConfigPlace(self.tree, (press,)))
+        mechanisms = data.get(home)
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)
-            self._mechanism(name, body, ConfigPlace(self.tree, ("mechanisms", name)))
+            self._mechanism(name, body, ConfigPlace(self.tree, (home, name)))
         for kind in partners.BY_THEMSELVES:
             self._by_itself(kind)
         for name in self.with_partners:
@@ -169,7 +170,9 @@ class _ConfigReader:
             named = instance.data.get(partner.key)
             if named is not None and (fault := partners.fault(partner, named, self.kinds)):
                 self.problems.append(instance.place.problem((partner.key,), fault))
-        instance.take(partners.taken(instance.mechanism, instance.data, self.instances, self.kinds))
+        known = instance.mechanism, instance.data, self.instances, self.kinds
+        self.problems += [instance.place.problem((key,), words) for key, words in partners.overruled(*known)]
+        instance.take(partners.taken(*known))
         self._probe(name, self.kinds[name])
 
     def _add(

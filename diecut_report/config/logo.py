@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+import os
 from hashlib import sha256
 from pathlib import Path
 from typing import NamedTuple
@@ -40,7 +41,7 @@ def logo_of(config: Tree, find: Find | None) -> tuple[Logo | None, list[Problem]
     if fault := logo_fault(name):
         return None, [place.problem(KEY, fault)]
     path = find(name) if find else Path(config.file).parent / name
-    if not path.exists():
+    if not os.path.exists(path):
         words = Phrase(
             "there is no file {path}. A logo is sought from the configuration's folder; check the name.", path=path
         )

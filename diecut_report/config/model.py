@@ -2,11 +2,13 @@
 
 from __future__ import annotations
 
+from collections.abc import Mapping
 from typing import Any, Literal
 
 from pydantic import AfterValidator, Field, field_validator
 
 from diecut_report.contract.inputs import Annotated, Block, Quantity, Text
+from diecut_report.errors import closest
 from diecut_report.languages.catalogues import known
 from diecut_report.languages.phrases import Phrase, phrase
 
@@ -121,3 +123,10 @@ class ConfigDocument(Block):
             shown = f"“{given}”" if isinstance(given, str) else str(given).lower()
             raise ValueError(Phrase("is {shown}; the number 1 is needed, without quotes", shown=shown))
         return given
+
+
+def written(key: str, data: Mapping[str, Any]) -> str:
+    """Return a block's key as it is typed: a slip in it, which is told, hides nothing of what stands below."""
+    return (
+        key if key in data else closest(key, [name for name in data if name not in ConfigDocument.model_fields]) or key
+    )

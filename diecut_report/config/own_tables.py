@@ -11,6 +11,7 @@ A file is read and judged as a configuration is: what is wrong with it is told w
 
 from __future__ import annotations
 
+import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePosixPath, PureWindowsPath
@@ -86,7 +87,7 @@ class OwnTables:
             self.problems.append(place.problem(key, fault))
             return
         path = find(name)
-        if not path.exists():
+        if not os.path.exists(path):
             words = Phrase(
                 "there is no file {path}. Tables are sought from the configuration's folder; check the name.", path=path
             )

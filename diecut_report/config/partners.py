@@ -20,13 +20,42 @@ Kinds = Mapping[str, str]  # of the mechanisms, by their names
 
 def taken(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances, kinds: Kinds) -> dict[str, str]:
     """Return what a block takes from its partners where it gives nothing itself: their names, and references to what they have."""
+    return {key: text for key, text in _offered(mechanism, data, instances, kinds).items() if data.get(key) is None}
+
+
+def overruled(
+    mechanism: Mechanism, data: Mapping[str, Any], instances: Instances, kinds: Kinds
+) -> Iterator[tuple[str, Phrase]]:
+    """Yield the keys of a block that compares others which are typed in place of what these have, with what is wrong: a verdict must not be typed."""
+    if mechanism.kind not in BY_THEMSELVES:
+        return
+    names = {partner.key for partner in mechanism.partners}
+    for key, reference in _offered(mechanism, data, instances, kinds).items():
+        if key not in names and data.get(key) not in (None, reference):
+            yield key, typed_beside(reference)
+
+
+def typed_beside(reference: str) -> Phrase:
+    """Return what is wrong with a value in place of what a block that compares others takes from them."""
+    words = "is typed here, but {reference} has it, which is compared with the others. Remove the key; change it there."
+    return Phrase(words, reference=reference)
+
+
+def compared(instance: Instance) -> dict[str, str]:
+    """Return what a block that compares others takes from them, by its keys: their names, and references."""
+    is_asked = instance.mechanism is not None and instance.mechanism.kind in BY_THEMSELVES
+    return {key: instance.data[key] for key in instance.derived if is_asked}
+
+
+def _offered(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances, kinds: Kinds) -> dict[str, str]:
+    """What the partners of a block have for it: their names, and references."""
     found: dict[str, str] = {}
     for partner in mechanism.partners:
         name = data.get(partner.key) or only(partner, kinds)
         if fault(partner, name, kinds) or (instance := instances[str(name)]) is None:
             continue
         found |= {partner.key: str(name)} | dict(_references(partner, instance))
-    return {key: text for key, text in found.items() if data.get(key) is None}
+    return found
 
 
 def only(partner: Partner, kinds: Kinds) -> str | None:

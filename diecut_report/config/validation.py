@@ -17,6 +17,7 @@ from diecut_report.contract.inputs import Block, CurveInput, Meta, Pending, Quan
 from diecut_report.errors import PluginError, Problem, nearest
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import pretty
+from diecut_report.time_limit import in_time
 
 SHOWN = 60  # characters of a given text that a message repeats
 NAMED = 20  # entries of a table that a message names
@@ -112,16 +113,15 @@ def validate(
     """The validated block, or None with the problems; what is wrong at ``open_keys`` cannot be judged yet and is left out."""
     chosen = list(_choices(model, data, place))
     try:
-        block = model.model_validate(data)
+        with in_time():
+            block = model.model_validate(data)
         return (None, chosen) if chosen else (block, [])
     except ValidationError as error:
         faults = [_Fault(model, place, fault) for fault in error.errors(include_url=False)]
         return None, chosen + [fault.problem() for fault in faults if fault.key not in open_keys]
     except Exception as cause:  # of a validator of the plugin's own
-        raise PluginError(
-            Phrase("its inputs {name__} cannot be validated: {said}", name__=model.__name__, said=said(cause)),
-            instance=str(place.root[-1]),
-        ) from cause
+        words = Phrase("its inputs {name__} cannot be validated: {said}", name__=model.__name__, said=said(cause))
+        raise PluginError(words, instance=str(place.root[-1])) from cause
 
 
 def _choices(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = ()) -> Iterator[Problem]:

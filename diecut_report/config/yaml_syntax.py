@@ -1,8 +1,13 @@
-"""What is not YAML, in words with its place: tabs, quotes that are never closed, second colons, bare references in braces."""
+"""What is not YAML, in words with its place; and commas in lists that part what was meant as one number."""
 
 from __future__ import annotations
 
+import re
+from collections.abc import Iterator, Sequence
+from itertools import pairwise
 from typing import Any
+
+import yaml
 
 from diecut_report.errors import Problem
 from diecut_report.languages.phrases import Phrase, phrase
@@ -29,3 +34,24 @@ def _explained(error: Any, line: str) -> str:
     if "${" in line and "flow" in (error.context or ""):
         return phrase('a reference stands in braces or brackets without quotes, and YAML reads its brace as a map. Quote it: "${…}".')  # fmt: skip
     return Phrase("{said}. Check quotes, brackets and indentation here and just above.", said=said)
+
+
+def decimal_commas(entries: Sequence[Any]) -> Iterator[tuple[int, Phrase]]:
+    """Yield where a list within brackets has a number that a decimal comma parts, as in [9,5 mm, 10 mm], with what is told of it.
+
+    [1,2,3] is a list of three: the comma is suspected where others are followed by a space, or where a unit stands behind it.
+    """
+    glued = [_is_glued(one, other) for one, other in pairwise(entries)]
+    for index, is_glued in enumerate(glued):
+        following = entries[index + 1].value if is_glued else ""
+        if is_glued and (not all(glued) or not re.fullmatch(r"[\d.eE+-]+", following)):
+            words = "{typed} is read as two values. Write a decimal point, or a space after the comma."
+            yield index, Phrase(words, typed=f"{entries[index].value},{following}")
+
+
+def _is_glued(one: Any, other: Any) -> bool:
+    """Whether a whole number and what begins with a digit stand with nothing but a comma between them."""
+    if not all(isinstance(each, yaml.ScalarEvent) and each.implicit[0] for each in (one, other)):
+        return False
+    beside = other.start_mark.index == one.end_mark.index + 1
+    return beside and bool(re.fullmatch(r"[-+−]?\d+", one.value) and re.match(r"\d", other.value))

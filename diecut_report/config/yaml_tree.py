@@ -21,7 +21,7 @@ from typing import Any, NoReturn
 import yaml
 
 from diecut_report.config.hidden_letters import CONTROL, HIDDEN, HIDDEN_IN_KEY
-from diecut_report.config.yaml_syntax import syntax_problem
+from diecut_report.config.yaml_syntax import decimal_commas, syntax_problem
 from diecut_report.errors import Problem, UserError
 from diecut_report.given_files import content
 from diecut_report.languages.phrases import Phrase, phrase
@@ -229,9 +229,8 @@ class _Builder:
     def _refuse_hidden(self, what: str, found: re.Match[str] | None, event: Any, path: KeyPath) -> None:
         """Report what a text holds when it is decoded: escapes within quotes bring what the file itself may not hold."""
         if found:
-            words = "This {what} holds the invisible character U+{ord}. Write it without."
-            message = Phrase(words, what=what, ord=f"{ord(found[0]):04X}")
-            self._report(message, _position(event), path)
+            words, code = "This {what} holds the invisible character U+{ord}. Write it without.", f"{ord(found[0]):04X}"
+            self._report(Phrase(words, what=what, ord=code), _position(event), path)
 
     def _alias(self, event: Any, path: KeyPath) -> YamlNode:
         name, place = event.anchor, _position(event)
@@ -241,7 +240,7 @@ class _Builder:
             fault = phrase("stands in its own anchor, a loop") if name in self._anchors else fault
             advice = phrase("Write the value itself, or put text that begins with * in quotes.")
             self._report(Phrase("The alias *{name} {fault}. {advice}", name=name, fault=fault, advice=advice), place, path)  # fmt: skip
-            return YamlNode(place, f"*{name}", f"*{name}")  # something stands there: what refers to it is not to blame
+            return YamlNode(place, written := f"*{name}", written)  # what refers to it is not to blame
         self._count(anchored.size, event, path)
         self._check_depth(anchored, event, path)
         return anchored
@@ -249,13 +248,16 @@ class _Builder:
     def _collection(self, event: Any, path: KeyPath) -> YamlNode:
         node = YamlNode(_position(event), children={}, is_list=isinstance(event, yaml.SequenceStartEvent), depth=1)
         self._check_depth(node, event, path)
+        entries = []
         while not isinstance(event := next(self._events), (yaml.SequenceEndEvent, yaml.MappingEndEvent)):
             if node.is_list:
-                index = len(node.children or ())
-                node.add(index, self._node(event, (*path, index)))
+                entries.append(event)
+                node.add(len(entries) - 1, self._node(event, (*path, len(entries) - 1)))
             else:
                 key = self._key(event, node, path)
                 node.add(key, self._node(next(self._events), (*path, key)))
+        for index, words in decimal_commas(entries):
+            self._report(words, _position(entries[index]), (*path, index))
         return node
 
     def _check_depth(self, node: YamlNode, event: Any, path: KeyPath) -> None:

@@ -107,9 +107,9 @@ class Root(Step):
 
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Abscissa(Step):
-    """Declare what curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at`` (any number).
+    """Declare what curves run over, [0, period): sampled at ``points`` (an input's id); shown in print at the place ``shown_at`` (an id).
 
-    ``period`` is a number, or the id of one. ``intervals`` are those of the search grid in each smooth piece: fewer are enough
+    ``period`` is a part of a turn in rad, a ``Constant``, or an id. ``intervals`` are those of the search grid in each smooth piece: fewer are enough
     where breakpoints leave the pieces short. ``speed`` is the id of how fast it is run through, from which phases have
     their times; an abscissa of time needs none.
     """
@@ -269,7 +269,7 @@ class Phase(Step):
     """Declare when, over the period of an abscissa, the mechanism does something; its id is ``phases.NAME``.
 
     ``role`` is what it does: ``working`` (a tool on the product), ``rest``, ``moving``, ``window`` (room for another part). Each of
-    ``spans`` goes from one place to another: ids of numbers, or plain numbers; a place that does not exist for a machine leaves its
+    ``spans`` goes from one place to another: ids of numbers, or 0; a place that does not exist for a machine leaves its
     span out. ``period`` is the id of what repeats, where that is not the abscissa's own. ``union`` names phases that are taken
     together instead, ``rest_of`` those that leave it the rest of the period.
     """

@@ -3,6 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Iterator, Mapping
+from itertools import chain
+from math import isclose, pi
 
 from diecut_report.contract.mechanism import Mechanism
 from diecut_report.contract.phases import PREFIX, ROLES
@@ -12,8 +14,10 @@ from diecut_report.declaration.units import kind_of
 from diecut_report.declaration.words import Fault
 from diecut_report.declaration.world import When, told
 from diecut_report.errors import nearest
+from diecut_report.expressions import Constant
 from diecut_report.languages.phrases import Phrase, named, phrase
 
+PARTS_OF_A_TURN = 360  # of half of one: periods of half a degree, and of all multiples of it
 Known = Mapping[str, list[tuple[int, When, Phase]]]
 
 
@@ -25,8 +29,8 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         if isinstance(step, Phase):
             known.setdefault(step.id.removeprefix(PREFIX), []).append((number, names.when(number), step))
             texts = _of_phase(step, number, names, known)
-        elif isinstance(step, Abscissa) and step.speed:
-            texts = _of_speed(step, names)
+        elif isinstance(step, Abscissa):
+            texts = chain(_of_period(step), _of_speed(step, names) if step.speed else ())
         yield from (Fault(step.at, _subject(step), text) for text in texts)
 
 
@@ -52,6 +56,11 @@ def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> I
         yield phrase("needs one of three forms: places it goes between, (start, end), or union=(…), or rest_of=(…)")
     for each in (*step.union, *step.rest_of):
         yield from _held(step, each, names.when(number), names, known)
+    for bare in (end for span in step.spans for end in span if not isinstance(end, str) and end != 0):
+        yield Phrase(
+            "goes to {place}, a number without a unit; name the input or the step that gives the place, by its id",
+            place=f"{bare:g}",
+        )
     axis = {giver.unit for giver in names.givers(step.abscissa) if giver.unit}
     for place in (end for span in step.spans for end in span if isinstance(end, str)):
         units = {each for giver in names.givers(place) for each in giver.units_when(step.needs)}
@@ -83,6 +92,19 @@ def _held(step: Phase, name: str, when: When, names: DeclaredNames, known: Known
         yield Phrase(
             "takes the phase {name}, which there is not {where}; give both the same needs", name=name, where=where
         )
+
+
+def _of_period(step: Abscissa) -> Iterator[str]:
+    """A number is a part of a turn, by np.pi, or a constant with its unit: all else could be meant in any unit."""
+    given = step.period
+    if isinstance(given, str | Constant):
+        return
+    if kind_of(step.unit) != kind_of("rad"):
+        words = "has the period {given}, a number without a unit; name the input or the step that gives it, by its id"
+        yield Phrase(words, given=f"{given:g}")
+    elif not isclose(parts := PARTS_OF_A_TURN * given / pi, round(parts), rel_tol=1e-12):
+        words = "has the period {given}, a number of radians that is not a part of a turn; write 2 * np.pi for a turn, or name what gives it"
+        yield Phrase(words, given=f"{given:g}")
 
 
 def _of_speed(step: Abscissa, names: DeclaredNames) -> Iterator[str]:

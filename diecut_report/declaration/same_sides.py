@@ -4,6 +4,7 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from itertools import product
+from typing import Any
 
 from diecut_report.contract.binding import ByText, bound
 from diecut_report.contract.checks import Check
@@ -13,6 +14,7 @@ from diecut_report.expressions import FormulaError
 from diecut_report.expressions.tree import Node, substitute, symbols
 from diecut_report.languages.phrases import Phrase, phrase
 
+NEUTRAL = {"+": 0.0, "*": 1.0}
 DEEP = 40  # formulas within formulas, of which a declaration may have a circle that is reported elsewhere
 
 
@@ -30,7 +32,7 @@ def told(names: DeclaredNames, check: Check) -> Iterator[str]:
 
 def _empty(demand: Node, limit: Node) -> str:
     """Return why two expressions are no check; nothing where they are one."""
-    if demand == limit:
+    if _ordered(demand) == _ordered(limit):
         return phrase("compares {one} with {other}, which is the same expression: it can never fail")
     if not symbols(demand) and not symbols(limit):
         return phrase(
@@ -39,6 +41,21 @@ def _empty(demand: Node, limit: Node) -> str:
     if limit in _least(demand) or demand in _greatest(limit):
         return phrase("compares {one} with {other}, by which it is bounded itself: it can never fail")
     return ""
+
+
+def _ordered(part: Any) -> Any:
+    """An expression with the parts of its sums and products in one order, without those that change nothing."""
+    if not isinstance(part, tuple):
+        return part
+    if not isinstance(part, Node):
+        return tuple(map(_ordered, part))
+    parts = [_ordered(each) for each in part.args]
+    neutral = NEUTRAL.get(part.op)
+    if neutral is None:
+        return Node(part.op, tuple(parts))
+    flat = [each for own in parts for each in (own.args if own.op == part.op else (own,))]
+    kept = sorted((each for each in flat if each.op != "num" or float(each.args[0]) != neutral), key=repr)
+    return kept[0] if len(kept) == 1 else Node(part.op, tuple(kept))
 
 
 def _ways(names: DeclaredNames, side: str | float) -> list[Node]:

@@ -30,6 +30,11 @@ HOLDS = {
     "errata": Erratum,
 }
 TEXTS = ("kind", "version", "title", "summary")
+IDS: dict[type[Step], tuple[str, ...]] = {
+    Abscissa: ("shown_at", "speed", "points"),
+    Breakpoints: ("abscissa", "every"),
+    Phase: ("abscissa", "period"),
+}
 FORMULAS = ("formula", "condition", "exists", "equation", "low", "high", "left", "right")
 
 
@@ -93,6 +98,7 @@ def _of_step(step: Step) -> Iterator[str]:
     yield from _ids(step, "needs", "lacks")
     for name in FORMULAS:
         yield from _of_formula(getattr(step, name, None))
+    yield from _of_places(step)
     match step:
         case Abscissa(intervals=intervals) if intervals < 2:
             yield Phrase(
@@ -112,6 +118,14 @@ def _of_step(step: Step) -> Iterator[str]:
             yield from _of_series(series, by)
         case Lookup(table=table) if not isinstance(table, StandardTable):
             yield from _of_table(table)
+
+
+def _of_places(step: Step) -> Iterator[str]:
+    for name in IDS.get(type(step), ()):
+        if not isinstance(given := getattr(step, name), str):
+            yield Phrase(
+                "has {name}={given}; name the input or the step that gives it, by its id", name=name, given=repr(given)
+            )
 
 
 def _of_spans(step: Phase) -> Iterator[str]:

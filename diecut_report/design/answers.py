@@ -64,7 +64,7 @@ class Answer:
 def lines(answer: Answer) -> Iterator[str]:
     """Yield what is found, in words."""
     design, asked, today = answer.design, answer.question.quantity, answer.design.today
-    passing = phrase(" with all checks passing") if answer.passing else ""
+    passing = phrase(" with no check failing") if answer.passing else ""
     reached = "" if math.isnan(answer.reached) else f", {asked.name} {localised(asked.told(answer.reached))}"
     now = phrase("not given today") if today is None else Phrase("today {value}", value=localised(design.told(today)))
     words = "{question}{passing}, by {input} ({now}{reached})"

@@ -64,17 +64,19 @@ def _validated(signature: Any, roots: Roots, attested: datetime | None) -> tuple
     context = ValidationContext(trust_roots=known, allow_fetching=False, moment=attested)
     if is_timestamp(signature):
         found: Any = validate_pdf_timestamp(signature, context, skip_diff=True)
-        return found, _time(found, roots)
+        return found, _time(found, roots, attested)
     found = validate_pdf_signature(signature, context, skip_diff=True, key_usage_settings=USAGE)
-    time = _time(found.timestamp_validity, roots)
+    time = _time(found.timestamp_validity, roots, attested)
     if time and not found.trusted and attested is None:
         return _validated(signature, roots, time)[0], time
     return found, time
 
 
-def _time(found: Any, roots: Roots) -> datetime | None:
-    """The time of a timestamp that is whole, and trusted where roots are given."""
+def _time(found: Any, roots: Roots, attested: datetime | None) -> datetime | None:
+    """The time of a timestamp that is whole, trusted where roots are given, and whose own certificate has not ended."""
     if found is None or not (found.intact and found.valid and (roots is None or found.trusted)):
+        return None
+    if (attested or datetime.now(UTC)) > found.signing_cert.not_valid_after:
         return None
     time: datetime = found.timestamp
     return time

@@ -48,7 +48,7 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
         return [Signature(Phrase("cannot be read: {found_fault}", found_fault=found_fault), False)]
     roots = certificates_in(content(trusted, MOST, phrase("certificates (PEM)")), trusted) if trusted else None
     try:
-        with _silent():
+        with silent():
             found = _all_judged(PdfFileReader(io.BytesIO(whole)).embedded_signatures, whole, roots)
     except (PdfError, ValidationInfoReadingError, SignatureValidationError, *PDF_FAULTS) as error:
         told = f"{error}" or type(error).__name__
@@ -127,8 +127,8 @@ def _fingerprint(signature: Any) -> str:
 
 
 @contextmanager
-def _silent() -> Iterator[None]:
-    """Without the library's own messages, which are told in words of ours."""
+def silent() -> Iterator[None]:
+    """Keep the library's own messages away, which are told in words of ours."""
     loggers = [logging.getLogger(name) for name in ("pyhanko", "pyhanko_certvalidator")]
     levels = [each.level for each in loggers]
     try:

@@ -26,6 +26,7 @@ from diecut_report.config.hidden_letters import printable
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.exchange.carried_results import MOST, form_of
 from diecut_report.exchange.pdf_faults import PDF_FAULTS
+from diecut_report.exchange.signatures import silent
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import write_all
 from diecut_report.given_files import content
@@ -69,9 +70,11 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
         )
         raise UserError(Problem(words, str(asked.report)))
     try:
-        field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
+        with silent():
+            field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
         judge()
-        signed = _signed(whole, field, asked, key)
+        with silent():
+            signed = _signed(whole, field, asked, key)
     except (PdfError, SigningError, *PDF_FAULTS) as error:
         words = Phrase("The PDF cannot be signed: {error}. Give the file as the program wrote it.", error=error)
         raise UserError(Problem(words, str(asked.report))) from error

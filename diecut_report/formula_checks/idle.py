@@ -40,26 +40,26 @@ def idle_inputs(mechanism: Mechanism) -> Iterator[str]:
 def _used(mechanism: Mechanism) -> Iterator[str]:
     """The names in all that is declared: of what is taken, of what switches it on, of what a message prints."""
     for chapter, step in mechanism.steps:
-        yield from (*taken(step), *chapter.needs, *_names(step))
+        yield from (*taken(step), *chapter.needs, *named_in(step))
     for parts in (mechanism.checks, mechanism.figures, mechanism.exports):
-        yield from _names(parts)
+        yield from named_in(parts)
     for comparison in mechanism.comparisons:
         yield from (name for _, name in comparison.takes.values())
     yield from (key for _, meta in fields(mechanism.inputs) for key, _ in getattr(meta, "units", ()))
 
 
-def _names(declared: Any) -> Iterator[str]:
-    """The texts in something declared, but those for the reader, with the ``{ids}`` in them."""
+def named_in(declared: Any) -> Iterator[str]:
+    """Yield the texts in something declared, but those for the reader, with the ``{ids}`` in them."""
     if isinstance(declared, str):
         yield declared
         yield from (found[1] for found in NAMED.finditer(declared))
     elif isinstance(declared, tuple | list):
         for part in declared:
-            yield from _names(part)
+            yield from named_in(part)
     elif is_dataclass(declared):
         for field in fields_of(declared):
             if field.name not in SAID and not (field.name == "cases" and isinstance(declared, Step)):
-                yield from _names(getattr(declared, field.name))
+                yield from named_in(getattr(declared, field.name))
 
 
 def _spread(model: type[Block], prefix: str = "") -> Iterator[tuple[set[str], set[str]]]:

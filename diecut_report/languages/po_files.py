@@ -7,18 +7,20 @@ from collections.abc import Callable, Iterable
 from datetime import UTC, datetime
 from io import BytesIO
 from pathlib import Path
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from babel.messages.catalog import Catalog
-from babel.messages.pofile import read_po, write_po
+from babel.messages.catalog import Catalog, Message
+from babel.messages.pofile import PoFileParser, read_po, write_po
 
-from diecut_report.languages.phrases import Phrase
+from diecut_report.languages.phrases import Phrase, phrase
 
 NEVER = datetime(2026, 1, 1, tzinfo=UTC)  # equal texts give equal files
 WIDTH = 140
 MOST_FORMS = 10  # Arabic has six
 _FORMS = re.compile(rb"nplurals\s*=\s*(\d+)")
 _HIDDEN = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
+_LINE = re.compile(r'(?:(?:msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)\s*)?"(?:[^"\\]|\\.)*"')
+_FILLED = re.compile(r"\{[\w.]+(?::\w+)?\}")
 UNSAID = (b'"Generated-By', b'"Report-Msgid-Bugs-To', b'"Last-Translator', b'"Language-Team')  # lines of the head
 
 
@@ -35,11 +37,30 @@ def read(file: Path, language: str) -> Catalog:
         raise ValueError(
             Phrase("a language has at most {most_forms} forms of a word for a number", most_forms=MOST_FORMS)
         )
-    return read_po(BytesIO(content), locale=language, charset="utf-8", abort_invalid=True)
+    for number, line in enumerate(map(str.strip, content.decode("utf-8").split("\n")), 1):
+        if line and not line.startswith("#") and not _LINE.fullmatch(line):
+            words = (
+                "line {number} is {line}; write msgid or msgstr, and a text that begins and ends with a quotation mark"
+            )
+            raise ValueError(Phrase(words, number=number, line=repr(line)))
+    found = _EachOnce(locale=language, charset="utf-8")
+    PoFileParser(found, abort_invalid=True).parse(BytesIO(content))
+    return found
+
+
+class _EachOnce(Catalog):
+    """A catalogue that has each text once: of two Babel keeps the first translation, and says nothing of the other."""
+
+    def __setitem__(self, id: Any, message: Message) -> None:
+        before = self.get(id, message.context) if id else None
+        if before is not None:
+            words = "line {line} translates {id}, as line {before} does; keep one of them"
+            raise ValueError(Phrase(words, line=message.lineno, id=repr(id), before=before.lineno))
+        super().__setitem__(id, message)
 
 
 def judge(catalogue: Catalog, plural: Callable[[int], int]) -> None:
-    """Raise ValueError where texts hold letters that act on a page or a terminal, or a number has no form of a word."""
+    """Raise ValueError where texts hold letters that act on a page or a terminal, are filled otherwise, or a number has no form of a word."""
     for message in catalogue:
         said = (message.string or "",) if isinstance(message.string, str | None) else message.string
         if letter := next(filter(None, map(_HIDDEN.search, said)), None):
@@ -48,9 +69,24 @@ def judge(catalogue: Catalog, plural: Callable[[int], int]) -> None:
                     "the translation of {id} holds U+{code}", id=repr(message.id), code=format(ord(letter[0]), "04X")
                 )
             )
+        if not message.fuzzy and all(said):
+            _judge_filling(message, said)
     for count in range(200):
         if not 0 <= plural(count) < catalogue.num_plurals:
             raise ValueError(Phrase("its plural forms have none for {count}", count=count))
+
+
+def _judge_filling(message: Message, said: Iterable[str]) -> None:
+    """Raise ValueError where a translation is filled with something else than its text: a number was lost, or {NAME} printed as it stands."""
+    texts = [message.id] if isinstance(message.id, str) else message.id
+    known = [set(_FILLED.findall(text)) for text in texts]
+    may, must = set().union(*known), set.intersection(*known)  # what is counted may be left out where there is one
+    for text in said:
+        there = set(_FILLED.findall(text))
+        if there - may or must - there:
+            words = "line {line}: the translation of {id} is filled with {there}, the text itself with {wanted}; write the same names"
+            told = [", ".join(sorted(names)) or phrase("nothing") for names in (there, may)]
+            raise ValueError(Phrase(words, line=message.lineno, id=repr(texts[0]), there=told[0], wanted=told[1]))
 
 
 def written(catalogue: Catalog) -> bytes:

@@ -20,12 +20,11 @@ from diecut_report.files import write
 from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity
 from diecut_report.results.warm_press import WarmPress, WarmRun
-from diecut_report.time_limit import Overran, limited
+from diecut_report.time_limit import PATIENCE, Overran, limited
 
 Data = dict[str, Any]
 LONGEST = 100  # letters of a number that is typed on the page
 MOST_EDITS = 1_000
-PATIENCE = 120.0  # seconds that the machine may be calculated, or something of it made: a plugin may never come back
 
 
 @dataclass(frozen=True)

@@ -54,9 +54,6 @@ def description(study: Study) -> Description:
 def run_search(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> SearchOutcome:
     """Try as many machines as the study says, but for those that the folder holds; each part file is whole or absent."""
     wanted = description(study)
-    if resume:  # the copies in the folder have names of their own
-        known = state.read_description(directory, sealed=False)
-        wanted = replace(wanted, study=replace(wanted.study, file=known.study.file))
     store = Store.open(directory, wanted) if resume else None
     if store is None:
         _refuse_used(directory)

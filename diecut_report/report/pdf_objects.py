@@ -57,7 +57,8 @@ def _stream(stream: Any, body: bytes) -> bytes:
     """A stream with its head."""
     packing = {"Filter": "/FlateDecode"} if stream.compress else {}
     head = Dictionary({**stream.extra, **packing, "Length": len(body)})
-    return b"\n".join((head.data, b"stream", body, b"endstream"))
+    # the line before the end is \r\n: behind a body that ends with \r, \n alone is taken as \r\n, and the body as too short
+    return b"".join((head.data, b"\nstream\n", body, b"\r\nendstream"))
 
 
 def _bytes(item: Any) -> bytes:

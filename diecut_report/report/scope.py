@@ -70,4 +70,15 @@ def _assumed(whole: Data, mechanisms: Data) -> dict[str, Any]:
     moves = [
         each for each in whole.get("moves", ()) if is_shown(each["path"]) and each["check"].split(".")[0] in mechanisms
     ]
-    return {"assumed": [path for path in whole.get("assumed", ()) if is_shown(path)], "moves": moves}
+    assumed = [path for path in whole.get("assumed", ()) if is_shown(path)]
+    return {"assumed": [*assumed, *_taken(mechanisms, assumed)], "moves": moves}
+
+
+def _taken(mechanisms: Data, assumed: list[str]) -> Iterator[str]:
+    """The inputs that rest on what is assumed of mechanisms that are left out; of an expression, which names no giver, where nothing else is."""
+    for name, data in mechanisms.items():
+        for key, row in data["inputs"].items():
+            path, giver = f"mechanisms.{name}.{key}", (row.get("path") or "").split(".")[0]
+            is_left_out = giver not in {"press", *mechanisms} if giver else not assumed
+            if row.get("basis") == "assumed" and path not in assumed and is_left_out:
+                yield path

@@ -12,6 +12,7 @@ from diecut_report.engine import Calculation
 from diecut_report.engine.calculation import Unproven
 from diecut_report.engine.numerics.domain import Domain
 from diecut_report.engine.shown_units import declared_unit, unit_for
+from diecut_report.engine.steps.rough_places import require_whole
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit
@@ -29,7 +30,10 @@ def curves(calc: Calculation) -> Data:
         if len(edges):
             found[name]["breakpoints"] = edges.tolist()
     pieces = {axis: _edges(domain) for axis, domain in calc.domains.items()}
+    asked = {getattr(step, "of", "") for step in calc.steps.values()}
     for name, curve in calc.curves.items():
+        if curve.output or name in asked:
+            require_whole(calc, name)
         if curve.output:
             values = calc.curve_samples(name)[0]
             shown = _curve(curve, values, unit_for(calc, name, curve.unit, values))

@@ -11,6 +11,7 @@ import numpy as np
 import scipy
 
 from diecut_report import __version__
+from diecut_report.config import partners
 from diecut_report.config.basis import GIVEN
 from diecut_report.config.hidden_letters import printable
 from diecut_report.config.instances import Instance
@@ -174,7 +175,9 @@ def resolved(run: Run) -> Data:
     mechanisms = {}
     for name, kind in config.kinds.items():
         block, instance = run.blocks.get(name), config.instances[name]
-        mechanisms[name] = {"kind": kind} | (_plain(block, (name,), instance, bases) if block and instance else {})
+        plain = _plain(block, (name,), instance, bases) if block and instance else {}
+        taken = partners.compared(instance) if instance else {}  # which may not be given, and is taken again
+        mechanisms[name] = {"kind": kind} | {key: value for key, value in plain.items() if key not in taken}
     press = config.instances[PRESS]
     assert press is not None
     return {"schema_version": 1, "project": config.project.model_dump(exclude_none=True), "report": config.report.model_dump(exclude_none=True),

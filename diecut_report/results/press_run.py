@@ -30,6 +30,7 @@ from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.origins import origin_of
 from diecut_report.results.stated_inputs import Provenance
 from diecut_report.results.taken_over import Absent, Unavailable, Valueless, Withheld, output
+from diecut_report.time_limit import in_time
 
 Data = dict[str, Any]
 Tell = Callable[[str], None]
@@ -89,10 +90,7 @@ class Run:
             values = [self._term(single) for single in target.single]
             value = self._computed(target, values) if target.expression else values[0]
             self.values[node] = self._derived(instance, node, target, value) if target.formula else value
-        except (
-            Unavailable,
-            Withheld,
-        ) as fault:  # what needs it is skipped; what only holds it against others does without
+        except (Unavailable, Withheld) as fault:  # what needs it is skipped; what holds it against others does without
             if node[1] in instance.derived:
                 self.values[node] = None
             elif isinstance(fault, Withheld):
@@ -227,8 +225,9 @@ class Run:
         assert instance.mechanism is not None
         self.tell(name)
         try:
-            self.calculations[name] = self._made(instance, instance.mechanism, block)
-            self._printed(instance, self.calculations[name])
+            with in_time():
+                self.calculations[name] = self._made(instance, instance.mechanism, block)
+                self._printed(instance, self.calculations[name])
         except Impossible as fault:
             for path, message in fault.reasons:
                 key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
@@ -262,7 +261,8 @@ class Run:
         self.tell(case.name)
         self.cases.append(case)
         try:
-            self.comparisons[case.name] = compared(case, self.calculations, self.chosen_units(""))
+            with in_time():
+                self.comparisons[case.name] = compared(case, self.calculations, self.chosen_units(""))
         except Uncomparable as fault:
             self.problems.append(self._uncomparable(fault))
         except (Exception, SystemExit) as cause:

@@ -101,7 +101,7 @@ class LoadedPress:
         problems: list[Problem] = []
         for path, value in values.items():
             try:
-                places[stands(self.config, path)] = typed(value, path)
+                places[stands(self.config, str(path))] = typed(value, str(path))
             except UserError as error:
                 problems += error.problems
         return places, problems

@@ -20,6 +20,7 @@ from diecut_report.declaration import faults, faults_at_load
 from diecut_report.engine import Impossible, Unproven, calculate
 from diecut_report.errors import Problem, UserError
 from diecut_report.formula_checks import forms, printing, quantities
+from diecut_report.formula_checks.doubts import doubts
 from diecut_report.formula_checks.fault_places import at_place, by_id
 from diecut_report.formula_checks.idle import idle_inputs
 from diecut_report.languages.catalogues import SOURCE_LANGUAGE, built_in, languages
@@ -41,7 +42,7 @@ TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are
 FAR = 400  # machines of which each is far from the example
 TIMED, TIMED_ALONE = 1000, 5  # variants whose time is measured; where they are slow, so few
 LONGEST = 600.0  # seconds of a rule: a plugin may never come back
-DECLARED = ("declaration", "dimensions", "printed", "inputs")
+DECLARED = ("declaration", "dimensions", "printed", "inputs", "doubts")
 
 
 @dataclass
@@ -133,6 +134,10 @@ class ContractTest:
     def inputs(self) -> TriedRule:
         """Try whether something takes each input."""
         return rule("inputs", "", idle_inputs(self.mechanism))
+
+    def doubts(self) -> TriedRule:
+        """Note what may be a mistake: units that formulas convert by hand, chapters that nothing depends on."""
+        return rule("doubts", "", doubts(self.mechanism), "note")
 
     # --- what a machine shows ----------------------------------------------------------------------------------------
 

@@ -17,6 +17,7 @@ TITLES = {
     "dimensions": phrase("Dimensions of formulas"),
     "printed": phrase("Printed as computed"),
     "inputs": phrase("Inputs that are taken"),
+    "doubts": phrase("Doubtful declarations"),
     "example": phrase("Example machine"),
     "alone": phrase("Many machines as each alone"),
     "verdicts": phrase("Checks that can fail"),

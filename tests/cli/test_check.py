@@ -148,5 +148,5 @@ def test_what_is_not_checked_is_counted_from_the_results() -> None:
     from diecut_report.study.machines.calculation import CheckedMachine
     from diecut_report.study.machines.verdicts import verdict
 
-    results = {"mechanisms": {}, "summary": {"not_checked": 7}}
+    results = {"mechanisms": {}, "summary": {"warn": 0, "not_checked": 7}}
     assert verdict(CheckedMachine("a.yaml", "pass", results), "a").not_checked == 7

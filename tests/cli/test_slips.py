@@ -12,7 +12,7 @@ import diecut_report as dr
 from diecut_report.cli.main import main, program
 from diecut_report.config.discovery import Discovery
 from diecut_report.live.session import LiveSession
-from tests.configs import saved
+from tests.configs import problems, saved
 from tests.examples import few
 
 PRESS = """\
@@ -90,7 +90,16 @@ SLIPS = [  # what is typed, what is typed instead, and what the message holds
     ("schema_version: 1", "schema_version: 2", "schema_version"),
     ("schema_version: 1", "", "schema_version"), ("{title: Test}", "{titel: Test}", "titel"), ("{title: Test}", "{title: Test", "."),
     ("press.sheet.width}", "press.sheet.width)", "reference|{"),
+    (RATE, "12:30", "unit"), (RATE, "on", "number"), (RATE, "6_000 1/h", "unit|number"), (RATE, "6000–7000 1/h", "unit"),
+    (RATE, "٦٠٠٠ 1/h", "number"),
+    (ANGLE, "10°30'", "unit"), (ANGLE, "[10 deg, 20 deg]", "list"), (ANGLE, "{value: {value: 1}}", "value"), (ANGLE, "{a: 1}", "a block without"),
+    (ANGLE, "{value: 10 deg, basis: }", "basis"), (ANGLE, "{value: , basis: assumed}", "without a value"), (ANGLE, "${press.sheet}", "list|block"),
+    ("300 N*m", "300 Н*м", "unit"), ("    torque:", "    tоrque:", "tоrque"), ("${cylinder.seg", "${суlinder.seg", "Latin"),
+    ("segment_height} * 3", "segment_hеight} * 3", "segment_hеight"), ("    torque:", "    bore_radius: 60 mm\n    torque:", "bore_radius"),
+    ("    torque:", "    torque: 200 N*m\n    torque:", "again"), ("    kind: clutch", "    kind: clutch\n    <<: *x", "Merge"),
+    ("300 N*m", "9**9**9 N*m", "unit"), ("300 N*m", "\u202e300 N*m", "U.202E"),
 ]  # fmt: skip
+OF_YAML = "YAML|A tab|alias|The tag|Merge|again|not text|U\\+"
 BY_CALCULATION = "${clutch.torque} / 0 N"
 OF_A_CONFIGURATION = {
     "advise": [], "calc": [], "check": [], "influence": [], "report": ["-o", "out"],
@@ -157,6 +166,19 @@ def test_a_slip_is_reported_with_its_place_by_the_commands_that_read_most(
     assert re.match(r"press\.yaml:\d+:\d+: ", line) and re.search(words, told)
 
 
+SECOND = "  other: {kind: clutch, wedge_angel: 10 deg}\n"
+
+
+@pytest.mark.parametrize(
+    ("typed", "instead"),
+    [each[:2] for each in SLIPS],
+    ids=[f"{number}: {each[1].strip()[:30]}" for number, each in enumerate(SLIPS)],
+)
+def test_a_slip_hides_no_other_of_the_file(typed: str, instead: str, tmp_path: Path) -> None:
+    told = "\n".join(problems(tmp_path, slipped(typed, instead) + SECOND))
+    assert re.search(r"wedge_angel: is an unknown key \(did you mean 'wedge_angle'", told) or re.search(OF_YAML, told)
+
+
 def test_one_bad_file_hides_no_other(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
 ) -> None:
@@ -168,7 +190,7 @@ def test_one_bad_file_hides_no_other(
         saved(tmp_path, slipped(WIDTH, instead), f"bad{number}.yaml")
     told = reported("check", ["."], capfd)
     assert all(re.search(rf"bad{number}\.yaml:\d+:\d+: ", told) for number in range(7)) and re.search(
-        r"(?m)^good +pass", told
+        r"(?m)^good +conditional", told
     )
 
 
@@ -254,3 +276,29 @@ def test_letters_of_another_alphabet_are_told(
     monkeypatch.chdir(tmp_path)
     saved(tmp_path, slipped(typed, instead))
     assert re.search(words, reported("validate", ["press.yaml"], capfd))
+
+
+def test_names_longer_than_a_file_system_takes_are_told(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    name = "n" * 400
+    saved(tmp_path, PRESS.replace("press:\n", f"materials: {name}.yaml\nreport: {{logo: {name}.png}}\npress:\n", 1))
+    saved(tmp_path, STUDY.replace("press.yaml", f"{name}.yaml"), "study.yaml")
+    for command, given in (
+        ("validate", "press.yaml"),
+        ("validate", "study.yaml"),
+        ("check", f"{name}.yaml"),
+        ("live", f"{name}.yaml"),
+    ):
+        assert name in reported(command, [given], capfd)
+
+
+@pytest.mark.parametrize("base", ["Base: press.yaml", ""])
+def test_a_study_without_a_base_is_judged_as_a_study(
+    base: str, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, capfd: pytest.CaptureFixture[str]
+) -> None:
+    monkeypatch.chdir(tmp_path)
+    saved(tmp_path, STUDY.replace("base: press.yaml", base), "study.yaml")
+    told = reported("validate", ["study.yaml"], capfd)
+    assert "base: is missing" in told and "project" not in told

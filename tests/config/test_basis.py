@@ -65,6 +65,9 @@ def test_assumed_is_the_weakest_of_all() -> None:
 
 
 WRONG = [
+    ("{value: , basis: assumed}", "b.force: is a block without a value"),
+    ("{value: 1 kN, basis: }", "b.force.basis: is empty; allowed: assumed"),
+    ("{value: 1 kN, basis: ~}", "b.force.basis: is empty; allowed: assumed"),
     ("{value: 2 kN, basis: guessed}", "6:48: mechanisms.b.force.basis: is “guessed”; allowed: assumed, given, catalogue,"),
     ("{value: 2 kN, basis: asumed}", "is “asumed” (did you mean 'assumed'?)"),
     ("{value: 2 kN, base: assumed}", "mechanisms.b.force.base: is an unknown key"),

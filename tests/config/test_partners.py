@@ -14,6 +14,9 @@ from diecut_report.config.references import texts
 from diecut_report.contract.mechanism import Partner
 from diecut_report.pipeline import calc
 from diecut_report.plugins.press_consistency import MECHANISM
+from diecut_report.results.document import document
+from diecut_report.results.press_run import compute
+from diecut_report.study.definition.base_inputs import find_input, with_values
 from tests.configs import DISCOVERY, HEAD, loaded, problems, saved
 from tests.processes import Example
 
@@ -57,11 +60,37 @@ def test_a_single_mechanism_contradicts_no_other(tmp_path: Path, text: str) -> N
 
 
 def test_a_block_of_the_kind_takes_the_place_of_the_one_that_runs_by_itself(tmp_path: Path) -> None:
-    text = HEAD + "  whole: {kind: press_consistency, cylinder_mass: 90 kg, sheet_gap: 20 mm}\n" + DRIVE + CLUTCH
+    text = HEAD + "  whole: {kind: press_consistency, sheet_gap: 20 mm}\n" + DRIVE + CLUTCH
     assert "press_consistency" not in loaded(tmp_path, text).instances
     taken = references(tmp_path, text, "whole")
-    assert taken["cylinder_mass"] == "90 kg", "what is given is not taken"
+    assert taken["sheet_gap"] == "20 mm", "what no other has is given"
     assert taken["stroke"] == "${drive.stroke}"
+
+
+@pytest.mark.parametrize("typed", ["90 kg", "{value: 90 kg, basis: measured}", "'${drive.cylinder_mass} + 1 kg'", "1"])
+def test_what_is_compared_with_the_others_is_not_typed_beside_them(tmp_path: Path, typed: str) -> None:
+    text = HEAD + f"  whole: {{kind: press_consistency, cylinder_mass: {typed}}}\n" + DRIVE + CLUTCH
+    (found,) = problems(tmp_path, text)
+    assert "mechanisms.whole.cylinder_mass" in found and "is typed here, but ${drive.cylinder_mass} has it" in found
+    own = text.replace(f": {typed}}}", ": '${drive.cylinder_mass}'}")
+    assert references(tmp_path, own, "whole")["cylinder_mass"] == "${drive.cylinder_mass}"
+
+
+@pytest.mark.parametrize("key", ["cylinder_mass", "stroke"])
+def test_a_study_does_not_vary_what_is_compared_with_the_others(tmp_path: Path, key: str) -> None:
+    config = loaded(tmp_path, HEAD + DRIVE + CLUTCH)
+    asked = find_input(config, f"mechanisms.press_consistency.{key}")
+    found = [str(each) for each in with_values(config, {asked: 1.0})[1]]
+    assert any(f"is typed here, but ${{drive.{key}}} has it" in each for each in found), found
+
+
+def test_the_resolved_configuration_leaves_out_what_is_taken_again(tmp_path: Path) -> None:
+    text = HEAD + DRIVE + CLUTCH
+    made = document(compute(loaded(tmp_path, text), lambda _: None))
+    again = document(compute(loaded(tmp_path, json.dumps(made["config"]["resolved"])), lambda _: None))
+    name = "press_consistency"
+    assert made["config"]["resolved"]["mechanisms"][name].keys().isdisjoint({"cylinder_mass", "drive", "stroke"})
+    assert again["mechanisms"][name]["checks"] == made["mechanisms"][name]["checks"]
 
 
 def test_of_several_partners_none_is_taken_unless_it_is_named(tmp_path: Path) -> None:

@@ -445,3 +445,16 @@ def test_an_empty_file_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "press.yaml"
     path.touch()
     assert refused_file(path).message == "The file is empty. Write a YAML document."
+
+
+@pytest.mark.parametrize(
+    ("text", "told"),
+    [
+        ("[9,5 mm, 10 mm]", ["9,5 mm"]), ("[9,5 mm]", ["9,5 mm"]), ("[1,5, 2,5]", ["1,5", "2,5"]), ("[1 mm, -2,5 mm]", ["-2,5 mm"]),
+        ("[1,2,3]", []), ("[1, 2, 3]", []), ("[1 mm,2 mm]", []), ("[1 kN, 2, 3000 N]", []), ("[0.5,1 mm, 2 mm]", []), ("['1',2 mm, 3]", []),
+    ],
+)  # fmt: skip
+def test_a_decimal_comma_in_a_list_is_no_end_of_a_value(text: str, told: list[str]) -> None:
+    found = yaml_tree.read_text(f"a: {text}", "press.yaml").problems
+    assert [each.message.split(" is read as two values")[0] for each in found] == told
+    assert all(each.line == 1 and each.column is not None and each.path.startswith("a.") for each in found)

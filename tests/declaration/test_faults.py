@@ -69,6 +69,11 @@ class Arm(Inputs):
 
 
 @formula
+def turned_round(force: Any, arm: Any) -> Any:
+    return arm * force
+
+
+@formula
 def product(force: Any, arm: Any) -> Any:
     return force * arm
 
@@ -76,6 +81,11 @@ def product(force: Any, arm: Any) -> Any:
 @formula
 def same(value: Any) -> Any:
     return value
+
+
+@formula
+def turned(force: Any, arm: Any) -> Any:
+    return 1 * arm * (force + 0)
 
 
 @formula
@@ -178,9 +188,17 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         made(value("other", "Q"), checks=(check(limit="other"),)),
         "compares moment with other, which is the same expression: it can never fail",
     ),
+    "a check of one product, written the other way round": (
+        made(value("other", "Q", formula=turned_round), checks=(check(limit="other"),)),
+        "compares moment with other, which is the same expression: it can never fail",
+    ),
     "a check of a quantity with its copy": (
         made(value("copy", "Q", formula=bind(same, value="moment")), checks=(check(demand="copy", limit="moment"),)),
         "compares copy with moment, which is the same expression: it can never fail",
+    ),
+    "a check of one formula written another way": (
+        made(value("other", "Q", formula=turned), checks=(check(limit="other"),)),
+        "compares moment with other, which is the same expression: it can never fail",
     ),
     "a check of a constant with a constant": (
         made(value("fixed", "Q", formula=bind(same, value=2.0)), checks=(check(demand="fixed"),)),

@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.api import POINTS, Annotated, Chapter, Inputs, Mechanism, Phase, Quantity
+from diecut_report.api import POINTS, Annotated, Chapter, Constant, Inputs, Mechanism, Phase, Quantity
 from diecut_report.declaration import faults
 
 
@@ -53,6 +53,19 @@ MISTAKES: dict[str, tuple[Declare, str]] = {
     "a phase that may be absent": (lambda c: c.phase("x", "rest", "X", "angle", union=("guarded",)), "without guard; give both the same needs"),
     "an optional place": (lambda c: c.phase("x", "rest", "X", "angle", (0, "guard")), "guard, which nothing gives without guard"),
     "a phase twice": (lambda c: c.phase("cutting", "working", "X", "angle", (0, "ends")), "has the id of another step"),
+    "a bare end": (lambda c: c.phase("x", "rest", "X", "angle", ("begins", 240)), "goes to 240, a number without a unit"),
+    "a bare end in SI": (lambda c: c.phase("x", "rest", "X", "angle", (2.5, "ends")), "goes to 2.5, a number without a unit"),
+    "a bare period of a phase": (
+        lambda c: c.phase("x", "rest", "X", "angle", (0, "ends"), period=360),  # type: ignore[arg-type]
+        "has period=360; name the input or the step that gives it, by its id",
+    ),
+    "a period in degrees": (lambda c: c.abscissa("turn", "ψ", "deg", "Turn", 360), "has the period 360, a number of radians that is not a part of"),
+    "a bare period": (lambda c: c.abscissa("way", "x", "mm", "Way", 400), "has the period 400, a number without a unit; name the input"),
+    "a bare place of print": (
+        lambda c: c.abscissa("turn", "ψ", "deg", "Turn", 2 * np.pi, shown_at=120),  # type: ignore[arg-type]
+        "has shown_at=120",
+    ),
+    "a bare length of pieces": (lambda c: c.breakpoints("b", "angle", every=30), "has every=30"),  # type: ignore[arg-type]
     "a speed in mm": (lambda c: c.abscissa("turn", "ψ", "deg", "Turn", 2 * np.pi, speed="blade"), "a speed in deg/s is needed"),
 }  # fmt: skip
 
@@ -63,6 +76,15 @@ def test_a_mistake_is_told(what: str) -> None:
     found = told(declare)
     assert any(words in text for text in found), found
     assert all("test_phases.py" in text for text in found)
+
+
+@pytest.mark.parametrize("turns", [2, 1, 0.5, 1 / 3, 1 / 7 * 7, 4])
+def test_parts_of_a_turn_are_periods(turns: float) -> None:
+    assert told(lambda c: c.abscissa("turn", "ψ", "deg", "Turn", turns * np.pi)) == []
+
+
+def test_a_constant_with_its_unit_is_a_period() -> None:
+    assert told(lambda c: c.abscissa("way", "x", "mm", "Way", Constant(0.4, "l", "m"))) == []
 
 
 def test_a_phase_is_a_step_with_a_name_of_its_own() -> None:

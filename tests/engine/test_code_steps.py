@@ -11,6 +11,7 @@ from diecut_report.api import (
     Annotated,
     Chapter,
     Check,
+    Constant,
     Extremes,
     Inputs,
     Mechanism,
@@ -55,7 +56,7 @@ class Bar:
 
 chapter = Chapter("Bar")
 chapter.prepared("bar", Bar, ("force", "jump"), for_many=True)
-chapter.abscissa("x", "x", "m", "Place", 10.0)
+chapter.abscissa("x", "x", "m", "Place", Constant(10.0, "l", "m"))
 chapter.computed_curve(
     "along",
     "F(x)",

@@ -33,19 +33,35 @@ def calculated(number: Any = 1.0, clash: Any = None, machines: int = 1) -> Calcu
     return calculate(mechanism, {"width": width, "pegs": True, "pegs.place": (0.1, 0.2, 0.3)}, machines)
 
 
-@pytest.mark.parametrize("number", [2, 2.0, [2], [[2.0]], np.float64(2), np.array([[Fraction(2)]], dtype=object), True])
+@pytest.mark.parametrize("number", [2, 2.0, [2], [[2.0]], np.float64(2), np.array([[Fraction(2)]], dtype=object)])
 def test_numbers_of_any_kind_are_numbers(number: Any) -> None:
-    assert calculated(number)["found"] == np.array([[float(number is not True) + 1]])
+    assert calculated(number)["found"] == 2
 
 
 @pytest.mark.parametrize(
     ("number", "words"),
     [(None, "gives None"), ("long", "gives 'long'"), (np.zeros(3), r"gives an array of shape \(3,\)"), ([[1], [2, 3]], r"gives \[\[1\]"),
-     (2j, "gives 2j"), ({"a": 1}, "gives {'a': 1}"), (np.array([[None]]), "gives array"), ([], r"gives an array of shape \(0,\)")],
+     (2j, "gives 2j"), ({"a": 1}, "gives {'a': 1}"), (np.array([[None]]), "gives array"), ([], r"gives an array of shape \(0,\)"),
+     (True, "gives True; it must return a number in SI of mm"), (np.float32(2), r"gives (np\.float32\(2.0\)|2.0); it must"),
+     (np.ma.masked_greater([[2.0]], 1), "gives masked_array")],
 )  # fmt: skip
 def test_what_is_no_number_is_told(number: Any, words: str) -> None:
     with pytest.raises(Misdeclared, match=rf"test_plain_code\.py:\d+: step found: its function <lambda> {words}.*"):
         calculated(number)
+
+
+def test_what_plain_code_is_given_cannot_be_changed_by_it() -> None:
+    """The step after it takes the same number: a change in place was a wrong result in silence."""
+
+    def doubled(width: Any) -> Any:
+        width *= 2
+        return width
+
+    chapter = Chapter("Row")
+    chapter.computed("found", "f", "mm", "Found", doubled, takes=("width",), method="plain code")
+    mechanism = Mechanism(kind="row", version="1", title="Row", summary="Row.", inputs=Row, chapters=(chapter,))
+    with pytest.raises(ValueError, match="read-only"):
+        calculate(mechanism, {"width": 0.5, "pegs": True, "pegs.place": (0.1,)})
 
 
 def test_several_machines_have_a_number_each() -> None:

@@ -145,6 +145,26 @@ OF_RESULTS = (
 )  # fmt: skip
 
 
+def without_changes(data: Data) -> None:
+    del data["changes"], data["former"]
+
+
+def in_another_file(data: Data) -> None:
+    without_changes(data)
+    data["config"]["file"] = "other.yaml"
+
+
+OF_OPTIONS = (
+    Forgery("its language (`--language`)", _set("project/language", "en"), "✓ options        made with --language en "),
+    Forgery("how much it shows (`--detail`)", _set("report/detail", "brief"), "✓ options        made with --detail brief "),
+    Forgery("which mechanisms alone it shows (`--only`)", _added("report", "only", ["knife"]), "✓ options        made with --only knife "),
+    Forgery("that it shows the changes since a former revision (`--previous`)", without_changes, "✓ options        none: "),
+    Forgery("the name of the configuration's file, not what stands in it", in_another_file, "✓ configuration  other.yaml, SHA-256 "),
+    Forgery("the version of a library that it names", _set("program/libraries/NumPy", "9.9"), "the same; NumPy 9.9 then, "),
+)  # fmt: skip
+"""What may be chosen for a report beside its configuration: another choice is told, and is no fault."""
+
+
 # --- pages that show something else than the results which they carry ---------------------------------------------------
 
 
@@ -320,6 +340,8 @@ def table() -> str:
     """Return the list for docs/trust.md."""
     groups = (
         ("the results in a report of any form, its pages made again of them by this program", [(f.way, f.line) for f in OF_RESULTS]),
+        ("what is chosen beside the configuration, its pages made again by this program; reported, and no fault",
+         [(f.way, _told(f.line)) for f in OF_OPTIONS]),
         ("an HTML page", [(f.way, f.line) for f in OF_PAGE]),
         ("a PDF", [(f.way, f.line) for f in OF_PDF]),
         ("a signed PDF", list(OF_SIGNED)),
@@ -330,9 +352,13 @@ def table() -> str:
     return "\n".join([*lines, "", END])
 
 
+def _told(line: str) -> str:
+    return line[: line.index("  ")] if line.startswith("✓") else "✓ program"
+
+
 def _shown(line: str) -> str:
     words = {"refused": "refused as no report of this program", "two results": "refused: it carries two results"}
-    return words.get(line, f"`{line}`" if line.startswith("✗") else line)
+    return words.get(line, f"`{line}`" if line.startswith(("✗", "✓")) else line)
 
 
 def page(text: str) -> str:

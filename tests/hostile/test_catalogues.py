@@ -38,6 +38,36 @@ FAULTS = {
     "clock": (head("PO-Revision-Date: 99999-99-99 99:99+9999") + TEXT, "does not match format"),
     "language": (head("Language: ../../x") + TEXT, "expected only letters"),
     "many forms": (plural("0") + b'msgid "a"\nmsgid_plural "b"\nmsgstr[999999999] "c"\n', "more translations than"),
+    "an open translation": (
+        TEXT.replace(b'x"', b"x"),
+        "line 2 is 'msgstr \"x'; write msgid or msgstr, and a text that begins and ends",
+    ),
+    "an open text": (TEXT.replace(b'Force"', b"Force"), "line 1 is 'msgid \"Force'"),
+    "an open end of lines": (TEXT + b'"y\n', "line 3 is '\"y'"),
+    "a quotation mark within": (TEXT.replace(b'"x"', b'"x" y"'), "line 2 is"),
+    "no text": (TEXT + b"\nForce\n", "line 4 is 'Force'"),
+    "a text twice": (
+        TEXT + b'\nmsgid "Force"\nmsgstr "y"\n',
+        "line 4 translates 'Force', as line 1 does; keep one of them",
+    ),
+    "another name": (
+        b'msgid "is {force}"\nmsgstr "x {forse}"\n',
+        "line 1: the translation of 'is {force}' is filled with {forse}, the text itself with {force}; write the same names",
+    ),
+    "a name that is lost": (
+        b'msgid "is {force}"\nmsgstr "x"\n',
+        "is filled with nothing, the text itself with {force}",
+    ),
+    "a name too many": (b'msgid "Force"\nmsgstr "x {y}"\n', "is filled with {y}, the text itself with nothing"),
+    "rounded otherwise": (
+        b'msgid "is {force:up}"\nmsgstr "x {force}"\n',
+        "is filled with {force}, the text itself with {force:up}",
+    ),
+    "a name lost in a form": (
+        plural("n>1", 2)
+        + b'msgid "{n} of {all}"\nmsgid_plural "{n} of {all} all"\nmsgstr[0] "{all}"\nmsgstr[1] "{n} {all}"\n',
+        "is filled with {all}, the text itself with {all}, {n}",
+    ),
     **{
         f"U+{ord(letter):04X}": (
             head("X: y") + f'msgid "Force"\nmsgstr "{letter}"\n'.encode(),
@@ -46,6 +76,24 @@ FAULTS = {
         for letter in "\0\x1b\x85\u2028\u202e\u2066"
     },
 }
+
+
+SOUND = {
+    "each once": TEXT + b'\nmsgid "is {force}"\nmsgstr "{force} x"\n\n#~ msgid "Force"\n#~ msgstr "z"\n',
+    "another context": TEXT + b'\nmsgctxt "c"\nmsgid "Force"\nmsgstr "y"\n',
+    "one without its number": plural("n>1", 2)
+    + b'msgid "one"\nmsgid_plural "{n} all"\nmsgstr[0] "x"\nmsgstr[1] "{n} x"\n',
+    "not translated": b'msgid "is {force}"\nmsgstr ""\n',
+    "guessed": b'#, fuzzy\nmsgid "is {force}"\nmsgstr "x"\n',
+    "several lines": b'msgid ""\n"is {force}"\nmsgstr "x "\n  "{force} \\"y\\" \\\\"\r\n',
+}
+
+
+@pytest.mark.parametrize("name", SOUND)
+def test_what_is_a_catalogue_is_read(name: str, tmp_path: Path) -> None:
+    file = tmp_path / "lever.uk.po"
+    file.write_bytes(SOUND[name])
+    TextCatalogue(file, "uk")
 
 
 @pytest.mark.parametrize("name", FAULTS)

@@ -51,7 +51,7 @@ def test_check_and_calc_are_strict_and_tell_it(tmp_path: Path, home: Path, capfd
     config = home / "examples" / "toggle.yaml"
     assert run(home, "check", str(config), "-o", str(tmp_path), "--format", "html") == 0
     told = capfd.readouterr()
-    assert "pass, formulas with faults" in told.out and SAID in told.err and FAULT in told.err
+    assert "conditional, formulas with faults" in told.out and SAID in told.err and FAULT in told.err
     assert SAID in text(tmp_path / "machines.html").replace("&#39;", "'")
     for command in ("check", "calc"):
         assert run(home, command, str(config)) == 0

@@ -134,6 +134,19 @@ def test_what_an_editor_saves_while_the_page_calculates_is_not_lost(
     assert "84 N/mm**2" in session.file.read_text("utf-8") and "thickness: 0.55 mm" in session.file.read_text("utf-8")
 
 
+def test_a_file_with_several_names_is_written_under_all_of_them(tmp_path: Path) -> None:
+    file, second, link = tmp_path / "knife.yaml", tmp_path / "second.yaml", tmp_path / "page" / "link.yaml"
+    file.write_bytes(KNIFE.read_bytes())
+    second.hardlink_to(file)
+    link.parent.mkdir()
+    link.symlink_to(file)
+    session = LiveSession(link, Discovery([]))
+    session.change({"knife.shear_resistance": "84 N/mm**2"})
+    session.write()
+    assert link.is_symlink() and file.samefile(second) and "84 N/mm**2" in second.read_text("utf-8")
+    assert [each.name for each in link.parent.iterdir()] == ["link.yaml"] and session.edits == {}
+
+
 def test_what_is_typed_as_the_file_has_it_is_no_change(session: LiveSession) -> None:
     session.change({"knife.eccentricity": "22 mm"})
     session.change({"knife.eccentricity": "20 mm"})

@@ -27,7 +27,7 @@ from diecut_report.report.number_format import number
 from diecut_report.report.scope import scope
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
-from tests.configs import DISCOVERY, EXAMPLE, EXAMPLES, LEVER, SMALL, problems, saved
+from tests.configs import DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, SMALL, problems, saved
 from tests.shared import once
 
 Data = dict[str, Any]
@@ -395,3 +395,24 @@ def test_of_a_pair_without_room_beside_each_other_each_has_the_whole_width() -> 
         "A.3": SimpleNamespace(width=200.0),
     }
     assert list(_left_alone([("A.1", "A.2"), ("A.3", "A.4")], drawn)) == ["A.1"]
+
+
+@pytest.mark.parametrize(
+    ("names", "said"),
+    [
+        ("b", "No check fails, but 1 value is assumed."),
+        ("a,b", "No check fails, but 1 value is assumed."),
+        ("c", "All checks pass."),
+    ],
+)
+def test_a_part_rests_on_what_is_assumed_of_mechanisms_that_are_left_out(tmp_path: Path, names: str, said: str) -> None:
+    own = "arm: 100 mm, allowable_moment: 300 N*m"
+    text = HEAD + f"  a: {{kind: lever, force: {{value: 2 kN, basis: assumed}}, {own}}}\n"
+    text += f"  b: {{kind: lever, force: '${{a.force}} * 1', {own}}}\n  c: {{kind: lever, force: 1 kN, {own}}}\n"
+    config = saved(tmp_path, text)
+    assert (
+        main(["report", str(config), "--only", names, "-o", str(tmp_path), "--format", "html", "--plugins", str(GOOD)])
+        == 0
+    )
+    page = (tmp_path / "press.html").read_text("utf-8")
+    assert said in page and ("All checks pass" in page) == (names == "c")

@@ -107,6 +107,9 @@ def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
         counted = {"required_life": None, "cycle_speed": None}
         told = mended(consistency={"single_position": clutch}, gear_key=counted | {"load_direction_factor": factor})
         assert told["consistency.clutch_position"] == told["gear_key.reversing"] == expected
+    for changes, expected in ((1, "not_checked"), ({"value": 1e6, "basis": "measured"}, "pass")):
+        told = mended(gear_key={"required_life": None, "cycle_speed": None, "flank_changes": changes})
+        assert told["gear_key.reversing"] == expected
     told = mended(consistency={"single_position": False})
     assert told["consistency.clutch_position"] == "fail"
 

@@ -84,6 +84,12 @@ def test_no_values_are_the_same_press(press: dr.LoadedPress) -> None:
     assert press.with_values({}) is press
 
 
+@pytest.mark.parametrize("key", [5, None, ("a", "arm")])
+def test_a_key_that_is_no_text_is_told(press: dr.LoadedPress, key: object) -> None:
+    with pytest.raises(dr.UserError):
+        press.with_values({key: 1})  # type: ignore[dict-item]
+
+
 def test_all_that_is_wrong_with_values_is_told_at_once_with_its_places(press: dr.LoadedPress) -> None:
     with pytest.raises(dr.ConfigError) as caught:
         press.with_values({"a.forc": 1, "a.arm": "2 m", "b.teeth": "20 kg", "a.width": [1, 2], "a.moment": 3})

@@ -128,6 +128,17 @@ def test_killed_run_is_continued_without_its_study(tmp_path: Path, finished: Run
     assert len(after) == PARTS and are_complete(out)
 
 
+def test_a_study_that_is_continued_without_its_file_keeps_its_name(tmp_path: Path, finished: Run) -> None:
+    saved(tmp_path, LEVER)
+    study, out = saved(tmp_path, STUDY.replace("64000", "3"), "speeds of the press.yaml"), tmp_path / "out"
+    finished(study, "-o", out)
+    before = json.loads((out / "study.json").read_text())
+    next((out / "variants").iterdir()).unlink()
+    assert finished("--resume", out)[0] == 0
+    again = json.loads((out / "study.json").read_text())
+    assert before["study"] == again["study"] == "speeds of the press.yaml"
+
+
 @pytest.mark.parametrize("whole_group", [True, pytest.param(False, marks=pytest.mark.nightly)])
 def test_interrupted_run_says_how_to_continue_and_is_continued_by_its_own_study_alone(
     tmp_path: Path, whole_group: bool, finished: Run

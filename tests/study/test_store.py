@@ -291,6 +291,15 @@ def test_same_study_is_continued_with_the_parts_of_the_folder(tmp_path: Path) ->
     assert store.description.chunk == 10 and store.done_parts() == set(range(10))
 
 
+def test_a_continued_study_keeps_its_name(tmp_path: Path) -> None:
+    """Its copy in the folder, which a run without the study is continued from, has another one."""
+    named = description()
+    filled(tmp_path / "out", named)
+    copy = replace(named, study=replace(named.study, file="study.yaml"))
+    found = Store.open(tmp_path / "out", copy).description.study
+    assert found == named.study and found.file != "study.yaml"
+
+
 @pytest.mark.parametrize(
     ("changed", "words"),
     [

@@ -23,7 +23,7 @@ def require(calc: Calculation, step: Require) -> None:
 
 def clash(calc: Calculation, step: Clash) -> None:
     """Mark each variant of which a part clashes with another; a single machine is refused."""
-    rows = [calc[name] for name in step.takes]
+    rows = plain_code.taken(calc, step.takes)
     others = plain_code.partners(step, step.function(*rows), np.broadcast_shapes(*(np.shape(row) for row in rows)))
     for variant in np.flatnonzero((others >= 0).any(axis=1)):
         part = int(np.argmax(others[variant] >= 0))

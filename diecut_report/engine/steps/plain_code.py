@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 import reprlib
-from collections.abc import Callable
+from collections.abc import Callable, Iterable
 from numbers import Real
 from typing import Any
 
@@ -18,9 +18,22 @@ from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase, phrase
 
 
+def taken(calc: Calculation, names: Iterable[str]) -> list[Any]:
+    """Return what plain code takes; arrays are handed out to be read, for a change in place would be of the machine itself."""
+    return [_to_read(calc[name]) for name in names]
+
+
+def _to_read(given: Any) -> Any:
+    if not isinstance(given, np.ndarray):
+        return given
+    own = given.view()
+    own.flags.writeable = False
+    return own
+
+
 def part_names(calc: Calculation, step: PartNames) -> None:
     """Name the parts that rows run over."""
-    found = step.function(*(calc[name] for name in step.takes))
+    found = step.function(*taken(calc, step.takes))
     if not found or not all(isinstance(each, str) for each in found):
         raise _told(step, step.function, reprlib.repr(found), phrase("a list of texts"))
     calc.part_names[step.id] = tuple(found)
@@ -50,6 +63,8 @@ def part_curves(calc: Calculation, step: PartCurves) -> None:
 def number(step: Computed, found: Any, count: int) -> Array:
     """Return what a function gives as an array of shape (variants, 1); Misdeclared where it is none."""
     given = _numbers(step, step.function, found, phrase("a number"))
+    if given.dtype == bool and step.unit != "1":
+        raise _told(step, step.function, reprlib.repr(found), Phrase("a number in SI of {unit}", unit=step.unit))
     if given.shape not in ((), (1,), (1, 1), (count, 1)):
         raise _told(
             step,
@@ -115,8 +130,10 @@ def _numbers(step: Step, function: Callable[..., Any], found: Any, wanted: str) 
         given = np.array(None)
     if given.dtype == object and all(isinstance(each, Real) for each in given.flat):
         return given.astype(float)
-    if given.dtype.kind not in "biuf":
+    if given.dtype.kind not in "biuf" or np.ma.is_masked(found):
         raise _told(step, function, reprlib.repr(found), wanted)
+    if given.dtype in (np.float16, np.float32):
+        raise _told(step, function, reprlib.repr(found), phrase("numbers of double precision, float64"))
     return given
 
 

@@ -212,7 +212,8 @@ def _from_curve(calc: Calculation, step: FromCurve) -> None:
 
 
 def _prepared(calc: Calculation, step: Prepared) -> None:
-    known: dict[str, Any] = {n: calc[n] for n in step.holds if n in calc.values or n in calc.inputs}
+    there = [name for name in step.holds if name in calc.values or name in calc.inputs]
+    known: dict[str, Any] = dict(zip(there, plain_code.taken(calc, there), strict=True))
     if step.again:
         known["again"] = Again(calc, calculate, step)
     alone = calc.count == 1 or step.for_many
@@ -222,7 +223,7 @@ def _prepared(calc: Calculation, step: Prepared) -> None:
 def _made_curve(calc: Calculation, step: MadeCurve) -> None:
     if calc.count > 1:
         raise TypeError(f"{step.id} is made for one machine, and was asked for {calc.count}")
-    calc.inputs[step.id] = _called(calc, step, [calc[name] for name in step.takes])
+    calc.inputs[step.id] = _called(calc, step, plain_code.taken(calc, step.takes))
     _from_curve(calc, step)
 
 
@@ -267,7 +268,7 @@ def _curve_period(calc: Calculation, step: CurvePeriod) -> None:
 
 
 def _computed(calc: Calculation, step: Computed) -> None:
-    taken = [calc[name] for name in step.takes]
+    taken = plain_code.taken(calc, step.takes)
     of_each = any(isinstance(each, Machines) for each in taken)
     found = one_by_one.computed(calc, step, taken) if of_each else _called(calc, step, taken)
     if calc.count > 1 and np.shape(found)[:1] != (calc.count,) and any(isinstance(each, np.ndarray) for each in taken):

@@ -9,6 +9,7 @@ import numpy as np
 
 from diecut_report.contract.steps import Crossings, Step
 from diecut_report.engine.calculation import Calculation, Unproven
+from diecut_report.engine.steps.rough_places import sharpest
 from diecut_report.expressions import Array
 from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import unit
@@ -40,7 +41,8 @@ def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> N
                 description=step.description,
                 residual=format(np.max(residual[unproved]), ".1e"),
                 tolerance=format(tolerance, ".0e"),
-            ),
+            )
+            + sharpest(calc, step),
         )
 
 

@@ -7,6 +7,7 @@ from copy import copy
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal, get_args, get_origin
 
+from diecut_report.config import partners
 from diecut_report.config.dependency_order import ordered
 from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config, substituted
@@ -200,7 +201,7 @@ def with_values(base: Config, values: Mapping[Input, Any]) -> tuple[Config, list
     linker = Linker(instances)
     order, loops = ordered(instances, linker.links)
     changed = replace(base, instances=instances, links=linker.links, order=tuple(order))
-    return changed, [*linker.problems, *loops, *_not_together(changed, values)]
+    return changed, [*linker.problems, *loops, *_typed(base, values), *_not_together(changed, values)]
 
 
 def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance | None:
@@ -245,6 +246,15 @@ def _not_together(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem
         for key, pending in known.items():
             _put(data, key, pending)
         yield from validate(instance.model, data, instance.place, list(known))[1]
+
+
+def _typed(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
+    """What is given in place of what a block that compares others takes from them."""
+    for asked in values:
+        instance = base.instances[asked.instance]
+        taken = partners.compared(instance) if instance else {}
+        if instance and (reference := taken.get(str(asked.key[0]))):
+            yield instance.place.problem(asked.key, partners.typed_beside(reference))
 
 
 def _stand_in(instance: Instance, key: KeyPath, target: Target) -> Any:

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import codecs
+import os
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
 from hashlib import sha256
@@ -198,7 +199,7 @@ class _StudyReader:
         if self.given is not None or "base" not in self.data:
             return self.given
         path = self._find(self.data["base"])
-        if not path.exists():
+        if not os.path.exists(path):
             words = Phrase(
                 "there is no file {path}. The base is sought from the study's folder; check its name.", path=path
             )

@@ -62,7 +62,7 @@ def configurations(given: Sequence[Path]) -> FoundFiles:
     """Return the files to calculate: those named, and of folders all configurations; UserError where there are none."""
     made = FoundFiles()
     for path in given:
-        if path.is_dir():
+        if os.path.isdir(path):
             made.look_into(path)
         else:
             made.files.append(path)

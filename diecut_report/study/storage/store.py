@@ -73,7 +73,8 @@ class Store:
         if description is not None:
             state.same_study(directory, before, description)
             now = description
-            before = replace(before, study=now.study, base=now.base, tables=now.tables)  # with their contents
+            study = replace(now.study, file=before.study.file)  # its copy in the folder has another name
+            before = replace(before, study=study, base=now.base, tables=now.tables)  # with their contents
         return cls(directory, before)
 
     @contextmanager

@@ -1,0 +1,103 @@
+"""Plain code that asks the clock, chance, a file or the surroundings gave unlike results for equal inputs, in silence."""
+
+from __future__ import annotations
+
+from pathlib import Path
+
+import pytest
+
+from diecut_report.config.discovery import Discovery
+from diecut_report.errors import PluginError
+
+PLUGIN = """\
+from __future__ import annotations
+
+from datetime import date, datetime
+import os
+import random
+import time
+from pathlib import Path
+from time import perf_counter as ticks
+
+import numpy as np
+
+from diecut_report.api import Annotated, Chapter, Inputs, Mechanism, Quantity
+
+TABLE = Path(__file__).read_text("utf-8")
+{module}
+
+
+class Arm(Inputs):
+    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)] = 10
+
+
+def helper(arm):
+    {helper}
+    return arm
+
+
+def found(arm):
+    {body}
+    return helper(arm)
+
+
+chapter = Chapter("All")
+chapter.computed("reach", "r", "mm", "Reach", found, takes=("arm",), method="a search")
+MECHANISM = Mechanism(kind="asking", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
+"""
+ASKED = {
+    "arm = arm * time.time()": "the clock (time.time)",
+    "arm = arm * ticks()": "the clock (ticks)",
+    "arm = arm * datetime.now().year": "the clock (datetime.now)",
+    "arm = arm * date.today().year": "the clock (date.today)",
+    "import time as clock; arm = arm * clock.monotonic()": "the clock (clock.monotonic)",
+    "from time import time as now; arm = arm * now()": "the clock (now)",
+    "arm = arm * random.random()": "chance (random.random)",
+    "arm = arm * random.Random().random()": "chance (random.Random)",
+    "arm = arm * np.random.rand()": "chance (np.random.rand)",
+    "arm = arm + np.random.default_rng().normal()": "chance (np.random.default_rng)",
+    "arm = arm * float(open('n').read())": "a file (open)",
+    "arm = arm * float(Path('n').read_text())": "a file (Path('n').read_text)",
+    "arm = arm * np.loadtxt('n')": "a file (np.loadtxt)",
+    "arm = arm * len(os.environ)": "what is around the program (os.environ)",
+    "arm = arm * len(os.listdir('.'))": "what is around the program (os.listdir)",
+    "arm = arm * os.getpid()": "what is around the program (os.getpid)",
+    "arm = (lambda: arm * time.time())()": "the clock (time.time)",
+}
+SOUND = (
+    "arm = arm * random.Random(3).random()",
+    "arm = arm + 0 * np.random.default_rng(3).normal()",
+    "time = arm; arm = time.real",
+    "arm = arm * len(os.path.join('a', 'b'))",
+    "arm = arm * len(TABLE)",
+    "arm = arm * date(2026, 1, 1).year",
+)
+
+
+def judged(folder: Path, **code: str) -> list[str]:
+    text = PLUGIN.format(**{"module": "", "helper": "pass", "body": "pass", **code})
+    (folder / "asking.py").write_text(text, "utf-8")
+    try:
+        Discovery([folder]).mechanism("asking")
+    except PluginError as error:
+        return str(error).splitlines()
+    return []
+
+
+@pytest.mark.parametrize("code", ASKED)
+@pytest.mark.parametrize("place", ["body", "helper"])
+def test_what_is_asked_beside_the_inputs_is_told(place: str, code: str, tmp_path: Path) -> None:
+    (line,) = judged(tmp_path, **{place: code})
+    name = {"body": "found", "helper": "helper"}[place]
+    assert f"function {name}: asks {ASKED[code]}, so that equal inputs give unlike results; take it as an input" in line
+    assert "asking.py:2" in line
+
+
+@pytest.mark.parametrize("code", SOUND)
+def test_what_gives_the_same_each_time_passes(code: str, tmp_path: Path) -> None:
+    assert judged(tmp_path, body=code) == []
+
+
+def test_a_clock_that_is_asked_when_the_module_is_loaded_is_told(tmp_path: Path) -> None:
+    (line,) = judged(tmp_path, module="BEGAN = time.time()")
+    assert "asking.py:15: function the module: asks the clock (time.time)" in line

@@ -1,0 +1,100 @@
+"""A curve that jumps or has a pole where no condition tells it is refused with the place; what is only steep, bent or rounded is not."""
+
+from __future__ import annotations
+
+from typing import Annotated, Any
+
+import numpy as np
+import pytest
+
+from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity, as_number
+from diecut_report.engine import Calculation, Unproven, calculate
+from diecut_report.results.curves import curves
+
+
+class Arm(Inputs):
+    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)]
+    place: Annotated[float, Quantity("φ_p", "deg", "Place", gt=0)]
+    n_points: Annotated[int, POINTS] = 36
+
+
+ROUGH: dict[str, tuple[str, Any]] = {
+    "an angle that wraps": ("deg", lambda angle, place: np.arctan2(np.sin(angle - place), -np.cos(angle - place))),
+    "an angle of a tangent": ("deg", lambda angle, place: np.arctan(1 / np.tan(angle - place))),
+    "a simple pole": ("mm", lambda arm, angle, place: arm / as_number(angle - place)),
+    "a pole of one sign": ("mm", lambda arm, angle, place: arm / np.abs(as_number(angle - place))),
+    "a double pole": ("mm", lambda arm, angle, place: arm / np.sin((angle - place) / 2) ** 2),
+    "a tangent": ("mm", lambda arm, angle, place: arm * np.tan((angle - place) / 2 + np.pi / 2)),
+}
+SMOOTH: dict[str, tuple[str, Any]] = {
+    "steep": ("mm", lambda arm, angle, place: arm * np.tanh(1e4 * as_number(angle - place))),
+    "narrow": ("mm", lambda arm, angle, place: arm / (1e-6 + as_number(angle - place) ** 2)),
+    "a corner": ("mm", lambda arm, angle, place: arm * np.abs(as_number(angle - place))),
+    "upright": ("mm", lambda arm, angle, place: arm * np.sqrt(np.abs(as_number(angle - place)))),
+    "rounding": ("mm", lambda arm, angle: (arm * np.sin(angle) + 1000 * arm) - 1000 * arm - arm * np.sin(angle)),
+    "a share of rounding": ("1", lambda arm, angle: (arm + arm * np.cos(angle) ** 2 - 2 * arm + arm * np.sin(angle) ** 2) / arm),
+    "a number": ("mm", lambda arm, angle: arm + 0 * as_number(angle)),
+    "nothing": ("mm", lambda arm, angle: 0 * arm * as_number(angle)),
+}  # fmt: skip
+
+
+def calculated(unit: str, formula: Any, place: float, *, breakpoint: bool = False) -> Calculation:
+    chapter = Chapter("Turn")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    if breakpoint:
+        chapter.breakpoints("there", "angle", "place")
+    chapter.value("rough", "R", unit, "Rough", formula)
+    mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
+    return calculate(mechanism, {"arm": 0.05, "place": place, "n_points": 36})
+
+
+@pytest.mark.parametrize("name", ROUGH)
+@pytest.mark.parametrize("place", [2.0, np.pi, 0.1, 6.2])
+def test_a_rough_place_is_refused_with_its_place(name: str, place: float) -> None:
+    with pytest.raises(Unproven) as caught:
+        curves(calculated(*ROUGH[name], place))
+    told = str(caught.value)
+    assert told.startswith(
+        "Rough (rough, test_rough_places.py:46) jumps or has a pole inside a smooth piece, near φ = "
+    )
+    found = float(told.partition("φ = ")[2].partition("°")[0])
+    assert np.tan(np.radians(found)) == pytest.approx(
+        np.tan(place), abs=0.01
+    )  # half a turn farther on the tangent is the same
+    assert "declare that place among the breakpoints of angle" in told
+
+
+@pytest.mark.parametrize("name", SMOOTH)
+@pytest.mark.parametrize("place", [2.0, np.pi, 0.1, 6.2])
+def test_what_is_whole_passes(name: str, place: float) -> None:
+    curves(calculated(*SMOOTH[name], place))
+
+
+def test_a_pole_of_what_is_not_printed_is_refused_where_its_extreme_is_asked() -> None:
+    chapter = Chapter("Turn")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.value("rough", "R", "mm", "Rough", ROUGH["a pole of one sign"][1], output=False)
+    mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
+    given = {"arm": 0.05, "place": 2.0, "n_points": 36}
+    curves(calculate(mechanism, given))  # it may be masked by what takes it
+    chapter.reduction("most", "R_m", "mm", "Most", "max", of="rough")
+    asked = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
+    with pytest.raises(Unproven, match="pole"):
+        curves(calculate(asked, given))
+
+
+def test_what_is_not_proved_tells_where_the_curve_bends() -> None:
+    chapter = Chapter("Turn")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.value("rough", "R", "mm", "Rough", SMOOTH["a corner"][1])
+    chapter.derivative("slope", "R′", "mm", "Slope", of="rough")
+    mechanism = Mechanism(kind="arm", version="1", title="Arm", summary="", inputs=Arm, chapters=(chapter,))
+    with pytest.raises(
+        Unproven,
+        match=r"Slope: the proof leaves .*; Rough \(rough, .*\) bends most near φ = 114\.6°: if it has a corner",
+    ):
+        calculate(mechanism, {"arm": 0.05, "place": 2.0, "n_points": 36})
+
+
+def test_an_angle_that_wraps_at_a_breakpoint_passes() -> None:
+    curves(calculated(*ROUGH["an angle that wraps"], 2.0, breakpoint=True))
