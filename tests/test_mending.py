@@ -103,7 +103,11 @@ SAID: dict[str, tuple[tuple[str, Callable[[dict[str, Any]], float | str]], ...]]
     "cylinder": (("(105.5 mm)", lambda found: output(found, "cylinder.radius", 1e3)), ("104 kg", lambda found: output(found, "cylinder.mass"))),
     "station": (("24.2 mm", lambda found: output(found, "timing.clearance_least", 1e3)),),
     "carriage": (("24.9 mm", lambda found: output(found, "timing.clearance_least", 1e3)),),
-    "limits": (("makes 6080", lambda found: round(output(found, "consistency.true_rate", 3600), -1)),),
+    "limits": (
+        ("makes 6080", lambda found: round(output(found, "consistency.true_rate", 3600), -1)),
+        ("at 0.40 m/s", lambda found: output(found, "consistency.contact_speed")),
+        ("get 6.9 W", lambda found: output(found, "damper.heat_power")),
+    ),
     "rate": (
         ("takes 986 N·m", lambda found: output(found, "cross.torque_peak")),
         ("(98.6 %", lambda found: utilisation(found, "cross.torque")),
@@ -166,3 +170,17 @@ def test_a_station_without_the_height_of_a_carriage_is_refused(tmp_path: Path) -
     del data["mechanisms"]["timing"]["interlocks"][1]
     with pytest.raises(UserError, match="drive, which has no carriage_clearance to hold the room against"):
         calculated(tmp_path, data)
+
+
+def test_the_dampers_of_the_mended_press_are_judged_by_every_stroke(tmp_path: Path) -> None:
+    """As they stood, 10 mm before the end, they fail by their heat; impacts that nobody counts are told."""
+    data = yaml.safe_load(MENDED.read_text(encoding="utf-8"))
+    damper = data["mechanisms"]["damper"]
+    damper |= {"velocity": "0.6 m/s", "contact_distance": "10 mm"}
+    found = calculated(tmp_path, data)
+    assert output(found, "damper.heat_power") == pytest.approx(14.3, abs=0.05)
+    assert verdicts(found)["fail"] == {"damper.heat_power"}
+    damper["impacts_per_hour"] = {"value": "60 1/h", "basis": "assumed"}
+    assert verdicts(calculated(tmp_path, data))["fail"] == {"consistency.damper_impacts"}
+    damper["contact_distance"] = "0 mm"  # met beyond the stroke alone
+    assert "fail" not in verdicts(calculated(tmp_path, data))

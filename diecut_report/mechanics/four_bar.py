@@ -145,18 +145,15 @@ def crank_angle_return(
     return 2 * np.pi + joint - arccos((1 + joint_distance**2 - coupler_ratio**2) / (2 * joint_distance))
 
 
-# A linkage that just folds flat has sides alike but for rounding, which must not decide that it turns. A ratio of typed lengths errs
-# by 2.5 ε (both lengths by ε as they are typed and converted, their quotient by ε/2), the sums by ε more: 3.5 ε of both sides together,
-# which are alike there. That is 7 ε of one side, with ε = 2.2e-16.
-FOLDED = 1.6e-15
-
-
 @formula
 def is_crank_rocker(frame_ratio: Any, coupler_ratio: Any, rocker_ratio: Any) -> Any:
     """Grashof's condition with the crank as the shortest link: the crank turns fully, the rocker swings."""
+    # A linkage that just folds flat has sides alike but for rounding, which must not decide that it turns. A ratio of typed lengths errs
+    # by 2.5 ε (both lengths by ε as they are typed and converted, their quotient by ε/2), the sums by ε more: 3.5 ε of both sides together,
+    # which are alike there. That is 7 ε of one side, with ε = 2.2e-16.
     longest = np.maximum(frame_ratio, np.maximum(coupler_ratio, rocker_ratio))
     shortest = np.minimum(frame_ratio, np.minimum(coupler_ratio, rocker_ratio))
-    return (shortest > 1) & (1 + 2 * longest < (frame_ratio + coupler_ratio + rocker_ratio) * (1 - FOLDED))
+    return (shortest > 1) & (1 + 2 * longest < (frame_ratio + coupler_ratio + rocker_ratio) * (1 - 1.6e-15))
 
 
 class LinkageMotion(NamedTuple):

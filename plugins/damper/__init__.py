@@ -46,7 +46,7 @@ CHECKS = (
           consequence="the stop shakes the machine; longer dampers or a softer rubber lower it."),
     Check(id="heat_power", check_class="strength", title="Heat of the dampers", demand="heat_power", limit="allowable_heat_power", unit="W",
           demand_label="heat of one end", limit_label="allowed", source="input",
-          consequence="the rubber softens and ages; fewer impacts_per_hour, a rubber that loses less, or more dampers help."),
+          consequence="the rubber softens and ages; dampers that are met later (with a smaller velocity) or a rubber that loses less help."),
     Check(id="driven_force", check_class="strength", title="Force of a damper with the drive",
           demand="driven_peak_force", limit="allowable_force", unit="N",
           demand_label="greatest force", limit_label="allowed", source="input",

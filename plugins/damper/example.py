@@ -19,6 +19,5 @@ EXAMPLE = ExampleBlock(
         "ring_width": "60 mm",
         "pad_height": "60 mm",
         "loss_tangent": 0.15,
-        "impacts_per_hour": "60 1/h",
     },
 )

@@ -58,6 +58,13 @@ CHECKS = (
           presumed=True,
           consequence="the dampers are met faster than calculated; that speed is reached {way_inner} before the inner and "
           "{way_outer} before the outer end: give the damper a velocity of at least {contact_speed:up}, or let it be met later."),
+    Check(id="damper_impacts", check_class="strength", title="Impacts of the dampers", demand="end_impacts", limit="damper_impacts",
+          unit="1/h", tolerance=ROUNDING, demand_label="impacts at one end", limit_label="impacts that the dampers are calculated with",
+          source="kinematics",
+          presumed=True,
+          consequence="dampers that are met before the end of the travel are met in every stroke, and their heat is calculated for fewer: give the "
+          "damper an impacts_per_hour of at least {end_impacts:up}, or leave it out; or set its contact_distance to 0, to be met beyond the "
+          "stroke only."),
     Check(id="conveyor_mass", check_class="strength", title="Mass of the conveyor", demand="chain_mass", limit="conveyor_mass", unit="kg",
           only_with=("chain_mass",), demand_label="mass that the chain accelerates", limit_label="mass that the transport is calculated with",
           source="dynamics",

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_number, bind
+from diecut_report.api import Chapter, as_number, bind, case
 from diecut_report.mechanics.timing import motor_slip
 from diecut_report.mechanics.timing.engagement import inertia_at_crank
 from diecut_report.plugins.press_consistency import clutch, ends, motor, motor_advice, on_main_shaft
@@ -74,6 +74,10 @@ ends_chapter.computed("contact_speed_outer", "v_out", "m/s", "Speed at contact b
                       takes=(*ends.INNER, "contact_distance"), method="nested search", source="kinematics", needs=("contact_distance",))
 ends_chapter.value("contact_speed", "v_k", "m/s", "Greater speed at contact",
                    bind(ends.greater, one="contact_speed_inner", other="contact_speed_outer"), source="kinematics", needs=("contact_distance",))
+ends_chapter.choice("end_impacts", "z_e", "1/h", "Impacts at one end of the travel",
+                    case(lambda: 0, "dampers at the ends themselves are met in no stroke", lambda contact_distance: contact_distance <= 0),
+                    case(lambda crank_speed: as_number(crank_speed) / as_number(2 * np.pi), "dampers before the ends are met in every turn"),
+                    source="kinematics", needs=("contact_distance", "crank_speed"))
 ends_chapter.computed("way_inner", "d_in", "mm", "Way before the inner end at which it has the speed that the dampers are calculated with",
                       function=ends.inner_way, takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics",
                       needs=("damper_velocity",))

@@ -183,7 +183,14 @@ class PressConsistency(Inputs):
         float | None, Quantity("v_d", "m/s", "Speed at contact that the dampers are calculated with", gt=0)
     ] = None
     contact_distance: Annotated[
-        float | None, Quantity("d_c", "mm", "Way before the ends of the travel at which the dampers are met", gt=0)
+        float | None,
+        Quantity(
+            "d_c", "mm", "Way before the ends of the travel at which the dampers are met; 0: only beyond them", ge=0
+        ),
+    ] = None
+    damper_impacts: Annotated[
+        float | None,
+        Quantity("z_d", "1/h", "Impacts at one end of the travel that the dampers are calculated with", gt=0),
     ] = None
 
     flywheel_torque: Annotated[

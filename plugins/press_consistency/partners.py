@@ -28,5 +28,6 @@ PARTNERS = (
         "clutch_inertia": "driven_inertia"}),
     Partner(key="timing", kinds=("cyclogram",), takes={
         "timing_slack": "best_margin", "shaft_torque_mean": "torque_mean", "lines_energy": "kinetic_energy_mean"}),
-    Partner(key="damper", kinds=("damper",), takes={"damper_velocity": "velocity", "contact_distance": "contact_distance"}),
+    Partner(key="damper", kinds=("damper",), takes={
+        "damper_velocity": "velocity", "contact_distance": "contact_distance", "damper_impacts": "impacts_per_hour"}),
 )  # fmt: skip

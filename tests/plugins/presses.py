@@ -30,7 +30,8 @@ TYPED: dict[str, Any] = {
     "wheel_side_inertia": "0.02 kg*m**2", "loaded_output_speed": "50 rpm",
     "travel_radius": "545.7423 mm",
     "clutch_torque": "741.166 N*m", "clutch_load": "20 N*m", "clutch_speed": "49.32 rpm", "clutch_inertia": "16 kg*m**2",
-    "damper_velocity": "0.6 m/s", "contact_distance": "10 mm", "timing_slack": "5 deg", "belt_efficiency": 0.95, "n_points": 72,
+    "damper_velocity": "0.6 m/s", "contact_distance": "10 mm", "damper_impacts": "3000 1/h",
+    "timing_slack": "5 deg", "belt_efficiency": 0.95, "n_points": 72,
 }  # fmt: skip
 
 

@@ -134,6 +134,7 @@ CHANGED = [  # what passes in the whole press, and a change with which it does n
     ("wheel_side", {"wheel_side_inertia": "1 kg*m**2"}, "fail"),
     ("driven_inertia", {"clutch_inertia": "0.8 kg*m**2"}, "fail"),
     ("damper_velocity", {"contact_distance": "100 mm"}, "warn"),
+    ("damper_impacts", {"damper_impacts": "2990 1/h"}, "fail"),
     ("conveyor_mass", {"conveyor_mass": "11 kg"}, "fail"),
     ("conveyor_inertia", {"wheel_inertia": "1.5 kg*m**2"}, "warn"),
     ("motor_thermal", {"motor_rated_torque": "3 N*m"}, "fail"),
@@ -208,6 +209,12 @@ def test_the_speed_at_contact_is_that_at_a_root_of_the_displacement(distance: fl
         speeds.append(abs(at(speed, angle)))
         assert number(found, f"contact_speed_{end}") == pytest.approx(speeds[-1], rel=1e-7)
     assert number(found, "contact_speed") == pytest.approx(max(speeds))
+
+
+def test_dampers_that_stand_at_the_ends_are_met_in_no_stroke() -> None:
+    found = consistency(whole_press(), contact_distance="0 mm", damper_impacts="60 1/h")
+    assert number(found, "contact_speed") == pytest.approx(0, abs=1e-6) and number(found, "end_impacts") == 0
+    assert verdicts(found)["damper_impacts"] == "pass"
 
 
 def test_at_the_ways_that_are_told_the_cylinder_has_the_speed_of_the_dampers() -> None:
