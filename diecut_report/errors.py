@@ -34,7 +34,7 @@ class Problem:
 
     def __str__(self) -> str:
         """The one-line form that editors and terminals can follow: `press.yaml:12:5: path: message`."""
-        file = r"\n".join(self.file.splitlines())  # a name that holds lines stays within this one
+        file = self.file.replace("\n", r"\n")  # a name that holds lines stays within this one
         place = ":".join(str(part) for part in (file, self.line, self.column) if part not in ("", None))
         return "".join(f"{part}: " for part in (place, self.path) if part) + self.message
 

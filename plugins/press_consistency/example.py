@@ -19,7 +19,6 @@ EXAMPLE = ExampleBlock(
         "damper": "<damper>",
         "sheet_gap": "90 mm",
         "register_tolerance": "0.3 mm",
-        "contact_distance": Wired("10 mm", needs=("damper",)),
         "clutch_drives": Wired(["<cylinder_drive>"], needs=("cyclogram", "clutch")),
         "single_position": Wired(True, needs=("clutch",)),
     },

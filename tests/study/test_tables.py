@@ -188,11 +188,11 @@ def test_mixed_and_wrong_units_are_told_with_their_row(cells: str, words: str, t
 def test_what_an_unknown_unit_may_have_meant_is_sought_once(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     sought = list[str]()
 
-    def suggestion(text: str) -> str:
+    def suggestion(text: str, _known: object) -> str:
         sought.append(text)
         return ""
 
-    monkeypatch.setattr("diecut_report.quantities.units._suggestion", suggestion)
+    monkeypatch.setattr("diecut_report.quantities.units.suggestion", suggestion)
     table = read_table(csv_of(tmp_path, "a\n" + "".join(f"{number} furlogns\n" for number in range(300))))
     told = faults(lambda: table.column("a").si("mm"))
     assert "295 more cells of this column are wrong" in told[-1] and len(sought) == 1
