@@ -47,7 +47,8 @@ def test_a_press_with_pins_of_five_millimetres_fails_for_its_pins(thin: dict[str
         for name, data in thin["mechanisms"].items()
         if data["kind"] in ("shaft", "gear_pair", "parallel_key")
     }
-    assert {name for name, status in elements.items() if status == "fail"} == set(PINS)
+    faults = {name for name, status in elements.items() if status == "fail"}
+    assert faults == {*PINS, "crank_key"}  # the published press's own key fails by its reversals
     assert all(set(failed(thin, name)) == {"fatigue", "yield"} for name in PINS)
     assert thin["status"] == "fail"
 
