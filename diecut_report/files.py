@@ -13,6 +13,7 @@ import os
 import re
 import shutil
 import stat
+import sys
 import tempfile
 from collections.abc import Iterator, Mapping
 from contextlib import ExitStack, contextmanager, suppress
@@ -149,7 +150,8 @@ def _write_over(place: Path, content: bytes) -> None:
     with place.open("r+b") as file:
         before = os.fstat(file.fileno()).st_size
         try:
-            os.posix_fallocate(file.fileno(), 0, max(len(content), 1))
+            if sys.platform == "linux":  # elsewhere there is no such call
+                os.posix_fallocate(file.fileno(), 0, max(len(content), 1))
         except OSError:
             file.truncate(before)
             raise
@@ -169,6 +171,8 @@ def _give(file: Path, user: int, group: int) -> None:
 
 def _give_attributes(file: Path, place: Path) -> None:
     """Give a file the access list and the user's attributes of the one in whose place it comes, and none that the folder has given it."""
+    if sys.platform != "linux":  # elsewhere Python does not know them
+        return
     kept, given = _attributes(place), _attributes(file)
     for name in given.keys() - kept.keys():
         os.removexattr(file, name)

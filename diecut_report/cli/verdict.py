@@ -28,7 +28,6 @@ WORDS = {
     "skipped": phrase("skipped"),
     "not_checked": phrase("not checked"),
     "bad": phrase("bad file"),
-    "conditional": phrase("conditional"),
 }
 
 
