@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import formula
+from diecut_report.api import as_number, formula
 
 
 @formula
@@ -17,3 +17,15 @@ def inertia(energy: Any, speed_fluctuation: Any, speed: Any) -> Any:
 def inertia_before(own: Any, behind: Any, ratio: Any, efficiency: Any) -> Any:
     """Inertia that a shaft feels: its own, and what turns slower behind a ratio, with the losses between."""
     return own + behind / (ratio**2 * efficiency)
+
+
+@formula
+def run_up_time(run_up_inertia: Any, shaft_1_speed: Any, accelerating_torque: Any) -> Any:
+    """Time in which a torque brings an inertia to its speed."""
+    return run_up_inertia * as_number(shaft_1_speed) / accelerating_torque
+
+
+@formula
+def runs_up(accelerating_torque: Any, run_up_inertia: Any) -> Any:
+    """Whether there is an inertia, and a torque that accelerates it."""
+    return (accelerating_torque > 0) & (run_up_inertia > 0)

@@ -120,11 +120,13 @@ class DriveTrain(Inputs):
         float,
         Quantity("k_l", "1", "Share of the mean torque that loads the motor while it runs up (0: disengaged)", ge=0),
     ] = 1.0
-    motor_inertia: Annotated[float, Quantity("J_m", "kg*m**2", "Inertia of the motor's rotor and pulley", ge=0)] = 0
+    motor_inertia: Annotated[
+        float | None, Quantity("J_m", "kg*m**2", "Inertia of the motor's rotor and pulley", ge=0)
+    ] = None
     load_inertia: Annotated[
-        float,
+        float | None,
         Quantity("J_l", "kg*m**2", "Inertia that runs up with the output shaft, referred to that shaft", ge=0),
-    ] = 0
+    ] = None
     allowable_run_up_time: Annotated[
         float, Quantity("[t_a]", "s", "Longest run-up that the motor's protection accepts (trip class 10)", gt=0)
     ] = 10

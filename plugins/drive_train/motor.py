@@ -75,20 +75,27 @@ flywheel.words("rim_advice", motor_advice.rim_advice, ("flywheel_rim_speed", "fl
                output=False)
 
 FOR_RUN_UP = ("allowable_run_up_time", "shaft_1_speed", "shaft_1_power", "run_up_torque", "run_up_torque_ratio", "run_up_load",
-              "shaft_1_torque", "run_up_inertia", "load_inertia", "gear_ratio_total", "gears_efficiency", "vbelt_ratio_actual",
+              "shaft_1_torque", "run_up_inertia", "moved_inertia", "gear_ratio_total", "gears_efficiency", "vbelt_ratio_actual",
               "vbelt.efficiency")
 
 run_up = Chapter("Run-up of the motor",
                  text="From rest the motor brings rotor, flywheel and load to their speeds with its mean run-up torque, less what the load takes. "
-                      "Without torque_curve there is no flywheel; the time is then calculated where motor_inertia or load_inertia is above 0.")
+                      "Without torque_curve there is no flywheel. Without motor_inertia or load_inertia the time is that of the rest alone.")
+INERTIAS = {"rotor_inertia": ("motor_inertia", "J_m1", "Inertia of the motor's rotor and pulley"),
+            "moved_inertia": ("load_inertia", "J_l1", "Inertia that runs up with the output shaft")}
+for name, (given, symbol, words) in INERTIAS.items():
+    run_up.value(name, symbol, "kg*m**2", f"{words}: as given", bind(lambda given: given, given=given), source="input", output=False,
+                 needs=(given,))
+    run_up.value(name, symbol, "kg*m**2", f"{words}: left out, since it is not given", lambda: 0, source="this method", output=False,
+                 lacks=(given,))
 run_up.value("flywheel_shaft_inertia", "J_2", "kg*m**2", "Inertia at the flywheel's shaft",
-             bind(inertia.inertia_before, own="flywheel_inertia", behind="load_inertia", ratio="gear_ratio_total",
+             bind(inertia.inertia_before, own="flywheel_inertia", behind="moved_inertia", ratio="gear_ratio_total",
              efficiency="gears_efficiency"), source="energy", output=False, needs=("torque_curve",))
 run_up.value("flywheel_shaft_inertia", "J_2", "kg*m**2", "Inertia at shaft 2, which has no flywheel",
-             lambda load_inertia, gear_ratio_total, gears_efficiency: load_inertia / (gear_ratio_total ** 2 * gears_efficiency), source="energy",
+             lambda moved_inertia, gear_ratio_total, gears_efficiency: moved_inertia / (gear_ratio_total ** 2 * gears_efficiency), source="energy",
              output=False, lacks=("torque_curve",))
 run_up.value("run_up_inertia", "J_1", "kg*m**2", "Inertia at the motor's shaft, belt and gear losses included",
-             bind(inertia.inertia_before, own="motor_inertia", behind="flywheel_shaft_inertia",
+             bind(inertia.inertia_before, own="rotor_inertia", behind="flywheel_shaft_inertia",
              ratio="vbelt_ratio_actual", efficiency="vbelt.efficiency"), source="energy")
 run_up.value("run_up_torque", "M_a", "N*m", "Mean torque of the motor while it runs up",
              lambda run_up_torque_ratio, motor_rated_torque: run_up_torque_ratio * motor_rated_torque, source="this method")
@@ -96,9 +103,14 @@ run_up.value("run_up_load_torque", "M_l", "N*m", "Load at the motor while it run
              lambda run_up_load, shaft_1_torque: run_up_load * shaft_1_torque, source="this method")
 run_up.value("accelerating_torque", "M_acc", "N*m", "Torque left to accelerate",
              lambda run_up_torque, run_up_load_torque: run_up_torque - run_up_load_torque, source="mechanics")
-run_up.value("run_up_time", "t_a", "s", "Run-up time of the motor",
-             lambda run_up_inertia, shaft_1_speed, accelerating_torque: run_up_inertia * as_number(shaft_1_speed) / accelerating_torque,
-             source="mechanics", exists=lambda accelerating_torque, run_up_inertia: (accelerating_torque > 0) & (run_up_inertia > 0))
+run_up.value("run_up_time", "t_a", "s", "Run-up time of the motor", inertia.run_up_time, source="mechanics", exists=inertia.runs_up,
+             needs=("motor_inertia", "load_inertia"))
+for needs, lacks in (((), ("load_inertia",)), (("load_inertia",), ("motor_inertia",))):
+    run_up.value("run_up_time_least", "t_a1", "s", "Run-up time of what is given: with the rest it is longer", inertia.run_up_time,
+                 source="mechanics", exists=inertia.runs_up, needs=needs, lacks=lacks)
+    run_up.value("run_up_time_beyond", "t_a2", "s", "Run-up time of what is given, where that is too long already",
+                 lambda run_up_time_least: run_up_time_least, source="this method", output=False, needs=needs, lacks=lacks,
+                 exists=lambda run_up_time_least, allowable_run_up_time: run_up_time_least > allowable_run_up_time)
 run_up.words("run_up_advice", motor_advice.run_up_advice, (*FOR_RUN_UP, "flywheel_inertia", "speed_fluctuation"), output=False,
              needs=("torque_curve",))
 run_up.words("run_up_advice", motor_advice.run_up_advice, FOR_RUN_UP, output=False, lacks=("torque_curve",))

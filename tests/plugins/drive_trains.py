@@ -22,6 +22,8 @@ EXAMPLE: dict[str, Any] = {
     "torque_mean": "200 N*m",
     "torque_peak": "900 N*m",
     "gears": [{"driver_teeth": 20, "driven_teeth": 100}],
+    "motor_inertia": 0,
+    "load_inertia": 0,
     "vbelt": {"driver_diameter": "125 mm", "center_distance": "600 mm"},
 }
 PAIRS = [

@@ -10,11 +10,24 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
+from diecut_report.engine import calculate
 from diecut_report.expressions import Array
+from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
-from tests.machines import number
-from tests.plugins.drive_trains import RPM, UNEVEN, WORKING, at_flywheel, check, checked, over_a_turn, sine_load, train
+from tests.machines import inputs, number
+from tests.plugins.drive_trains import (
+    EXAMPLE,
+    RPM,
+    UNEVEN,
+    WORKING,
+    at_flywheel,
+    check,
+    checked,
+    over_a_turn,
+    sine_load,
+    train,
+)
 
 
 def test_energy_fluctuation_is_that_of_brute_force() -> None:
@@ -167,6 +180,25 @@ def test_a_run_up_longer_than_the_protection_accepts_fails() -> None:
     time = number(train(**WORKING), "run_up_time")
     for allowed, status in ((time * 1.01, "pass"), (time * 0.99, "fail")):
         assert check(train(**WORKING, allowable_run_up_time=allowed), "run_up_time")["status"] == status
+
+
+@pytest.mark.parametrize("missing", [("motor_inertia",), ("load_inertia",), ("motor_inertia", "load_inertia")])
+def test_inertias_that_nobody_gave_are_no_run_up_that_holds(missing: tuple[str, ...]) -> None:
+    keys = {key: value for key, value in (EXAMPLE | WORKING).items() if key not in missing} | {
+        "allowable_run_up_time": 100
+    }
+    calc = calculate(MECHANISM, inputs(MECHANISM, keys))
+    assert check(calc, "run_up_time")["status"] == "not_checked"
+    assert check(calc, "run_up_time")["missing"] == list(missing)
+    least = number(calc, "run_up_time_least")
+    assert least == pytest.approx(number(train(**WORKING), "run_up_time"))
+    calc = calculate(MECHANISM, inputs(MECHANISM, keys | {"allowable_run_up_time": least / 2}))
+    assert check(calc, "run_up_time")["status"] == "fail"  # what is given is too much already
+
+
+def test_without_a_flywheel_and_inertias_the_run_up_is_not_checked() -> None:
+    keys = {key: value for key, value in EXAMPLE.items() if not key.endswith("inertia")}
+    assert check(calculate(MECHANISM, inputs(MECHANISM, keys)), "run_up_time")["status"] == "not_checked"
 
 
 def test_a_motor_that_does_not_overcome_the_load_never_runs_up() -> None:
