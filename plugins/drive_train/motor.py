@@ -108,9 +108,6 @@ run_up.value("run_up_time", "t_a", "s", "Run-up time of the motor", inertia.run_
 for needs, lacks in (((), ("load_inertia",)), (("load_inertia",), ("motor_inertia",))):
     run_up.value("run_up_time_least", "t_a1", "s", "Run-up time of what is given: with the rest it is longer", inertia.run_up_time,
                  source="mechanics", exists=inertia.runs_up, needs=needs, lacks=lacks)
-    run_up.value("run_up_time_beyond", "t_a2", "s", "Run-up time of what is given, where that is too long already",
-                 lambda run_up_time_least: run_up_time_least, source="this method", output=False, needs=needs, lacks=lacks,
-                 exists=lambda run_up_time_least, allowable_run_up_time: run_up_time_least > allowable_run_up_time)
 run_up.words("run_up_advice", motor_advice.run_up_advice, (*FOR_RUN_UP, "flywheel_inertia", "speed_fluctuation"), output=False,
              needs=("torque_curve",))
 run_up.words("run_up_advice", motor_advice.run_up_advice, FOR_RUN_UP, output=False, lacks=("torque_curve",))

@@ -192,8 +192,6 @@ def test_inertias_that_nobody_gave_are_no_run_up_that_holds(missing: tuple[str, 
     assert check(calc, "run_up_time")["missing"] == list(missing)
     least = number(calc, "run_up_time_least")
     assert least == pytest.approx(number(train(**WORKING), "run_up_time"))
-    calc = calculate(MECHANISM, inputs(MECHANISM, keys | {"allowable_run_up_time": least / 2}))
-    assert check(calc, "run_up_time")["status"] == "fail"  # what is given is too much already
 
 
 def test_without_a_flywheel_and_inertias_the_run_up_is_not_checked() -> None:
