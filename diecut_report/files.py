@@ -109,6 +109,7 @@ def _beside(place: Path, content: bytes, through: bool) -> Iterator[Path]:
             raise IsADirectoryError(errno.EISDIR, phrase("a folder has this name"))
         if not (through and _is_stream(place)):
             temporary = _temporary(place)
+            _make(temporary, place)
             temporary.write_bytes(content)
         yield temporary
     finally:
@@ -189,10 +190,12 @@ def _attributes(file: Path) -> dict[str, bytes]:
 
 
 def _temporary(place: Path) -> Path:
+    return place.with_name(f".{os.urandom(8).hex()}.part")
+
+
+def _make(temporary: Path, place: Path) -> None:
     """Make an empty file beside ``place``; where that is there, it may be one that not everybody reads."""
-    made = place.with_name(f".{os.urandom(8).hex()}.part")
-    made.touch(0o600 if place.exists() else 0o666, exist_ok=False)
-    return made
+    temporary.touch(0o600 if place.exists() else 0o666, exist_ok=False)
 
 
 @contextmanager
@@ -245,7 +248,8 @@ def replaced(path: Path, *, instead_of: str | None = None) -> Iterator[Path]:
     """
     with in_words(path, KEPT if instead_of is None else NOTHING):
         temporary = _temporary(path)
-        try:
+        try:  # from before it is there: a Ctrl-C comes at any time
+            _make(temporary, path)
             yield temporary
             _sync(temporary)
             if instead_of is not None:

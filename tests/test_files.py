@@ -128,6 +128,22 @@ def test_a_full_disk_leaves_all_names_of_a_file_as_they_were(tmp_path: Path, mon
     assert other.read_bytes() == b"before" and len(list(tmp_path.iterdir())) == 2
 
 
+def test_an_interrupt_leaves_nothing_half_written(
+    write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    """A Ctrl-C may come as soon as the temporary file is there."""
+    touch = Path.touch
+
+    def interrupted(path: Path, *args: int, **more: bool) -> None:
+        touch(path, *args, **more)
+        raise KeyboardInterrupt
+
+    monkeypatch.setattr(Path, "touch", interrupted)
+    with pytest.raises(KeyboardInterrupt):
+        write(tmp_path / "a", b"new")
+    assert list(tmp_path.iterdir()) == []
+
+
 def test_a_link_is_replaced_and_what_it_points_to_kept(write: Write, tmp_path: Path) -> None:
     path, other = tmp_path / "a", tmp_path / "b"
     other.write_bytes(b"kept")

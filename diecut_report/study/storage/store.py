@@ -83,7 +83,10 @@ class Store:
         with state.held(self._lock, self.directory):
             refuse_special((self.directory / name for name in FOLDERS), OWN_FOLDER, folders=True)
             remove_stale(self.directory)
-            yield
+            try:
+                yield
+            finally:  # a second Ctrl-C may have come while the first was cleaning up
+                remove_stale(self.directory)
 
     def start(self, facts: Mapping[str, Any]) -> None:
         """Begin or continue a run: keep what the study is made of, and note facts of it in study.json."""
