@@ -26,7 +26,7 @@ from pathlib import Path
 import numpy as np
 from calc import COMMANDS, seconds
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution import worker
 from diecut_report.study.execution.study_run import Where, run_study

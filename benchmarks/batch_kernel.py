@@ -22,10 +22,10 @@ from typing import Any
 import numpy as np
 from drive_kernel import Kernel
 
-from diecut_report.engine import calculate
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.results.checks import applies, judged
-from diecut_report.study.execution.process_settings import settle
+from diecut_report.study.execution.pending import settle
 
 VARIANTS = 4096
 ENGINE_CHUNKS, KERNEL_CHUNKS = (512, 1024, 2048), (32, 64, 128, 256, 512)

@@ -26,11 +26,11 @@ from typing import Any
 import numpy as np
 from batch_kernel import variants
 
-from diecut_report.engine import calculate
-from diecut_report.engine.numerics.curve_evaluation import Curves
-from diecut_report.engine.steps.rerun import needed
+from diecut_report.machine.numerics.curves import Curves
+from diecut_report.machine.steps.rows import needed
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
-from diecut_report.study.execution.process_settings import settle
+from diecut_report.study.execution.pending import settle
 
 COUNT, CHUNK, ANGLES = 2048, 512, 720
 POSITIONS = ("rocker_angle", "transmission_angle")

@@ -21,7 +21,9 @@ from typing import NamedTuple
 import pikepdf
 
 FULL = Path(import_module("diecut_report.configs").__path__[0]) / "flat_cylinder_press.yaml"
-EMPTY = "from diecut_report.report.page_engine import HTML; HTML(string='<html lang=en><title>x</title>').write_pdf()"
+EMPTY = (
+    "from diecut_report.report.pages.page_engine import HTML; HTML(string='<html lang=en><title>x</title>').write_pdf()"
+)
 BOTH, MB = "html,pdf", 1024  # kilobytes
 REPORTS = {
     "brief pdf": ("brief", "pdf"), "standard html": ("standard", "html"), "standard pdf": ("standard", "pdf"),

@@ -22,10 +22,10 @@ from pathlib import Path
 
 from diecut_report import pipeline
 from diecut_report.cli.main import COLLECTED
-from diecut_report.config.discovery import Discovery
-from diecut_report.live.page_data import page_data
+from diecut_report.config.plugins import Discovery
+from diecut_report.live.page import page_data
 from diecut_report.live.session import LiveSession
-from diecut_report.study.execution.process_settings import one_thread
+from diecut_report.study.execution.pending import one_thread
 
 CONFIGS = Path(import_module("diecut_report.configs").__path__[0])
 CHANGED = ("press.productivity", "drive.crank_length", "clutch.shoe_friction")

@@ -8,16 +8,13 @@ TYPE_CHECKING = False  # as type checkers know it; importing typing would run a 
 
 if TYPE_CHECKING:
     from diecut_report.errors import ConfigError, PluginError, Problem, UnknownName, Unwritable, UserError
-    from diecut_report.scripting.loaded_press import LoadedPress
-    from diecut_report.scripting.loading import load, load_results, loads
-    from diecut_report.scripting.mechanism_results import MechanismResults
     from diecut_report.scripting.parts import CheckList, CheckResult, CurveResult, FigureResult, PhaseResult
+    from diecut_report.scripting.press import LoadedPress, load, load_results, loads
     from diecut_report.scripting.press_inputs import PressInput
     from diecut_report.scripting.questions import InfluenceTable, MendedPress, Solution
-    from diecut_report.scripting.results import Results
+    from diecut_report.scripting.results import MechanismResults, Results
     from diecut_report.scripting.sweeps import SweepTable
-    from diecut_report.scripting.typed_values import linspace
-    from diecut_report.scripting.values import InputValue, QuantityValue
+    from diecut_report.scripting.values import InputValue, QuantityValue, linspace
 
 __all__ = [
     "CheckList",
@@ -49,16 +46,13 @@ __all__ = [
 ]
 _HOMES = {
     "errors": ("ConfigError", "PluginError", "Problem", "UnknownName", "Unwritable", "UserError"),
-    "scripting.loaded_press": ("LoadedPress",),
-    "scripting.loading": ("load", "load_results", "loads"),
-    "scripting.mechanism_results": ("MechanismResults",),
     "scripting.parts": ("CheckList", "CheckResult", "CurveResult", "FigureResult", "PhaseResult"),
+    "scripting.press": ("LoadedPress", "load", "load_results", "loads"),
     "scripting.press_inputs": ("PressInput",),
     "scripting.questions": ("InfluenceTable", "MendedPress", "Solution"),
-    "scripting.results": ("Results",),
+    "scripting.results": ("MechanismResults", "Results"),
     "scripting.sweeps": ("SweepTable",),
-    "scripting.typed_values": ("linspace",),
-    "scripting.values": ("InputValue", "QuantityValue"),
+    "scripting.values": ("InputValue", "QuantityValue", "linspace"),
 }
 _HOME_OF = {name: home for home, names in _HOMES.items() for name in names}
 

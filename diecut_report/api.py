@@ -2,13 +2,20 @@
 
 from typing import Annotated
 
-from diecut_report.contract.binding import Binding, Bound, ByText, bind
-from diecut_report.contract.chapters import Chapter, Steps
-from diecut_report.contract.charts import chart_panel, fill, level, line, mark, vertical
-from diecut_report.contract.checks import Check
-from diecut_report.contract.code_steps import ComputedCurve, Fact, PartCurves, PartNames, PartTable
-from diecut_report.contract.example import ExampleBlock, ForEach, Wired
-from diecut_report.contract.figures import (
+from diecut_report.formulas.formula import Formula, formula
+from diecut_report.formulas.tree import GRAVITY, Constant, arccos, as_angle, as_number
+from diecut_report.mechanism.chapters import Chapter, Steps, prefixed
+from diecut_report.mechanism.checks import Check, Refusal
+from diecut_report.mechanism.curve_inputs import (
+    CurveInput,
+    FromTable,
+    GivenMechanism,
+    GivenPhase,
+    InOtherUnit,
+    MechanismInput,
+    PhaseInput,
+)
+from diecut_report.mechanism.figures import (
     BarGroup,
     Bars,
     Chart,
@@ -22,41 +29,59 @@ from diecut_report.contract.figures import (
     Series,
     Shape,
     Span,
+    Spectrum,
+    SpectrumLine,
     View,
     arc,
     arrow,
     box,
+    chart_panel,
     circle,
     dimension,
+    fill,
     label,
+    level,
+    line,
+    mark,
     point,
     polyline,
     radius_dimension,
     region,
     rigid,
+    vertical,
 )
-from diecut_report.contract.from_tables import FromTable
-from diecut_report.contract.inputs import (
-    POINTS,
-    Block,
-    CurveInput,
-    FromPress,
-    InOtherUnit,
-    Inputs,
-    OneOf,
-    Quantity,
-    Text,
+from diecut_report.mechanism.inputs import POINTS, Block, Extremes, Inputs, Quantity, Varying
+from diecut_report.mechanism.mechanism import (
+    CONTRACT,
+    Comparison,
+    CurveTable,
+    Erratum,
+    ExampleBlock,
+    ForEach,
+    Mechanism,
+    Partner,
+    Profile,
+    Source,
+    Wired,
 )
-from diecut_report.contract.listings import Cell, ListedColumn
-from diecut_report.contract.mechanism import Comparison, CurveTable, Erratum, Mechanism, Partner, Profile, Source
-from diecut_report.contract.options import case
-from diecut_report.contract.part_steps import Interpolated, Lookup, Neighbour, Part, Pick, Running, Total
-from diecut_report.contract.phase_inputs import GivenMechanism, GivenPhase, MechanismInput, PhaseInput
-from diecut_report.contract.placeholders import Curve
-from diecut_report.contract.refusal import Refusal
-from diecut_report.contract.sections import prefixed
-from diecut_report.contract.spectra import Spectrum, SpectrumLine
-from diecut_report.contract.steps import (
+from diecut_report.mechanism.names import Binding, Bound, ByText, Curve, FromPress, OneOf, Text, bind
+from diecut_report.mechanism.part_steps import (
+    Cell,
+    ComputedCurve,
+    Fact,
+    Interpolated,
+    ListedColumn,
+    Lookup,
+    Neighbour,
+    Part,
+    PartCurves,
+    PartNames,
+    PartTable,
+    Pick,
+    Running,
+    Total,
+)
+from diecut_report.mechanism.steps import (
     Abscissa,
     Accumulated,
     Breakpoints,
@@ -77,24 +102,13 @@ from diecut_report.contract.steps import (
     Step,
     Value,
     Words,
+    case,
 )
-from diecut_report.contract.varying import Extremes, Varying
-from diecut_report.contract.version import CONTRACT
-from diecut_report.expressions import GRAVITY, Constant, Formula, arccos, as_angle, as_number, formula
-from diecut_report.languages.phrases import Phrase, joined, named, phrase
-from diecut_report.languages.tokens import worded
 from diecut_report.quantities.formatting import below, outward, si, told
-from diecut_report.standards import (
-    StandardFault,
-    StandardSeries,
-    StandardTable,
-    own_series,
-    own_table,
-    standard_series,
-    standard_series_by,
-    standard_table,
-    table_beside,
-)
+from diecut_report.standards import standard_series, standard_series_by, standard_table
+from diecut_report.standards.files import table_beside
+from diecut_report.standards.tables import StandardFault, StandardSeries, StandardTable, own_series, own_table
+from diecut_report.text.phrases import Phrase, joined, named, phrase, worded
 
 __all__ = [
     "CONTRACT",

@@ -1,4 +1,4 @@
-"""Every error that a user can see."""
+"""The errors that a user sees: problems with file, line, column and key path; and how much a configuration may hold."""
 
 from __future__ import annotations
 
@@ -6,7 +6,10 @@ import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from diecut_report.languages.phrases import Phrase, joined
+from diecut_report.text.phrases import Phrase, joined
+
+# Every error that a user can see.
+
 
 TOLD = 20  # problems of a file that are told, so that the message itself stays short
 
@@ -101,3 +104,15 @@ def nearest(given: str, known: Iterable[str]) -> str:
 def closest(given: str, known: Iterable[str]) -> str:
     """Return the known name that is nearest to what was typed, or nothing where none is near."""
     return next(iter(difflib.get_close_matches(given[:100], list(known), n=1, cutoff=0.6)), "")
+
+
+# How much a config may hold: more than a press has, and little enough for time and memory. docs/limits.md tells them.
+
+
+MAX_TEXT = 500  # characters of a text
+MAX_QUANTITY = 200  # characters of a number with its unit
+MAX_PARTS = 200  # blocks in a list: revisions, gears, pulleys
+MAX_CURVE_VALUES = 10_000  # numbers in a list that gives a curve
+MAX_MECHANISMS = 200  # of a config
+MAX_PRINTED_MECHANISMS = 60  # of a config whose report is a PDF
+MAX_COMPARISONS = 12  # of a config

@@ -8,7 +8,7 @@ import warnings
 from collections.abc import Mapping
 from xml.parsers import expat
 
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase, phrase
 
 MOST = 300_000  # bytes of a picture
 MOST_PIXELS = 4_000_000

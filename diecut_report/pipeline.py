@@ -8,20 +8,19 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 from diecut_report.config.catalogues import catalogues_for, lacking
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, examined, in_order, load_config
 from diecut_report.config.own_tables import Find
-from diecut_report.config.yaml_tree import Tree
-from diecut_report.errors import PluginError, Problem, UserError, nearest
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.limits import MAX_PRINTED_MECHANISMS
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import Tree
+from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, nearest
 from diecut_report.results.changes import compare_with
-from diecut_report.results.doubtful_plugins import doubtful
+from diecut_report.results.conclusion import doubtful
 from diecut_report.results.results_file import encoded, results_text
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
+from diecut_report.text.phrases import Phrase, phrase
 
 if TYPE_CHECKING:
-    from diecut_report.report.house_style import HouseStyle
+    from diecut_report.report.pages.firm_templates import HouseStyle
     from diecut_report.results.press_run import Run
 
 FORMATS = ("html", "pdf", "docx", "xlsx", "json")
@@ -88,7 +87,7 @@ def validate(config: Source, discovery: Discovery, judge: Judge | None = None) -
     """Return the plugins that are broken; UserError with all that is wrong, also with machines that cannot exist, or that ``judge`` tells."""
     made, problems = examined(config, discovery)
     problems += judge(made) if judge and not problems and not made.broken else []
-    from diecut_report.results.feasible import impossible  # with the engine
+    from diecut_report.results.press_run import impossible  # with the engine
 
     more, broken = impossible(made, problems)
     if problems or more:
@@ -246,7 +245,8 @@ def rendered(
     contents = {"json": encoded(results_text(results))} if "json" in formats else {}
     if set(DRAWN) & set(formats):
         tell(phrase("drawing the report"))
-        from diecut_report.report import Rendering, template_limits
+        from diecut_report.report.pages import firm_templates as template_limits
+        from diecut_report.report.rendering import Rendering
 
         rendering = Rendering(results, catalogues, house)
         with template_limits.bounded(house):

@@ -11,7 +11,7 @@ from collections.abc import Iterator
 from contextlib import contextmanager
 from types import FrameType
 
-from diecut_report.languages.phrases import Phrase
+from diecut_report.text.phrases import Phrase
 
 PATIENCE = 120.0  # seconds that a mechanism may be loaded, or calculated and printed
 AGAIN = 1.0  # seconds after which a plugin that holds the interruption back is interrupted again

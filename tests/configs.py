@@ -5,8 +5,8 @@ from __future__ import annotations
 from pathlib import Path
 
 from diecut_report import configs
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, load_config
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 
 PLUGINS = Path(__file__).parent / "plugins_for_tests"

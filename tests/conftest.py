@@ -18,7 +18,7 @@ from diecut_report.__main__ import THREADS
 os.environ |= dict.fromkeys(THREADS, "1")
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from tests.configs import EXAMPLE, SMALL, saved
 from tests.examples import FEW, MANY
 from tests.processes import Example, in_another_process

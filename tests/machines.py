@@ -4,10 +4,11 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.contract.inputs import flatten
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.unit_variants import in_form
-from diecut_report.engine import Calculation, calculate
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.chapters import in_form
+from diecut_report.mechanism.inputs import flatten
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.plugins.cylinder_drive import MECHANISM as DRIVE
 from diecut_report.plugins.cylinder_sizing import MECHANISM as SIZING
 

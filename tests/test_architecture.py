@@ -24,61 +24,47 @@ FOLDERS = {  # folder of the repository: package or name under which its modules
 
 # A module of diecut_report may import modules of its own line and of the lines above it ("" is the package itself).
 LAYERS = [
-    {"", "errors", "limits", "quantities", "languages", "time_limit"},
-    {"standards"},
-    {"expressions"},
-    {"conditions"},
+    {"", "errors", "text", "quantities", "time_limit"},
+    {"standards", "formulas"},
     {"mechanics"},
-    {"contract"},
-    {"api"},
-    {"files", "given_files", "code_files", "pictures"},
-    {"declaration"},
-    {"formula_checks"},
+    {"mechanism", "api"},
+    {"files", "pictures", "declaration"},
     {"config"},
-    {"engine"},
+    {"machine"},
     {"results"},
     {"report"},
-    {"house_folder"},
-    {"pipeline"},
-    {"exchange"},
-    {"study"},
-    {"testing"},
-    {"design"},
-    {"drafting"},
-    {"scripting"},
-    {"optimisation"},
-    {"live"},
-    {"kit"},
-    {"cli"},
-    {"__main__"},
+    {"pipeline", "exchange", "study", "firm_folder"},
+    {"testing", "design"},
+    {"scripting", "live"},
+    {"cli", "__main__"},
 ]
 REPORT = LAYERS.index({"report"})
 ONLY_IN = {  # library: the modules of the program that may import it
     "PIL": r"diecut_report\.pictures",
-    "babel": r"diecut_report\.languages\.\w+",
+    "babel": r"diecut_report\.text\.\w+",
     "dask": r"(?!)",  # its client is all that is needed
     "distributed": r"diecut_report\.study\.execution\.dask_cluster",
     "duckdb": r"diecut_report\.study\.(analysis|summary)\.\w+",
-    "matplotlib": r"diecut_report\.(report\.figures|study\.summary|optimisation\.charts)(\.\w+)?",
-    "openpyxl": r"diecut_report\.(study\.(tables\.workbooks|storage\.spreadsheets)|report\.office\.workbook)",
-    "docx": r"diecut_report\.report\.office\.word_(file|styles)",
+    "matplotlib": r"diecut_report\.(report\.figures|study\.summary|design\.optimisation\.page)(\.\w+)?",
+    "openpyxl": r"diecut_report\.(study\.tables\.formats|study\.storage\.spreadsheets|report\.office\.workbook)",
+    "docx": r"diecut_report\.report\.office\.word_file",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
-    "threadpoolctl": r"diecut_report\.study\.execution\.process_settings",
-    "pikepdf": r"diecut_report\.exchange\.(pdf_attachments|later_changes)",
-    "pyhanko": r"diecut_report\.exchange\.(signing|signature_status|signatures)",
-    "pyhanko_certvalidator": r"diecut_report\.exchange\.(signing|signature_status|signatures)",
-    "cryptography": r"diecut_report\.exchange\.(signing|signature_status|signatures|signing_keys)",
+    "threadpoolctl": r"diecut_report\.study\.execution\.pending",
+    "pikepdf": r"diecut_report\.exchange\.(carried|later_changes)",
+    "pyhanko": r"diecut_report\.exchange\.(signing|signing_keys|signature_status|signatures)",
+    "pyhanko_certvalidator": r"diecut_report\.exchange\.(signing|signing_keys|signature_status|signatures)",
+    "cryptography": r"diecut_report\.exchange\.(signing|signing_keys|signature_status|signatures)",
     "asn1crypto": r"diecut_report\.exchange\.signing",
-    "starlette": r"diecut_report\.live\.application",
+    "starlette": r"diecut_report\.live\.server",
     "uvicorn": r"diecut_report\.live\.server",
-    "watchfiles": r"diecut_report\.live\.application",
-    "pymoo": r"diecut_report\.optimisation\.(search|progress)",
-    "weasyprint": r"diecut_report\.report\.page_engine",
-    "pydyf": r"diecut_report\.report\.page_engine",
+    "watchfiles": r"diecut_report\.live\.server",
+    "pymoo": r"diecut_report\.design\.optimisation\.(search|result)",
+    "weasyprint": r"diecut_report\.report\.pages\.page_engine",
+    "pydyf": r"diecut_report\.report\.pages\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
-    "jinja2": r"diecut_report\.report\.(html|document|house_style|template_sandbox)",
-    "tinycss2": r"diecut_report\.report\.page_policy",
-    "tinyhtml5": r"diecut_report\.report\.page_policy",
+    "jinja2": r"diecut_report\.report\.(document|pages\.(html|firm_templates))",
+    "tinycss2": r"diecut_report\.report\.pages\.page_policy",
+    "tinyhtml5": r"diecut_report\.report\.pages\.page_policy",
     "scipy.stats": r"diecut_report\.(study|design)\..*",  # slow to import, and needed by studies and tolerances alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state
 }
@@ -161,7 +147,7 @@ def test_imports_make_no_loop() -> None:
 
 
 def test_a_report_is_made_of_results_alone() -> None:
-    allowed = {"report", "results", "languages", "quantities", "errors", "pictures", "time_limit", ""}
+    allowed = {"report", "results", "text", "quantities", "errors", "pictures", "time_limit", ""}
     parts = {(name, [*m.split("."), ""][1]) for name in PROGRAM if layer(name) == REPORT for m in own_imports(name)}
     assert {(name, part) for name, part in parts if part not in allowed} == set()
 

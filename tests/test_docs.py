@@ -8,13 +8,14 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.contract.inputs import flatten
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.unit_variants import in_form
-from diecut_report.engine import CurveHandle
-from diecut_report.engine import calculate as engine_calculate
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.machine.calculation import CurveHandle
+from diecut_report.machine.steps.run import calculate as engine_calculate
+from diecut_report.mechanism.chapters import in_form
+from diecut_report.mechanism.inputs import flatten
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import calculate, check_mechanism, load
+from diecut_report.testing.machines import calculate, load
 from tests.docs.pages import ROOT, PageRun
 from tests.engine.swing import MECHANISM as SWING
 from tests.engine.swings import CLOSED, made, swing

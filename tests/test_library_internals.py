@@ -34,7 +34,7 @@ def test_weasyprint_takes_pictures_from_the_cache_that_it_is_given() -> None:
     page = '<p style="font-size: 12pt"><img src="data:formula,0" alt="formula"></p>'
     weasyprint.HTML(string=page).write_pdf(cache={"data:formula,0": picture})
     assert picture.sizes == [(32, 16)], (  # CSS pixels: two ems and one of 12 pt
-        f"WeasyPrint {weasyprint.__version__} does not draw objects of its image cache any more, by which report/pdf.py gives it "
+        f"WeasyPrint {weasyprint.__version__} does not draw objects of its image cache any more, by which report/pages/pdf.py gives it "
         f"the outlines of formulas (pdf_math.Picture): {ADVICE}."
     )
 
@@ -44,7 +44,7 @@ def test_the_pool_of_processes_has_a_pipe_of_results_that_can_be_closed() -> Non
         queue = getattr(executor, "_result_queue", None)
         assert isinstance(getattr(queue, "_writer", None), Connection), (
             "This Python's ProcessPoolExecutor has no _result_queue._writer any more, which study runs close to end a pool whose process died "
-            f"in the middle of a result (study/execution/process_pool.py): {ADVICE}."
+            f"in the middle of a result (study/execution/pending.py): {ADVICE}."
         )
 
 
@@ -54,6 +54,6 @@ def test_weasyprint_hands_on_where_a_block_is_to_stand_as_waiting_figures_take_i
         "bottom_space", "skip_stack", "containing_block", "page_is_empty", "absolute_boxes", "fixed_boxes", "adjoining_margins",
         "first_letter_style", "first_line_style", "discard", "max_lines",
     ], (
-        f"WeasyPrint {weasyprint.__version__} lays out a block by other arguments, which report/waiting_figures.py names by their order "
+        f"WeasyPrint {weasyprint.__version__} lays out a block by other arguments, which report/pages/frames.py names by their order "
         f"(BlockPlace): figures would no longer wait for the next sheet. {ADVICE}."
     )  # fmt: skip

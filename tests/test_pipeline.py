@@ -13,11 +13,12 @@ from typing import Any
 
 import pytest
 
-from diecut_report import pipeline, report
-from diecut_report.config.discovery import Discovery
+from diecut_report import pipeline
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.report import rendering
+from diecut_report.results.conclusion import governing
 from diecut_report.results.results_file import results_text
-from diecut_report.results.summary import governing
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, saved
 from tests.processes import Example
 
@@ -205,7 +206,7 @@ class Painted:
 def painted(monkeypatch: pytest.MonkeyPatch) -> type[Painted]:
     """The rendering, replaced by one that costs nothing; its methods can be replaced in turn."""
     own = type("Own", (Painted,), {})
-    monkeypatch.setattr(report, "Rendering", own)
+    monkeypatch.setattr(rendering, "Rendering", own)
     return own
 
 
@@ -349,7 +350,7 @@ def test_a_report_tells_of_a_broken_comparison(tmp_path: Path) -> None:
 def test_the_examples_are_calculated_without_slow_imports() -> None:
     """All but the one of tests/cli/test_cli.py, ``test_calc_imports_nothing_that_draws_or_is_slow``."""
     code = (
-        "import sys; from pathlib import Path; from diecut_report import pipeline; from diecut_report.config.discovery import Discovery\n"
+        "import sys; from pathlib import Path; from diecut_report import pipeline; from diecut_report.config.plugins import Discovery\n"
         f"for name in {[str(path) for path in EXAMPLES if path != EXAMPLE]!r}: pipeline.calc(Path(name), Discovery([]), lambda doing: None)\n"
         "print(sorted({'pint', 'matplotlib', 'weasyprint', 'jinja2', 'ezdxf', 'scipy.stats'} & set(sys.modules)))"
     )

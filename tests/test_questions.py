@@ -37,7 +37,9 @@ def folder(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> Path:
     (tmp_path / "configs").mkdir()
     for config in [*EXAMPLES, *STUDIES]:
         (tmp_path / "configs" / config.name).write_bytes(config.read_bytes())
-    monkeypatch.setattr("diecut_report.optimisation.command._files", lambda *_: {})  # the page has a test of its own
+    monkeypatch.setattr(
+        "diecut_report.design.optimisation.command._files", lambda *_: {}
+    )  # the page has a test of its own
     monkeypatch.setattr("diecut_report.live.server.serve", lambda _app, _port, ready: ready(ADDRESS))
     monkeypatch.chdir(tmp_path)
     return tmp_path

@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from tests.configs import EXAMPLES
 from tests.examples import few
 

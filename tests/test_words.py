@@ -9,7 +9,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report import api
-from diecut_report.expressions import Formula
+from diecut_report.formulas.formula import Formula
 from tests.test_architecture import PROGRAM, tree, within
 
 VERBS = {

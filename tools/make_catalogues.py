@@ -8,13 +8,13 @@ from pathlib import Path
 
 from babel.messages.catalog import Catalog
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.code_texts import code_texts, fixed_texts
+from diecut_report.config.plugins import Discovery
+from diecut_report.declaration.code import code_texts, fixed_texts
 from diecut_report.declaration.texts import DeclaredText, texts
-from diecut_report.languages import po_files
-from diecut_report.languages.catalogues import file_beside
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.testing.plugin_words import tables_of
+from diecut_report.text import catalogues as po_files
+from diecut_report.text.catalogues import file_beside
 from tools.program_texts import ProgramText, program_texts
 
 ROOT = Path(__file__).parents[1]

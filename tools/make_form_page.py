@@ -11,7 +11,7 @@ from pathlib import Path
 from typing import Any
 
 from diecut_report import api, testing
-from diecut_report.contract.options import Options, StepCondition
+from diecut_report.mechanism.steps import Options, StepCondition
 from tools.site.api_examples import FOLDER, example_of
 from tools.site.api_groups import GROUPS, TOLD
 from tools.site.markup import code, plain, table

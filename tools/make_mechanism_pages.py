@@ -8,13 +8,15 @@ from typing import NamedTuple, get_args
 
 from pydantic_core import PydanticUndefined
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.contract.checks import Check
-from diecut_report.contract.inputs import Block, CurveInput, Meta, OneOf, Quantity, Text, meta_of, nested
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.spectra import SpectrumLine
-from diecut_report.contract.steps import SILENT, Crossings, Reduction, Step
-from diecut_report.contract.unit_variants import in_all_units
+from diecut_report.config.plugins import Discovery
+from diecut_report.mechanism.chapters import in_all_units
+from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.curve_inputs import CurveInput
+from diecut_report.mechanism.figures import SpectrumLine
+from diecut_report.mechanism.inputs import Block, Meta, Quantity, meta_of, nested
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import OneOf, Text
+from diecut_report.mechanism.steps import SILENT, Crossings, Reduction, Step
 from diecut_report.quantities.units import pretty, unit
 
 PAGES = Path(__file__).parents[1] / "docs" / "mechanisms"

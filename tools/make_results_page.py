@@ -6,8 +6,7 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from diecut_report.results.form.schema import results_schema
-from diecut_report.results.form.version import FORM_VERSION
+from diecut_report.results.form import FORM_VERSION, results_schema
 
 PAGE = Path(__file__).parents[1] / "docs" / "results-file.md"
 ADDED = {  # by the version of the form; a test holds them against its hashes

@@ -6,14 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 
 from diecut_report.quantities.units import pretty
-from diecut_report.standards import (
-    StandardSeries,
-    StandardTable,
-    standard_ids,
-    standard_series,
-    standard_series_by,
-    standard_table,
-)
+from diecut_report.standards import standard_ids, standard_series, standard_series_by, standard_table
+from diecut_report.standards.tables import StandardSeries, StandardTable
 
 PAGE = Path(__file__).parents[1] / "docs" / "standards.md"
 INTRODUCTION = """\

@@ -13,22 +13,23 @@ import click
 from jinja2 import Environment, nodes
 
 from diecut_report.cli.main import program
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.model import Press, Project
-from diecut_report.contract.inputs import fields
+from diecut_report.config.plugins import Discovery
 from diecut_report.declaration.texts import inputs_texts, is_text
-from diecut_report.engine.printing import methods, tables
-from diecut_report.languages.translation import CITATION, EQUATIONS, PAPER
+from diecut_report.machine.printing import items, tables
 from diecut_report.mechanics.motion_laws import LAWS
+from diecut_report.mechanism.inputs import fields
 from diecut_report.quantities.units import _table
-from diecut_report.report.i18n import COUNTED, ENGLISH, one
-from diecut_report.results import document, mechanism, reference_origins, unchecked
-from diecut_report.standards import StandardSeries, standard_ids, standard_series, standard_series_by
+from diecut_report.report.text import COUNTED, ENGLISH, one
+from diecut_report.results import checks, document, mechanism, origins
+from diecut_report.standards import standard_ids, standard_series, standard_series_by
+from diecut_report.standards.tables import StandardSeries
+from diecut_report.text.translation import CITATION, EQUATIONS, PAPER
 
 ROOT = Path(__file__).parents[1]
-CONSTANTS = (*methods.METHODS.values(), methods.EQUAL_TERMS, methods.TO_ROUNDING, "True", "False", *tables.SERIES_WORDS.values(),
+CONSTANTS = (*items.METHODS.values(), items.EQUAL_TERMS, items.TO_ROUNDING, "True", "False", *tables.SERIES_WORDS.values(),
              tables.AS_GIVEN, tables.AMONG, mechanism.IDLE,
-             reference_origins.FOLLOWS, *unchecked.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
+             origins.FOLLOWS, *checks.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
              "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated",
              "Taken at {place}, in the middle of its smooth piece; it is the same in all of it.",
              "There is no {kinds}, or there are several: name one by {key}.")  # fmt: skip

@@ -1,1 +1,1 @@
-"""The command line: commands, exit codes, and all that is printed."""
+"""The command line."""

@@ -2,17 +2,17 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+import json
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import asdict, dataclass, field
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any, TypeVar
 
 import click
 
-from diecut_report.cli import exit_codes
-from diecut_report.cli.formats import formats_of
-from diecut_report.cli.given import DASH, from_standard_input
-from diecut_report.cli.language import asked_language
+from diecut_report.cli import output
+from diecut_report.cli.options import DASH, formats_of, from_standard_input
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -20,27 +20,220 @@ from diecut_report.cli.output import (
     PLUGIN_BROKE,
     HelpfulCommand,
     Line,
+    Progress,
+    asked_language,
     coloured,
     common,
+    emit,
     emit_lines,
     in_line,
     tell,
+    tell_problems,
     tell_written,
     without_output,
 )
-from diecut_report.cli.progress import Progress
-from diecut_report.cli.verdict import WORDS
+from diecut_report.config import yaml
 from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
-from diecut_report.config.discovery import Discovery
-from diecut_report.config.standard_input import SHOWN as STANDARD_INPUT
-from diecut_report.errors import TOLD, Problem, UserError
-from diecut_report.languages.phrases import Counted, Phrase, cell, phrase
-from diecut_report.languages.speech import localised, said, say, speaking
+from diecut_report.config.loader import SHOWN, is_study
+from diecut_report.config.loader import SHOWN as STANDARD_INPUT
+from diecut_report.config.plugins import Discovery
+from diecut_report.errors import TOLD, PluginError, Problem, UserError
+from diecut_report.results.conclusion import conclusion, doubtful_kinds, is_open
+from diecut_report.text.catalogues import SOURCE_LANGUAGE
+from diecut_report.text.phrases import Counted, Phrase, cell, phrase
+from diecut_report.text.translation import localised, said, say, say_counted, speaking, spoken_language
 
 if TYPE_CHECKING:
-    from diecut_report.config.yaml_tree import Tree
-    from diecut_report.study.machines.calculation import CheckedMachine
-    from diecut_report.study.machines.verdicts import Verdict
+    from diecut_report.config.yaml import Tree
+    from diecut_report.study.execution.dry_run import DryRun
+    from diecut_report.study.machines import CheckedMachine, Verdict
+
+
+# The command ``validate``: what is wrong with configurations and studies, and how a study would run.
+
+
+STATES = {PASSED: "valid", BAD_INPUT: "bad", PLUGIN_BROKE: "broken"}
+
+
+@dataclass
+class JudgedFile:
+    """Hold what is wrong with a file; of a study that was tried also what it would be."""
+
+    shown: str
+    problems: tuple[Problem, ...] = ()
+    broken: tuple[PluginError, ...] = ()
+    tried: DryRun | None = None
+    data: dict[str, Any] = field(default_factory=dict)
+
+    @property
+    def code(self) -> int:
+        """Return the exit code of this file alone."""
+        return BAD_INPUT if self.problems else PLUGIN_BROKE if self.broken else PASSED
+
+
+@click.command(cls=HelpfulCommand, epilog=output.OF_FILES)
+@click.argument("files", metavar="FILE…", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.option(
+    "--dry-run", "tries", is_flag=True,
+    help="Of a study also its size, columns and first variant, what the constraints drop, and the time and room that a few variants take.",
+)  # fmt: skip
+@click.option("--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json.")
+@common
+def validate(files: tuple[Path, ...], tries: bool, form: str, folders: tuple[Path, ...], quiet: bool) -> int:
+    """Judge configurations and studies without their results; all problems of all files are reported."""
+    discovery, judged = Discovery(folders), []
+    for file in files:
+        found = _judged(file, discovery, tries)
+        judged.append(found)
+        if form == "text":
+            _tell(found, alone=len(files) == 1, quiet=quiet)
+    if form == "json":
+        emit(json.dumps([_data(each) for each in judged], indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+    codes = [each.code for each in judged]
+    return BAD_INPUT if BAD_INPUT in codes else max(codes)
+
+
+def _judged(file: Path, discovery: Discovery, tries: bool) -> JudgedFile:
+    shown = SHOWN if file == DASH else str(file)
+    try:
+        with without_output():
+            tree = from_standard_input() if file == DASH else yaml.read(file)
+            if not is_study(tree):
+                from diecut_report import pipeline
+                from diecut_report.design.influence import misnamed
+
+                return JudgedFile(shown, broken=pipeline.validate(tree, discovery, misnamed))
+            return _study(shown, tree, discovery, tries)
+    except UserError as error:
+        return JudgedFile(shown, problems=error.problems)
+
+
+def _study(shown: str, tree: Tree, discovery: Discovery, tries: bool) -> JudgedFile:
+    from diecut_report.study.definition.study_file import load_study
+
+    try:
+        study = load_study(tree, discovery)
+    except PluginError as error:
+        return JudgedFile(shown, broken=(error,))
+    if not tries:
+        return JudgedFile(shown)
+    from diecut_report.study.execution.dry_run import data, dry_run
+    from diecut_report.study.execution.refusals import refuse_empty
+
+    refuse_empty(study)
+    found = dry_run(study)
+    broken = tuple(PluginError(why, kind) for kind, why in found.measured.broken.items())
+    return JudgedFile(shown, broken=broken, tried=found, data=data(found))
+
+
+def _tell(found: JudgedFile, *, alone: bool, quiet: bool) -> None:
+    tell_problems(found.problems)
+    tell(str(error) if alone else f"{found.shown}: " + phrase(str(error)) for error in found.broken)
+    if found.code == PASSED and not quiet:
+        tell([Phrase("{file}: valid", file=in_line(found.shown))])
+    if found.tried is not None:
+        from diecut_report.study.execution.dry_run import lines
+
+        emit_lines(lines(found.tried))
+
+
+def _data(found: JudgedFile) -> dict[str, Any]:
+    problems = [asdict(problem) | {"message": str(problem.message)} for problem in found.problems]
+    told = {"file": found.shown, "status": STATES[found.code], "problems": problems}
+    return told | {"broken": [str(error) for error in found.broken]} | ({"study": found.data} if found.data else {})
+
+
+# The verdict on standard error, and the exit code that follows from it.
+
+
+Data = Mapping[str, Any]
+Command = TypeVar("Command", bound=Callable[..., Any])
+ORDER = ("fail", "warn", "not_checked")
+WORDS = {
+    "pass": phrase("pass"),
+    "incomplete": phrase("conditional"),
+    "warn": phrase("warn"),
+    "fail": phrase("fail"),
+    "error": phrase("error"),
+    "skipped": phrase("skipped"),
+    "not_checked": phrase("not checked"),
+    "bad": phrase("bad file"),
+}
+
+
+def strict_option(command: Command) -> Command:
+    """Give a command the option ``--strict``."""
+    words = "Exit with 1 for warnings too, for checks that are not made because a key is not given, and for a plugin with faults."
+    return click.option("--strict", is_flag=True, help=words)(command)
+
+
+def exit_code(results: Data, *, is_broken: bool, is_strict: bool) -> int:
+    """Return 3 where something broke, 1 where a check fails or something is skipped, or, strict, where one warns or is not made."""
+    if is_broken:
+        return PLUGIN_BROKE
+    found = results["summary"]
+    counted = ORDER if is_strict else ORDER[:1]
+    is_whole = not any(data["status"] == "skipped" for data in results["mechanisms"].values())
+    is_doubtful = is_strict and doubtful_kinds(results)
+    return PASSED if is_whole and not is_doubtful and not any(found[status] for status in counted) else CHECK_FAILED
+
+
+def told(results: Data, discovery: Discovery | None = None) -> list[Line]:
+    """Return the checks that do not pass, in words, the worst first, and the verdict on all; in the language that is spoken.
+
+    ``discovery`` knows where plugins of others have their words.
+    """
+    results = _translated(results, discovery)
+    lines = [*_checks(results, "fail"), *_skipped(results), *_checks(results, "warn"), *_checks(results, "not_checked")]
+    note = [results["comparisons_left_out"]["message"]] if "comparisons_left_out" in results else []
+    return [*lines, *note, _whole(results)]
+
+
+def _translated(results: Data, discovery: Discovery | None) -> Data:
+    """The results in the language that is spoken."""
+    if spoken_language() == SOURCE_LANGUAGE:
+        return results
+    from diecut_report.report.text import translated  # with what makes reports, which English does not need
+
+    return translated(results, spoken_catalogues(discovery))
+
+
+def _checks(results: Data, status: str) -> Iterator[Line]:
+    for name, data in results["mechanisms"].items():
+        for made in data["checks"]:
+            if made["status"] == status and made["class"] != "numerical":
+                yield marked(status), f" {name}: {made['title']}. {_message(made)}"
+
+
+def marked(status: str) -> str:
+    """Return a status in words, in its colour."""
+    return coloured(said(WORDS.get(status, status)), status)
+
+
+def _message(made: Data) -> str:
+    """A check's message; the line of one that is not made begins with these words."""
+    message = str(made["message"]).removeprefix(say("Not checked: "))
+    is_key = made["status"] == "not_checked" and message.startswith(made["missing"][0])
+    return message if is_key else message[0].upper() + message[1:]
+
+
+def _skipped(results: Data) -> Iterator[Line]:
+    for name, data in results["mechanisms"].items():
+        if data["status"] == "skipped":
+            yield marked("skipped"), f" {name}: {data['error']}"
+
+
+def _whole(results: Data) -> Line:
+    found = results["summary"]
+    state = "fail" if found["fail"] else "warn" if is_open(results) else "pass"
+    parts = [coloured(said(conclusion(results)), state)]
+    if found["governing"]:
+        parts.append(say("Governing: {check}.", check=found["governing"]))
+    if held := found["numerical"]["pass"]:
+        words = "{n} self-test of the calculation holds.", "{n} self-tests of the calculation hold."
+        parts.append(say_counted(held, *words))
+    return tuple(part for each in parts for part in (" ", each))[1:]
+
 
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
 COLOURED = {"bad": "error", "incomplete": "warn"}  # states with the colour of another one
@@ -57,7 +250,7 @@ HEADS = (
 path_of = click.Path(path_type=Path)
 
 
-@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_CHECKS)
+@click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
 @click.argument("given", metavar="CONFIG|FOLDER…", nargs=-1, required=True, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Also write a summary of all machines there.")
 @click.option(
@@ -76,8 +269,7 @@ path_of = click.Path(path_type=Path)
 def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: list[str], jobs: int | None,
           folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Calculate many machines, side by side, and show a table of their verdicts; folders are searched for configurations."""
-    from diecut_report.study.machines.calculation import configurations
-    from diecut_report.study.machines.verdicts import compared, in_language
+    from diecut_report.study.machines import compared, configurations, in_language
 
     known = configurations(given)
     files = known.files
@@ -101,7 +293,7 @@ def _calculated(
     files: Sequence[Path | Tree], folders: Sequence[Path], jobs: int | None, progress: Progress
 ) -> list[CheckedMachine]:
     """What came out of each file, in their order."""
-    from diecut_report.study.machines.calculation import machines
+    from diecut_report.study.machines import machines
 
     found: dict[int, CheckedMachine] = {}
     progress(Counted(len(files), "calculating {n} machine", "calculating {n} machines"))
@@ -140,8 +332,8 @@ def _write(
 ) -> None:  # fmt: skip
     """Write the summary, in the language that is asked for, else in that of all projects."""
     from diecut_report.files import write_all
-    from diecut_report.study.machines import pages
-    from diecut_report.study.machines.verdicts import compared, in_language, language_of
+    from diecut_report.study import machines as pages
+    from diecut_report.study.machines import compared, in_language, language_of
 
     language = asked_language() or language_of(found)
     with speaking(language, catalogues_for(language, (), discovery)):

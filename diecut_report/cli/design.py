@@ -3,34 +3,40 @@
 from __future__ import annotations
 
 import json
-from collections.abc import Iterable
+from collections.abc import Iterable, Iterator
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
-from diecut_report.cli import completion
-from diecut_report.cli.given import DASH, changeable_source, output_file
+from diecut_report.cli import output
+from diecut_report.cli.options import DASH, changeable_source, output_file, results_folder
 from diecut_report.cli.output import (
     CHECK_FAILED,
+    INTERRUPTED,
     PASSED,
+    PLUGIN_BROKE,
     HelpfulCommand,
+    Progress,
     as_lines,
+    asked_language,
     common,
     emit,
     tell,
     tell_written,
     without_output,
 )
-from diecut_report.cli.progress import Progress
-from diecut_report.config.discovery import Discovery
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.languages.speech import said, say
+from diecut_report.config.plugins import Discovery
+from diecut_report.results.conclusion import told_faults
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import said, say
 
 if TYPE_CHECKING:
     from diecut_report.config.loader import Config
-    from diecut_report.design.design_inputs import DesignInput
-    from diecut_report.design.proved_machine import ProvedMachine
+    from diecut_report.design.inputs import DesignInput
+    from diecut_report.design.machines import ProvedMachine
+    from diecut_report.design.optimisation.command import OptimiseOutcome
+
 
 path_of = click.Path(path_type=Path)
 form_option = click.option(
@@ -48,7 +54,7 @@ target_option = click.option(
     "--vary",
     required=True,
     metavar="INPUT",
-    shell_complete=completion.inputs,
+    shell_complete=output.inputs,
     help="The input to solve for, such as drive.crank_length.",
 )
 @click.option(
@@ -69,9 +75,8 @@ def solve(
 
     Exit codes: 0 found, 1 out of reach (the nearest value is told), 2 bad input, 3 a plugin broke.
     """
-    from diecut_report.design.answers import data, lines
-    from diecut_report.design.design_inputs import design_input, with_input
-    from diecut_report.design.questions import question
+    from diecut_report.design.answers import data, lines, question
+    from diecut_report.design.inputs import design_input, with_input
     from diecut_report.design.solving import solved
 
     with Progress(quiet) as progress, without_output():
@@ -93,12 +98,12 @@ def solve(
 @click.option(
     "--free",
     metavar="INPUT",
-    shell_complete=completion.inputs,
+    shell_complete=output.inputs,
     multiple=True,
     help="An input that may be changed; may be given several times (default: sizes, angles and ratios).",
 )
 @click.option(
-    "--keep", metavar="INPUT", shell_complete=completion.inputs, multiple=True, help="An input that stays as it is."
+    "--keep", metavar="INPUT", shell_complete=output.inputs, multiple=True, help="An input that stays as it is."
 )
 @click.option(
     "--most",
@@ -118,8 +123,7 @@ def advise(
 
     Exit codes: 0 a machine that passes was found (or passes already), 1 none was found, 2 bad input, 3 a plugin broke.
     """
-    from diecut_report.design.advice import data, mended
-    from diecut_report.design.advice_text import lines
+    from diecut_report.design.advice import data, lines, mended
 
     with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
@@ -160,7 +164,7 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
     "--tolerance",
     "tolerances",
     metavar="INPUT=SIZE",
-    shell_complete=completion.inputs,
+    shell_complete=output.inputs,
     multiple=True,
     help="drive.crank_length=0.1 mm: an input that scatters by as much to both sides; may be given several times.",
 )
@@ -197,8 +201,7 @@ def influence(
 
     Exit codes: 0 told, 2 bad input, 3 a plugin broke.
     """
-    from diecut_report.design.influence import by_input, tornados, within_tolerances
-    from diecut_report.design.influence_text import data, lines, page
+    from diecut_report.design.influence import by_input, data, lines, page, tornados, within_tolerances
 
     with Progress(quiet) as progress, without_output():
         discovery = Discovery(folders)
@@ -220,7 +223,7 @@ def influence(
 
 def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
     """An input and how far it scatters."""
-    from diecut_report.design.design_inputs import design_input
+    from diecut_report.design.inputs import design_input
     from diecut_report.quantities.units import UnitError, parse_quantity
 
     name, _, size = given.partition("=")
@@ -272,8 +275,8 @@ def _end(design: DesignInput, given: str | None, option: str) -> float | None:
 
 def _give(told: str, config: Config, machine: ProvedMachine | None, target: Path | None, quiet: bool) -> None:
     """Write the machine that was found, and tell of it: to standard error where ``-`` sends the machine to standard output."""
-    from diecut_report.config.written_values import as_file
-    from diecut_report.design.proved_machine import write_config
+    from diecut_report.config.references import as_file
+    from diecut_report.design.machines import write_config
 
     if target == DASH:
         tell(told.splitlines())
@@ -294,3 +297,90 @@ def _text(lines: Iterable[str]) -> str:
 
 def _json(found: dict[str, Any]) -> str:
     return json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+# The command ``optimise``: from a study to its best machines.
+
+
+WORDS = ("suggested", "front")
+
+
+def _machines(_context: click.Context, _option: click.Parameter, given: str) -> list[str]:
+    parts = [part.strip() for part in given.split(",") if part.strip()]
+    if strange := [part for part in parts if part not in WORDS and not part.isdecimal()]:
+        words = "{given} is neither the number of a machine nor one of: {words}."
+        raise click.BadParameter(say(words, given=repr(strange[0]), words=", ".join(WORDS)))
+    return parts
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("study", required=False, type=path_of)
+@click.option("-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here).")
+@click.option("--resume", metavar="DIR", type=path_of, help="Go on with the search of a folder where it ended.")
+@click.option(
+    "--report",
+    "reports",
+    metavar="LIST",
+    default="",
+    callback=_machines,
+    help="Full reports of these machines: `3,17`, `suggested`, `front` (those that are listed).",
+)
+@click.option("--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core).")
+@click.option(
+    "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
+)
+@click.option("--yes", is_flag=True, help="Calculate also a very large number of machines or reports.")
+@click.option(
+    "--format",
+    "form",
+    default="text",
+    type=click.Choice(["text", "json", "csv"]),
+    help="Of what is shown: text (default), json, or csv of the whole front.",
+)
+@common
+def optimise(study: Path | None, folder: Path | None, resume: Path | None, reports: list[str], jobs: int | None, dask: str | None, yes: bool,
+             form: str, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
+    """Find the best machines of a STUDY by its objectives: a search through what it varies, within its constraints.
+
+    Exit codes: 0 found, 1 no machine is allowed (what conflicts is told), 2 bad input, 3 a plugin broke, 130 stopped by Ctrl-C.
+    """
+    from diecut_report.design.optimisation import command
+    from diecut_report.study.command import Shown
+    from diecut_report.study.execution.study_run import Where
+
+    target = results_folder(study, folder, resume)
+    where = Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language())
+    try:
+        with without_output(), Shown(quiet) as shown:
+            outcome = command.run(
+                study, target, where, resume=resume is not None, agreed=yes, reports=reports, shown=shown
+            )
+    except KeyboardInterrupt:
+        if not (target / "study.json").exists():
+            tell([phrase("stopped; nothing was written.")])
+            return INTERRUPTED
+        words = "stopped; what is finished is kept. Continue with: diecut-report optimise --resume {folder}"
+        tell([Phrase(words, folder=target)])
+        return INTERRUPTED
+    emit({"text": lambda: as_lines(map(said, outcome.lines)), "csv": lambda: outcome.csv,
+          "json": lambda: json.dumps(outcome.data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"}[form]())  # fmt: skip
+    if not quiet:
+        tell_written(outcome.written)
+        tell(outcome.notes)
+    tell(_faults(outcome))
+    return PLUGIN_BROKE if outcome.is_broken else PASSED if outcome.is_found else CHECK_FAILED
+
+
+def _faults(outcome: OptimiseOutcome) -> Iterator[str]:
+    """Which plugins broke, were slow, or have faults in their formulas."""
+    slow = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
+    broke = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
+    search = outcome.search
+    yield from (
+        Phrase(slow, kind=kind, why=phrase(why)) for kind, why in search.slow.items() if kind not in search.broken
+    )
+    yield from (Phrase(broke, kind=repr(kind), why=phrase(why)) for kind, why in search.broken.items())
+    for kind, faults in (search.store.state.get("doubtful") or {}).items():
+        yield from told_faults(kind, faults)
+    for kind, why in outcome.broken_reports.items():
+        yield Phrase("plugin {kind} broke {why}", kind=repr(kind), why=phrase(why))

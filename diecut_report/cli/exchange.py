@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import json
+import os
 import sys
+from collections.abc import Iterator
 from contextlib import redirect_stdout
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
 import click
 
-from diecut_report.cli import exit_codes, verdict
-from diecut_report.cli.formats import formats_of
-from diecut_report.cli.given import output_file, source
-from diecut_report.cli.language import asked_language
+from diecut_report.cli import checking, output
+from diecut_report.cli.options import formats_of, output_file, source
 from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
     PLUGIN_BROKE,
     HelpfulCommand,
+    Progress,
     as_lines,
+    asked_language,
     common,
     emit,
     emit_lines,
@@ -27,18 +29,86 @@ from diecut_report.cli.output import (
     tell_written,
     without_output,
 )
-from diecut_report.cli.progress import Progress
-from diecut_report.cli.template import template_option
-from diecut_report.cli.verification_lines import verification_lines
+from diecut_report.cli.plugins import template_option
 from diecut_report.config.catalogues import spoken_catalogues
-from diecut_report.config.discovery import Discovery
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE
-from diecut_report.languages.speech import speaking
+from diecut_report.config.plugins import Discovery
+from diecut_report.errors import Problem, UserError
+from diecut_report.text.catalogues import SOURCE_LANGUAGE
+from diecut_report.text.phrases import Counted, Phrase, cell, phrase
+from diecut_report.text.translation import said, say, speaking
 
 if TYPE_CHECKING:
-    from diecut_report.exchange.carried_results import CarriedResults
-    from diecut_report.exchange.verification import Verification
-    from diecut_report.report.house_style import HouseStyle
+    from diecut_report.exchange.carried import CarriedResults
+    from diecut_report.exchange.verification import Agreement, Difference, Found, Verification
+    from diecut_report.report.pages.firm_templates import HouseStyle
+
+
+# What `verify` found of a report, as lines for a terminal.
+
+
+SHOWN = 20  # differences that are told
+
+
+def verification_lines(carried: CarriedResults, found: Verification) -> Iterator[str]:
+    """Give what was found of a report line by line, and last whether everything agrees."""
+    project = carried.results["project"]
+    named = [str(project.get(key) or "") for key in ("title", "document_number", "revision")]
+    yield f"{carried.path}: {', '.join(map(cell, filter(None, named)))}"
+    yield _line(say("program"), found.program)
+    yield from (_line(say("plugins"), told) for told in found.plugins)
+    yield _line(say("configuration"), found.config)
+    yield from (_line(say("options"), each) for each in found.options)
+    yield _line(say("numbers"), (_numbers(found.agreement), not found.agreement.differences))
+    yield from (f"    {_difference(each)}" for each in found.agreement.differences[:SHOWN])
+    if len(found.agreement.differences) > SHOWN:
+        yield say("    and {n} more", n=len(found.agreement.differences) - SHOWN)
+    if found.pages:
+        yield _line(say("pages"), found.pages)
+    elif carried.form != "json":
+        yield f"– {say('pages'):13}  {say('not compared, since --numbers asks for the results alone')}"
+    yield from (_line(say("signature"), (each.words, each.holds)) for each in found.signatures)
+    if carried.form == "pdf" and not found.signatures:
+        yield _line(say("signature"), (phrase("none: the report is not signed"), True))
+    yield _last(carried, found)
+
+
+def _last(carried: CarriedResults, found: Verification) -> str:
+    if not found.holds:
+        return say("Not everything agrees.")
+    if found.pages is None and carried.form != "json":
+        return say("The results agree; what the pages show was not compared.")
+    return say("Everything agrees.")
+
+
+def _line(what: str, told: Found) -> str:
+    words, good = told
+    return f"{'✓' if good else '✗'} {what:13}  {said(words)}"
+
+
+def _numbers(found: Agreement) -> str:
+    agreeing = found.numbers - found.differing
+    some = Phrase("{n} of them exactly", n=found.exact)
+    exactly = phrase("all of them exactly") if found.exact == found.numbers else some
+    if not found.differences:
+        return Phrase("{n} of {total} agree, {exactly}", n=found.numbers, total=found.numbers, exactly=exactly)
+    others = len(found.differences) - found.differing
+    texts = Counted(others, ", and {n} other value differs", ", and {n} other values differ") if others else ""
+    words = "{n} of {total} agree{texts}; in the report, and calculated now:"
+    return Phrase(words, n=max(agreeing, 0), total=found.numbers, texts=texts)
+
+
+def _difference(each: Difference) -> str:
+    return f"{each.path}: {_value(each.first)} → {_value(each.second)}"
+
+
+def _value(value: object) -> str:
+    if value is None:
+        return "–"
+    if isinstance(value, dict | list):
+        return say("a block of keys") if isinstance(value, dict) else say("a list of {n}", n=len(value))
+    text = str(value).lower() if isinstance(value, bool) else str(value)
+    return text if len(text) <= 80 else f"{text[:80]}…"
+
 
 Data = dict[str, Any]
 path_of = click.Path(path_type=Path)
@@ -56,7 +126,7 @@ def _drawn() -> tuple[str, ...]:
 @common
 def extract(report: Path, folder: Path, folders: tuple[Path, ...], quiet: bool) -> int:
     """Take the configuration and the results out of a REPORT (PDF or HTML), as NAME.yaml and NAME.json."""
-    from diecut_report.exchange.extraction import extract as taken
+    from diecut_report.exchange.carried import extract as taken
 
     files = taken(report, folder)
     if not quiet:
@@ -106,13 +176,13 @@ def verified(
     report: Path, asked: HeldAgainst, discovery: Discovery, quiet: bool
 ) -> tuple[CarriedResults, Verification]:  # fmt: skip
     """Return what a report carries, and what was found of it."""
-    from diecut_report.design.followed_advice import followed
-    from diecut_report.design.report_influence import influenced
-    from diecut_report.exchange.carried_results import carried_results
-    from diecut_report.exchange.recalculation import ReportParts
-    from diecut_report.exchange.sides import side
+    from diecut_report.design.advised import followed
+    from diecut_report.design.influence import influenced
+    from diecut_report.exchange.carried import carried_results
+    from diecut_report.exchange.rendering import side
+    from diecut_report.exchange.verification import ReportParts
     from diecut_report.exchange.verification import verify as judged
-    from diecut_report.study.analysis.assumed import moves
+    from diecut_report.study.analysis.answers import moves
 
     carried, parts = carried_results(report), ReportParts(moves, followed, influenced)
     with Progress(quiet) as progress, without_output():
@@ -123,7 +193,7 @@ def verified(
     return carried, found
 
 
-@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_CHECKS)
+@click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
 @click.argument("results", metavar="RESULTS.json", type=path_of)
 @click.option("-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here).")
 @click.option(
@@ -135,7 +205,7 @@ def verified(
     help="html,pdf (default), also docx,xlsx.",
 )
 @template_option
-@verdict.strict_option
+@checking.strict_option
 @common
 def render(
     results: Path,
@@ -156,9 +226,9 @@ def render(
     tell((*told(lost), *outcome.warnings))
     if not quiet:
         tell_written(outcome.written)
-        tell(verdict.told(outcome.results, discovery))
+        tell(checking.told(outcome.results, discovery))
     is_broken = bool(lost) or outcome.results["status"] == "error"
-    return verdict.exit_code(outcome.results, is_broken=is_broken, is_strict=strict)
+    return checking.exit_code(outcome.results, is_broken=is_broken, is_strict=strict)
 
 
 @click.command(cls=HelpfulCommand)
@@ -177,7 +247,7 @@ def diff(
 
     Exit codes are those of NEW: 0 no check fails, 1 a check fails, 3 a plugin broke; 2 where one of the two cannot be read.
     """
-    from diecut_report.exchange.sides import side
+    from diecut_report.exchange.rendering import side
     from diecut_report.results.changes import changes
 
     with Progress(quiet) as progress, without_output():
@@ -193,7 +263,7 @@ def diff(
 
         write_all({target: text.encode(errors="backslashreplace")}, keep=new)
     is_broken = any(broken for _, broken in sides) or sides[1][0]["status"] == "error"
-    return verdict.exit_code(sides[1][0], is_broken=is_broken, is_strict=False)
+    return checking.exit_code(sides[1][0], is_broken=is_broken, is_strict=False)
 
 
 def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, all_rows: bool) -> str:
@@ -201,12 +271,84 @@ def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, al
     old, new = sides
     if form == "json":
         return json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-    from diecut_report.exchange.changes_text import lines, said_changes
+    from diecut_report.exchange.rendering import lines, said_changes
 
     if form == "html":
-        from diecut_report.exchange.changes_page import page
+        from diecut_report.exchange.rendering import page
 
         with speaking(asked_language() or new["project"].get("language") or SOURCE_LANGUAGE):
             return page(said_changes(found, old, new, spoken_catalogues(discovery)))
     told = said_changes(found, old, new, spoken_catalogues(discovery))
     return as_lines(lines(told, all_rows=all_rows))
+
+
+# The command that signs a report. A password comes from a prompt or from the environment, never from the command line.
+
+
+PASSWORD = "DIECUT_REPORT_KEY_PASSWORD"  # the name of a variable of the environment
+
+
+@click.command(cls=HelpfulCommand)
+@click.argument("report", metavar="REPORT.pdf", type=path_of)
+@click.option(
+    "--key", required=True, metavar="FILE", type=path_of, help="Your private key: PKCS #12 (.p12, .pfx) or PEM."
+)
+@click.option("--cert", metavar="FILE", type=path_of, help="Its certificate (PEM), where it is not in the same file.")
+@click.option(
+    "--field", metavar="NAME", help="prepared, checked, norm_checked or approved; needed where several are free."
+)
+@click.option("--reason", metavar="TEXT", help="Why you sign, as the signature tells it.")
+@click.option("-o", "target", metavar="FILE", type=path_of, help="Write to another file (default: REPORT.pdf itself).")
+@previous_option
+@template_option
+@common
+def sign(
+    report: Path, key: Path, cert: Path | None, field: str | None, reason: str | None, target: Path | None, previous: Path | None,
+    house: HouseStyle | None, folders: tuple[Path, ...], quiet: bool,
+) -> int:  # fmt: skip
+    """Sign a report in one of its fields. What is there stays as it is, byte for byte, so that others can sign it too.
+
+    It is verified before: a report that is not as this program makes it is not signed.
+    The key's password is asked for, or taken from the variable DIECUT_REPORT_KEY_PASSWORD.
+    """
+    from diecut_report.exchange.signing import Signing
+    from diecut_report.exchange.signing import sign as signed
+    from diecut_report.exchange.signing_keys import signing_key
+
+    out = target or report
+    for given in filter(None, (key, cert)):
+        if out.exists() and given.exists() and out.samefile(given):
+            words = phrase("This is the key or its certificate; it would be written over. Choose another file with -o.")
+            raise UserError(Problem(words, str(out)))
+    found = signing_key(key, cert, _password)
+    signed(
+        Signing(report, out, field, reason),
+        found,
+        lambda words: None if quiet else tell([f"{out}: " + phrase(words)]),
+        lambda: _require_as_made(report, HeldAgainst(house, previous), Discovery(folders), quiet),
+    )
+    return PASSED
+
+
+def _require_as_made(report: Path, asked: HeldAgainst, discovery: Discovery, quiet: bool) -> None:
+    carried, found = verified(report, asked, discovery, quiet)
+    if not found.holds:
+        faults = [line for line in verification_lines(carried, found) if line.startswith(("✗", " "))]
+        words = phrase(
+            "The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:"
+        )
+        raise UserError([Problem(words, str(report)), *map(Problem, faults)])
+
+
+def _password() -> bytes:
+    given = os.environ.get(PASSWORD)
+    if given is not None:
+        return given.encode()
+    if not sys.stdin or not sys.stdin.isatty():
+        words = Phrase(
+            "The key has a password. Set the variable {password}, or run the command on a terminal, which asks for it.",
+            password=PASSWORD,
+        )
+        raise UserError(Problem(words))
+    asked: str = click.prompt(say("Password of the key"), hide_input=True, err=True)
+    return asked.encode()

@@ -14,18 +14,16 @@ from typing import TYPE_CHECKING
 
 import click
 
-from diecut_report.cli.given import DASH
-from diecut_report.cli.language import asked_language
-from diecut_report.cli.output import PASSED, HelpfulCommand, common, emit, tell, without_output
-from diecut_report.config import yaml_tree
+from diecut_report.cli.options import DASH
+from diecut_report.cli.output import PASSED, HelpfulCommand, asked_language, common, emit, tell, without_output
+from diecut_report.config import yaml
 from diecut_report.config.catalogues import catalogues_of
-from diecut_report.config.discovery import Discovery
-from diecut_report.config.standard_input import SHOWN
-from diecut_report.config.study_files import refuse_study
+from diecut_report.config.loader import SHOWN, refuse_study
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import Problem, UserError
-from diecut_report.languages.catalogues import languages
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.languages.speech import say, speaking, spoken_language
+from diecut_report.text.catalogues import languages
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import say, speaking, spoken_language
 
 if TYPE_CHECKING:
     from diecut_report.live.session import LiveSession
@@ -42,8 +40,7 @@ def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], qu
     The page is for this machine alone: its address holds a secret.
     """
     _require_file(config)
-    from diecut_report.live.application import LiveApplication
-    from diecut_report.live.server import serve
+    from diecut_report.live.server import LiveApplication, serve
     from diecut_report.live.session import LiveSession
 
     if not quiet:
@@ -114,7 +111,7 @@ def _require_file(config: Path) -> None:
     if not os.path.isfile(config):
         raise UserError(Problem(phrase("There is no such file. Check the name and the folder."), str(config)))
     try:
-        tree = yaml_tree.load(config)
+        tree = yaml.load(config)
     except UserError:  # the page tells what is wrong with it, until it is mended
         return
     refuse_study(tree)

@@ -8,11 +8,13 @@ program itself. Messages that standard error does not take are lost; that change
 from __future__ import annotations
 
 import gc
+import io
 import json
 import os
+import re
 import sys
 import traceback
-from collections.abc import Sequence
+from collections.abc import Mapping, Sequence
 from contextlib import redirect_stdout, suppress
 from pathlib import Path
 from typing import TYPE_CHECKING, NoReturn
@@ -20,18 +22,21 @@ from typing import TYPE_CHECKING, NoReturn
 import click
 
 from diecut_report import __version__
-from diecut_report.cli import completion, exit_codes, verdict
-from diecut_report.cli.checking import check
-from diecut_report.cli.design import advise, influence, solve
-from diecut_report.cli.drafting import new
-from diecut_report.cli.exchange import diff, extract, render, verify
-from diecut_report.cli.file_schemas import OF_FILES, schema_of_file
-from diecut_report.cli.formats import formats_of
-from diecut_report.cli.given import output_file, source
-from diecut_report.cli.kit import check_plugin, new_plugin
-from diecut_report.cli.language import asked_language, language_option, of_environment
+from diecut_report.cli import checking, output
+from diecut_report.cli.checking import check, validate
+from diecut_report.cli.design import advise, influence, optimise, solve
+from diecut_report.cli.exchange import diff, extract, render, sign, verify
 from diecut_report.cli.live import live
-from diecut_report.cli.optimise import optimise
+from diecut_report.cli.options import (
+    OF_FILES,
+    detail_given,
+    formats_of,
+    only_given,
+    output_file,
+    report_formats,
+    schema_of_file,
+    source,
+)
 from diecut_report.cli.output import (
     BAD_INPUT,
     FAULT,
@@ -40,31 +45,83 @@ from diecut_report.cli.output import (
     PLUGIN_BROKE,
     UNWRITABLE,
     HelpfulGroup,
+    Progress,
+    asked_language,
     common,
     emit,
     emit_lines,
+    language_option,
+    of_environment,
     open_streams,
     tell,
     tell_problems,
     tell_written,
     without_output,
 )
-from diecut_report.cli.progress import Progress
-from diecut_report.cli.report_options import detail_given, only_given, report_formats
-from diecut_report.cli.signing import sign
+from diecut_report.cli.plugins import check_plugin, new, new_plugin, template_option
 from diecut_report.cli.study import batch, take, variants
-from diecut_report.cli.template import template_option
-from diecut_report.cli.usage import usage
-from diecut_report.cli.validating import validate
-from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
+from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Problem, Unwritable, UserError
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE
-from diecut_report.languages.phrases import phrase
-from diecut_report.languages.speech import said, say, speak, speaking
+from diecut_report.text.catalogues import SOURCE_LANGUAGE
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import said, say, speak, speaking
 
 if TYPE_CHECKING:
     from diecut_report.pipeline import ReportOutcome
-    from diecut_report.report.house_style import HouseStyle
+    from diecut_report.report.pages.firm_templates import HouseStyle
+
+
+# What click says of wrong usage, in the language that is spoken: it has no catalogues of its own.
+#
+# Its own way, ``gettext`` with the domain "messages", was looked at and is not taken. It reads compiled catalogues of the language
+# that ``os.environ`` names, for the whole process: argparse and all processes that are started would follow, while a language here
+# holds within ``speaking`` alone. It translates a sentence where it is raised, which may be before ``--language`` is read. And a
+# sentence that another version of click words otherwise stays English there too; here `tests/cli/test_usage.py` tells of it.
+
+
+SENTENCES: Mapping[re.Pattern[str], str] = {
+    re.compile(pattern): template
+    for pattern, template in (
+        (r"Try '(?P<command>[^']*)' for help\.", phrase("Try '{command}' for help.")),
+        (r"Missing argument '(?P<name>[^']*)'\.(?P<more>.*)", phrase("Missing argument '{name}'.{more}")),
+        (r"Missing option '(?P<name>[^']*)'\.(?P<more>.*)", phrase("Missing option '{name}'.{more}")),
+        (r"No such option '?(?P<name>[^'\s]+?)'?\.", phrase("No such option '{name}'.")),
+        (r"No such option '?(?P<name>[^'\s]+?)'?\. (?:Did you mean|\(Possible options:) (?P<near>[^?)]*)[?)]\.?",
+         phrase("No such option '{name}' (did you mean {near}?).")),
+        (r"No such command '(?P<name>[^']*)'\.", phrase("No such command '{name}'.")),
+        (r"No such command '(?P<name>[^']*)'\. (?:Did you mean|\(Possible commands:) (?P<near>[^?)]*)[?)]\.?",
+         phrase("No such command '{name}' (did you mean {near}?).")),
+        (r"Missing command\.", phrase("Missing command.")),
+        (r"Invalid value for (?P<name>'[^']*'(?: / '[^']*')*|-[\w-]+): (?P<why>.*)", phrase("Invalid value for {name}: {why}")),
+        (r"Option '(?P<name>[^']*)' requires an argument\.", phrase("Option '{name}' requires an argument.")),
+        (r"Option '(?P<name>[^']*)' does not take a value\.", phrase("Option '{name}' does not take a value.")),
+        (r"Got unexpected extra arguments? \((?P<given>.*)\)\.?", phrase("Got unexpected extra arguments ({given}).")),
+        (r"'(?P<given>.*)' is not one of (?P<known>.*)\.", phrase("'{given}' is not one of {known}.")),
+        (r"'(?P<given>.*)' is not a valid (?:integer|integer range)\.", phrase("'{given}' is not a whole number.")),
+        (r"'(?P<given>.*)' is not a valid (?:float|float range|number)\.", phrase("'{given}' is not a number.")),
+        (r"(?P<given>\S+) is not in the range (?P<range>.*)\.", phrase("{given} is not in the range {range}.")),
+    )
+}  # fmt: skip
+"""The sentences of click, each with the words of a phrase."""
+
+
+def usage(error: click.ClickException) -> list[str]:
+    """Return what click says of wrong usage; of its last part, which repeats what was given, no line stands for itself."""
+    shown = io.StringIO()
+    error.show(shown)
+    head, found, _ = f"\n{shown.getvalue()}".partition("\nError: ")
+    told = [Phrase("Error: {message}", message=worded(error.format_message()))] if found else []
+    return [*(worded(line) for line in head[1:].splitlines()), *told]
+
+
+def worded(sentence: str) -> str:
+    """Return a sentence of click as a phrase; another one as it is."""
+    for pattern, template in SENTENCES.items():
+        if found := pattern.fullmatch(sentence):
+            parts = found.groupdict("")
+            return Phrase(template, parts | ({"why": worded(parts["why"])} if "why" in parts else {}))
+    return sentence
+
 
 # objects made before garbage is looked for: starting makes many lasting ones, among which to look costs a tenth of a run
 COLLECTED = 1_000_000
@@ -129,7 +186,7 @@ def _version(context: click.Context, _: click.Parameter, asked: bool) -> None:
         context.exit()
 
 
-@click.group(cls=HelpfulGroup, context_settings={"help_option_names": ["-h", "--help"]}, epilog=exit_codes.OF_PROGRAM)
+@click.group(cls=HelpfulGroup, context_settings={"help_option_names": ["-h", "--help"]}, epilog=output.OF_PROGRAM)
 @click.option(
     "--version", is_flag=True, is_eager=True, expose_value=False, callback=_version, help="Show the version and exit."
 )
@@ -144,7 +201,7 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 # --- commands --------------------------------------------------------------------------------------------------------
 
 
-@program.command(epilog=exit_codes.OF_CHECKS)
+@program.command(epilog=output.OF_CHECKS)
 @config_argument
 @click.option(
     "-o", "folder", metavar="DIR", default=".", type=click.Path(path_type=Path), help="Where to write (default: here)."
@@ -166,19 +223,19 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--detail",
     metavar="DETAIL",
-    shell_complete=completion.details,
+    shell_complete=output.details,
     callback=detail_given,
     help="brief, standard or full, in place of the configuration's (standard).",
 )
 @click.option(
     "--only",
     metavar="NAMES",
-    shell_complete=completion.mechanisms,
+    shell_complete=output.mechanisms,
     callback=only_given,
     help="Report these mechanisms alone: drive,clutch.",
 )
 @template_option
-@verdict.strict_option
+@checking.strict_option
 @common
 def report(
     config: Path, folder: Path, formats: list[str], previous: Path | None, detail: str | None, only: tuple[str, ...],
@@ -186,10 +243,10 @@ def report(
 ) -> int:  # fmt: skip
     """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report import pipeline
-    from diecut_report.design.followed_advice import followed
-    from diecut_report.design.report_influence import influenced
-    from diecut_report.exchange.sides import side
-    from diecut_report.study.analysis.assumed import moves
+    from diecut_report.design.advised import followed
+    from diecut_report.design.influence import influenced
+    from diecut_report.exchange.rendering import side
+    from diecut_report.study.analysis.answers import moves
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
@@ -203,10 +260,10 @@ def report(
     return _verdict(outcome, discovery, quiet, strict)
 
 
-@program.command(epilog=exit_codes.OF_CHECKS)
+@program.command(epilog=output.OF_CHECKS)
 @config_argument
 @click.option("-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output.")
-@verdict.strict_option
+@checking.strict_option
 @common
 def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:
     """Calculate, and give the results file alone."""
@@ -244,7 +301,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
 
 
 @program.command()
-@click.argument("kind", required=False, shell_complete=completion.kinds)
+@click.argument("kind", required=False, shell_complete=output.kinds)
 @common
 def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""
@@ -283,5 +340,5 @@ def _verdict(outcome: ReportOutcome, discovery: Discovery, quiet: bool, strict: 
     tell(str(error) for error in outcome.broken)
     tell(outcome.warnings)
     if not quiet:
-        tell(verdict.told(outcome.results, discovery))
-    return verdict.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)
+        tell(checking.told(outcome.results, discovery))
+    return checking.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)

@@ -9,22 +9,229 @@ import os
 import re
 import sys
 from collections.abc import Callable, Iterable, Iterator, Sequence
-from contextlib import contextmanager, redirect_stdout, suppress
+from contextlib import contextmanager, redirect_stderr, redirect_stdout, suppress
 from copy import copy
 from pathlib import Path
-from typing import Any, TypeVar
+from threading import Lock, Timer
+from typing import TYPE_CHECKING, Any, TypeVar
 from unicodedata import category
 
 import click
+from click.shell_completion import CompletionItem
 
-from diecut_report.cli.exit_codes import DONE, HEAD
-from diecut_report.cli.language import language_option
-from diecut_report.cli.progress import is_styled
-from diecut_report.config.hidden_letters import INVISIBLE
-from diecut_report.errors import TOLD, Problem, Unwritable
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE
-from diecut_report.languages.phrases import Counted, Phrase, phrase
-from diecut_report.languages.speech import know_all_plugins, said, say, say_counted, speak, spoken_language
+from diecut_report.config.model import DETAILS, PRESS
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import INVISIBLE
+from diecut_report.errors import TOLD, PluginError, Problem, Unwritable, UserError
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, languages
+from diecut_report.text.phrases import Counted, Phrase, phrase
+from diecut_report.text.translation import know_all_plugins, said, say, say_counted, speak, spoken_language
+
+if TYPE_CHECKING:
+    from rich.status import Status
+
+    from diecut_report.config.loader import Config
+
+
+# What is being done, shown on a terminal that wants moving signs once it has taken longer than a second.
+
+
+PATIENCE = 1.0  # seconds until it is shown
+
+
+def is_styled() -> bool:
+    """Return whether standard error is a terminal that wants colours and moving signs (NO_COLOR, TERM=dumb)."""
+    return sys.stderr.isatty() and not os.environ.get("NO_COLOR") and os.environ.get("TERM") != "dumb"
+
+
+class Progress:
+    """Shows on a terminal what is being done, once it has taken longer than a second."""
+
+    def __init__(self, quiet: bool) -> None:
+        self.doing, self.status, self.done = "", None, quiet or not is_styled()
+        self.lock = Lock()
+        self.timer = Timer(PATIENCE, self._show)
+        self.timer.daemon = True
+
+    status: Status | None
+
+    def __call__(self, doing: str) -> None:
+        self.doing = said(doing)
+        if self.status is not None:
+            self.status.update(self.doing)
+
+    def __enter__(self) -> Progress:
+        if not self.done:
+            self.timer.start()
+        return self
+
+    def __exit__(self, *_: object) -> None:
+        self.timer.cancel()
+        with self.lock:
+            self.done = True
+            if self.status is not None:
+                self.status.stop()
+
+    def _show(self) -> None:
+        from rich.console import Console
+
+        with self.lock:
+            if not self.done:
+                self.status = Console(stderr=True).status(self.doing)
+                self.status.start()
+
+
+# How commands end, as their help tells it.
+
+
+HEAD = "Exit codes"
+OF_PROGRAM = phrase(
+    "Exit codes: 0 no check fails, 1 a check fails (with --strict also where one warns or is not made), 2 bad input, 3 a plugin broke, "
+    "74 what was asked for cannot be written, 130 Ctrl-C, 70 a fault of the program. The help of a command tells what they mean there."
+)
+OF_CHECKS = phrase(
+    "Exit codes: 0 no check fails, 1 a check fails (with --strict also where one warns or is not made), 2 bad input, 3 a plugin broke."
+)
+OF_FILES = phrase("Exit codes: 0 all are valid, 2 one is not, 3 a plugin broke.")
+OF_STUDY = phrase(
+    "Exit codes: 0 no check of a variant fails, 1 one fails (with --strict also where one warns or is not made) or no variant can exist, "
+    "2 bad input, 3 a plugin broke, 130 stopped: what is finished is kept."
+)
+OF_PLUGIN = phrase("Exit codes: 0 the rules are kept, 1 one is broken, 2 bad input, 3 the plugin broke.")
+DONE = phrase("Exit codes: 0 done, 2 bad input, 3 a plugin broke.")
+
+
+# What a shell completes beside commands, options and files: kinds, mechanisms and inputs of the configuration that is named before.
+
+
+def kinds(context: click.Context, _: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Complete the name of a kind, with its title where the shell shows that."""
+    discovery = _discovery(context)
+    return [CompletionItem(kind, help=_title(discovery, kind)) for kind in discovery.origins if kind.startswith(begun)]
+
+
+def mechanisms(context: click.Context, _: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Complete names of mechanisms, parted by commas."""
+    before, comma, last = begun.rpartition(",")
+    names = (config.kinds for config in _config(context))
+    return _items((f"{before}{comma}{name}" for found in names for name in found), f"{before}{comma}{last}")
+
+
+def inputs(context: click.Context, _: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Complete the path of an input that is a number: drive.crank_length."""
+    return _items((path for config in _config(context) for path in _numbers(config)), begun)
+
+
+def spoken(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Complete a language."""
+    return _items(languages(), begun)
+
+
+def details(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
+    """Complete how much a report holds."""
+    return _items(DETAILS, begun)
+
+
+def _items(known: Iterable[str], begun: str) -> list[CompletionItem]:
+    return [CompletionItem(text) for text in known if text.startswith(begun)]
+
+
+def _discovery(context: click.Context) -> Discovery:
+    return Discovery(context.params.get("folders") or ())
+
+
+def _title(discovery: Discovery, kind: str) -> str | None:
+    """The title of a kind; nothing where that would mean to run a plugin of another's, or where the plugin is broken."""
+    with suppress(PluginError, LookupError):
+        if discovery.origins[kind][0].is_own:
+            return said(discovery.mechanism(kind).title, kind)
+    return None
+
+
+def _config(context: click.Context) -> Iterator[Config]:
+    """The configuration that the command names before, as far as it can be read; nothing where it cannot."""
+    from diecut_report.config.loader import examined
+
+    # behind an option without its value, which is being typed, click has not made parameters of the words before
+    given = [context.params.get("config"), *context.args]
+    file = next((Path(path) for path in given if path and Path(path).is_file()), None)
+    if file is None:
+        return
+    # what a shell completes is no place for messages
+    with (
+        open(os.devnull, "w") as nowhere,
+        redirect_stdout(nowhere),
+        redirect_stderr(sys.stderr),
+        suppress(UserError, PluginError),
+    ):
+        yield examined(file, _discovery(context))[0]
+
+
+def _numbers(config: Config) -> Iterator[str]:
+    from diecut_report.mechanism.inputs import Quantity
+
+    for name, instance in config.instances.items():
+        for slot in instance.slots if instance else ():
+            if isinstance(slot.meta, Quantity) and (slot.is_given or slot.value is not None):
+                home = PRESS if name == PRESS else name
+                yield ".".join(map(str, (home, *slot.key)))
+
+
+# The language of the command line: that of its messages, and the one that is asked for documents.
+
+
+VARIABLE = "DIECUT_REPORT_LANGUAGE"
+LOCALES = ("LC_ALL", "LC_MESSAGES", "LANG")  # as gettext has it: the first that is set
+ASKED = "diecut_report.language"
+
+Command = TypeVar("Command", bound=Callable[..., Any])
+
+
+def of_environment() -> str:
+    """Return the language of messages that the environment asks for; English where the program has no words of the system's.
+
+    UserError where its own variable names a language that it does not have.
+    """
+    if own := os.environ.get(VARIABLE):
+        try:
+            return known(own)
+        except UnknownLanguage as error:
+            raise UserError(Problem(Phrase("The language {error}.", error=error), path=VARIABLE)) from None
+    system = next(filter(None, map(os.environ.get, LOCALES)), "")
+    found = system.partition("_")[0].partition(".")[0]
+    return found if found in languages() else SOURCE_LANGUAGE
+
+
+def asked_language() -> str | None:
+    """Return what ``--language`` names; None where it is not given."""
+    found: str | None = click.get_current_context().meta.get(ASKED)
+    return found
+
+
+def _language(context: click.Context, _: click.Parameter, given: str | None) -> None:
+    if given is None:
+        return
+    try:
+        context.meta[ASKED] = known(given)
+    except UnknownLanguage as error:
+        raise click.BadParameter(say("The language {error}.", error=error)) from None
+    speak(given)
+
+
+def language_option(command: Command) -> Command:
+    """Give a command the option ``--language``, of which it need not know."""
+    words = "Language of messages and documents (en, uk), in place of the environment's and the project's."
+    option = click.option(
+        "--language",
+        metavar="LANGUAGE",
+        is_eager=True,
+        expose_value=False,
+        callback=_language,
+        help=words,
+        shell_complete=spoken,
+    )
+    return option(command)
+
 
 PASSED, CHECK_FAILED, BAD_INPUT, PLUGIN_BROKE = 0, 1, 2, 3
 INTERRUPTED, FAULT, UNWRITABLE = (
@@ -36,8 +243,6 @@ COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "not_chec
 LETTERS, END = 2_000, 500  # of a message, and of its end where it is longer
 # what may make a terminal do something, end a line, show a text as another one, or stand in it unseen
 _ACTIVE = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
-
-Command = TypeVar("Command", bound=Callable[..., Any])
 
 
 class Coloured(str):
@@ -279,7 +484,7 @@ def _with_words(context: click.Context, _: click.Parameter, folders: tuple[Path,
     """Let plugins of these folders speak by catalogues of their own."""
     if folders and spoken_language() != SOURCE_LANGUAGE and not context.resilient_parsing:
         from diecut_report.config.catalogues import spoken_catalogues  # with all plugins, which English does not need
-        from diecut_report.config.discovery import Discovery
+        from diecut_report.config.plugins import Discovery
 
         speak(spoken_language(), spoken_catalogues(Discovery(folders)))
     return folders

@@ -10,10 +10,9 @@ from typing import TYPE_CHECKING
 
 import click
 
-from diecut_report.cli import exit_codes
-from diecut_report.cli.formats import formats_of
-from diecut_report.cli.given import DASH, RESULTS, output_file, results_folder
-from diecut_report.cli.language import asked_language
+from diecut_report.cli import output
+from diecut_report.cli.checking import WORDS, marked
+from diecut_report.cli.options import DASH, RESULTS, formats_of, output_file, results_folder
 from diecut_report.cli.output import (
     CHECK_FAILED,
     INTERRUPTED,
@@ -21,14 +20,14 @@ from diecut_report.cli.output import (
     PLUGIN_BROKE,
     HelpfulCommand,
     Line,
+    asked_language,
     common,
     emit,
     tell,
 )
-from diecut_report.cli.verdict import WORDS, marked
-from diecut_report.languages.phrases import Counted, Phrase, phrase
-from diecut_report.languages.speech import say
-from diecut_report.results.doubtful_plugins import told_faults
+from diecut_report.results.conclusion import told_faults
+from diecut_report.text.phrases import Counted, Phrase, phrase
+from diecut_report.text.translation import say
 
 if TYPE_CHECKING:
     from diecut_report.study.execution.study_run import StudyOutcome
@@ -52,7 +51,7 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     return list(dict.fromkeys(map(int, parts)))
 
 
-@click.command(cls=HelpfulCommand, epilog=exit_codes.OF_STUDY)
+@click.command(cls=HelpfulCommand, epilog=output.OF_STUDY)
 @click.argument("study", required=False, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here).")
 @click.option(
@@ -86,7 +85,7 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
           chunk_limit: float | None, yes: bool, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Calculate all variants of a STUDY, and write them with a summary and full reports of some."""
     from diecut_report.study import command
-    from diecut_report.study.analysis.doubts import is_doubtful
+    from diecut_report.study.analysis.answers import is_doubtful
 
     target = results_folder(study, folder, resume)
     where = command.Where(jobs, dask, tuple(str(path.absolute()) for path in folders), asked_language(), chunk_limit)
@@ -108,7 +107,7 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
 
 
 def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
-    from diecut_report.study.conditions.constraints import why_dropped
+    from diecut_report.study.definition.constraints import why_dropped
 
     counts = outcome.counts
     yield Phrase("written: {path}, with summary.html and summary.pdf", path=target) + _reports(target)
@@ -179,9 +178,8 @@ def variants(folder: Path, where: str | None, sort: str | None, top: int | None,
              folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
     """Ask the stored variants of a study."""
     from diecut_report.files import write_all
-    from diecut_report.study.analysis.answers import Notation
-    from diecut_report.study.analysis.query import answer, answer_workbook, unfinished
-    from diecut_report.study.analysis.question import Request
+    from diecut_report.study.analysis.answers import Notation, answer, answer_workbook, unfinished
+    from diecut_report.study.analysis.query import Request
     from diecut_report.study.storage.state import refuse_sources
 
     _refuse_idle(form, file, {"--units": units, "--separator": separator, "--decimal": decimal})
@@ -223,9 +221,9 @@ def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) 
 @common
 def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...], quiet: bool) -> int:
     """Take a variant of a study for a configuration of its own: the study's base with that variant's values, comments kept."""
-    from diecut_report.config.discovery import Discovery
+    from diecut_report.config.plugins import Discovery
     from diecut_report.files import write_all
-    from diecut_report.study.analysis.taken_config import taken_config
+    from diecut_report.study.analysis.variant_config import taken_config
     from diecut_report.study.storage.state import refuse_sources
 
     folder, _, number = variant.rpartition("#")

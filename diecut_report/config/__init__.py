@@ -1,1 +1,1 @@
-"""From the text of a press configuration to checked, linked inputs."""
+"""From YAML text to a checked configuration whose references are linked."""

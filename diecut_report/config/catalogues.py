@@ -6,11 +6,11 @@ from collections.abc import Iterable
 from functools import partial
 from pathlib import Path
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import Problem, UserError
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues, UnknownLanguage, built_in
-from diecut_report.languages.phrases import Phrase
-from diecut_report.languages.speech import spoken_language
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, UnknownLanguage, built_in
+from diecut_report.text.phrases import Phrase
+from diecut_report.text.translation import spoken_language
 
 TOLD = 3  # texts that are told of an incomplete catalogue
 

@@ -2,35 +2,266 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping
-from dataclasses import dataclass
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
 from functools import cached_property
-from typing import Any
+from typing import Annotated, Any, Literal, get_args, get_origin
 
-from diecut_report.config.basis import Basis
-from diecut_report.config.taken_entries import Taken
-from diecut_report.config.targets import Node, Target
-from diecut_report.config.validation import ConfigPlace, keys_of
-from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.chapters import Chapter
-from diecut_report.contract.code_steps import ComputedCurve, PartNames
-from diecut_report.contract.input_lists import list_inputs
-from diecut_report.contract.inputs import (
-    Block,
-    CurveInput,
-    FromPress,
-    Meta,
-    Quantity,
-    Text,
-    flatten,
-    texts_given,
-)
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.phases import PREFIX
-from diecut_report.contract.result_names import part_result
-from diecut_report.contract.steps import Step
-from diecut_report.errors import nearest
-from diecut_report.languages.phrases import Phrase, phrase
+from pydantic import create_model
+
+from diecut_report.config.own_tables import SOURCE, Entry, OwnTables
+from diecut_report.config.validation import NAMED, Basis, BasisReader, ConfigPlace, keys_of, told, validate
+from diecut_report.config.yaml import KeyPath
+from diecut_report.errors import Problem, nearest
+from diecut_report.formulas.condition_parts import Expression
+from diecut_report.formulas.formula import Formula
+from diecut_report.mechanism.chapters import Chapter
+from diecut_report.mechanism.curve_inputs import CurveInput, FromTable
+from diecut_report.mechanism.inputs import Block, Meta, Quantity, fields, flatten, list_inputs, texts_given
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import FromPress, Text
+from diecut_report.mechanism.part_steps import ComputedCurve, PartNames
+from diecut_report.mechanism.steps import PREFIX, Step, part_result
+from diecut_report.quantities.units import UnitError, kind_name, unit
+from diecut_report.text.phrases import Phrase, phrase
+
+# What blocks take from the user's own tables: an entry that is named gives its keys, with what they rest on.
+
+
+CATALOGUE = "catalogue"
+
+
+@dataclass(frozen=True)
+class Taken:
+    """Hold the data of a block with what its entries give, where that stands, and what it is from."""
+
+    data: dict[str, Any]
+    place: ConfigPlace
+    bases: Mapping[KeyPath, Basis]
+    tables: OwnTables
+    entries: Mapping[KeyPath, Entry]
+    problems: Sequence[Problem]
+    naming: Mapping[KeyPath, tuple[KeyPath, ...]]
+    """Keys that may name an entry, each with the keys that it gives."""
+
+    @property
+    def sources(self) -> dict[str, str]:
+        """Return each file with the sources of what is taken from it."""
+        found: dict[str, list[str]] = {}
+        for entry in dict.fromkeys(self.entries.values()):
+            found.setdefault(entry.file, []).append(f"{entry.name}: {entry.source}")
+        return {file: "; ".join(said) for file, said in found.items()}
+
+    def names(self, key: KeyPath) -> tuple[str, ...]:
+        """Return the names of entries that a key may have."""
+        return self.place.named.get(key, ())
+
+
+def taken(model: type[Block], data: Mapping[str, Any], place: ConfigPlace, tables: OwnTables) -> Taken:
+    """Return the data of a block with the keys of the entries that it names, and what all of it rests on."""
+    taker = _Taker(place, tables)
+    found = taker.block(model, data, ())
+    stands = {key: (entry.tree, (*entry.path, theirs)) for key, (entry, theirs) in taker.found.items()}
+    own = replace(place, elsewhere={**place.elsewhere, **stands}, named=taker.known)
+    stated = BasisReader.read(model, found, own)
+    entries = {key: entry for key, (entry, _) in taker.found.items()}
+    for key, entry in entries.items():
+        for each in _quantities(model, stated.data, key):
+            said = stated.bases.get(each, Basis())
+            stated.bases[each] = Basis(said.basis or CATALOGUE, said.note or entry.note)
+    return Taken(
+        stated.data, stated.place, stated.bases, tables, entries, (*taker.problems, *stated.problems), taker.gives
+    )
+
+
+def taken_anew(
+    model: type[Block], before: Taken, data: dict[str, Any], changed: Iterable[KeyPath], place: ConfigPlace
+) -> Taken:
+    """Return what a block takes whose keys ``changed``: what other entries gave before is left out."""
+    for key in changed:
+        for given in before.naming.get(key, ()):
+            if given in before.entries:
+                _left_out(data, given)
+    return taken(model, data, place, before.tables)
+
+
+def _left_out(data: Any, key: KeyPath) -> None:
+    for part in key[:-1]:
+        data = data[part]
+    data.pop(key[-1], None)
+
+
+@dataclass
+class _Taker:
+    place: ConfigPlace
+    tables: OwnTables
+    found: dict[KeyPath, tuple[Entry, str]] = field(default_factory=dict)
+    problems: list[Problem] = field(default_factory=list)
+    known: dict[KeyPath, tuple[str, ...]] = field(default_factory=dict)
+    gives: dict[KeyPath, tuple[KeyPath, ...]] = field(default_factory=dict)
+
+    def block(self, model: type[Block], data: Mapping[str, Any], key: KeyPath) -> dict[str, Any]:
+        known = keys_of(model)
+        made = {
+            name: self._inner(known[name].block, part, (*key, name)) if name in known else part
+            for name, part in data.items()
+        }
+        for rule in model.from_tables:
+            self._take(model, rule, made, key)
+        return made
+
+    def _inner(self, model: type[Block] | None, given: Any, key: KeyPath) -> Any:
+        if model is None:
+            return given
+        if isinstance(given, list):
+            return [self._inner(model, part, (*key, index)) for index, part in enumerate(given)]
+        return self.block(model, given, key) if isinstance(given, dict) else given
+
+    def _take(self, model: type[Block], rule: FromTable, made: dict[str, Any], key: KeyPath) -> None:
+        self._judge(model, rule)
+        self.known[(*key, rule.key)] = tuple(self.tables.names(rule.table))
+        self.gives[(*key, rule.key)] = tuple((*key, own) for own in rule.gives)
+        given = made.get(rule.key)
+        name = given if isinstance(given, str) else self.place.typed((*key, rule.key)) if given is not None else None
+        entry = self.tables.entries.get(rule.table, {}).get(name or "")
+        if entry is None:
+            if name is not None and not _has_texts(model, rule.key):
+                self.problems.append(self.place.problem((*key, rule.key), self._unknown(rule.table, name)))
+            return
+        del made[rule.key]
+        if rule.stands_for:
+            made[rule.key] = rule.stands_for
+        for own, theirs in rule.gives.items():
+            if theirs in entry.keys and made.get(own) is None:
+                made[own] = entry.keys[theirs]
+                self.found[(*key, own)] = (entry, theirs)
+
+    def _unknown(self, table: str, name: str) -> str:
+        known = self.tables.names(table)
+        if not known:
+            file = phrase("in a file that materials: names")
+            return Phrase(
+                "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}",
+                name=told(name),
+                table=table,
+                name_2=name,
+                file=file,
+            )
+        return Phrase(
+            "is {name}{nearest}; {table} has {known}",
+            name=told(name),
+            nearest=nearest(name, known),
+            table=table,
+            known=", ".join(known[:NAMED]),
+        )
+
+    def _judge(self, model: type[Block], rule: FromTable) -> None:
+        """Judge all entries of a table by the block that may take them, whether it does or not."""
+        for entry in self.tables.entries.get(rule.table, {}).values():
+            mark = (*entry.path, entry.tree.file, model.__name__, rule.key)
+            if mark not in self.tables.judged:
+                self.tables.judged.add(mark)
+                self.tables.problems += _faults(model, rule, entry)
+
+
+def _has_texts(model: type[Block], key: str) -> bool:
+    """Whether a key has texts of its own, so that the model judges what is none of them."""
+    return any(get_origin(part) is Literal for part in _parts(keys_of(model)[key].field.annotation))
+
+
+def _parts(annotation: Any) -> tuple[Any, ...]:
+    return (annotation, *get_args(annotation))
+
+
+def _faults(model: type[Block], rule: FromTable, entry: Entry) -> Iterator[Problem]:
+    """What is wrong with the keys of an entry, as the block judges them."""
+    place, known = ConfigPlace(entry.tree, entry.path), list(rule.gives.values())
+    for key in entry.keys:
+        if key not in known:
+            words = Phrase(
+                "is an unknown key{nearest}. An entry of {table} has {text}.",
+                nearest=nearest(key, known),
+                table=rule.table,
+                text=", ".join([SOURCE, *known]),
+            )
+            yield place.problem((key,), words, at_key=True)
+    for own, theirs in rule.gives.items():
+        if theirs in entry.keys:
+            field = keys_of(model)[own].field
+            annotation: Any = Annotated[field.annotation, *field.metadata]
+            form = create_model(model.__name__, __base__=Block, **{theirs: (annotation, ...)})  # type: ignore[call-overload]
+            stated = BasisReader.read(form, {theirs: entry.keys[theirs]}, place)
+            yield from stated.problems
+            yield from validate(form, stated.data, stated.place)[1]
+
+
+def _quantities(model: type[Block], data: Any, key: KeyPath, home: KeyPath = ()) -> Iterator[KeyPath]:
+    """The quantities at a key of a block, and in the blocks that stand there."""
+    name, *rest = key
+    known = keys_of(model)[str(name)]
+    part = data[name]
+    own = (*home, name)
+    if known.block is None:
+        if isinstance(known.meta, Quantity):
+            yield own
+        return
+    if rest and isinstance(part, list):
+        index, *rest = rest
+        part, own = part[int(index)], (*own, index)
+    if rest:
+        yield from _quantities(known.block, part, tuple(rest), own)
+        return
+    for at, inner in enumerate(part) if isinstance(part, list) else [(None, part)]:
+        for each in inner if isinstance(inner, dict) else ():
+            if each in keys_of(known.block):
+                yield from _quantities(known.block, inner, (each,), own if at is None else (*own, at))
+
+
+# What references stand for.
+
+
+Node = KeyPath  # (instance,) is its calculation, (instance, key, …) one of its inputs
+
+
+@dataclass(frozen=True)
+class Target:
+    """What a reference stands for: an output (``result``) or an input (``key``) of an instance.
+
+    An expression stands for what is calculated from its ``terms``, the targets of its references; ``path`` is its text.
+    """
+
+    path: str
+    instance: str
+    key: KeyPath = ()
+    result: str | None = None
+    unit: str | None = None
+    is_curve: bool = False
+    is_default: bool = False  # not written by the user: the press's field that stands in for an absent input
+    formula: Formula | None = None
+    is_broken: bool = False  # the plugin of what it refers to cannot be loaded
+    expression: Expression | None = None
+    terms: tuple[Target, ...] = ()
+    phase_unit: str | None = None  # of a phase: the SI unit of what it runs over
+    is_mechanism: bool = False  # it stands for the mechanism as a whole
+
+    @property
+    def node(self) -> Node:
+        """What must be known before what a single reference stands for."""
+        return (self.instance,) if self.result is not None or self.is_broken else (self.instance, *self.key)
+
+    @property
+    def single(self) -> tuple[Target, ...]:
+        """The single references: those of an expression, or itself."""
+        return self.terms if self.expression else (self,)
+
+    @property
+    def told(self) -> str:
+        """What messages call it."""
+        return f"“{self.path}”" if self.expression else f"${{{self.path}}}"
+
+
+class Unresolved(LookupError):
+    """A reference that stands for nothing, in words."""
 
 
 @dataclass(frozen=True)
@@ -46,10 +277,12 @@ class Slot:
 
 def slots(model: type[Block], data: Mapping[str, Any], key: KeyPath = ()) -> Iterator[Slot]:
     """All inputs of a block and of the blocks and lists given in it."""
-    for name, (field, meta, block, _) in keys_of(model).items():
+    for name, (declared, meta, block, _) in keys_of(model).items():
         given, own = data.get(name), (*key, name)
-        default = None if given is not None or field.is_required() else field.get_default(call_default_factory=True)
-        yield Slot(own, meta, default if given is None else given, given is not None, field.is_required())
+        default = (
+            None if given is not None or declared.is_required() else declared.get_default(call_default_factory=True)
+        )
+        yield Slot(own, meta, default if given is None else given, given is not None, declared.is_required())
         parts = list(enumerate(given)) if isinstance(given, list) else [(None, given)]
         for index, part in parts if block else []:
             if block and isinstance(part, dict):
@@ -211,3 +444,113 @@ def _copied(data: Any) -> Any:
     if isinstance(data, dict):
         return {key: _copied(part) for key, part in data.items()}
     return [_copied(part) for part in data] if isinstance(data, list) else data
+
+
+# The units in which a report shows its quantities: ``report: {units: {length: m, drive.crank_speed: rad/s}}``.
+
+
+DIMENSIONS = {
+    "length": "m", "area": "m**2", "volume": "m**3", "second_moment_of_area": "m**4", "mass": "kg", "density": "kg/m**3",
+    "moment_of_inertia": "kg*m**2", "force": "N", "line_force": "N/m", "moment": "N*m", "energy": "J", "stress": "Pa",
+    "speed": "m/s", "acceleration": "m/s**2", "angle": "rad", "rotational_speed": "rad/s", "angular_acceleration": "rad/s**2",
+    "time": "s", "frequency": "1/s", "power": "W", "temperature_difference": "K",
+}  # fmt: skip
+"""What a report may choose one unit for, by the SI unit of its quantities."""
+
+UNITS = "units"
+
+
+def faults(given: Any, instances: Mapping[str, Instance | None], place: ConfigPlace) -> Iterator[Problem]:
+    """Yield what is wrong with the chosen units; ``place`` is that of the report's block."""
+    if given is None:
+        return
+    if not isinstance(given, dict):
+        words = Phrase(
+            "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}",
+            given=told(given),
+        )
+        yield place.problem((UNITS,), words)
+        return
+    for key, chosen in given.items():
+        wanted = wanted_units(key, instances)
+        if isinstance(wanted, str):
+            yield place.problem((UNITS, key), wanted, at_key=True)
+        elif fault := _unit_fault(chosen, wanted):
+            yield place.problem((UNITS, key), fault)
+
+
+def wanted_units(key: Any, instances: Mapping[str, Instance | None]) -> tuple[str, ...] | str:
+    """Return the units of what a key names, a dimension or ``MECHANISM.QUANTITY``; in words why it names nothing."""
+    if key in DIMENSIONS:
+        return (DIMENSIONS[key],)
+    name, dot, quantity = str(key).partition(".")
+    if not dot:
+        near = nearest(name, DIMENSIONS)
+        return Phrase(
+            "is not a dimension{near}; give MECHANISM.QUANTITY, or one of: {dimensions}",
+            near=near,
+            dimensions=", ".join(DIMENSIONS),
+        )
+    instance = instances.get(name)
+    if instance is None:
+        known = [each for each, found in instances.items() if found is not None]
+        return Phrase(
+            "names {name}, which is not there{nearest}; known: {known}",
+            name=name,
+            nearest=nearest(name, known),
+            known=", ".join(known),
+        )
+    units = _units(instance)
+    if quantity not in units:
+        return Phrase(
+            "names {quantity}, which is not a quantity of {name} with a number{nearest}",
+            quantity=quantity,
+            name=name,
+            nearest=nearest(quantity, units),
+        )
+    return units[quantity]
+
+
+def _units(instance: Instance) -> dict[str, tuple[str, ...]]:
+    """The units of all quantities that a mechanism may have, by their ids."""
+    found: dict[str, tuple[str, ...]] = {}
+    steps = instance.mechanism.steps if instance.mechanism else ()
+    named: list[tuple[str, Quantity | Step]] = [(step.id, step) for _, step in steps]
+    named += [(name, meta) for name, meta in fields(instance.model) if isinstance(meta, Quantity)]
+    for name, declared in named:
+        found[name] = (*found.get(name, ()), declared.unit, *(other for _, other in declared.units))
+    return found
+
+
+def _unit_fault(chosen: Any, wanted: tuple[str, ...]) -> str:
+    """Why a unit cannot be that of a quantity; nothing where it can."""
+    if not isinstance(chosen, str):
+        return Phrase("is {chosen}; a unit is needed, such as {wanted}", chosen=repr(chosen), wanted=wanted[0])
+    try:
+        found = unit(chosen)
+    except UnitError as error:
+        return Phrase(
+            "{error} Give a unit of {kind_name}, such as {wanted}.",
+            error=error,
+            kind_name=kind_name(unit(wanted[0])),
+            wanted=wanted[0],
+        )
+    if found.si not in {unit(each).si for each in wanted}:
+        return Phrase(
+            "is a unit of {kind_name}; one of {kind_name_2} is needed, such as {wanted}",
+            kind_name=kind_name(found),
+            kind_name_2=kind_name(unit(wanted[0])),
+            wanted=wanted[0],
+        )
+    return ""
+
+
+def by_si(chosen: Mapping[str, str]) -> dict[str, str]:
+    """Return the units that are chosen for all quantities of a dimension, by their SI units."""
+    return {DIMENSIONS[key]: unit(text).text for key, text in chosen.items() if key in DIMENSIONS}
+
+
+def by_id(chosen: Mapping[str, str], name: str) -> dict[str, str]:
+    """Return the units that are chosen for single quantities of a mechanism, by their ids."""
+    own = {key.partition("."): text for key, text in chosen.items() if key not in DIMENSIONS}
+    return {quantity: unit(text).text for (home, _, quantity), text in own.items() if home == name}

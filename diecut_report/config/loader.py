@@ -3,33 +3,159 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
-from pathlib import Path
+from pathlib import Path, PurePath
 from typing import Any, get_args
 
-from diecut_report.config import partners, report_units, yaml_tree
-from diecut_report.config.caps import too_much
-from diecut_report.config.curve_keys import linked
-from diecut_report.config.dependency_order import ordered
-from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind, said
-from diecut_report.config.hidden_letters import seeming_latin
-from diecut_report.config.instances import Instance, substituted
-from diecut_report.config.logo import Logo, logo_of
-from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings, written
-from diecut_report.config.own_tables import Find, OwnTables
-from diecut_report.config.plain_data import texts
-from diecut_report.config.references import Linker
+from diecut_report.config import instances, yaml
+from diecut_report.config.instances import Instance, Node, Target, substituted
+from diecut_report.config.instances import taken as loader_taken
+from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings, texts, written
+from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
+from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
+from diecut_report.config.references import Linker, linked, ordered
 from diecut_report.config.source_hashes import plugin_hash, program_hash
-from diecut_report.config.study_files import refuse_study
-from diecut_report.config.taken_entries import taken
-from diecut_report.config.targets import Node, Target
 from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
-from diecut_report.config.yaml_tree import KeyPath, Tree
-from diecut_report.contract.inputs import SI, Block, CurveInput, Pending, Text
-from diecut_report.contract.unit_variants import in_form
-from diecut_report.errors import PluginError, Problem, UserError
-from diecut_report.languages.phrases import Phrase
+from diecut_report.config.yaml import MAX_BYTES, KeyPath, Tree, read, seeming_latin, too_much
+from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.files import standard_input
+from diecut_report.mechanism.chapters import in_form
+from diecut_report.mechanism.curve_inputs import CurveInput
+from diecut_report.mechanism.inputs import Block
+from diecut_report.mechanism.mechanism import Mechanism, Partner
+from diecut_report.mechanism.names import SI, Pending, Text
+from diecut_report.text.phrases import Phrase
+
+# Partners: the mechanisms from which a kind takes inputs by itself, and the kinds that run without being asked.
+
+
+BY_THEMSELVES = ("press_consistency",)  # known by name: to ask every plugin, all would have to be loaded
+FEWEST = 2  # partners that a kind needs to run by itself: a single mechanism cannot contradict another
+
+Instances = Mapping[str, Instance | None]
+Kinds = Mapping[str, str]  # of the mechanisms, by their names
+
+
+def taken(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances, kinds: Kinds) -> dict[str, str]:
+    """Return what a block takes from its partners where it gives nothing itself: their names, and references to what they have."""
+    return {key: text for key, text in _offered(mechanism, data, instances, kinds).items() if data.get(key) is None}
+
+
+def overruled(
+    mechanism: Mechanism, data: Mapping[str, Any], instances: Instances, kinds: Kinds
+) -> Iterator[tuple[str, Phrase]]:
+    """Yield the keys of a block that compares others which are typed in place of what these have, with what is wrong: a verdict must not be typed."""
+    if mechanism.kind not in BY_THEMSELVES:
+        return
+    names = {partner.key for partner in mechanism.partners}
+    for key, reference in _offered(mechanism, data, instances, kinds).items():
+        if key not in names and data.get(key) not in (None, reference):
+            yield key, typed_beside(reference)
+
+
+def typed_beside(reference: str) -> Phrase:
+    """Return what is wrong with a value in place of what a block that compares others takes from them."""
+    words = "is typed here, but {reference} has it, which is compared with the others. Remove the key; change it there."
+    return Phrase(words, reference=reference)
+
+
+def compared(instance: Instance) -> dict[str, str]:
+    """Return what a block that compares others takes from them, by its keys: their names, and references."""
+    is_asked = instance.mechanism is not None and instance.mechanism.kind in BY_THEMSELVES
+    return {key: instance.data[key] for key in instance.derived if is_asked}
+
+
+def _offered(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances, kinds: Kinds) -> dict[str, str]:
+    """What the partners of a block have for it: their names, and references."""
+    found: dict[str, str] = {}
+    for partner in mechanism.partners:
+        name = data.get(partner.key) or only(partner, kinds)
+        if partner_fault(partner, name, kinds) or (instance := instances[str(name)]) is None:
+            continue
+        found |= {partner.key: str(name)} | dict(_references(partner, instance))
+    return found
+
+
+def only(partner: Partner, kinds: Kinds) -> str | None:
+    """Return the only mechanism of a partner's kinds; None where there is none, or where there are several."""
+    found = [name for name, kind in kinds.items() if kind in partner.kinds]
+    return found[0] if len(found) == 1 else None
+
+
+def partner_fault(partner: Partner, name: Any, kinds: Kinds) -> str:
+    """Return what is wrong with the name of a partner, in words; nothing where it is right."""
+    wanted = " or ".join(partner.kinds)
+    if not isinstance(name, str) or name not in kinds:
+        near = nearest(name, kinds) if isinstance(name, str) else ""
+        return Phrase(
+            "is {name}; the name of a mechanism of kind {wanted} is needed{near}. Known: {kinds}.",
+            name=told(name),
+            wanted=wanted,
+            near=near,
+            kinds=", ".join(kinds),
+        )
+    if kinds[name] not in partner.kinds:
+        return Phrase(
+            "is {name}, of kind {kinds}; the name of a mechanism of kind {wanted} is needed.",
+            name=name,
+            kinds=kinds[name],
+            wanted=wanted,
+        )
+    return ""
+
+
+def is_called_for(mechanism: Mechanism, kinds: Kinds) -> bool:
+    """Return whether a config has mechanisms enough for a kind to run by itself."""
+    wanted = {kind for partner in mechanism.partners for kind in partner.kinds}
+    return sum(kind in wanted for kind in kinds.values()) >= FEWEST
+
+
+def free_name(kind: str, instances: Instances) -> str:
+    """Return a name for what runs by itself: its kind, with a number where a mechanism is called so."""
+    names = (kind, *(f"{kind}_{number}" for number in range(2, len(instances) + 3)))
+    return next(name for name in names if name not in instances)
+
+
+def _references(partner: Partner, instance: Instance) -> Iterator[tuple[str, str]]:
+    for key, name in partner.takes.items():
+        if name in instance.results or name in instance.given:
+            yield key, f"${{{instance.name}.{name}}}"
+
+
+# A configuration or a study from standard input.
+
+
+SHOWN, STANDARD_INPUT_NAME = "<stdin>", "stdin.yaml"  # what messages and documents call it
+
+
+def load_standard_input() -> Tree:
+    """Read YAML from standard input, up to its end; what its text names is sought from the current folder."""
+    tree = read(Path(SHOWN), standard_input(MAX_BYTES, SHOWN))
+    tree.name = STANDARD_INPUT_NAME
+    return tree
+
+
+# Files of studies, which are no configurations: known by their keys, and refused where a configuration is needed.
+
+
+KEYS = frozenset({"base", "vary", "sample"})
+"""By each of which a study is known, also where another is forgotten or mistyped."""
+
+
+def is_study(tree: Tree) -> bool:
+    """Return whether a file is a study rather than a configuration."""
+    return isinstance(tree.data, dict) and "mechanisms" not in tree.data and not KEYS.isdisjoint(tree.data)
+
+
+def refuse_study(tree: Tree) -> None:
+    """Raise UserError where a study is given for a configuration: with the command that takes it, and its base."""
+    if is_study(tree):
+        command = "optimise" if "optimise" in tree.data else "batch"
+        words = "This is a study: calculate it with diecut-report {command} {file}, or give its base, {base}"
+        base = PurePath(tree.file).parent / str(tree.data.get("base", "…"))
+        raise UserError(Problem(Phrase(words, command=command, file=tree.file, base=base), tree.file))
+
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
 RESERVED = (PRESS, "project")
@@ -85,7 +211,7 @@ def load_config(given: Path | Tree, discovery: Discovery, *, find: Find | None =
 
 def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = None) -> tuple[Config, list[Problem]]:
     """Return a configuration as far as it can be read, with all that is wrong with it; UserError where it cannot be read at all."""
-    tree = given if isinstance(given, Tree) else yaml_tree.read(given)
+    tree = given if isinstance(given, Tree) else yaml.read(given)
     refuse_study(tree)
     if excess := too_much(tree):
         raise UserError([*tree.problems, *excess])
@@ -96,7 +222,7 @@ def examined(given: Path | Tree, discovery: Discovery, *, find: Find | None = No
     order, loops = ordered(reader.instances, linker.links)
     logo, faults = logo_of(tree, find)
     problems = [*reader.problems, *tables.problems, *faults, *linker.problems, *_wrong_values(reader, linker), *loops]
-    problems += report_units.faults(
+    problems += instances.faults(
         reader.report and reader.report.units, reader.instances, ConfigPlace(tree, ("report",))
     )
     if problems:
@@ -151,15 +277,15 @@ class _ConfigReader:
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)
             self._mechanism(name, body, ConfigPlace(self.tree, (home, name)))
-        for kind in partners.BY_THEMSELVES:
+        for kind in BY_THEMSELVES:
             self._by_itself(kind)
         for name in self.with_partners:
             self._take_from_partners(name)
 
     def _by_itself(self, kind: str) -> None:
-        if kind in self.kinds.values() or not partners.is_called_for(self.discovery.mechanism(kind), self.kinds):
+        if kind in self.kinds.values() or not is_called_for(self.discovery.mechanism(kind), self.kinds):
             return
-        name = partners.free_name(kind, self.instances)
+        name = free_name(kind, self.instances)
         self._of_kind(name, kind, {}, ConfigPlace(self.tree, ("mechanisms", name)))
 
     def _take_from_partners(self, name: str) -> None:
@@ -168,18 +294,18 @@ class _ConfigReader:
         assert instance is not None and instance.mechanism is not None, "it was added when it was read"
         for partner in instance.mechanism.partners:
             named = instance.data.get(partner.key)
-            if named is not None and (fault := partners.fault(partner, named, self.kinds)):
+            if named is not None and (fault := partner_fault(partner, named, self.kinds)):
                 self.problems.append(instance.place.problem((partner.key,), fault))
         known = instance.mechanism, instance.data, self.instances, self.kinds
-        self.problems += [instance.place.problem((key,), words) for key, words in partners.overruled(*known)]
-        instance.take(partners.taken(*known))
+        self.problems += [instance.place.problem((key,), words) for key, words in overruled(*known)]
+        instance.take(taken(*known))
         self._probe(name, self.kinds[name])
 
     def _add(
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
     ) -> None:
         data, place, problems = spread_out(model, data, place)
-        own = taken(model, data, place, self.tables)
+        own = loader_taken(model, data, place, self.tables)
         self.problems += [*problems, *own.problems]
         form = in_form(model, [key for key, value in own.data.items() if value is not None])
         typed = as_typed(form, own.data, own.place)

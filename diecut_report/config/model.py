@@ -2,15 +2,21 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any, Literal
+from collections.abc import Iterator, Mapping
+from typing import Annotated, Any, Literal
 
 from pydantic import AfterValidator, Field, field_validator
 
-from diecut_report.contract.inputs import Annotated, Block, Quantity, Text
-from diecut_report.errors import closest
-from diecut_report.languages.catalogues import known
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.config.yaml import KeyPath
+from diecut_report.declaration.inputs import of_input
+from diecut_report.declaration.names import Fault
+from diecut_report.errors import closest, nearest
+from diecut_report.mechanism.inputs import Block, Quantity, fields, nested
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import FromPress, Text
+from diecut_report.quantities.units import unit
+from diecut_report.text.catalogues import known
+from diecut_report.text.phrases import Phrase, phrase
 
 PRESS = "press"  # the name of the press in references, beside those of the mechanisms
 DETAILS = ("brief", "standard", "full")  # how much a report holds
@@ -130,3 +136,76 @@ def written(key: str, data: Mapping[str, Any]) -> str:
     return (
         key if key in data else closest(key, [name for name in data if name not in ConfigDocument.model_fields]) or key
     )
+
+
+# Defaults that inputs take from the press: each names a number that a press may give, of the input's kind.
+
+
+NUMBERS = {f"press.{path}": meta for path, meta in fields(Press) if isinstance(meta, Quantity)}
+
+
+def faults(mechanism: Mechanism) -> Iterator[Fault]:
+    """Yield the inputs with a default that the press can never give, and what the press of an example cannot be."""
+    for path, meta in fields(mechanism.inputs):
+        if isinstance(meta, Quantity) and meta.press is not None:
+            for text in _wrong(meta, meta.press, _is_required(mechanism.inputs, path)):
+                yield Fault(of_input(mechanism.inputs, path, mechanism.at), f"input {path}", text)
+    example = mechanism.example
+    for path, value in example.press.items() if example else ():
+        if example and (text := _refused(path, value)):
+            yield Fault(example.at, f"example {example.name}", f"press {path} {text}")
+
+
+def _refused(path: str, value: Any) -> str:
+    """What is wrong with a value of the press, in words."""
+    if f"press.{path}" not in NUMBERS:
+        return Phrase("is not a number of the press; it has {numbers}", numbers=", ".join(NUMBERS))
+    try:
+        NUMBERS[f"press.{path}"].validate(value)
+    except ValueError as fault:
+        return str(fault)
+    return ""
+
+
+def _is_required(model: type[Block], path: str) -> bool:
+    head, _, rest = path.partition(".")
+    field = model.model_fields[head]
+    inner = nested(field.annotation) if rest else None
+    return _is_required(inner[0], rest) if inner else field.is_required()
+
+
+def _wrong(meta: Quantity, press: FromPress, is_required: bool) -> Iterator[str]:
+    if is_required:
+        yield Phrase(
+            "must be given, so that {path} is never taken; write Annotated[float | None, …] = None", path=press.path
+        )
+    given = NUMBERS.get(press.path)
+    if given is None:
+        known = ", ".join(NUMBERS)
+        yield Phrase(
+            "takes {path}, which is not a number of the press{nearest}; it has {known}",
+            path=press.path,
+            nearest=nearest(press.path, NUMBERS),
+            known=known,
+        )
+        return
+    units = [meta.unit, *(other for _, other in meta.units)]
+    if press.formula is None and all(unit(given.unit).kind != unit(other).kind for other in units):
+        yield Phrase(
+            "in {unit} takes {path}, which is in {own}; name a formula between them: FromPress(…, formula)",
+            unit=meta.unit,
+            path=press.path,
+            own=given.unit,
+        )
+
+
+# Plain data of a file: dicts, lists and scalars.
+
+
+def texts(data: Any, key: KeyPath = ()) -> Iterator[tuple[KeyPath, str]]:
+    """Every text in plain data, with its key path."""
+    if isinstance(data, str):
+        yield key, data
+    elif isinstance(data, dict | list):
+        for name, part in data.items() if isinstance(data, dict) else enumerate(data):
+            yield from texts(part, (*key, name))

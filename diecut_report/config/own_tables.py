@@ -1,32 +1,36 @@
-"""Tables that a user keeps beside a configuration (``materials: my_steels.yaml``): entries by name, whose keys a block takes.
-
-    source: Saarstahl, data sheet 34CrNiMo6, 2021
-    steels:
-      34CrNiMo6+QT:
-        strengths:
-          - {diameter: 40 mm, tensile_strength: 1100 MPa, yield_strength: 900 MPa}
-
-A file is read and judged as a configuration is: what is wrong with it is told with its own name, line and key.
-"""
+"""The organisation's logo, which a configuration names (``report: {logo: FILE}``): read from beside it, judged by what it holds."""
 
 from __future__ import annotations
 
 import os
 from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field
+from hashlib import sha256
 from pathlib import Path, PurePosixPath, PureWindowsPath
-from typing import Any
+from typing import Any, NamedTuple
 
-from diecut_report.config import yaml_tree
-from diecut_report.config.caps import too_much
-from diecut_report.config.hidden_letters import printable
-from diecut_report.config.plain_data import texts
+from diecut_report.config import yaml
+from diecut_report.config.model import texts
 from diecut_report.config.validation import ConfigPlace, told
-from diecut_report.config.yaml_tree import KeyPath, Tree
+from diecut_report.config.yaml import KeyPath, Tree, printable, too_much
 from diecut_report.errors import Problem, UserError
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.files import content
+from diecut_report.pictures import MOST as LOGO_MOST
+from diecut_report.pictures import PictureFault, media_type
+from diecut_report.text.phrases import Phrase, phrase
 
-KEY = "materials"
+# Tables that a user keeps beside a configuration (``materials: my_steels.yaml``): entries by name, whose keys a block takes.
+#
+#     source: Saarstahl, data sheet 34CrNiMo6, 2021
+#     steels:
+#       34CrNiMo6+QT:
+#         strengths:
+#           - {diameter: 40 mm, tensile_strength: 1100 MPa, yield_strength: 900 MPa}
+#
+# A file is read and judged as a configuration is: what is wrong with it is told with its own name, line and key.
+
+
+OWN_TABLES_KEY = "materials"
 SOURCE, VERSION = "source", "schema_version"
 MOST = 20  # files of one configuration
 Find = Callable[[str], Path]
@@ -66,7 +70,7 @@ class OwnTables:
     def read(config: Tree, find: Find | None) -> OwnTables:
         """Return the tables that a configuration names; ``find`` says where a file is, else it is beside the configuration."""
         tables, place = OwnTables(), ConfigPlace(config)
-        given = config.data.get(KEY) if isinstance(config.data, dict) else None
+        given = config.data.get(OWN_TABLES_KEY) if isinstance(config.data, dict) else None
         names = given if isinstance(given, list) else [] if given is None else [given]
         if len(names) > MOST:
             words = Phrase(
@@ -74,11 +78,11 @@ class OwnTables:
                 count=len(names),
                 most=MOST,
             )
-            tables.problems.append(place.problem((KEY,), words))
+            tables.problems.append(place.problem((OWN_TABLES_KEY,), words))
             return tables
         beside = find or (lambda name: Path(config.file).parent / name)
         for index, name in enumerate(names):
-            key = (KEY, index) if isinstance(given, list) else (KEY,)
+            key = (OWN_TABLES_KEY, index) if isinstance(given, list) else (OWN_TABLES_KEY,)
             tables._file(name, place, key, beside)
         return tables
 
@@ -94,7 +98,7 @@ class OwnTables:
             self.problems.append(place.problem(key, words))
             return
         try:
-            tree = yaml_tree.load(path)
+            tree = yaml.load(path)
         except UserError as error:
             self.problems += error.problems
             return
@@ -210,3 +214,50 @@ def place_fault(name: str, lie: str) -> str:
             lie=lie,
         )
     return ""
+
+
+KEY = ("report", "logo")
+
+
+class Logo(NamedTuple):
+    """A picture, by the name that the configuration gives it."""
+
+    name: str
+    content: bytes
+    media_type: str
+
+    @property
+    def sha256(self) -> str:
+        """The hash of the file."""
+        return sha256(self.content).hexdigest()
+
+
+def logo_of(config: Tree, find: Find | None) -> tuple[Logo | None, list[Problem]]:
+    """Return the logo that a configuration names, and what is wrong with it; ``find`` says where a file is, else it is beside it."""
+    report = config.data.get(KEY[0]) if isinstance(config.data, dict) else None
+    name = report.get(KEY[1]) if isinstance(report, dict) else None
+    place = ConfigPlace(config)
+    if name is None:
+        return None, []
+    if fault := logo_fault(name):
+        return None, [place.problem(KEY, fault)]
+    path = find(name) if find else Path(config.file).parent / name
+    if not os.path.exists(path):
+        words = Phrase(
+            "there is no file {path}. A logo is sought from the configuration's folder; check the name.", path=path
+        )
+        return None, [place.problem(KEY, words)]
+    try:
+        found = content(path, LOGO_MOST, phrase("a PNG or SVG picture"))
+        return Logo(name, found, media_type(found)), []
+    except UserError as error:
+        return None, list(error.problems)
+    except PictureFault as fault:
+        return None, [place.problem(KEY, Phrase("{name} {fault}", name=told(name), fault=fault))]
+
+
+def logo_fault(name: object) -> str:
+    """Return what is wrong with the name of a logo; "" where it leads to a file beside the configuration or below."""
+    if not isinstance(name, str) or not name.strip():
+        return Phrase("is {name}; the name of a PNG or SVG file is needed, such as logo.svg", name=told(name))
+    return place_fault(name, phrase("a logo lies"))

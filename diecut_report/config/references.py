@@ -6,26 +6,31 @@ to another input waits for that input only; one that refers to an output waits f
 
 from __future__ import annotations
 
+import codecs
+import copy
+import hashlib
 import re
 from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from graphlib import CycleError, TopologicalSorter
 from typing import Any
 
-from diecut_report.conditions.arithmetic import read_expression
-from diecut_report.conditions.parts import Name
-from diecut_report.conditions.words import ConditionError
-from diecut_report.config.hidden_letters import seeming_latin
-from diecut_report.config.instances import Instance, Slot, default_of
-from diecut_report.config.model import PRESS
-from diecut_report.config.plain_data import texts
-from diecut_report.config.targets import Node, Target, Unresolved
+import yaml
+
+from diecut_report.config.instances import Instance, Node, Slot, Target, Unresolved, default_of
+from diecut_report.config.model import PRESS, texts
 from diecut_report.config.validation import declared
-from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Block, CurveInput, FromPress, MechanismInput, Meta, Quantity, fields
-from diecut_report.contract.result_names import count_name, has_own_names, named, names_ahead
-from diecut_report.contract.varying import Varying
-from diecut_report.errors import Problem, nearest
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.config.yaml import LOADER, KeyPath, Tree, parse, seeming_latin
+from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.formulas.condition_parts import Name, read_expression
+from diecut_report.formulas.conditions import ConditionError
+from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput
+from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, fields
+from diecut_report.mechanism.names import FromPress
+from diecut_report.mechanism.steps import count_name, has_own_names, named, names_ahead
 from diecut_report.quantities.units import pretty, unit
+from diecut_report.text.phrases import Phrase, phrase
 
 PHASES = "phases"
 WHOLE = re.compile(r"\$\{([^${}]*)\}")
@@ -288,3 +293,239 @@ def _check_index(path: str, data: Any, key: KeyPath) -> None:
             )
         known = part in data if isinstance(data, dict) else isinstance(data, list) and isinstance(part, int)
         data = data[part] if known else None
+
+
+# The order in which the values and calculations of a config follow from each other, and the loops in it.
+
+
+def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Target]) -> tuple[list[Node], list[Problem]]:
+    """The nodes in the order in which they can be known; or, for each loop, a problem that shows the whole of it."""
+    kept, problems = dict(links), list[Problem]()
+    while True:
+        sorter: TopologicalSorter[Node] = TopologicalSorter({(name,): () for name in instances})
+        for node, target in kept.items():
+            sorter.add(node, *(single.node for single in target.single))
+            sorter.add(node[:1], node)
+        try:
+            return list(sorter.static_order()), problems
+        except CycleError as error:
+            loop: list[Node] = error.args[1][:0:-1]  # each refers to the next
+            first = next(index for index, node in enumerate(loop) if node in kept)
+            loop = loop[first:] + loop[:first]
+            problems.append(_loop_problem(instances, kept, loop))
+            del kept[loop[0]]
+
+
+def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node, Target], loop: list[Node]) -> Problem:
+    shown = [".".join(map(str, node)) if len(node) > 1 else _path(links[before], node)
+             for before, node in zip([loop[-1], *loop], loop, strict=False)]  # fmt: skip
+    instance = instances[str(loop[0][0])]
+    assert instance is not None, "a mechanism without a model has no links"
+    told = [text for before, text in zip(["", *shown], [*shown, shown[0]], strict=True) if text != before]
+    message = Phrase(
+        "refers to itself: {told}. Give one of these inputs a value of its own.",
+        told=" → ".join(told if len(told) > 1 else 2 * told),
+    )
+    return instance.place.problem(loop[0][1:], message)
+
+
+def _path(link: Target, node: Node) -> str:
+    """The path by which a link names a calculation."""
+    return next(single.path for single in link.single if single.node == node)
+
+
+# The text of a configuration with other values in some of its places; all else stays as it is, byte for byte.
+
+
+ANCHOR = re.compile(r"&\S+\s+")
+EXPRESSION = phrase(
+    "holds ${…}, a reference or an expression, and is not written over; change what it refers to, "
+    "or write a number there first"
+)
+SHARED = phrase(
+    "stands in a part that an anchor (&) and its aliases (*) share, so that it cannot be changed "
+    "here alone; write it out"
+)
+NO_HOME = phrase(
+    "cannot be put into the file, as the block that it belongs to does not stand there; write that block first"
+)
+
+
+@dataclass(frozen=True)
+class _Span:
+    """Hold where a scalar stands in the text: from its first letter to the one after its last, and whether in braces or brackets."""
+
+    start: int
+    end: int
+    column: int
+    in_flow: bool
+
+
+def written(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> str:
+    """Return the text of the file with these scalars, as they are to be typed; UserError as of ``rewritten``."""
+    return rewritten(tree, values, over_references=over_references).text
+
+
+def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: bool = False) -> Tree:
+    """Return the file with these scalars, as they are to be typed; a key that is not there is put into its block.
+
+    UserError in words where a value cannot be written: it is shared by an anchor, or an expression stands there which is not
+    to be written over.
+    """
+    if tree.problems or not values:
+        return tree
+    spans, edits = _spans(tree.text), []
+    for path, value in values.items():
+        typed = tree.typed(path)
+        if typed is not None and "${" in typed and not over_references:
+            raise UserError(_problem(tree, path, EXPRESSION))
+        edits.append(_new_key(tree, spans, path, value) if typed is None else _other(tree, spans, path, value))
+    text = tree.text
+    for start, end, new in sorted(edits, reverse=True):
+        text = text[:start] + new + text[end:]
+    return tree if text == tree.text else _read_again(tree, values, text)
+
+
+def as_file(tree: Tree, text: str) -> bytes:
+    """Return the bytes of a file with this text in place of the tree's, with the byte order mark that it began with."""
+    had_mark = hashlib.sha256(codecs.BOM_UTF8 + tree.text.encode()).hexdigest() == tree.sha256
+    return (codecs.BOM_UTF8 if had_mark else b"") + text.encode()
+
+
+@lru_cache(maxsize=4)
+def _spans(text: str) -> dict[tuple[int, int], _Span]:
+    """Where each scalar stands, by its line and column as the tree has them."""
+    found: dict[tuple[int, int], _Span] = {}
+    flows: list[bool] = []
+    for event in yaml.parse(text, Loader=LOADER):
+        if isinstance(event, yaml.MappingStartEvent | yaml.SequenceStartEvent):
+            flows.append(bool(event.flow_style))
+        elif isinstance(event, yaml.MappingEndEvent | yaml.SequenceEndEvent):
+            flows.pop()
+        elif isinstance(event, yaml.ScalarEvent):
+            first, last = event.start_mark, event.end_mark
+            assert first is not None and last is not None, "events of a text have marks"
+            end = last.index
+            anchor = ANCHOR.match(text, first.index, end) if event.anchor else None
+            span = _Span(anchor.end() if anchor else first.index, end, first.column, any(flows))
+            found[first.line + 1, first.column + 1] = span
+    return found
+
+
+def _other(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, value: str) -> tuple[int, int, str]:
+    """The piece of the text that holds a scalar, and what takes its place."""
+    span = spans[tree.position(path)]
+    ending = len(tree.text[span.start : span.end]) - len(tree.text[span.start : span.end].rstrip())
+    return span.start, span.end - ending, value
+
+
+def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, value: str) -> tuple[int, int, str]:
+    """Where a new key goes: behind the first single value of its block, in a line of its own or, within braces, in the same one."""
+    home, key = path[:-1], path[-1]
+    for name in _keys(tree.data, home):
+        before = (*home, name)
+        span, key_span = spans.get(tree.position(before)), spans.get(tree.key_position(before))
+        if (
+            tree.typed(before) in (None, "")
+            or span is None
+            or key_span is None
+            or "\n" in tree.text[key_span.start : span.end]
+        ):
+            continue
+        if span.in_flow:
+            return span.end, span.end, f", {key}: {value}"
+        line_end = _line_end(tree.text, span.end)
+        break_ = "\r\n" if "\r\n" in tree.text else "\n"
+        return line_end, line_end, f"{break_}{' ' * key_span.column}{key}: {value}"
+    raise UserError(_problem(tree, path, NO_HOME))
+
+
+def _line_end(text: str, place: int) -> int:
+    end = text.find("\n", place)
+    end = len(text) if end < 0 else end
+    return end - 1 if text[:end].endswith("\r") else end
+
+
+def _keys(data: Any, home: KeyPath) -> Iterator[str]:
+    """The keys of the block at a path; none where there is no block."""
+    for key in home:
+        known = key in data if isinstance(data, dict) else isinstance(data, list) and int(key) < len(data)
+        data = data[key] if known else None
+    yield from data if isinstance(data, dict) else ()
+
+
+def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
+    """The new text read, which must differ from the file in these values alone."""
+    expected = copy.deepcopy(tree.data)
+    for path, value in values.items():
+        home = expected
+        for key in path[:-1]:
+            home = home[key]
+        home[path[-1]] = parse(f"value: {value}\n", tree.file).data["value"]
+    found = parse(text, tree.file)
+    if found.data != expected:
+        shared = {tree.position(path) for path in _differing(found.data, expected)}
+        culprit = next((path for path in values if tree.position(path) in shared), next(iter(values)))
+        raise UserError(_problem(tree, culprit, SHARED))
+    found.name = tree.name
+    return found
+
+
+def _differing(one: Any, other: Any, path: KeyPath = ()) -> Iterator[KeyPath]:
+    """The paths of the single values in which two trees of plain data differ."""
+    is_block = isinstance(one, dict | list) and type(one) is type(other) and len(one) == len(other)
+    if not is_block:
+        yield from () if one == other else (path,)
+        return
+    for key in one if isinstance(one, dict) else range(len(one)):
+        if isinstance(one, list) or key in other:
+            yield from _differing(one[key], other[key], (*path, key))
+
+
+def _problem(tree: Tree, path: KeyPath, words: str) -> Problem:
+    return Problem(words, tree.file, *tree.position(path), path=".".join(map(str, path)))
+
+
+# Keys that take a number or a curve: a value that is a curve stands under the key of the curve, wherever it was typed.
+
+
+def linked(instances: Mapping[str, Instance | None]) -> Linker:
+    """Return the links of all instances, whose curves stand under their own keys then (``Block.curve_keys``).
+
+    What a mechanism gives may depend on that, and so whether a reference to it is a curve: it is asked until nothing moves.
+    """
+    linker = Linker(instances)
+    while _any_moved(instances, linker):
+        linker = Linker(instances)
+    return linker
+
+
+def _any_moved(instances: Mapping[str, Instance | None], linker: Linker) -> bool:
+    """Lay curves under their own keys, but where that is asked of an instance that has just changed; return whether there were any."""
+    moved: set[str] = set()
+    for instance in filter(None, instances.values()):
+        asked = (linker.links.get((instance.name, key)) for key in instance.model.curve_keys)
+        if not any(target.instance in moved for target in asked if target) and _moved(instance, linker):
+            moved.add(instance.name)
+    return bool(moved)
+
+
+def _moved(instance: Instance, linker: Linker) -> bool:
+    """Lay curves under their own keys; return whether there were any."""
+    found = [
+        (key, curve)
+        for key, curve in instance.model.curve_keys.items()
+        if instance.data.get(curve) is None and _is_curve(instance, key, linker)
+    ]
+    for key, curve in found:
+        instance.data[curve] = instance.data.pop(key)
+        instance.place = replace(instance.place, listed={**instance.place.listed, (curve,): (key,)})
+        instance.bases = {(curve,) if at == (key,) else at: basis for at, basis in instance.bases.items()}
+    if found:
+        instance.forget()
+    return bool(found)
+
+
+def _is_curve(instance: Instance, key: str, linker: Linker) -> bool:
+    target = linker.links.get((instance.name, key))
+    return isinstance(instance.data.get(key), list) or (target is not None and target.is_curve)

@@ -6,18 +6,17 @@ from collections.abc import Mapping
 from functools import partial
 from typing import Any, get_args, get_origin
 
-from diecut_report.config.basis import BASES
+from diecut_report.config.instances import DIMENSIONS
 from diecut_report.config.loader import NAME, RESERVED
 from diecut_report.config.model import Press, Project, ReportSettings
 from diecut_report.config.own_tables import MOST
-from diecut_report.config.report_units import DIMENSIONS
-from diecut_report.config.validation import keys_of
-from diecut_report.contract.inputs import Block, CurveInput, MechanismInput, PhaseInput, Quantity, Text
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.placeholders import OneOf
-from diecut_report.contract.unit_variants import in_all_units
-from diecut_report.contract.varying import Varying
-from diecut_report.limits import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
+from diecut_report.config.validation import BASES, keys_of
+from diecut_report.errors import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
+from diecut_report.mechanism.chapters import in_all_units
+from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
+from diecut_report.mechanism.inputs import Block, Quantity, Varying
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import OneOf, Text
 from diecut_report.quantities.units import MAX_UNIT_LENGTH, pretty
 
 Schema = dict[str, Any]

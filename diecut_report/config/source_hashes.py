@@ -14,9 +14,9 @@ from importlib import import_module
 from pathlib import Path
 from weakref import WeakKeyDictionary
 
-from diecut_report.code_files import code_below, code_of
-from diecut_report.config.hidden_letters import printable
-from diecut_report.contract.mechanism import Mechanism
+from diecut_report.config.yaml import printable
+from diecut_report.files import code_below, code_of
+from diecut_report.mechanism.mechanism import Mechanism
 
 PACKAGE = Path(__file__).parents[1]
 PLUGINS = "diecut_report.plugins"

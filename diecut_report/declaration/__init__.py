@@ -2,59 +2,32 @@
 
 from __future__ import annotations
 
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration import (
-    allowed,
-    checks,
-    conditions,
-    documents,
-    doubled,
-    examples,
-    figures,
-    formulas,
-    idle_chapters,
-    imports,
-    impure,
-    inputs,
-    kinds,
-    messages,
-    order,
-    phases,
-    remembered,
-    shape,
-    shared_names,
-    spectra,
-    symbols,
-    tables,
-    tokens,
-    units,
-    unknown_units,
-)
-from diecut_report.declaration.names import DeclaredNames
-from diecut_report.declaration.words import Fault
+from diecut_report.declaration import checks, code, figures, formulas, inputs, shape, tables, texts
+from diecut_report.declaration.names import DeclaredNames, Fault
+from diecut_report.mechanism.mechanism import Mechanism
 
-PARTS = (
-    inputs,
-    allowed,
-    tokens,
-    formulas,
-    order,
-    shared_names,
-    kinds,
-    phases,
-    conditions,
-    units,
-    tables,
-    doubled,
-    idle_chapters,
-    impure,
-    messages,
-    checks,
-    figures,
-    spectra,
-    documents,
-    symbols,
-    examples,
+RULES = (
+    inputs.faults,
+    inputs.allowed_faults,
+    texts.token_faults,
+    formulas.faults,
+    formulas.order_faults,
+    checks.shared_names_faults,
+    formulas.kinds_faults,
+    figures.phases_faults,
+    inputs.conditions_faults,
+    formulas.units_faults,
+    tables.faults,
+    shape.doubled_faults,
+    checks.idle_chapters_faults,
+    code.impure_faults,
+    checks.messages_faults,
+    checks.faults,
+    figures.faults,
+    figures.spectra_faults,
+    texts.document_faults,
+    texts.symbol_faults,
+    inputs.examples_faults,
 )
 
 __all__ = ["Fault", "faults", "faults_at_load"]
@@ -65,22 +38,22 @@ def faults_at_load(mechanism: Mechanism) -> list[Fault]:
 
     One that was found sound before is not judged again until one of its files changes.
     """
-    key = "" if shape.faults(mechanism) or list(formulas.unmarked(mechanism)) else remembered.content(mechanism)
-    if key and remembered.is_sound(key):
+    key = "" if shape.faults(mechanism) or list(formulas.unmarked(mechanism)) else code.content(mechanism)
+    if key and code.is_sound(key):
         return []
-    found = [*faults(mechanism), *imports.faults(mechanism)]
+    found = [*faults(mechanism), *code.import_faults(mechanism)]
     if key and not found:
-        remembered.remember(key)
+        code.remember(key)
     return found
 
 
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return every mistake in what a mechanism declares, and in its comparisons; in the order of reading."""
-    found = shape.faults(mechanism) or list(formulas.unmarked(mechanism)) or list(unknown_units.faults(mechanism))
+    found = shape.faults(mechanism) or list(formulas.unmarked(mechanism)) or list(shape.unknown_units_faults(mechanism))
     if found:  # nothing can be asked of what is not a formula, or in a unit that is none
         return found
     names = DeclaredNames(mechanism)
-    found = [fault for part in PARTS for fault in part.faults(mechanism, names)]
+    found = [fault for rule in RULES for fault in rule(mechanism, names)]
     for comparison in mechanism.comparisons:
         found += faults(comparison.mechanism)
     return list(dict.fromkeys(found))

@@ -2,19 +2,224 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from itertools import product
+import ast
+import re
+from collections.abc import Collection, Iterator
+from functools import lru_cache
+from itertools import pairwise, product
+from pathlib import Path
+from typing import Any, NamedTuple
 
-from diecut_report.contract.checks import Check
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration import same_sides
-from diecut_report.declaration.messages import unprintable
-from diecut_report.declaration.names import DeclaredNames, Giver
-from diecut_report.declaration.order import pairs
-from diecut_report.declaration.words import Fault, unknown
-from diecut_report.declaration.world import When
-from diecut_report.languages.phrases import Phrase, named, phrase
+from diecut_report.declaration.formulas import lacking, pairs
+from diecut_report.declaration.names import DeclaredNames, Fault, Giver, Key, When, short, unknown, world
+from diecut_report.declaration.names import told as shared_names_told
+from diecut_report.declaration.texts import files_around, own_files, parsed
+from diecut_report.errors import nearest
+from diecut_report.formulas.formula import FormulaError
+from diecut_report.formulas.tree import Node, substitute, symbols
+from diecut_report.mechanism.chapters import MISSING, taken
+from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import ByText, bound
+from diecut_report.mechanism.part_steps import PartTable
+from diecut_report.mechanism.steps import (
+    Breakpoints,
+    Choice,
+    Clash,
+    Computed,
+    CurvePeriod,
+    FromCurve,
+    Phase,
+    Require,
+    ResultName,
+    Step,
+    Value,
+    Words,
+    has_own_names,
+    names_ahead,
+    read,
+)
+from diecut_report.quantities.formatting import NAMED
 from diecut_report.quantities.units import unit
+from diecut_report.text.phrases import Phrase, named, phrase
+
+# Checks that cannot fail, or cannot hold: both sides are one expression, or neither depends on an input.
+
+
+NEUTRAL = {"+": 0.0, "*": 1.0}
+DEEP = 40  # formulas within formulas, of which a declaration may have a circle that is reported elsewhere
+
+
+def told(names: DeclaredNames, check: Check) -> Iterator[str]:
+    """Yield what is wrong with the sides of a check.
+
+    Where inputs decide which formula gives a side, one of them may bound the other: a size that is chosen, a count that is not
+    left out. A check is refused where none of its forms can turn out otherwise.
+    """
+    for one, other in check.pairs:
+        found = [_empty(*sides) for sides in product(_ways(names, one), _ways(names, other))]
+        if all(found):
+            yield from (Phrase(text, one=_told(one), other=_told(other)) for text in dict.fromkeys(found))
+
+
+def _empty(demand: Node, limit: Node) -> str:
+    """Return why two expressions are no check; nothing where they are one."""
+    if _ordered(demand) == _ordered(limit):
+        return phrase("compares {one} with {other}, which is the same expression: it can never fail")
+    if not symbols(demand) and not symbols(limit):
+        return phrase(
+            "compares {one} with {other}, neither of which depends on an input: its verdict is always the same"
+        )
+    if limit in _least(demand) or demand in _greatest(limit):
+        return phrase("compares {one} with {other}, by which it is bounded itself: it can never fail")
+    return ""
+
+
+def _ordered(part: Any) -> Any:
+    """An expression with the parts of its sums and products in one order, without those that change nothing."""
+    if not isinstance(part, tuple):
+        return part
+    if not isinstance(part, Node):
+        return tuple(map(_ordered, part))
+    parts = [_ordered(each) for each in part.args]
+    neutral = NEUTRAL.get(part.op)
+    if neutral is None:
+        return Node(part.op, tuple(parts))
+    flat = [each for own in parts for each in (own.args if own.op == part.op else (own,))]
+    kept = sorted((each for each in flat if each.op != "num" or float(each.args[0]) != neutral), key=repr)
+    return kept[0] if len(kept) == 1 else Node(part.op, tuple(kept))
+
+
+def _ways(names: DeclaredNames, side: str | float) -> list[Node]:
+    """The expressions that a side may be, down to the inputs and to what is no closed formula."""
+    if not isinstance(side, str):
+        return [Node("num", (repr(float(side)),))]
+    return list(dict.fromkeys(_expanded(names, side, giver, DEEP) for giver in names.givers(side)))
+
+
+def _expanded(names: DeclaredNames, name: str, giver: Giver, deep: int) -> Node:
+    step = giver.step
+    if type(step) is not Value or isinstance(step.formula, ByText) or not deep:
+        return Node("sym", (name,))
+    link = bound(step.formula)
+    try:
+        tree = link.formula.tree
+    except FormulaError:  # which is reported as a fault of the formula
+        return Node("sym", (name,))
+    return substitute(tree, {own: _part(names, taken, deep - 1) for own, taken in link.names.items()})
+
+
+def _part(names: DeclaredNames, taken: str | float, deep: int) -> Node:
+    """What a formula takes; a name that several steps give stands for itself."""
+    if not isinstance(taken, str):
+        return Node("num", (repr(float(taken)),))
+    givers = names.givers(taken)
+    return _expanded(names, taken, givers[0], deep) if len(givers) == 1 else Node("sym", (taken,))
+
+
+def _least(node: Node) -> set[Node]:
+    return set(_arguments(node, "minimum"))
+
+
+def _greatest(node: Node) -> set[Node]:
+    return set(_arguments(node, "maximum"))
+
+
+def _arguments(node: Node, name: str) -> Iterator[Node]:
+    """What a least or greatest value is taken of, also of several after one another."""
+    for part in node.args[1:] if node.op == "call" and node.args[0] == name else ():
+        yield part
+        yield from _arguments(part, name)
+
+
+def _told(side: str | float) -> str:
+    return side if isinstance(side, str) else f"{side:g}"
+
+
+# Texts: each ``{id}`` in a message names something that can be printed there, and no other text holds one.
+
+
+BRACE = re.compile(r"\{[^{}]*\}?|\}")  # what looks as if it were filled in
+MESSAGES_OF_PARTS = {Require: ("part", "next", "index"), Clash: ("part", "other", "index")}
+
+
+def messages_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield the messages that name what cannot be printed, keys of no input, and texts that nothing fills in."""
+    for number, (_, step) in enumerate(mechanism.steps):
+        if isinstance(step, Require | Clash):
+            when, parts = names.when(number), MESSAGES_OF_PARTS[type(step)]
+            for text in unprintable(names, step.message, when, parts, number):
+                yield Fault(step.at, Phrase("step {id}", id=step.id), Phrase("the message names {text}", text=text))
+            yield from (Fault(step.at, Phrase("step {id}", id=step.id), text) for text in _key(names, step.key))
+    yield from _unfilled(mechanism)
+
+
+def unprintable(
+    names: DeclaredNames, text: str, when: When, parts: Collection[str] = (), before: int | None = None
+) -> Iterator[str]:
+    """Yield what is wrong with the ``{ids}`` of a message that is told (before a step) when something is made."""
+    for left in BRACE.findall(NAMED.sub("", text)):
+        words = "{left}: write {plain}, {up} or {down}; nothing else is filled in"
+        yield Phrase(words, left=left, plain="{id}", up="{id:up}", down="{id:down}")
+    for name in dict.fromkeys(found[1] for found in NAMED.finditer(text)):
+        if name in parts:
+            continue
+        braced = f"{{{name}}}"
+        makers = [g for g in names.givers(name) if isinstance(g.step, Words)]
+        words = lacking(names, name, when, None if makers else before)
+        if not words and "curve" in names.kinds(name) | {k.replace("curve input", "curve") for k in names.kinds(name)}:
+            words = Phrase("{name}, a curve, which has no single number; name an extreme or a mean of it", name=braced)
+        if words:
+            yield words
+            continue
+        for maker in makers:  # a text is made where a message asks for it, of what is known then
+            assert isinstance(maker.step, Words)
+            of = (lacking(names, taken, when.with_(maker.when), before) for taken in maker.step.takes)
+            yield from (Phrase("{name}, which takes {said}", name=braced, said=said) for said in of if said)
+
+
+def _key(names: DeclaredNames, key: str) -> Iterator[str]:
+    """What is wrong with the key of an input that a message stands at."""
+    parts = [part for part in key.split(".") if not part.isdigit() and not NAMED.fullmatch(part)]
+    path = ".".join(parts)
+    if path not in names.world.keys:
+        yield Phrase(
+            "the key {key} is not an input{nearest}; name the input that is to be changed",
+            key=repr(key),
+            nearest=nearest(path, names.world.keys),
+        )
+
+
+def _unfilled(mechanism: Mechanism) -> Iterator[Fault]:
+    """Texts with ``{id}`` that are printed as they stand."""
+    words = "{braced} stands in braces in {field}, where nothing is filled in; write it without, or say it in a message or consequence"
+    for place, subject, field, text in _plain(mechanism):
+        found = NAMED.search(text.replace(MISSING, "") if field == "absent" else text)
+        if found:
+            yield Fault(place, subject, Phrase(words, braced=found[0], field=field))
+
+
+def _plain(mechanism: Mechanism) -> Iterator[tuple[str, str, str, str]]:
+    for section in mechanism.chapters:
+        yield from (
+            (section.at, Phrase("section {title}", title=repr(section.title)), f, getattr(section, f))
+            for f in ("title", "text", "absent")
+        )
+    for _, step in mechanism.steps:
+        fields = {Computed: ("description", "method"), CurvePeriod: ("description", "otherwise")}
+        for field in fields.get(type(step), ("description",)):
+            yield step.at, Phrase("step {id}", id=step.id), field, getattr(step, field)
+        for case in step.cases if isinstance(step, Choice) else ():
+            yield step.at, Phrase("step {id}", id=step.id), phrase("the words of a case"), case.words
+    for check in mechanism.checks:
+        texts = ("title", "demand_label", "limit_label", "at_least_label")
+        yield from ((check.at, Phrase("check {id}", id=check.id), field, getattr(check, field)) for field in texts)
+    for figure in mechanism.figures:
+        yield from (
+            (figure.at, Phrase("figure {id}", id=figure.id), field, getattr(figure, field))
+            for field in ("title", "caption")
+        )
+
 
 JUDGED = ("number", "row", "curve")
 OF_PARTS = ("part", "next", "index")
@@ -63,7 +268,7 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
             "compares what runs over {axes}; compare numbers, or curves over one abscissa",
             axes=named(sorted(axes), " with what runs over "),
         )
-    yield from same_sides.told(names, check)
+    yield from told(names, check)
     yield from _names_of_parts(names, check)
     made = _when(names, check)
     if not made:
@@ -105,3 +310,200 @@ def _instead(name: str, kind: str) -> str:
         "curve input": phrase("a curve input; take it over by FromCurve and compare that curve"),
         "block": phrase("a block; compare one of its inputs"),
     }[kind]
+
+
+# Chapters and families of steps that a plugin's file declares, and that no mechanism holds: they would be left out in silence.
+
+
+CALLS = ("Chapter", "Steps")
+
+
+class Defined(NamedTuple):
+    """A chapter or a family of steps that a file defines under a name, in some of its lines."""
+
+    name: str
+    call: ast.Call
+    line: int
+    until: float  # the line that gives the name to another one
+
+    @property
+    def is_chapter(self) -> bool:
+        """Whether it is a chapter."""
+        return _called(self.call) == "Chapter"
+
+
+def idle_chapters_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield the chapters and families that are filled, and then named nowhere."""
+    for file in own_files(mechanism):
+        for defined in _definitions(parsed(file)):
+            if _is_filled(parsed(file), defined) and not _is_named(mechanism, file, defined):
+                yield _fault(file, defined)
+
+
+def _fault(file: Path, defined: Defined) -> Fault:
+    place, name = f"{file}:{defined.line}", defined.name
+    lost = phrase("so that its steps are never calculated")
+    if not defined.is_chapter:
+        return Fault(
+            place,
+            Phrase("steps {name}", name=name),
+            Phrase("is added to no chapter, {lost}; write chapter.add({name})", lost=lost, name=name),
+        )
+    title = defined.call.args[0] if defined.call.args else None
+    subject = Phrase("chapter {title}", title=ast.unparse(title) if title else name)
+    instead = Phrase("name {name} in chapters=(…) of the Mechanism", name=name)
+    if defined.until != float("inf"):
+        instead = Phrase(
+            "line {until} calls another one {name}: give one of them another name, and name both in chapters=(…)",
+            until=defined.until,
+            name=name,
+        )
+    return Fault(place, subject, Phrase("is in no mechanism, {lost}; {instead}", lost=lost, instead=instead))
+
+
+def _definitions(tree: ast.Module) -> Iterator[Defined]:
+    """What the statements of a file itself define; what functions and loops make may go anywhere."""
+    found: dict[str, list[tuple[int, ast.Call]]] = {}
+    for statement in tree.body:
+        match statement:
+            case ast.Assign(targets=[ast.Name(id=name)], value=ast.Call() as call) if _called(call) in CALLS:
+                found.setdefault(name, []).append((statement.lineno, call))
+    for name, several in found.items():
+        for (line, call), (until, _) in pairwise([*several, (float("inf"), several[-1][1])]):
+            yield Defined(name, call, int(line), until)
+
+
+def _called(call: ast.Call) -> str:
+    return getattr(call.func, "id", getattr(call.func, "attr", ""))
+
+
+def _is_filled(tree: ast.Module, defined: Defined) -> bool:
+    """Whether anything is declared in it."""
+    return any(_fills(s, defined.name) and defined.line < s.lineno < defined.until for s in tree.body)
+
+
+def _fills(statement: ast.stmt, name: str) -> bool:
+    match statement:
+        case ast.Expr(value=ast.Call(func=ast.Attribute(value=ast.Name(id=head)))):
+            return head == name
+    return False
+
+
+def _is_named(mechanism: Mechanism, file: Path, defined: Defined) -> bool:
+    """Whether anything else is said of it than what is declared in it."""
+    own = [s for s in parsed(file).body if defined.line < s.lineno < defined.until]
+    if any(_may_name(s, defined.name) and _names(s, defined.name) > _fills(s, defined.name) for s in own):
+        return True
+    others = [each for each in files_around(mechanism) if each != file] if defined.until == float("inf") else []
+    return any(_may_name(s, defined.name) and _names(s, defined.name) for each in others for s in parsed(each).body)
+
+
+def _may_name(statement: ast.stmt, name: str) -> bool:
+    return not _words(statement).isdisjoint((name, "*"))
+
+
+@lru_cache(maxsize=1024)
+def _words(statement: ast.AST) -> frozenset[str]:
+    """All that a name could be in it: what has none of it need not be gone through for each name."""
+    words = {getattr(node, key, None) for node in ast.walk(statement) for key in ("id", "attr", "name", "value")}
+    return frozenset(word for word in words if isinstance(word, str))
+
+
+def _names(node: ast.AST, name: str) -> int:
+    """How often a name stands in it: as such, of a module, imported, or in ``__all__``; not as the parameter of a function."""
+    match node:
+        case ast.Lambda(args=args) | ast.FunctionDef(args=args) if any(
+            name == each.arg for each in ast.walk(args) if isinstance(each, ast.arg)
+        ):
+            return 0
+        case ast.Assign(targets=[ast.Name(id="__all__")]):
+            return sum(getattr(each, "value", None) == name for each in ast.walk(node))
+    own = name in (getattr(node, "id", None), getattr(node, "attr", None))
+    imported = isinstance(node, ast.alias) and node.name in (name, "*")
+    return own + imported + sum(_names(each, name) for each in ast.iter_child_nodes(node))
+
+
+# Names of two things: a step that hides an input, or a name that the engine makes itself, as the place of an extreme.
+
+
+NAMELESS = Breakpoints | Require | Clash | Phase | PartTable  # whose ids nothing takes
+MADE = {
+    "place": phrase("the place of its extreme"),
+    "count": phrase("the number of its crossings"),
+    "crossing": phrase("one of its crossings"),
+    "part": phrase("one of its parts"),
+}
+
+
+def shared_names_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield the steps that hide an input whose value nothing takes then, and names that the engine makes of another step."""
+    inputs = world(mechanism.inputs).keys
+    for number, (_, step) in enumerate(mechanism.steps):
+        if step.id in inputs and not isinstance(step, NAMELESS):
+            yield from _hidden(names, number, step, inputs[step.id])
+        for name, place, when in _made_otherwise(names, number, step):
+            yield from _made_twice(names, number, step, name, place, when)
+
+
+def _hidden(names: DeclaredNames, number: int, step: Step, key: Key) -> Iterator[Fault]:
+    """The step that has the id of an input, where that is given and no step or check takes ``inputs.ID``, or refuses it."""
+    when = names.when(number).with_(When(frozenset((key.path,)) if key.may_be_absent else frozenset()))
+    given = names.world.example(when, list(_takers(names, key.path)))
+    if given is not None:
+        words = (
+            "has the id of an input, so that what the user gives for {id} counts nowhere {where}; name the step otherwise, "
+            'or let a formula take the input as "inputs.{id}"'
+            if (where := shared_names_told(given, when.needs | when.lacks))
+            else "has the id of an input, so that what the user gives for {id} counts nowhere; name the step otherwise, "
+            'or let a formula take the input as "inputs.{id}"'
+        )
+        yield Fault(step.at, Phrase("step {id}", id=step.id), Phrase(words, id=step.id, where=where))
+
+
+def _takers(names: DeclaredNames, path: str) -> Iterator[When]:
+    """When something takes an input itself, not the step of its id."""
+    for number, (_, step) in enumerate(names.mechanism.steps):
+        own = {getattr(step, "given", "")} | ({step.id} if isinstance(step, FromCurve) else set())
+        own |= {name.removeprefix("inputs.") for name in getattr(step, "holds", ()) if name.startswith("inputs.")}
+        refuses = isinstance(step, Require) and step.key == path and path in step.needs
+        if f"inputs.{path}" in taken(step) or path in own or refuses:
+            yield names.when(number)
+    for check in names.mechanism.checks:
+        if f"inputs.{path}" in check.named:
+            yield When(frozenset((*check.needs, *check.only_with)))
+
+
+def _made_otherwise(names: DeclaredNames, number: int, step: Step) -> Iterator[tuple[ResultName, str, When]]:
+    """The names that the engine makes of a step, each with the place and the condition of what is declared under it."""
+    made = {each.name: each for each in names_ahead(step) if each.role != "value"}
+    if not made:
+        return
+    for name in sorted(made.keys() & names.world.keys.keys()):
+        key = names.world.keys[name]
+        yield made[name], "", When(frozenset((key.path,)) if key.may_be_absent else frozenset())
+    for other, (_, declared) in enumerate(names.mechanism.steps):
+        if declared is step or isinstance(declared, NAMELESS):
+            continue
+        if declared.id in made:
+            yield made[declared.id], declared.at, names.when(other)
+        elif other < number:
+            yield from ((made[name], declared.at, names.when(other)) for name in _both_make(made, declared))
+
+
+def _both_make(made: dict[str, ResultName], other: Step) -> list[str]:
+    """A name that another step makes too."""
+    if has_own_names(other):
+        return [name for name in made if (found := read(name, other)) and found.role != "value"][:1]
+    return [each.name for each in names_ahead(other) if each.role != "value" and each.name in made][:1]
+
+
+def _made_twice(
+    names: DeclaredNames, number: int, step: Step, made: ResultName, place: str, when: When
+) -> Iterator[Fault]:
+    given = names.world.example(names.when(number).with_(when))
+    if given is None:
+        return
+    what = Phrase("that of another step (at {place})", place=short(place)) if place else phrase("that of an input")
+    words = "gives {name} as {made}, and this name is {what}; name one of them otherwise"
+    text = Phrase(words, name=made.name, made=MADE[made.role], what=what)
+    yield Fault(step.at, Phrase("step {id}", id=step.id), text)

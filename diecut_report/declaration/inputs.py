@@ -2,26 +2,128 @@
 
 from __future__ import annotations
 
+import inspect
 import math
-from collections.abc import Iterator
+import re
+from collections.abc import Hashable, Iterator, Mapping
+from dataclasses import replace
+from functools import cache
 from inspect import get_annotations
 from types import UnionType
-from typing import Any, Union, get_args, get_origin
+from typing import Any, Literal, Union, cast, get_args, get_origin, get_type_hints
 
 from pydantic import PydanticSchemaGenerationError, TypeAdapter
 from pydantic.fields import FieldInfo
 
-from diecut_report.contract.bounds import BOUNDS
-from diecut_report.contract.inputs import Block, CurveInput, Meta, Quantity, Text, meta_of, nested
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.declaration.input_places import of_class, of_field
-from diecut_report.declaration.names import DeclaredNames
-from diecut_report.declaration.words import Fault
-from diecut_report.declaration.world import Key, allowed
+from diecut_report.declaration.formulas import kind_of
+from diecut_report.declaration.names import DeclaredNames, Fault, Key, allowed
 from diecut_report.errors import nearest
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.formulas.formula import FormulaError
+from diecut_report.formulas.tree import Node
+from diecut_report.mechanism.curve_inputs import CurveInput
+from diecut_report.mechanism.inputs import BOUNDS, Block, Meta, Quantity, meta_of, nested
+from diecut_report.mechanism.mechanism import ExampleBlock, ForEach, Mechanism, Wired, kinds_named
+from diecut_report.mechanism.names import Binding, Bound, ByText, Text, bound
+from diecut_report.mechanism.steps import Choice, Computed, Require, Step, Value
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.quantities.units import unit
+from diecut_report.text.phrases import Phrase, phrase
+
+# What a declaration may say: words among the allowed ones, yes or no, tuples of ids, tolerances of rounding.
+
+
+MOST_TOLERANCE = 0.01  # of a check: more than rounding and measuring leave open is a limit of its own
+NOT_READ = {"StandardSeries": object, "StandardTable": object, "Chapter": object}  # imported for type checkers alone
+ALLOWED_PLAIN = ("needs", "lacks", "only_with", "asks_for")  # which are told of where tokens are judged
+
+
+def allowed_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield words that are not among the allowed ones, and tolerances that let a machine fail."""
+    for subject, declared in _declared(mechanism):
+        for text in _allowed_wrong(declared):
+            yield Fault(declared.at, subject, text)
+    for check in mechanism.checks:
+        if not 0 <= check.tolerance <= MOST_TOLERANCE:
+            text = Phrase(
+                "has the tolerance {tolerance}, a share of the limit; allowed: 0 to {most} (1 %), for rounding alone; "
+                "put what is allowed into the limit",
+                tolerance=repr(check.tolerance),
+                most=MOST_TOLERANCE,
+            )
+            yield Fault(check.at, Phrase("check {id}", id=check.id), text)
+
+
+def _declared(mechanism: Mechanism) -> Iterator[tuple[str, Any]]:
+    yield Phrase("mechanism {kind}", kind=mechanism.kind), mechanism
+    yield from ((Phrase("chapter {title}", title=repr(chapter.title)), chapter) for chapter in mechanism.chapters)
+    yield from ((Phrase("step {id}", id=step.id), step) for _, step in mechanism.steps)
+    yield from ((Phrase("check {id}", id=check.id), check) for check in mechanism.checks)
+    yield from ((Phrase("figure {id}", id=figure.id), figure) for figure in mechanism.figures)
+    yield from ((Phrase("export {id}", id=profile.id), profile) for profile in mechanism.exports)
+    yield from ((Phrase("erratum of {source}", source=erratum.source), erratum) for erratum in mechanism.errata)
+
+
+def _allowed_wrong(declared: Any) -> Iterator[str]:
+    for name, (words, kind) in _fields(cast(Hashable, type(declared))).items():
+        value = getattr(declared, name)
+        if words and value not in words:
+            told = ", ".join(map(repr, words))
+            yield Phrase(
+                "has {name}={value}{nearest}; allowed: {told}",
+                name=name,
+                value=repr(value),
+                nearest=nearest(str(value), map(str, words)),
+                told=told,
+            )
+        elif kind is bool and not isinstance(value, bool):
+            yield Phrase("has {name}={value}; allowed: True, False", name=name, value=repr(value))
+        elif kind is tuple and isinstance(value, str):
+            yield Phrase("has {name}={value}, a text; write a tuple, ({value},)", name=name, value=repr(value))
+
+
+@cache
+def _fields(kind: Hashable) -> dict[str, tuple[tuple[Any, ...], Any]]:
+    """The fields that hold one of several words, yes or no, or a tuple."""
+    found: dict[str, tuple[tuple[Any, ...], Any]] = {}
+    for name, hint in get_type_hints(cast(type, kind), localns=NOT_READ).items():
+        origin = get_origin(hint)
+        words = get_args(hint) if origin is Literal else ()
+        if words or hint is bool or (origin is tuple and name not in ALLOWED_PLAIN):
+            found[name] = words, bool if hint is bool else origin
+    return found
+
+
+# Where inputs are declared: the class, and the line in it.
+
+
+def of_class(declared: type, otherwise: str) -> str:
+    """Return ``file:line`` of a class, or another place where it has no file."""
+    try:
+        return f"{inspect.getsourcefile(declared)}:{inspect.getsourcelines(declared)[1]}"
+    except (OSError, TypeError):  # made without a file
+        return otherwise
+
+
+def of_field(model: type[Block], name: str, otherwise: str) -> str:
+    """Return the line that declares an input: annotations may be texts that pydantic reads, so that they know no place themselves."""
+    for owner in model.__mro__:
+        if name in inspect.get_annotations(owner):
+            try:
+                lines, first = inspect.getsourcelines(owner)
+            except OSError:  # made without a file
+                return otherwise
+            for number, line in enumerate(lines, first):
+                if line.strip().startswith(f"{name}:"):
+                    return f"{inspect.getsourcefile(owner)}:{number}"
+    return otherwise
+
+
+def of_input(model: type[Block], path: str, otherwise: str) -> str:
+    """Return the line that declares the input of a path (``gears.driver_teeth``)."""
+    head, _, rest = path.partition(".")
+    inner = nested(model.model_fields[head].annotation) if rest else None
+    return of_input(inner[0], rest, otherwise) if inner else of_field(model, head, otherwise)
+
 
 RESERVED = ("kind",)  # keys of each mechanism in a configuration
 PLAIN = ("builtins", "typing", "types")  # where the classes of plain values stand
@@ -156,12 +258,12 @@ def _is_readable(kind: type) -> bool:
 def _bounds(meta: Quantity) -> Iterator[str]:
     """Bounds that are not numbers, and those that no number keeps."""
     given = {name: getattr(meta, name) for name, _ in BOUNDS if getattr(meta, name) is not None}
-    for name, bound in given.items():
-        if isinstance(bound, bool) or not isinstance(bound, int | float):
+    for name, limit in given.items():
+        if isinstance(limit, bool) or not isinstance(limit, int | float):
             yield Phrase(
                 "has the bound {name}={bound}; write a plain number, which counts in its unit ({unit}): {name}=0",
                 name=name,
-                bound=repr(bound),
+                bound=repr(limit),
                 unit=meta.unit,
             )
             return
@@ -236,3 +338,165 @@ def _default(default: Any, annotation: Any, meta: Meta) -> Iterator[str]:
         meta.validate(default)
     except ValueError as why:
         yield Phrase("the default {why}; change the default or the bounds", why=why)
+
+
+# Conditions give yes or no, and choices end with a case that is always taken.
+
+
+MAY_BE_ABSENT = Value | Choice | Computed
+YES_OR_NO = ("cmp", "and", "or", "not")
+
+
+def conditions_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield conditions that are numbers, numbers that are conditions, and choices in which no case may hold."""
+    for _, step in mechanism.steps:
+        for part, condition in _conditions(step):
+            for link in condition.options() if isinstance(condition, ByText) else (bound(condition),):
+                if not _decides(link, names):
+                    text = Phrase(
+                        "the {part} gives a number, not yes or no; compare it with something ({formula} > 0)",
+                        part=part,
+                        formula=link.formula.__name__,
+                    )
+                    yield Fault(step.at, Phrase("step {id}", id=step.id), text)
+                    break
+        if step.exists is not None and not isinstance(step, MAY_BE_ABSENT):
+            kinds = ", ".join(kind.__name__.lower() for kind in get_args(MAY_BE_ABSENT))
+            yield Fault(
+                step.at,
+                Phrase("step {id}", id=step.id),
+                Phrase("has exists, which holds for {kinds} alone; put it on what this step takes", kinds=kinds),
+            )
+        texts = _cases(step.cases) if isinstance(step, Choice) else _flag(step, names)
+        yield from (Fault(step.at, Phrase("step {id}", id=step.id), text) for text in texts)
+
+
+def _conditions(step: Step) -> Iterator[tuple[str, Binding]]:
+    if step.exists is not None:
+        yield phrase("condition exists"), step.exists
+    if isinstance(step, Require):
+        yield phrase("condition"), step.condition
+    for case in step.cases if isinstance(step, Choice) else ():
+        if case.condition is not None:
+            yield phrase("condition of a case"), case.condition
+
+
+def _decides(link: Bound, names: DeclaredNames, *, unread: bool = True) -> bool:
+    """Whether a formula gives yes or no; ``unread`` of one that cannot be read, which is told elsewhere."""
+    try:
+        return _is_condition(link.formula.tree, link, names, unread)
+    except (FormulaError, RecursionError):
+        return unread
+
+
+def _is_condition(node: Node, link: Bound, names: DeclaredNames, unread: bool) -> bool:
+    match node:
+        case Node("cases", branches):
+            return all(_is_condition(branch[0], link, names, unread) for branch in branches)
+        case Node("apply", (called, *_)):
+            return _is_condition(called.formula.tree, bound(called.formula), names, unread)
+        case Node("sym", (parameter,)):
+            steps = [giver.step for giver in names.givers(str(link.names.get(parameter)))]
+            return bool(steps) and all(isinstance(step, Value) and _decides(bound(step.formula), names, unread=unread) for step in steps)  # fmt: skip
+    return node.op in YES_OR_NO
+
+
+def _flag(step: Step, names: DeclaredNames) -> Iterator[str]:
+    """A comparison that stands as a quantity with a unit."""
+    if (
+        isinstance(step, Value)
+        and not isinstance(step.formula, ByText)
+        and _decides(bound(step.formula), names, unread=False)
+    ):
+        wrong = [each for each in (step.unit, *(other for _, other in step.units)) if kind_of(each) != kind_of("1")]
+        if wrong:
+            yield Phrase("gives yes or no (1 or 0), but has the unit {wrong}; a flag has the unit 1", wrong=wrong[0])
+
+
+def _cases(cases: tuple[object, ...]) -> Iterator[str]:
+    texts = [isinstance(getattr(case, "value", None), str) for case in cases]
+    if any(texts) and not all(texts):
+        yield phrase("mixes texts and numbers in its cases; give all cases texts, or all numbers")
+    if cases and getattr(cases[-1], "condition", None) is not None:
+        yield Phrase(
+            "has a condition in its last case, so that none may hold; take it away, or add a case for all else"
+        )
+    for number, case in enumerate(cases[:-1], 1):
+        if getattr(case, "condition", None) is None:
+            yield Phrase(
+                "has no condition in case {number} of {all}, so that those after it are never taken; add one",
+                number=number,
+                all=len(cases),
+            )
+
+
+# Examples name keys that there are, with values that these take.
+
+
+NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
+
+
+def examples_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield the keys of an example that name no input, and the values that an input does not take."""
+    example: Any = mechanism.example
+    if example is None:
+        return
+    if not isinstance(example, ExampleBlock):
+        text = Phrase('has example={example}; write ExampleBlock("name", {"key": "10 mm"})', example=repr(example))
+        yield Fault(mechanism.at, Phrase("mechanism {kind}", kind=mechanism.kind), text)
+        return
+    if not NAME.fullmatch(example.name):
+        text = phrase("is not a name of a mechanism: a letter, then letters, digits, _ and - are allowed")
+        yield Fault(example.at, Phrase("example {name}", name=repr(example.name)), text)
+    subject = Phrase("example {name}", name=example.name)
+    for key, words in _examples_wrong(mechanism.inputs, example.inputs, ""):
+        yield Fault(example.at, subject, Phrase("{key} {text}", key=key, text=words))
+
+
+def _examples_wrong(model: type[Block], data: Mapping[str, Any], path: str) -> Iterator[tuple[str, str]]:
+    for key, value in data.items():
+        if key not in model.model_fields:
+            yield f"{path}{key}", Phrase("names no input{nearest}", nearest=nearest(key, model.model_fields))
+            continue
+        block, meta = nested(model.model_fields[key].annotation), meta_of(model, key)
+        for each in _values(value):
+            if block and isinstance(each, dict):
+                yield from _examples_wrong(block[0], each, f"{path}{key}.")
+            elif isinstance(meta, Quantity | Text) and (text := _refused(meta, each)):
+                yield f"{path}{key}", text
+
+
+def _values(value: Any) -> Iterator[Any]:
+    """The values that may stand there, and the parts of those that are lists."""
+    match value:
+        case Wired():
+            yield from _values(value.value)
+            yield from _values(value.otherwise)
+        case ForEach():
+            yield from _values(value.part)
+        case list() | tuple():
+            for part in value:
+                yield from _values(part)
+        case _:
+            yield value
+
+
+def _refused(meta: Quantity | Text, value: Any) -> str:
+    """What is wrong with a value that refers to nothing, in words."""
+    if isinstance(value, dict) and isinstance(meta, Quantity):
+        value = value.get("value")
+    if value is None or (isinstance(value, str) and ("${" in value or any(kinds_named(value)))):
+        return ""
+    if isinstance(meta, Text) and not meta.options:
+        return ""
+    others = [replace(meta, unit=unit, units=()) for _, unit in meta.units] if isinstance(meta, Quantity) else []
+    found = [_fault(each, value) for each in (meta, *others)]
+    return found[0] if all(found) else ""
+
+
+def _fault(meta: Quantity | Text, value: Any) -> str:
+    try:
+        meta.validate(value)
+    except ValueError as fault:
+        return str(fault)
+    return ""

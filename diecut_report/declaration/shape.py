@@ -2,23 +2,28 @@
 
 from __future__ import annotations
 
+import ast
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from pathlib import Path
 from typing import Any
 
-from diecut_report.contract.binding import Binding, Bound
-from diecut_report.contract.chapters import Chapter
-from diecut_report.contract.checks import Check
-from diecut_report.contract.figures import Figure
-from diecut_report.contract.inputs import Inputs
-from diecut_report.contract.mechanism import Erratum, Mechanism, Profile, Source
-from diecut_report.contract.part_steps import Lookup, Pick
-from diecut_report.contract.steps import Abscissa, Breakpoints, Case, Choice, Phase, Step
-from diecut_report.declaration.input_places import of_class
-from diecut_report.declaration.words import Fault, short
-from diecut_report.expressions import Formula
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.standards import StandardTable
+from diecut_report.declaration.code import files
+from diecut_report.declaration.inputs import of_class, of_input
+from diecut_report.declaration.names import DeclaredNames, Fault, short
+from diecut_report.declaration.texts import parsed
+from diecut_report.formulas.formula import Formula
+from diecut_report.mechanism.chapters import Chapter
+from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.figures import Bars, Drawing, Figure, Plot, Polar
+from diecut_report.mechanism.inputs import Inputs, fields
+from diecut_report.mechanism.mechanism import Erratum, Mechanism, Profile, Source
+from diecut_report.mechanism.names import Binding, Bound
+from diecut_report.mechanism.part_steps import Lookup, Pick
+from diecut_report.mechanism.steps import Abscissa, Breakpoints, Case, Choice, Phase, Step
+from diecut_report.quantities.units import unit
+from diecut_report.standards.tables import StandardTable
+from diecut_report.text.phrases import Phrase, phrase
 
 ID = re.compile(r"[A-Za-z_]\w*(\.\w+)*")
 HOLDS = {
@@ -205,3 +210,88 @@ def _of_table(table: Any) -> Iterator[str]:
     if wrong:
         told = ", ".join(f"{key} ({table[key]!r})" for key in wrong)
         yield Phrase("has no number in its table for {told}; write numbers in the step's unit", told=told)
+
+
+# What a plugin's files define twice under one name: Python keeps the last and says nothing.
+
+
+Defined = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
+MEANT = {
+    "overload",
+    "setter",
+    "getter",
+    "deleter",
+    "register",
+}  # decorators by which a name is defined again on purpose
+
+
+def doubled_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield functions, classes and fields that are defined twice at one level of a file."""
+    for file in sorted(file for file in files(mechanism) if file.suffix == ".py"):
+        yield from _twice(file, parsed(file))
+
+
+def _twice(file: Path, scope: ast.Module | Defined) -> Iterator[Fault]:
+    seen: dict[str, int] = {}
+    for statement in scope.body:
+        name = _name(statement, isinstance(scope, ast.ClassDef))
+        if name and name in seen:
+            told = "twice, at first in line {line}, and only the last one counts; give one of them another name, or take it away"
+            is_field = isinstance(statement, ast.AnnAssign)
+            text = Phrase("is a field {told}" if is_field else "is defined {told}", told=Phrase(told, line=seen[name]))
+            yield Fault(f"{file}:{statement.lineno}", name, text)
+        if name:
+            seen[name] = statement.lineno
+        if isinstance(statement, Defined):
+            yield from _twice(file, statement)
+
+
+def _name(statement: ast.stmt, of_class: bool) -> str:
+    """The name that a statement defines; empty where it may be defined again."""
+    match statement:
+        case ast.FunctionDef() | ast.AsyncFunctionDef() | ast.ClassDef():
+            marks = {getattr(mark, "attr", getattr(mark, "id", "")) for d in statement.decorator_list for mark in ast.walk(d)}  # fmt: skip
+            return "" if marks & MEANT or statement.name == "_" else statement.name
+        case ast.AnnAssign(target=ast.Name(id=name)) if of_class:
+            return name
+    return ""
+
+
+# Units that are none: nothing that is measured in one can be judged, so that they are told before all else is asked.
+
+
+def unknown_units_faults(mechanism: Mechanism) -> Iterator[Fault]:
+    """Yield each unit of an input, a step, a check or a figure that nobody knows."""
+    for path, meta in fields(mechanism.inputs):
+        for text in _unknown([getattr(meta, "unit", "1"), *(own for _, own in getattr(meta, "units", ()))]):
+            yield Fault(of_input(mechanism.inputs, path, mechanism.at), Phrase("input {path}", path=path), text)
+    for _, step in mechanism.steps:
+        for text in _unknown([step.unit, *(own for _, own in step.units)]):
+            yield Fault(step.at, Phrase("step {id}", id=step.id), text)
+    for check in mechanism.checks:
+        yield from (Fault(check.at, Phrase("check {id}", id=check.id), text) for text in _unknown([check.unit]))
+    for figure in mechanism.figures:
+        for text in _unknown(_drawn(figure)):
+            yield Fault(figure.at, Phrase("figure {id}", id=figure.id), text)
+
+
+def _unknown(units: Iterable[object]) -> Iterator[str]:
+    for text in dict.fromkeys(units):
+        if not isinstance(text, str):
+            yield Phrase('has the unit {text}; write a text, "mm"', text=repr(text))
+            continue
+        try:
+            unit(text)
+        except ValueError as unknown:
+            yield Phrase("has the unit {text}: {unknown}", text=repr(text), unknown=unknown)
+
+
+def _drawn(figure: Figure) -> list[str]:
+    match figure:
+        case Plot(panels=panels):
+            return [panel.unit for panel in panels]
+        case Bars(groups=groups):
+            return [group.unit for group in groups]
+        case Polar() | Drawing():
+            return [figure.unit]
+    return []

@@ -5,16 +5,15 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping
 from typing import Any
 
-from diecut_report.contract.inputs import Quantity
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.part_steps import Interpolated, Lookup, Pick
-from diecut_report.contract.steps import Abscissa, Step
-from diecut_report.declaration.names import DeclaredNames
-from diecut_report.declaration.words import Fault
+from diecut_report.declaration.names import DeclaredNames, Fault
 from diecut_report.errors import nearest
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.part_steps import Interpolated, Lookup, Pick
+from diecut_report.mechanism.steps import Abscissa, Step
 from diecut_report.quantities.units import unit
-from diecut_report.standards import StandardFault, StandardSeries, StandardTable
+from diecut_report.standards.tables import StandardFault, StandardSeries, StandardTable
+from diecut_report.text.phrases import Phrase, phrase
 
 
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:

@@ -2,18 +2,37 @@
 
 from __future__ import annotations
 
+import ast
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import fields, is_dataclass
+from functools import lru_cache
+from itertools import chain, combinations
+from pathlib import Path
 from typing import Any, NamedTuple, get_args
 
-from diecut_report.contract.inputs import Block, meta_of, nested
-from diecut_report.contract.mechanism import Comparison, Mechanism
-from diecut_report.contract.spectra import Spectrum
-from diecut_report.contract.steps import Case
-from diecut_report.languages.phrases import PLACE, Phrase
-from diecut_report.languages.tokens import worded
-from diecut_report.standards import StandardSeries, StandardTable
+from diecut_report.declaration.formulas import lacking
+from diecut_report.declaration.inputs import of_input
+from diecut_report.declaration.names import DeclaredNames, Fault, When, short, unknown, world
+from diecut_report.errors import nearest
+from diecut_report.mechanism.figures import Drawing, Spectrum
+from diecut_report.mechanism.inputs import POINTS, Block, Quantity, meta_of, nested
+from diecut_report.mechanism.mechanism import Comparison, CurveTable, Mechanism
+from diecut_report.mechanism.names import bound
+from diecut_report.mechanism.part_steps import Lookup, Pick
+from diecut_report.mechanism.steps import (
+    SILENT,
+    Case,
+    Choice,
+    FromCurve,
+    Step,
+    Value,
+    has_own_names,
+    names_ahead,
+    numbered_symbol,
+)
+from diecut_report.standards.tables import StandardSeries, StandardTable
+from diecut_report.text.phrases import PLACE, Phrase, named, phrase, worded
 
 SAID = frozenset({"title", "summary", "text", "absent", "description", "method", "otherwise", "words", "message", "demand_label",
                   "limit_label", "at_least_label", "consequence", "caption", "label", "assumptions"})  # fmt: skip
@@ -120,3 +139,360 @@ def _names(declared: Any) -> tuple[str, ...]:
     if is_dataclass(declared):
         return tuple(field.name for field in fields(declared))
     return getattr(declared, "_fields", ())
+
+
+# ``needs`` and ``lacks``: each names an input that there is, or a text that it may be.
+
+
+def token_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield the tokens that can never hold."""
+    for section in mechanism.chapters:
+        yield from _wrong(
+            names, section.at, Phrase("section {title}", title=repr(section.title)), "needs", section.needs
+        )
+    for _, step in mechanism.steps:
+        yield from _wrong(names, step.at, Phrase("step {id}", id=step.id), "needs", step.needs)
+        yield from _wrong(names, step.at, Phrase("step {id}", id=step.id), "lacks", step.lacks)
+        for fact in sorted(mechanism.facts.intersection(step.lacks)):
+            yield Fault(
+                step.at,
+                Phrase("step {id}", id=step.id),
+                Phrase("lacks names the fact {fact}; a fact can only be needed", fact=fact),
+            )
+    for check in mechanism.checks:
+        yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "needs", check.needs)
+        yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "only_with", check.only_with)
+        yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "asks_for", check.asks_for)
+        yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "sized_unless", check.sized_unless or ())
+    for figure in mechanism.figures:
+        yield from _wrong(names, figure.at, Phrase("figure {id}", id=figure.id), "needs", figure.needs)
+        if isinstance(figure, Drawing) and figure.scaled_by:
+            yield from _wrong(names, figure.at, Phrase("figure {id}", id=figure.id), "scaled_by", (figure.scaled_by,))
+    for profile in mechanism.exports:
+        yield from _wrong(names, profile.at, Phrase("export {id}", id=profile.id), "needs", profile.needs)
+
+
+def _wrong(names: DeclaredNames, place: str, subject: str, field: str, tokens: Iterable[str]) -> Iterator[Fault]:
+    if isinstance(tokens, str):
+        yield Fault(
+            place,
+            subject,
+            Phrase('{field} is the text {tokens}; write a tuple, {field}=("{tokens}",)', field=field, tokens=tokens),
+        )
+        return
+    for token in tokens:
+        text = _told(names, token)
+        if text:
+            yield Fault(place, subject, Phrase("{field} names {text}", field=field, text=text))
+
+
+def _told(names: DeclaredNames, token: str) -> str:
+    """What is wrong with a token, in words; empty where nothing is."""
+    path, is_text, text = token.partition("=")
+    key = names.world.keys.get(path)
+    if key is None:
+        inputs = [known for known in names.world.keys if "=" not in known]
+        what = (
+            phrase("a step; only inputs can be named")
+            if names.givers(path)
+            else Phrase("not an input{nearest}", nearest=nearest(path, inputs))
+        )
+        return Phrase("{path}, which is {what}", path=path, what=what)
+    if not is_text:
+        return ""
+    if key.home:
+        return Phrase("{token}, but each part of {home} has a text of its own", token=token, home=key.home)
+    if not key.texts:
+        return Phrase(
+            "{token}, but {path} is not a text with allowed values; name {path} alone", token=token, path=path
+        )
+    return (
+        ""
+        if text in key.texts
+        else Phrase(
+            "{token}{nearest}; {path} may be {texts}",
+            token=token,
+            nearest=nearest(text, key.texts),
+            path=path,
+            texts=", ".join(key.texts),
+        )
+    )
+
+
+# What is said beside the calculation: sources, errata, key results, exports, spectra and comparisons name what there is.
+
+
+CITED = re.compile(r"(?:^|; ?)(?:(\d{3,})\b|(\S+?),? (?:eq\.|Fig\.|Table|erratum)\s)")
+
+
+def document_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield what names a source or a quantity that there is none of."""
+    yield from _sources(mechanism)
+    yield from _titles(mechanism, names)
+    for first, second in combinations(mechanism.sources, 2):
+        if first.id == second.id:
+            yield Fault(
+                second.at,
+                Phrase("source {id}", id=second.id),
+                Phrase("has the id of another source (at {place}); give it another", place=short(first.at)),
+            )
+    yield from _errata(mechanism, names)
+    for name in mechanism.key_results:
+        text = _key_result(names, name)
+        if text:
+            yield Fault(mechanism.at, "key_results", text)
+    yield from _exports(mechanism, names)
+    for comparison in mechanism.comparisons:
+        for text in _comparison(mechanism, names, comparison):
+            yield Fault(comparison.at, Phrase("comparison {kind}", kind=comparison.mechanism.kind), text)
+
+
+def _errata(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Errata of sources that are not listed, and those that touch what there is not."""
+    known = [source.id for source in mechanism.sources]
+    for erratum in mechanism.errata:
+        subject = Phrase("erratum of {source}", source=erratum.source)
+        if erratum.source not in known:
+            words = "is of no listed source{nearest}; listed: {known}"
+            listed = {"nearest": nearest(erratum.source, known), "known": ", ".join(known)}
+            yield Fault(erratum.at, subject, Phrase(words, listed))
+        for name in erratum.touches:
+            if not names.givers(name) and name not in _silent(mechanism):
+                yield Fault(erratum.at, subject, Phrase("touches {unknown}", unknown=unknown(name, names.known)))
+
+
+def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Chapters of one title that may stand in one report."""
+    for first, second in combinations(mechanism.chapters, 2):
+        both = When(frozenset(first.needs + second.needs))
+        if first.title == second.title and names.world.example(both) is not None:
+            text = Phrase(
+                "has the title of another chapter (at {place}); give it another, or put their steps into one",
+                place=short(first.at),
+            )
+            yield Fault(second.at, Phrase("chapter {title}", title=repr(second.title)), text)
+
+
+def _silent(mechanism: Mechanism) -> set[str]:
+    return {step.id for _, step in mechanism.steps if isinstance(step, SILENT)}
+
+
+def _sources(mechanism: Mechanism) -> Iterator[Fault]:
+    """Sources that are cited by their id and not listed; a mechanism that lists none cites elsewhere."""
+    known = [source.id for source in mechanism.sources]
+    if not known:
+        return
+    cited = [(step.at, Phrase("step {id}", id=step.id), step.source) for _, step in mechanism.steps]
+    cited += [(check.at, Phrase("check {id}", id=check.id), check.source) for check in mechanism.checks]
+    for place, subject, text in cited:
+        for found in CITED.finditer(text):
+            name = found[1] or found[2]
+            if not any(text[found.start() :].lstrip("; ").startswith(source) for source in known):
+                words = "cites {name}, which is not a source{nearest}; listed: {known}"
+                listed = {"name": name, "nearest": nearest(name, known), "known": ", ".join(known)}
+                yield Fault(place, subject, Phrase(words, listed))
+
+
+def _key_result(names: DeclaredNames, name: str) -> str:
+    givers = [giver for giver in names.givers(name) if giver.step is not None]
+    if not givers:
+        steps = [known for known, all_ in names.known.items() if any(giver.step for giver in all_)]
+        return Phrase("{name} is not a step{nearest}; name what a step gives", name=name, nearest=nearest(name, steps))
+    if not any(giver.step and giver.step.output for giver in givers):
+        return Phrase("{name} is not an output; take output=False away from its step", name=name)
+    return (
+        Phrase("{name} is a curve; name an extreme of it", name=name)
+        if {g.kind for g in givers} <= {"curve", "abscissa"}
+        else ""
+    )
+
+
+def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    for profile in mechanism.exports:
+        when, subject = When(frozenset(profile.needs)), Phrase("export {id}", id=profile.id)
+        if isinstance(profile, CurveTable):
+            kinds = [names.kinds(name) for name in profile.columns]
+            if kinds != [{"abscissa"}]:
+                yield Fault(
+                    profile.at,
+                    subject,
+                    Phrase(
+                        'has columns={columns}; name the abscissa of its curves alone: ("angle",)',
+                        columns=repr(profile.columns),
+                    ),
+                )
+            continue
+        if len(profile.columns) < 2:
+            yield Fault(profile.at, subject, phrase("has fewer than two columns; name x and y at least"))
+        for name in profile.columns:
+            absent = lacking(names, name, when)
+            curves = [giver for giver in names.givers(name) if giver.kind == "curve"]
+            if absent:
+                yield Fault(profile.at, subject, Phrase("writes {absent}", absent=absent))
+            elif not curves:
+                yield Fault(profile.at, subject, Phrase("writes {name}, which is not a curve", name=name))
+            elif not all(giver.step and giver.step.output for giver in curves):
+                yield Fault(
+                    profile.at,
+                    subject,
+                    Phrase("writes {name}, which is not an output; take output=False away from its step", name=name),
+                )
+        axes = set().union(*(names.axes(name) for name in profile.columns))
+        if len(axes) > 1:
+            yield Fault(
+                profile.at,
+                subject,
+                Phrase("writes curves over {axes}; give each its own export", axes=named(sorted(axes), " and over ")),
+            )
+
+
+def _comparison(mechanism: Mechanism, names: DeclaredNames, comparison: Comparison) -> Iterator[str]:
+    keys = world(comparison.mechanism.inputs).keys
+    for key, (kind, name) in comparison.takes.items():
+        if key not in keys:
+            yield Phrase("fills {key}, which is not an input of it{nearest}", key=key, nearest=nearest(key, keys))
+        if kind == mechanism.kind and not names.givers(name):
+            yield Phrase("takes {unknown} in {kind}", unknown=unknown(name, names.known), kind=kind)
+    for name, declared in comparison.mechanism.inputs.model_fields.items():
+        if declared.is_required() and name not in comparison.takes:
+            yield Phrase(
+                "fills nothing into {name}, which is required; add it to takes, or give it a default", name=name
+            )
+
+
+# Symbols: within a mechanism no two quantities that may be there together are printed by one symbol.
+
+
+NO_SYMBOLS = frozenset("$\\{}<>&#%^~")  # letters that mean something to LaTeX or HTML
+
+
+class Printed(NamedTuple):
+    """Hold what has a symbol: a quantity's name, its place, when it is there, and the step that gives it, if none an input.
+
+    ``is_points`` is the number of samples, whose symbol no author chose: it is the other one that gets another.
+    """
+
+    name: str
+    at: str
+    when: When
+    step: Step | None = None
+    is_points: bool = False
+
+    @property
+    def giver(self) -> str:
+        """Return what it belongs to: the row of a part."""
+        return self.step.id if self.step else self.name
+
+
+def symbol_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield the second of two quantities with one symbol, and those in LaTeX; texts, and what only takes another over, may share it."""
+    by_symbol: dict[str, list[Printed]] = {}
+    for symbol, each in chain(_whole(mechanism, names), _single(mechanism, names)):
+        by_symbol.setdefault(symbol, []).append(each)
+        if letters := NO_SYMBOLS.intersection(symbol):
+            words = "has the symbol {symbol} with {letters}; a symbol is plain text, not LaTeX: write α_1, F_max, [σ]"
+            yield _of(mechanism, each, Phrase(words, symbol=symbol, letters=" ".join(sorted(letters))))
+    told: set[tuple[str, str]] = set()
+    for symbol, alike in by_symbol.items():
+        for one, other in combinations(alike, 2):
+            pair = one.giver, other.giver
+            if one.name != other.name and pair not in told and _clash(names, one, other):
+                told.add(pair)  # of two rows with many parts the first that are alike
+                yield _alike(mechanism, symbol, *((other, one) if other.is_points else (one, other)))
+
+
+def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> Fault:
+    """The fault of the other; inputs stand where they are declared, their quantity may be one of the program."""
+    there = one.at if one.step else of_input(mechanism.inputs, one.name, one.at)
+    text = Phrase(
+        "has the symbol {symbol} of {name} ({points}at {place}): both would be printed as one quantity; give it another",
+        symbol=symbol,
+        name=one.name,
+        points="POINTS, " * one.is_points,
+        place=short(there),
+    )
+    return _of(mechanism, other, text)
+
+
+def _of(mechanism: Mechanism, each: Printed, text: str) -> Fault:
+    """A fault where a quantity is declared."""
+    if each.step:
+        return Fault(each.at, Phrase("step {id}", id=each.name), text)
+    return Fault(of_input(mechanism.inputs, each.name, each.at), Phrase("input {path}", path=each.name), text)
+
+
+def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
+    """Yield the symbols that are declared."""
+    for key in names.world.keys.values():
+        if isinstance(key.meta, Quantity) and key.meta.symbol:
+            when, is_points = names.known[key.path][0].when, key.meta is POINTS
+            yield key.meta.symbol, Printed(key.path, key.meta.at, when, is_points=is_points)
+    for number, (_, step) in enumerate(mechanism.steps):
+        if step.symbol and step.printed and not isinstance(step, SILENT) and names.kinds(step.id) != {"text"}:
+            yield step.symbol, Printed(step.id, step.at, names.when(number), step)
+
+
+def _single(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Printed]]:
+    """Yield the symbols of parts and crossings that formulas may take by names of their own."""
+    for number, (_, step) in enumerate(mechanism.steps):
+        if step.symbol and has_own_names(step):
+            for each in names_ahead(step):
+                if each.role in ("part", "crossing"):
+                    yield numbered_symbol(step, each.number), Printed(each.name, step.at, names.when(number), step)
+
+
+def _clash(names: DeclaredNames, one: Printed, other: Printed) -> bool:
+    if any(a.step is not None and b.name in _taken_over(a.step) for a, b in ((one, other), (other, one))):
+        return False
+    return names.world.example(one.when.with_(other.when)) is not None
+
+
+def _taken_over(step: Step) -> set[str]:
+    """The quantities that a step gives again as they are."""
+    found: set[str] = set()
+    if isinstance(step, FromCurve | Lookup | Pick):
+        found = {step.given}
+    elif isinstance(step, Value | Choice):
+        parts = [step.formula] if isinstance(step, Value) else [case.value for case in step.cases]
+        links = [bound(part) for part in parts if not isinstance(part, str)]
+        found = {str(name) for link in links if link.formula.tree.op == "sym" for name in link.names.values()}
+    return found | {name.removeprefix("inputs.") for name in found}
+
+
+# The files that a plugin is written in, and what stands in them as syntax.
+
+
+def parsed(file: Path) -> ast.Module:
+    """Return a file as syntax; without a statement where it is none, a file of the package that is never imported."""
+    return _parsed(file, file.stat().st_mtime_ns)
+
+
+@lru_cache(maxsize=512)
+def _parsed(file: Path, changed: int) -> ast.Module:
+    """The file as it is since it was changed."""
+    try:
+        return ast.parse(file.read_bytes())
+    except (SyntaxError, ValueError):
+        return ast.Module([], [])
+
+
+def own_files(mechanism: Mechanism) -> list[Path]:
+    """Return the file that declares a mechanism; of a folder that is the plugin all files, but for its tests."""
+    file = Path(mechanism.at.rpartition(":")[0])
+    if not file.is_file():  # made without a file
+        return []
+    return [each for each in _in_folder(file.parent) if not _is_test(each)] if file.name == "__init__.py" else [file]
+
+
+def files_around(mechanism: Mechanism) -> list[Path]:
+    """Return the files that may import what a mechanism's files define: those, and all of their package."""
+    file = Path(mechanism.at.rpartition(":")[0])
+    return _in_folder(file.parent) if (file.parent / "__init__.py").is_file() else own_files(mechanism)
+
+
+def _in_folder(folder: Path) -> list[Path]:
+    return sorted(file for file in folder.rglob("*.py") if file.is_file())
+
+
+def _is_test(file: Path) -> bool:
+    return file.name.startswith(("test_", "conftest")) or "tests" in file.parts

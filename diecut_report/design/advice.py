@@ -3,31 +3,200 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from typing import Any
 
 import numpy as np
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
-from diecut_report.contract.inputs import Quantity
-from diecut_report.design.advised import Advised, advised
-from diecut_report.design.changeable import changeable, is_fixed, is_stepped, named_paths
-from diecut_report.design.changed_machines import MOST, ChangedMachines, Enough, Spent
-from diecut_report.design.choice_search import ChangeableChoice, changeable_choices, with_choices
-from diecut_report.design.conflicts import CheckConflict, conflict_of, follows_from_none, scattered
-from diecut_report.design.design_inputs import DesignInput, design_input
-from diecut_report.design.may_be_freed import nothing_free, untried
-from diecut_report.design.mending import MendingPath
-from diecut_report.design.proved_machine import ProvedMachine, proved
-from diecut_report.design.single_changes import single_change
-from diecut_report.design.typed_changes import fewer, passes, rounded
-from diecut_report.design.varied_machines import downstream
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.advised import (
+    Advised,
+    ChangeableChoice,
+    CheckConflict,
+    MendingPath,
+    advised,
+    changeable_choices,
+    conflict_of,
+    follows_from_none,
+    scattered,
+    with_choices,
+)
+from diecut_report.design.inputs import (
+    DesignInput,
+    changeable,
+    design_input,
+    is_fixed,
+    is_stepped,
+    named_paths,
+    nothing_free,
+    untried,
+)
+from diecut_report.design.machines import (
+    MOST,
+    ChangedMachines,
+    Enough,
+    ProvedMachine,
+    Spent,
+    VariedMachines,
+    downstream,
+    proved,
+)
 from diecut_report.errors import Problem, UserError
-from diecut_report.expressions import Array
-from diecut_report.languages.phrases import phrase
+from diecut_report.formulas import Array
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.quantities.formatting import number_text, with_unit
+from diecut_report.quantities.units import UnitError, number_and_unit
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
+from diecut_report.text.phrases import Counted, Phrase, phrase
+from diecut_report.text.translation import localised
+
+# Changes as a designer would type them: as few inputs as will do, as few digits as still pass.
+
+
+NOTHING = 1e-6  # share of a value that is no change
+DIGITS = (2, 3, 4, 5, 6)
+DEARER, TYPED_CHANGES_EACH = 1.05, 0.005  # what rounding may make of the size of all changes, and add for each of them
+EXACT = 12
+
+Run = Callable[[Array], VariedMachines]
+Texts = tuple[str, ...]
+
+
+def fewer(run: Run, share: Array) -> Array:
+    """Return the changes without those that are not needed for a machine that passes, the smallest left out first."""
+    share = np.where(np.abs(share) > NOTHING, share, 0.0)
+    while True:
+        changed = [int(each) for each in np.argsort(np.abs(share)) if share[each]]
+        tried = np.array([np.where(np.arange(len(share)) == each, 0.0, share) for each in changed])
+        good = passes(run(tried)) if len(changed) else np.zeros(0, dtype=bool)
+        if not good.any():
+            return share
+        share = tried[int(np.argmax(good))]
+
+
+def rounded(run: Run, inputs: Sequence[DesignInput], share: Array) -> tuple[Array, dict[int, str]]:
+    """Return the changes with few digits that still pass, and how each input is typed, by its place.
+
+    All are rounded alike first; then each for itself, as far as it goes.
+    """
+    changed = [int(each) for each in np.flatnonzero(share)]
+    start = {each: _texts(inputs[each], share[each]) for each in changed}
+    if not changed:
+        return share, {}
+    ways = range(len(next(iter(start.values()))))
+    most = DEARER * float(np.abs(share).sum()) + TYPED_CHANGES_EACH * len(changed)
+    tried = [{each: start[each][way] for each in changed} for way in ways]
+    good = _good(run, inputs, share, tried, most)
+    if not good.any():
+        return share, {each: inputs[each].typed(_value(inputs[each], share[each]), EXACT) for each in changed}
+    typed = tried[int(np.argmax(good))]
+    for each in changed:
+        shorter = [typed | {each: text} for text in start[each] if len(text) < len(typed[each])]
+        good = _good(run, inputs, share, shorter, most)
+        typed = shorter[int(np.argmax(good))] if good.any() else typed
+    return _shares(inputs, share, typed), typed
+
+
+def passes(made: VariedMachines) -> Array:
+    """Return which machines can be and have no check that fails."""
+    return np.isin(made.status.astype(str), ["pass", "warn"])
+
+
+def _good(run: Run, inputs: Sequence[DesignInput], share: Array, tried: Sequence[dict[int, str]], most: float) -> Array:
+    """Which of these pass, with changes that are no greater than that."""
+    if not tried:
+        return np.zeros(0, dtype=bool)
+    shares = np.array([_shares(inputs, share, typed) for typed in tried])
+    return np.asarray(passes(run(shares)) & (np.abs(shares).sum(axis=1) <= most))
+
+
+def _texts(design: DesignInput, share: float) -> Texts:
+    """How a change may be typed, the shortest first: rounded to the nearest, beyond it, and before it."""
+    value = _value(design, share)
+    found = []
+    for digits in DIGITS:
+        further = share * (design.today or 1.0) > 0
+        found += [
+            design.typed(value, digits),
+            design.typed_inwards(value, digits, up=further),
+            design.typed_inwards(value, digits, up=not further),
+        ]
+    return tuple(found)
+
+
+def _value(design: DesignInput, share: float) -> float:
+    return (design.today or 0.0) * (1.0 + share)
+
+
+def _shares(inputs: Sequence[DesignInput], share: Array, typed: dict[int, str]) -> Array:
+    found = share.copy()
+    for each, text in typed.items():
+        try:
+            found[each] = inputs[each].read(text) / (inputs[each].today or 1.0) - 1.0
+        except ValueError:  # rounded beyond what its declaration allows: a machine that cannot be
+            found[each] = np.nan
+    return found
+
+
+# One input alone changed over its whole range: finds what steps from one machine to the next do not see, such as a size that is rounded.
+
+
+LEAST, LOWEST, HIGHEST = 0.004, 0.95, 3.0  # shares of today's value by which an input is changed
+MACHINES, EACH = 500, (24, 100)  # of one scan, and of each input to each side
+CLOSER = 12  # machines between one that passes and the next smaller change
+
+
+def single_change(run: ChangedMachines, base: Array, among: Collection[int], most: float) -> Array | None:
+    """Return the smallest changes of one input among these, beside what ``base`` changes of the others, with which all passes.
+
+    None where none is found whose sum is less than ``most``.
+    """
+    if not among:
+        return None
+    count = int(np.clip(MACHINES / 2 / len(among), *EACH))
+    tried = np.concatenate([-np.geomspace(LOWEST, LEAST, count), np.geomspace(LEAST, HIGHEST, count)])
+    found = _best(run, [_with(base, each, tried) for each in among], most)
+    if found is None:
+        return None
+    which, row = found
+    index, share = list(among)[which], float(row[list(among)[which]])
+    sizes = np.sort(np.abs(tried[np.sign(tried) == np.sign(share)]))
+    smaller = float(sizes[max(int(np.searchsorted(sizes, abs(share) * (1 - 1e-9))) - 1, 0)])
+    nearer = np.sign(share) * np.linspace(min(smaller, abs(share)), abs(share), CLOSER)
+    closer = _best(run, [_with(base, index, nearer)], most)
+    return row if closer is None else closer[1]
+
+
+def _with(base: Array, index: int, shares: Array) -> Array:
+    rows = np.repeat(base[None], len(shares), axis=0)
+    rows[:, index] = shares
+    return rows
+
+
+def _best(run: ChangedMachines, rows: list[Array], most: float) -> tuple[int, Array] | None:
+    """The smallest changes of these that pass, and in which group of rows they stand."""
+    best: tuple[int, Array] | None = None
+    for which, group in enumerate(rows):
+        size = np.abs(group).sum(axis=1)
+        allowed = group[_allowed(run, group) & (size < most)]
+        if not len(allowed):
+            continue
+        good = allowed[passes(run(allowed))]
+        if len(good):
+            row = good[int(np.argmin(np.abs(good).sum(axis=1)))]
+            best, most = (which, row), float(np.abs(row).sum())
+    return best
+
+
+def _allowed(run: ChangedMachines, rows: Array) -> Array:
+    """Which rows change no input beyond what its declaration allows."""
+    found = np.ones(len(rows), dtype=bool)
+    for index, each in enumerate(run.inputs):
+        found &= each.allows((each.today or 0.0) * (1.0 + rows[:, index]))
+    return found
+
 
 Tell = Callable[[str], None]
 
@@ -259,3 +428,99 @@ def data(found: Mended) -> dict[str, Any]:
         "ended": found.is_ended,
         "untried": list(found.untried),
     }  # fmt: skip
+
+
+# What became of a machine that was to be mended, in words.
+
+
+def lines(found: Mended) -> Iterator[str]:
+    """Yield what became of the machine, in words."""
+    failing = [name for name, _ in found.before.checks("fail")]
+    if not failing:
+        words = "no check fails: nothing is to be mended (governing: {check})"
+        yield Phrase(words, check=found.before.governing or phrase("none"))
+        return
+    yield Counted(
+        len(failing), "{n} check fails today: {checks}", "{n} checks fail today: {checks}", checks=", ".join(failing)
+    )
+    if found.machine is None:
+        yield from _without(found)
+        return
+    one = "with {n} change none fails, calculated as a machine of its own:"
+    yield Counted(len(found.changes), one, "with {n} changes none fails, calculated as a machine of its own:")
+    width = max(len(each.name) for each in found.changes)
+    yield from (_change(each, width) for each in found.changes)
+    words = "sum of the changes: {size} % of today's values; governing: {check}"
+    yield Phrase(
+        words, size=localised(number_text(100 * found.size, 3)), check=found.machine.governing or phrase("none")
+    )
+    if warned := [name for name, _ in found.machine.checks("warn")]:
+        yield Phrase("with a warning: {checks}", checks=", ".join(warned))
+
+
+def share_told(share: float) -> str:
+    """Return a change as a share of today's value, in percent with a sign: two digits, or a whole number of more."""
+    percent = 100 * share
+    told = number_text(round(percent) if abs(percent) >= 100 else percent, 2)
+    return f"{'+' * (share > 0)}{localised(told)} %"
+
+
+def _change(change: InputChange, width: int) -> Phrase:
+    share = "" if change.share is None else f"  ({share_told(change.share)})"
+    before = change.before or phrase("not given")
+    return Phrase(
+        "  {name}  {before} → {after}{share}",
+        name=change.name.ljust(width),
+        before=before,
+        after=_said(change.after),
+        share=share,
+    )
+
+
+def _said(typed: str) -> str:
+    """A value as it is typed, with its unit as one writes it."""
+    try:
+        number, own = number_and_unit(typed)
+    except UnitError:  # a text or a yes/no
+        return typed
+    return with_unit(f"{number}", own or "1")
+
+
+def _without(found: Mended) -> Iterator[Phrase]:
+    words = "none of the {machines} machines that were calculated with other values of the free inputs ({free}) passes"
+    if found.calculated:
+        yield Phrase(words, machines=found.calculated, free=found.free)
+    if found.is_ended:
+        yield phrase(
+            "that is as many as the search may calculate: it is not at its end; let it calculate more with --most"
+        )
+    if found.calculated and found.left:
+        one = "of the best of them {n} check fails: {checks}"
+        many = "of the best of them {n} checks fail: {checks}"
+        yield Counted(len(found.left), one, many, checks=", ".join(found.left))
+    if found.conflict:
+        yield from _advice_text_conflict(found.conflict)
+    if found.untried:
+        words = "not tried, as --free must name them, and then names all that may be changed: {names}"
+        yield Phrase(words, names=", ".join(found.untried))
+    yield phrase("let more inputs be changed with --free, or change what the machine is made of")
+
+
+def _advice_text_conflict(found: CheckConflict) -> Iterator[Phrase]:
+    """What is proved of it, and what is not."""
+    count, checks = len(found.checks), ", ".join(found.checks)
+    if found.is_proved:
+        one = "proved: {checks} follows from none of the free inputs, and fails with all of their values"
+        many = "proved: {checks} follow from none of the free inputs, and fail with all of their values"
+        yield Counted(count, one, many, checks=checks)
+    elif count == 1:
+        yield Phrase("no machine was found in which {checks} holds; that there is none is not proved", checks=checks)
+    elif found.is_least:
+        yield Phrase(
+            "no machine was found in which these hold together; that there is none is not proved: {checks}",
+            checks=checks,
+        )
+        yield phrase("with any one of them left out, the others hold in a machine that was calculated")
+    else:
+        words = "no machine was found in which these hold together, of which not all may be needed for that: {checks}"
+        yield Phrase(words, checks=checks)

@@ -2,18 +2,30 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable
+from collections.abc import Callable, Collection, Container, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
+import numpy as np
+
 from diecut_report.config.loader import Config
-from diecut_report.contract.inputs import Block, Quantity
-from diecut_report.design.changeable import is_stepped
-from diecut_report.design.design_choices import options_of, texts_of
-from diecut_report.design.design_inputs import DesignInput, design_input
-from diecut_report.errors import UserError
+from diecut_report.design.inputs import (
+    DesignInput,
+    any_input,
+    design_input,
+    given_numbers,
+    is_form,
+    is_stepped,
+    options_of,
+    texts_of,
+)
+from diecut_report.design.machines import MARGIN, SIZE, ChangedMachines, VariedMachines, upstream, varied
+from diecut_report.errors import PluginError, UserError
+from diecut_report.formulas import Array
+from diecut_report.mechanism.inputs import Block, Quantity
 from diecut_report.results.advised_changes import AdvisedChange, advised_changes
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
+from diecut_report.text.phrases import Phrase
 
 Data = dict[str, Any]
 
@@ -91,3 +103,395 @@ def _take(config: Config, found: Advised, path: str, change: AdvisedChange) -> b
     furthest = max((value, other), key=lambda each: abs(each - today))
     found.numbers[design.asked.path] = (design, furthest)
     return True
+
+
+# Whether a machine passes when the advice of all its failing checks is followed at once: for the first page of its report.
+
+
+def followed(config: Config, results: Mapping[str, Any]) -> Data | None:
+    """Return the changes that failing checks advise, and which checks fail in the machine with all of them; None where none is advised.
+
+    ``error`` is why there is no such machine, None where there is one.
+    """
+    failing = [
+        (f"{name}.{check['id']}", check)
+        for name, data in results["mechanisms"].items()
+        for check in data["checks"]
+        if check["status"] == "fail"
+    ]
+    advice = advised(config, failing)
+    if advice.is_empty:
+        return None
+    given: dict[Input, Any] = {design.asked: np.array([value]) for design, value in advice.numbers.values()}
+    try:
+        made = varied(config, given | {asked: [text] for asked, text in advice.choices.values()}, 1)
+    except PluginError:  # told where the report is made; it says nothing of the advice
+        return None
+    told = {design.asked.path: design.told(value) for design, value in advice.numbers.values()}
+    told |= {path: text for path, (_, text) in advice.choices.items()}
+    changes = [{"path": path.removeprefix(f"{MECHANISMS}."), "value": text} for path, text in told.items()]
+    return {"changes": changes, "failing": made.failing(0), "error": made.reasons[0]}
+
+
+# The smallest changes with which no check fails: sequential linear programming, every step calculated before it is taken.
+#
+# The size of changes is the sum of their shares of today's values, a norm that prefers few changed inputs. Around the machine that is
+# reached, each check's slack is taken as a plane in the inputs; a linear programme (HiGHS) finds the least change that keeps all planes
+# above zero, within a region that is trusted; several regions and several parts of each step are then calculated in one run, and the
+# best machine is kept, whatever the planes said.
+
+
+REGIONS = (0.03, 0.1, 0.3)  # shares of today's values within which the planes are tried
+PARTS = (0.25, 0.5, 0.75, 1.0)  # of a step
+NUDGE = 0.004  # share of a value by which it is moved to see what follows
+PENALTY = 50.0  # of a share by which a check is beyond its limit, beside a share of a value
+ROOM = 0.002  # slack that a plane is to leave, so that its curvature does not break the check
+STEPS, TRIES = 25, 3  # at most; and how often the regions shrink before it is given up
+SMALLEST = 1e-3  # share of the size of all changes by which a step must make it less
+FEASIBLE = 1e-2  # the same, where it is only asked whether some checks can hold together
+UNFIT = 1e6  # of a machine that cannot be
+
+Run = Callable[[Array], VariedMachines]
+"""Of machines by the shares of their inputs that are changed, shape (machines, inputs)."""
+
+
+Planes = tuple[list[str], Array, Array]
+"""Checks, the slack of each, and its slope by each input, shape (checks, inputs)."""
+
+
+@dataclass
+class MendingPath:
+    """Hold where the search is: the changes as shares of today's values, what that machine's checks say, and how far it went.
+
+    ``among``: only these checks are to hold, whatever the others do; None for all.
+    """
+
+    run: Run
+    inputs: Sequence[DesignInput]
+    share: Array
+    among: Collection[str] | None = None
+    made: VariedMachines = field(init=False)
+    sizes: dict[str, float] = field(init=False)
+    merit: float = field(init=False)
+    planes: Planes | None = None
+    steps: int = 0
+
+    def __post_init__(self) -> None:
+        self.made = self.run(self.share[None])
+        self.sizes = {name: float(self.made.check(name, SIZE)[0]) for name in self.made.checks}
+        self.merit = float(self.merits(self.made, self.share[None])[0])
+
+    @property
+    def passes(self) -> bool:
+        return bool(self.made.exists[0]) and not self.failing
+
+    @property
+    def failing(self) -> list[str]:
+        """Return the checks that are to hold and fail."""
+        return [name for name in self.made.failing(0) if self._is_asked(name)]
+
+    def _is_asked(self, name: str) -> bool:
+        return self.among is None or name in self.among
+
+    def go(self, tell: Callable[[str], None], *, until_it_holds: bool = False) -> None:
+        """Take steps as long as they make the machine better, or the changes smaller; or only until all holds."""
+        scale, tries = 1.0, 0
+        while self.steps < STEPS and tries < TRIES and not (until_it_holds and self.passes):
+            before, had_passed = self.merit, self.passes
+            tell(Phrase("mending: step {step}, failing checks: {n}", step=self.steps + 1, n=len(self.failing)))
+            self._step(scale)
+            self.steps += 1
+            least = SMALLEST if self.among is None else FEASIBLE
+            is_better = self.merit < before - least * max(before, 1e-9)
+            tries = 0 if is_better else tries + 1
+            scale = scale if is_better else scale / 5
+            if had_passed and not is_better:
+                break
+
+    def _step(self, scale: float) -> None:
+        self.planes = self._planes()
+        steps = [self._wanted(region * scale) for region in REGIONS]
+        tried = np.array(
+            [self.share + part * (step - self.share) for step in steps if step is not None for part in PARTS]
+        )
+        if not len(tried):
+            return
+        made = self.run(tried)
+        found = self.merits(made, tried)
+        best = int(np.argmin(found))
+        if found[best] < self.merit:
+            self.share, self.merit = tried[best], float(found[best])
+            self.made = self.run(self.share[None])
+
+    def _wanted(self, region: float) -> Array | None:
+        """The least change whose planes hold, within the region; what does not hold is to be as little as can be."""
+        from scipy.optimize import linprog
+
+        assert self.planes is not None
+        names, slack, slope = self.planes
+        count, checks = len(self.share), len(names)
+        eye, low, high = np.eye(count), *_ends(self.inputs, self.share, region)
+        # unknown: what is added to today's shares, what is taken from them, what each check lacks
+        cost = np.concatenate([np.ones(2 * count), np.full(checks, PENALTY)])
+        upper = np.hstack([-slope, slope, -np.eye(checks)])
+        limit = slack - ROOM - slope @ self.share
+        ends = np.vstack(
+            [np.hstack([eye, -eye, np.zeros((count, checks))]), np.hstack([-eye, eye, np.zeros((count, checks))])]
+        )
+        found = linprog(cost, np.vstack([upper, ends]), np.concatenate([limit, high, -low]), method="highs")
+        return None if found.x is None else found.x[:count] - found.x[count : 2 * count]
+
+    def merits(self, made: VariedMachines, shares: Array) -> Array:
+        """Return of each machine the size of its changes, with what its failing checks are beyond their limits; the least is the best."""
+        beyond = np.zeros(made.count)
+        for name in filter(self._is_asked, made.checks):
+            slack = np.nan_to_num(self._slack(made, name))
+            beyond += np.where(made.check(name) == "fail", np.maximum(-slack, 0.0) + ROOM, 0.0)
+        return np.where(made.exists, PENALTY * beyond + np.abs(shares).sum(axis=1), UNFIT)
+
+    def _slack(self, made: VariedMachines, name: str) -> Array:
+        """How far a check is from its limit, in shares of a size that stays the same on the whole way."""
+        margin = made.check(name, MARGIN).astype(float)
+        size = self.sizes.get(name, np.nan)
+        if not size > 0:  # it was not made at the start
+            size = self.sizes[name] = float(np.nanmax(made.check(name, SIZE).astype(float), initial=1e-300))
+        return margin / size
+
+    def _planes(self) -> Planes:
+        """Each check that can fail with its slack and its slope by the share of each input, from machines beside this one."""
+        count = len(self.share)
+        beside = np.concatenate([np.zeros((1, count)), NUDGE * np.eye(count), -NUDGE * np.eye(count)]) + self.share
+        made = self.run(beside)
+        names, slacks, slopes = [], [], []
+        for name in filter(self._is_asked, made.checks):
+            own = self._slack(made, name)
+            if not np.isfinite(own[0]) or (made.check(name) == "warn").any():
+                continue
+            sides = np.array([own[1 : 1 + count] - own[0], own[0] - own[1 + count :]])
+            known = np.isfinite(sides)
+            names.append(name)
+            slacks.append(own[0])
+            slopes.append(np.where(known, sides, 0.0).sum(axis=0) / np.maximum(known.sum(axis=0), 1) / NUDGE)
+        return names, np.array(slacks), np.reshape(slopes, (len(names), count))
+
+
+def _ends(inputs: Sequence[DesignInput], share: Array, region: float) -> tuple[Array, Array]:
+    """The least and the greatest share that each input may be changed by: within the region, and its own bounds."""
+    today = np.array([each.today or 1.0 for each in inputs])
+    bounds = np.array([each.bounds for each in inputs])
+    ends = np.sort(bounds / today[:, None] - 1.0, axis=1)
+    inner = 1e-6 * np.maximum(1.0, np.abs(share))  # bounds may be open
+    low = np.maximum(share - region, ends[:, 0] + inner)
+    high = np.minimum(share + region, ends[:, 1] - inner)
+    return np.minimum(low, share), np.maximum(high, share)
+
+
+# Which checks conflict where no machine passes: a least set of them, found by leaving out, each step calculated.
+#
+# A check that follows from none of the free inputs is told as proved, before anything is searched. Of others a search says that no
+# machine was found in which they hold together; that each of them left out lets the others hold is shown by a machine that was calculated.
+
+
+MOST_SEARCHES = 40  # of machines in which some checks hold, before it is left as it is
+SCATTERED = 200  # machines
+WIDTHS = (0.03, 0.1, 0.3, 0.9)  # shares of today's values by which their inputs are changed at most
+
+
+@dataclass(frozen=True)
+class CheckConflict:
+    """Hold checks that do not hold together with any values that were tried of the free inputs.
+
+    ``is_proved``: each of them fails, and follows from none of the free inputs. ``is_least``: with any one of them left out the others
+    hold in a machine that was calculated.
+    """
+
+    checks: tuple[str, ...]
+    is_proved: bool = False
+    is_least: bool = False
+
+
+@dataclass
+class _ConflictSearch:
+    """Looks for machines in which some checks hold, whatever the others do, from several beginnings."""
+
+    run: Run
+    inputs: Sequence[DesignInput]
+    reached: Sequence[Array]
+    scattered: Array
+    tell: Callable[[str], None]
+    left: int = MOST_SEARCHES
+    made: VariedMachines | None = None
+    seen: set[frozenset[str]] = field(default_factory=set)
+
+    def failing_where_held(self, among: Collection[str]) -> list[str] | None:
+        """Return the checks that fail in a machine in which these hold, as few as may be; None where none was found."""
+        if known := [failing for failing in self.seen if failing.isdisjoint(among)]:
+            return min((sorted(failing) for failing in known), key=lambda names: (len(names), names))
+        self.tell(Phrase("looking for checks that conflict: {checks}", checks=", ".join(sorted(among))))
+        self.left -= 1
+        for share in self._beginnings(among):
+            path = MendingPath(self._calculated, self.inputs, share, among)
+            path.go(lambda _: None, until_it_holds=True)
+            if path.passes:
+                return path.made.failing(0)
+        return None
+
+    def _calculated(self, shares: Array) -> VariedMachines:
+        """These machines; what fails in each of them is kept, as it may answer another question."""
+        made = self.run(shares)
+        fails = {name: made.check(name) == "fail" for name in made.checks}
+        self.seen |= {frozenset(name for name in fails if fails[name][row]) for row in np.flatnonzero(made.exists)}
+        return made
+
+    def _beginnings(self, among: Collection[str]) -> Iterator[Array]:
+        """What was reached before and today's machine; then the best of many that are scattered."""
+        yield from self.reached
+        if self.made is None:
+            self.made = self._calculated(self.scattered)
+        path = MendingPath(self._calculated, self.inputs, self.reached[0], among)
+        yield self.scattered[int(np.argmin(path.merits(self.made, self.scattered)))]
+
+
+def conflict_of(path: MendingPath, tell: Callable[[str], None]) -> CheckConflict:
+    """Return why the search that this path has gone found no machine that passes."""
+    failing = path.made.failing(0)
+    if not len(path.inputs):  # choices alone, each of whose values was tried
+        return CheckConflict(tuple(failing))
+    search = _ConflictSearch(
+        path.run, path.inputs, (path.share, np.zeros(len(path.inputs))), scattered(len(path.inputs)), tell
+    )
+    grown = _grown(search, failing)
+    return CheckConflict(tuple(failing)) if grown is None else _least(search, grown)
+
+
+def scattered(inputs: int) -> Array:
+    """Return changes all over the place, the same at each call: shares of today's values, shape (machines, inputs)."""
+    draws = np.random.default_rng(1)
+    return draws.choice(WIDTHS, (SCATTERED, 1)) * draws.uniform(-1, 1, (SCATTERED, inputs))
+
+
+def follows_from_none(config: Config, check: str, free: Collection[str]) -> bool:
+    """Return whether the mechanism of a check follows from none of those whose inputs are free: all their values leave it as it is."""
+    return upstream(config, [check.split(".")[0]]).isdisjoint(free)
+
+
+def _grown(search: _ConflictSearch, failing: Iterable[str]) -> list[str] | None:
+    """Checks of which no machine was found in which all hold: those that fail, and what fails where they hold; None where that was not ended."""
+    among = dict.fromkeys(failing)
+    while search.left > 0:
+        more = search.failing_where_held(among)
+        if more is None:
+            return list(among)
+        among |= dict.fromkeys(more)
+    return None
+
+
+def _least(search: _ConflictSearch, among: list[str]) -> CheckConflict:
+    """The same checks without those that are not needed for it."""
+    kept, shown = list(among), 0
+    for name in among:
+        if search.left <= 0:
+            break
+        others = [each for each in kept if each != name]
+        if others and search.failing_where_held(others) is None:
+            kept = others
+        else:
+            shown += 1
+    return CheckConflict(tuple(sorted(kept)), is_least=shown == len(kept))
+
+
+# Inputs that take one of some values (texts, yes/no, whole numbers, numbers of a list), tried where a change of sizes alone mends nothing.
+#
+# One after the other is given each of its values, with the sizes as they were reached and as they are today; the best is kept, and from
+# it the sizes are changed again. Several rounds change several of them.
+
+
+ROUNDS, BEGINNINGS = 3, 3  # choices that are changed at most; machines of a round from which sizes are changed again
+WHOLE_REACH = 10  # to each side of a whole number
+BETTER = 1e-9
+
+
+@dataclass(frozen=True)
+class ChangeableChoice:
+    """Hold an input that takes one of ``values``, as they are typed, the nearest to today's first; ``cost`` of each, 0 for a text."""
+
+    asked: Input
+    values: tuple[str, ...]
+    costs: tuple[float, ...]
+
+
+def changeable_choices(config: Config, free: Iterable[str], keep: Container[str]) -> list[ChangeableChoice]:
+    """Return what is named by ``free`` and takes one of some values, else the sizes that are numbers of a list; not those paths."""
+    named = [_named(config, name) for name in free]
+    if not named:
+        own = (each for each in given_numbers(config) if each.meta.listed and is_form(config, each))
+        named = [_of_number(each) for each in own]
+    return [each for each in named if each is not None and each.values and each.asked.path not in keep]
+
+
+def with_choices(path: MendingPath, choices: Sequence[ChangeableChoice], tell: Callable[[str], None]) -> MendingPath:
+    """Return the best path that was found by changing choices; the same where none is better."""
+    for _ in range(ROUNDS):
+        found = sorted(_changed(path, choices, tell), key=lambda each: each[0])
+        best = path
+        for _, other in found[:BEGINNINGS]:
+            if not other.passes and len(other.inputs):
+                other.go(tell)
+            best = other if other.passes or other.merit < best.merit - BETTER else best
+            if best.passes:
+                return best
+        if best is path:
+            break
+        path = best
+    return path
+
+
+def _changed(
+    path: MendingPath, choices: Iterable[ChangeableChoice], tell: Callable[[str], None]
+) -> Iterator[tuple[float, MendingPath]]:
+    """Each value of each choice, with the sizes that were reached and with today's, and how bad each of them is."""
+    machines = path.run
+    assert isinstance(machines, ChangedMachines)
+    places = {tuple(share): share for share in (path.share, np.zeros(len(path.share)))}.values()
+    for choice in choices:
+        tell(Phrase("trying the values of {input}", input=choice.asked.path))
+        for value, cost in zip(choice.values, choice.costs, strict=True):
+            run = machines.with_choice(choice.asked, value)
+            for share in places:
+                other = MendingPath(run, path.inputs, share)
+                yield other.merit + cost, other
+
+
+def _named(config: Config, name: str) -> ChangeableChoice | None:
+    asked = any_input(config, name)
+    if asked.unit is None:
+        values = _texts(config, asked)
+        return ChangeableChoice(asked, values, (0.0,) * len(values))
+    return _of_number(design_input(config, name))
+
+
+def _texts(config: Config, asked: Input) -> tuple[str, ...]:
+    """The other texts that it may be."""
+    instance = config.instances[asked.instance]
+    assert instance is not None
+    today = config.tree.typed(instance.place.stands(asked.key)[1])
+    return tuple(text for text in options_of(asked) if text != today)
+
+
+def _of_number(design: DesignInput) -> ChangeableChoice | None:
+    if not is_stepped(design) or not design.today:
+        return None
+    values = [each for each in _steps(design) if each != design.today]
+    values.sort(key=lambda each: abs(each - (design.today or 0.0)))
+    costs = tuple(abs(each / design.today - 1.0) for each in values)
+    return ChangeableChoice(design.asked, tuple(map(design.typed, values)), costs)
+
+
+def _steps(design: DesignInput) -> Iterator[float]:
+    if design.meta.listed:
+        factor = design.meta.parsed_unit.factor
+        yield from (value * factor for value in design.meta.listed)
+        return
+    today = round(design.today or 0.0)
+    tried = np.arange(today - WHOLE_REACH, today + WHOLE_REACH + 1, dtype=float)
+    yield from tried[design.allows(tried)].tolist()

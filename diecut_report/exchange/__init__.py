@@ -1,1 +1,1 @@
-"""What leaves the program and comes back: a report's own calculation, taken out, verified, rendered again, compared."""
+"""What a report carries with it, and how it is read back, verified and signed."""

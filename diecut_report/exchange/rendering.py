@@ -2,21 +2,28 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from pathlib import Path
 from typing import Any
 
-from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
-from diecut_report.errors import Problem, UserError
-from diecut_report.exchange.carried_results import carried_results
-from diecut_report.exchange.other_forms import other_form
-from diecut_report.files import write_all
-from diecut_report.languages.catalogues import Catalogues
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.limits import MAX_PRINTED_MECHANISMS
-from diecut_report.report.house_style import HouseStyle
-from diecut_report.results.doubtful_plugins import doubtful
+from markupsafe import Markup
+
+from diecut_report import __version__, pipeline
+from diecut_report.config.plugins import Discovery
+from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError
+from diecut_report.exchange.carried import MOST as SIDES_MOST
+from diecut_report.exchange.carried import carried_results, form_of
+from diecut_report.exchange.results_form import other_form, parsed
+from diecut_report.files import content, write_all
+from diecut_report.report.chapters.front import ChangedCheck, ChangedRow, printed_changes
+from diecut_report.report.pages import html
+from diecut_report.report.pages.firm_templates import HouseStyle
+from diecut_report.report.text import Catalogue, translated
+from diecut_report.results.conclusion import doubtful
+from diecut_report.results.results_file import encoded
+from diecut_report.text.catalogues import Catalogues
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import say, spoken_language
 
 TEMPLATE = "template_sha256"
 Contents = dict[str, bytes]
@@ -109,3 +116,114 @@ def _refuse_many_sheets(results: dict[str, Any], formats: Sequence[str], file: s
             most=MAX_PRINTED_MECHANISMS,
         )
         raise UserError(Problem(words, file))
+
+
+# What changed between two calculations, as one HTML file without scripts or network.
+
+
+def page(changes: Mapping[str, Any]) -> str:
+    """Return the page of the changes of `results.changes`."""
+    words = Catalogue(spoken_language())
+    made = printed_changes(changes, words)
+    faces = html._font_faces(tuple(html.FACES.items()))
+    style = "\n".join([faces, *(html._read(f"{name}.css") for name in ("report", "screen", "changes"))])
+    title = words.say("changes_of", old=made.names[0], new=made.names[1])
+    return html._environment().get_template("diff.html.j2").render(
+        c=made, t=words, language=words.language, title=title, style=Markup(style), policy=html.policy(), version=__version__,
+    )  # fmt: skip
+
+
+# What changed between two calculations, as lines for a terminal.
+
+
+WIDEST = 60  # letters of a column; what is longer is not aligned
+MOST = {"changed_checks": 40, "changed_inputs": 40, "changed_outputs": 20}  # rows of a block
+Cells = Sequence[str]
+
+
+def lines(changes: Mapping[str, Any], *, all_rows: bool = False) -> Iterator[str]:
+    """Give the changes of `results.changes` line by line; of the results the first ones, with the others counted."""
+    words = Catalogue(spoken_language())
+    made = printed_changes(changes, words)
+    yield from _aligned([_head(say("old"), made.old, words), _head(say("new"), made.new, words)], indent="")
+    if not made:
+        yield words["no_changes"]
+    mechanisms = [(name, old, "→", new) for name, old, new in made.mechanisms]
+    yield from _block("changed_mechanisms", mechanisms, words, all_rows)
+    yield from _block("changed_checks", [_check(row, words) for row in made.checks], words, all_rows)
+    yield from _block("changed_inputs", [_row(row) for row in made.inputs], words, all_rows)
+    if all_rows:
+        yield from _block("following_inputs", [_row(row) for row in made.following], words, all_rows)
+    elif made.following:
+        yield say("  and {n} that follow from other changes by reference (--all shows them)", n=len(made.following))
+    yield from _block("changed_outputs", [_row(row) for row in made.outputs], words, all_rows)
+    yield from _block("changed_code", [(name, old, "→", new) for name, old, new in made.code], words, all_rows)
+
+
+def said_changes(
+    changes: Mapping[str, Any], old: Mapping[str, Any], new: Mapping[str, Any], catalogues: Catalogues
+) -> Mapping[str, Any]:
+    """Return the changes with their texts in the language of the catalogues; ``old`` and ``new`` are the results of both sides."""
+    for data in old["mechanisms"].values():
+        catalogues.of(data["kind"])
+    found: Mapping[str, Any] = translated({**new, "changes": changes}, catalogues)["changes"]
+    return found
+
+
+def _head(name: str, side: Mapping[str, Any], words: Catalogue) -> Cells:
+    counts = [f"{n} {words[status]}" for status, n in side["checks"].items() if n and status != "pass"]
+    revision = say("revision {name}", name=side["revision"]) if side["revision"] else ""
+    governing = say("governing {check}", check=side["governing"]) if side["governing"] else ""
+    return name, side["file"], revision, words[side["status"]], ", ".join(counts), governing
+
+
+def _check(row: ChangedCheck, words: Catalogue) -> Cells:
+    old, new = (
+        f"{words[status]} {used}".rstrip() if status else "–"
+        for status, used in ((row.old_status, row.old), (row.new_status, row.new))
+    )
+    return row.change, f"{row.mechanism}: {row.title}", old, "→", new
+
+
+def _row(row: ChangedRow) -> Cells:
+    return row.path, row.old, "→", row.new, row.change, row.note
+
+
+def _block(key: str, rows: Sequence[Cells], words: Catalogue, all_rows: bool) -> Iterator[str]:
+    """A title and its rows, the first ones alone where there are many."""
+    if not rows:
+        return
+    yield ""
+    yield f"{words[key]}: {len(rows)}"
+    shown = rows if all_rows else rows[: MOST.get(key, len(rows))]
+    yield from _aligned(shown)
+    if len(shown) < len(rows):
+        yield say("  and {n} more (--all shows them)", n=len(rows) - len(shown))
+
+
+def _aligned(rows: Sequence[Cells], indent: str = "  ") -> Iterator[str]:
+    """The rows with their columns as wide as they need."""
+    widths = [min(max(map(len, column)), WIDEST) for column in zip(*rows, strict=True)]
+    for row in rows:
+        cells = (cell.ljust(width) for cell, width in zip(row, widths, strict=True) if width)
+        yield f"{indent}{'  '.join(cells)}".rstrip()
+
+
+# One side of a comparison: the results of a report or a results file as they stand, those of a configuration by calculating it.
+
+
+def side(
+    given: pipeline.Source, discovery: Discovery, tell: Callable[[str], None]
+) -> tuple[dict[str, Any], tuple[PluginError, ...]]:
+    """Return the results of one side, and the plugins that broke where it was calculated; UserError where it cannot be read."""
+    if isinstance(given, Path) and _carries_results(given):
+        return carried_results(given).results, ()
+    outcome, text = pipeline.calc(given, discovery, tell)
+    return parsed(encoded(text), ""), outcome.broken
+
+
+def _carries_results(path: Path) -> bool:
+    """Whether a file is a report or a results file; a configuration may be written as JSON too."""
+    whole = content(path, SIDES_MOST, phrase("a configuration, a results file or a report"))
+    form = form_of(whole)
+    return form in ("pdf", "html") or (form == "json" and b'"program"' in whole and b'"mechanisms"' in whole)

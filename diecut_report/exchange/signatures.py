@@ -9,9 +9,9 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from diecut_report.exchange.pdf_faults import PDF_FAULTS
-from diecut_report.given_files import content
-from diecut_report.languages.phrases import Phrase, cell, joined, phrase
+from diecut_report.exchange.carried import PDF_FAULTS
+from diecut_report.files import content
+from diecut_report.text.phrases import Phrase, cell, joined, phrase
 
 if TYPE_CHECKING:
     from datetime import datetime

@@ -22,16 +22,14 @@ from pyhanko.sign.signers import PdfSignatureMetadata, PdfSigner, SimpleSigner
 from pyhanko.stamp import StaticStampStyle
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
-from diecut_report.config.hidden_letters import printable
+from diecut_report.config.yaml import printable
 from diecut_report.errors import Problem, UserError, nearest
-from diecut_report.exchange.carried_results import MOST, form_of
-from diecut_report.exchange.pdf_faults import PDF_FAULTS
+from diecut_report.exchange.carried import MOST, PDF_FAULTS, form_of
 from diecut_report.exchange.signatures import silent
 from diecut_report.exchange.signing_keys import SigningKey
-from diecut_report.files import write_all
-from diecut_report.given_files import content
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.report.letters import LINE, MILLIMETRE, drawn, fitted
+from diecut_report.files import content, write_all
+from diecut_report.report.symbols import LINE, MILLIMETRE, drawn, fitted
+from diecut_report.text.phrases import Phrase, phrase
 
 SMALLEST, LARGEST = 2.5, 8.0  # points of the letters in a field
 PAD = 1.0  # points between a field's edge and its letters

@@ -15,9 +15,9 @@ from cryptography.hazmat.primitives.serialization import pkcs12
 from cryptography.x509.oid import NameOID
 
 from diecut_report.errors import Problem, UserError
-from diecut_report.exchange.key_strength import weak_key
-from diecut_report.given_files import content
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.exchange.signature_status import weak_key
+from diecut_report.files import content
+from diecut_report.text.phrases import Phrase, phrase
 
 MOST = 1_000_000  # bytes of a key or of certificates
 PEM = b"-----BEGIN"

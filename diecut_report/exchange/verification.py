@@ -2,22 +2,325 @@
 
 from __future__ import annotations
 
+import math
 import re
 from collections.abc import Callable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
-from typing import Any
+from tempfile import TemporaryDirectory
+from typing import Any, NamedTuple
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.errors import PluginError
-from diecut_report.exchange.agreement import Agreement, agreement
-from diecut_report.exchange.carried_results import CarriedResults
-from diecut_report.exchange.page_comparison import compared, other_templates
-from diecut_report.exchange.recalculation import SHORT, Found, ReportParts, recalculated
+from diecut_report import pipeline
+from diecut_report.config import yaml
+from diecut_report.config.model import DETAILS
+from diecut_report.config.own_tables import Find
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import Tree
+from diecut_report.errors import PluginError, UserError
+from diecut_report.exchange.carried import CarriedResults
+from diecut_report.exchange.rendering import TEMPLATE, document, template_of
+from diecut_report.exchange.results_form import parsed
 from diecut_report.exchange.signatures import Signature, signatures
-from diecut_report.languages.phrases import Counted, Phrase, cell, joined, phrase
-from diecut_report.report.house_style import HouseStyle
+from diecut_report.report.pages.firm_templates import HouseStyle
+from diecut_report.results.changes import compare_with
+from diecut_report.results.results_file import config_content, encoded, results_text
+from diecut_report.text.catalogues import languages
+from diecut_report.text.phrases import Counted, Phrase, cell, joined, phrase
+
+# Two results documents held against each other, value by value: how many numbers agree, how exactly, and which differ.
+
+
+CLOSE = 1e-9  # relative: other processors and libraries round differently in the last digits
+NOISE = 1e-12  # of the greatest value of a list, below which nothing but rounding is left
+TINY = 1e-15
+ORDER = ("status", "summary", "governing", "inputs", "checks", "outputs", "values", "phases", "curves")
+"""The parts of results from the most important on; what is not named here comes last."""
+WORDS = ("text", "message")
+
+Value = Any
+NOWHERE = object()
+
+
+@dataclass(frozen=True)
+class Difference:
+    """Hold a place of the results with what stands there in both; None where there is nothing."""
+
+    path: str
+    first: Value
+    second: Value
+
+    @property
+    def order(self) -> tuple[int, bool]:
+        """Return by what differences are sorted: the part of the results, and last the words, which follow from the numbers."""
+        parts = self.path.split(".")
+        named = [ORDER.index(part) for part in (parts[0], *parts[2:3]) if part in ORDER]
+        return named[0] if named else len(ORDER), parts[-1] in WORDS
+
+
+@dataclass
+class Agreement:
+    """Hold the count of the numbers, of those that are exactly alike, and what differs, the most important first."""
+
+    numbers: int = 0
+    exact: int = 0
+    differences: list[Difference] = field(default_factory=list)
+
+    @property
+    def differing(self) -> int:
+        """Return how many numbers differ."""
+        return sum(_is_number(each.first) or _is_number(each.second) for each in self.differences)
+
+
+def agreement(first: Mapping[str, Any], second: Mapping[str, Any]) -> Agreement:
+    """Return how far two results documents agree."""
+    made = Agreement()
+    made.differences = sorted(_differences(first, second, "", made, 0.0), key=lambda each: each.order)
+    return made
+
+
+def _differences(a: Value, b: Value, path: str, made: Agreement, scale: float) -> Iterator[Difference]:
+    if isinstance(a, dict) and isinstance(b, dict):
+        for key in dict.fromkeys([*a, *b]):
+            yield from _differences(a.get(key, NOWHERE), b.get(key, NOWHERE), _below(path, key), made, 0.0)
+        yield from _order_of_keys(a, b, path)
+    elif isinstance(a, list) and isinstance(b, list) and len(a) == len(b):
+        scale = max((abs(each) for each in a if _is_number(each)), default=0.0)
+        for index, pair in enumerate(zip(a, b, strict=True)):
+            yield from _differences(*pair, _below(path, _named(pair[0], index)), made, scale)
+    elif not _agree(a, b, made, scale):
+        yield Difference(path, None if a is NOWHERE else a, None if b is NOWHERE else b)
+
+
+def _order_of_keys(a: dict[str, Value], b: dict[str, Value], path: str) -> Iterator[Difference]:
+    """What stands in another order is shown in another order."""
+    orders = [[key for key in side if key in other] for side, other in ((a, b), (b, a))]
+    if orders[0] != orders[1]:
+        first = next(index for index, pair in enumerate(zip(*orders, strict=True)) if pair[0] != pair[1])
+        yield Difference(_below(path, "(order)"), *(", ".join(order[first:]) for order in orders))
+
+
+def _agree(a: Value, b: Value, made: Agreement, scale: float) -> bool:
+    if not (_is_number(a) and _is_number(b)):
+        return type(a) is type(b) and bool(a == b)
+    made.numbers += 1
+    made.exact += a == b
+    return math.isclose(a, b, rel_tol=CLOSE, abs_tol=max(NOISE * scale, TINY))
+
+
+def _is_number(value: Value) -> bool:
+    return isinstance(value, int | float) and not isinstance(value, bool)
+
+
+def _below(path: str, key: object) -> str:
+    return f"{path}.{key}" if path else f"{key}"
+
+
+def _named(part: Value, index: int) -> object:
+    """What a part of a list is called: by its id, where it has one."""
+    return part["id"] if isinstance(part, dict) and isinstance(part.get("id"), str) else index
+
+
+# The results document of a report made once more: from the configuration that it carries and the options that it tells, by this program.
+
+
+RecalculationData = dict[str, Any]
+Found = tuple[str, bool]  # what was found, in words, and whether it is as it should be
+SHORT = 12  # of a hash, as in a report
+CHANGES = ("changes", "former")
+
+
+class ReportParts(NamedTuple):
+    """What a report tells beyond the results of ``calc``: the weight of what is assumed, the end of all advice, the influence of inputs."""
+
+    weigh: pipeline.Weigh
+    follow: pipeline.Follow
+    matter: pipeline.Matter
+
+
+class Recalculation(NamedTuple):
+    """Hold the results document as the program makes it now, the plugins that broke, and what was found of the report's options."""
+
+    results: RecalculationData
+    broken: tuple[PluginError, ...]
+    options: tuple[Found, ...]
+
+
+def recalculated(
+    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], parts: ReportParts, previous: RecalculationData | None
+) -> Recalculation:  # fmt: skip
+    """Return the results document that this program makes of the configuration and the options in a report.
+
+    ``previous`` are the results of the former revision, where they are given; else they are calculated from what the report carries
+    of it. UserError where the configuration cannot be calculated any more.
+    """
+    given = carried.results
+    weigh, follow, matter = parts if _is_report(carried) else (None, None, None)
+    with _tables(carried.tables) as find:
+        tree = _tree(given["config"], f"{carried.path} (its configuration)")
+        outcome, _ = pipeline.calc(tree, discovery, tell, weigh=weigh, find=find, follow=follow, matter=matter)
+    results, asked = outcome.results, _asked(given, outcome.results)
+    former, lost = _former(carried, discovery, tell, previous)
+    options = _options(given, results, asked)
+    asked.told(results)
+    compare_with(former, results)
+    again = parsed(encoded(results_text(results)), "")
+    if isinstance(template_of(given), str) and template_of(given):
+        again["report"][TEMPLATE] = template_of(given)  # judged with the pages
+    if lost:
+        again |= {key: given[key] for key in CHANGES if key in given}
+    return Recalculation(
+        again, outcome.broken, (options, *([lost] if lost else ()), *_other_changes(given, again, previous))
+    )
+
+
+def _is_report(carried: CarriedResults) -> bool:
+    """Whether the results are those of a report; a results file without any of its parts is as ``calc`` writes it."""
+    summary = carried.results["summary"]
+    return carried.form != "json" or "moves" in summary or "advice" in summary or "influence" in carried.results
+
+
+def _tree(said: Mapping[str, Any], file: str) -> Tree:
+    """A configuration in a report; it is called as the report calls it, and problems name the report."""
+    tree = yaml.parse(said["source_text"], file)
+    return Tree(tree.root, tree.file, tree.text, sha256(config_content({"config": said})).hexdigest(), said["file"])
+
+
+@contextmanager
+def _tables(contents: Mapping[str, bytes]) -> Iterator[Find]:
+    """Where the tables are that a configuration names: those that the report carries, and none that lie beside it by chance."""
+    with TemporaryDirectory(prefix="diecut-report-") as folder:
+        places = {name: Path(folder) / f"{number}" / Path(name).name for number, name in enumerate(contents)}
+        for name, path in places.items():
+            path.parent.mkdir()
+            path.write_bytes(contents[name])
+        yield lambda name: places.get(name, Path(folder) / "not carried" / name)
+
+
+# --- options of the command that the configuration does not tell ------------------------------------------------------
+
+
+def _asked(given: RecalculationData, again: RecalculationData) -> pipeline.AskedReport:
+    """The options that a report tells, as far as the command takes them; what it does not take differs from what comes out now."""
+    asked = given["report"] if isinstance(given.get("report"), dict) else {}
+    language, detail, only = given["project"].get("language"), asked.get("detail"), asked.get("only")
+    is_only = isinstance(only, list) and all(isinstance(name, str) and name in again["mechanisms"] for name in only)
+    return pipeline.AskedReport(
+        language if language in languages() else None,
+        detail if detail in DETAILS else None,
+        tuple(dict.fromkeys(only)) if is_only and only else (),
+    )
+
+
+def _options(given: RecalculationData, again: RecalculationData, asked: pipeline.AskedReport) -> Found:
+    """The options in words: what a report shows by them does not follow from its configuration."""
+    told = [
+        f"--language {asked.language}" if asked.language not in (None, again["project"]["language"]) else "",
+        f"--detail {asked.detail}" if asked.detail not in (None, again["report"]["detail"]) else "",
+        f"--only {','.join(asked.only)}" if asked.only else "",
+        f"--template (SHA-256 {template_of(given)[:SHORT]})" if template_of(given) else "",
+        f"--previous {_former_file(given)}" if "changes" in given else "",
+    ]
+    named = " ".join(filter(None, told))
+    if not named:
+        return phrase(
+            "none: the report shows what its configuration asks for, and no changes since a former revision"
+        ), True
+    return Phrase("made with {options}; all else follows from the configuration", options=named), True
+
+
+def _former_file(given: RecalculationData) -> str:
+    said = given.get("former")
+    return f"{cell(said['file'])} (SHA-256 {said['sha256'][:SHORT]})" if said else "…"
+
+
+# --- the former revision -----------------------------------------------------------------------------------------------
+
+
+def _former(
+    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], previous: RecalculationData | None
+) -> tuple[RecalculationData | None, Found | None]:
+    """The results of the former revision, or what keeps the changes since then from being proved."""
+    said = carried.results.get("former")
+    if previous is not None or "changes" not in carried.results:
+        return previous, None
+    if not said:
+        words = phrase(
+            "not proved: the report does not carry the former configuration; --previous FILE names the former report"
+        )
+        return None, (words, False)
+    try:
+        with _tables(carried.former_tables) as find:
+            tree = _tree(said, f"{carried.path} (its former configuration)")
+            outcome, _ = pipeline.calc(tree, discovery, tell, find=find)
+    except UserError:
+        words = phrase(
+            "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
+        )
+        return None, (words, False)
+    return parsed(encoded(results_text(outcome.results)), ""), None
+
+
+def _other_changes(
+    given: RecalculationData, again: RecalculationData, previous: RecalculationData | None
+) -> Iterator[Found]:
+    if previous is None and given.get("changes") != again.get("changes"):
+        words = "not those that come of the former configuration in the report; where another program calculated that, --previous FILE proves them"
+        yield phrase(words), False
+
+
+# Whether a document is, byte for byte, what this program makes of the results in it, but for signatures.
+
+
+MADE = phrase("byte for byte what the program makes of these results")
+SIGNED = phrase("byte for byte what the program makes of these results, and after it the signatures")
+PAINTED = phrase(
+    "not what the program makes of these results: what was added later, with a signature, changes what the document shows or holds"
+)
+OTHERS = phrase(
+    "not what the program makes of these results: it was changed or saved by another program, or set with other libraries of "
+    "the system. The numbers above are those that it carries; what its pages show may be others"
+)
+
+
+def compared(
+    carried: CarriedResults, signed: list[Signature], house: HouseStyle | None, discovery: Discovery, tell: Callable[[str], None]
+) -> Found:  # fmt: skip
+    """Return whether the pages of a report are those that are set again of its results, and nothing was added but signatures."""
+    if reason := other_templates(carried, house):
+        return reason, False
+    made, content = _set_again(carried, tell, house, discovery), carried.content
+    if content == made:
+        return MADE, True
+    if not (carried.form == "pdf" and content.startswith(made)):
+        return OTHERS, False
+    from diecut_report.exchange.later_changes import only_signed
+
+    if not signed or not all(each.holds for each in signed):
+        words = "what the program makes of these results, with {more} bytes that were added later (a signature, a note)"
+        return Phrase(words, more=len(content) - len(made)), False
+    return (SIGNED, True) if only_signed(made, content) else (PAINTED, False)
+
+
+def other_templates(carried: CarriedResults, house: HouseStyle | None) -> str:
+    """Return why the pages cannot be compared with the templates that are given; nothing where they can."""
+    asked = template_of(carried.results)
+    if asked == (house.sha256 if house else ""):
+        return ""
+    own = Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
+    own = own if asked else phrase("the program's templates alone")
+    return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own)
+
+
+def _set_again(
+    carried: CarriedResults, tell: Callable[[str], None], house: HouseStyle | None, discovery: Discovery
+) -> bytes:
+    """What this program makes of the results in a document, in the document's form."""
+    catalogues = pipeline.catalogues_of(carried.results, discovery, [carried.form], str(carried.path))
+    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), catalogues, house)
+    return contents[carried.form]
+
 
 Data = Mapping[str, Any]
 OF_PROGRAM = ("version", "source_sha256", "extensions")

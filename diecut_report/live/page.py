@@ -2,12 +2,311 @@
 
 from __future__ import annotations
 
+import json
+import math
+from collections.abc import Iterator, Mapping
 from functools import cache
-from typing import NamedTuple
+from typing import Any, NamedTuple
 
-from diecut_report.languages.speech import say, spoken_language
-from diecut_report.live.words import words
-from diecut_report.report.html import filled_page, folder
+import numpy as np
+
+from diecut_report.config.loader import Config
+from diecut_report.config.model import PRESS
+from diecut_report.design.inputs import DesignChoice, DesignInput
+from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
+from diecut_report.errors import Problem, UserError
+from diecut_report.live.session import LiveMachine, LiveSession
+from diecut_report.machine.figure_views import shown_figures
+from diecut_report.quantities.plausible import plausible
+from diecut_report.quantities.units import unit
+from diecut_report.report.pages.html import filled_page, folder
+from diecut_report.report.reader_data import figure_readings
+from diecut_report.report.text import Catalogue, figure_translated, quantity, tidy
+from diecut_report.results.checks import NOT_CHECKED
+from diecut_report.results.press_run import Tell
+from diecut_report.study.execution.press_batch import untold
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import catalogues_spoken, localised, said, say, spoken_language
+
+# What a live page gets of a session, as plain data: verdict, faults, and of each mechanism its inputs, checks and key numbers.
+
+
+Data = dict[str, Any]
+TOLD = 20  # faults that the page shows
+REACH = 0.5  # of its size, to each side of a value: where a slider ends unless the input ends before
+WHOLE_REACH = 10  # to each side of a whole number
+STEPS = 200  # of a slider
+
+
+def page_data(session: LiveSession) -> Data:
+    """Return all that the page shows but figures and effects."""
+    machine, start = session.machine, session.start
+    return {
+        "serial": session.serial,
+        "file": session.file.name,
+        "edits": dict(session.edits),
+        "faults": [_fault(problem) for problem in session.faults[:TOLD]],
+        "more_faults": max(0, len(session.faults) - TOLD),
+        "machine": None if machine is None or start is None else _machine(machine, start, session.edits),
+    }
+
+
+def _fault(problem: Problem) -> Data:
+    return {"text": said(problem.message), "line": problem.line, "column": problem.column, "path": problem.path}
+
+
+def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str]) -> Data:
+    run = machine.run
+    return {
+        "title": str((machine.config.tree.data.get("project") or {}).get("title") or machine.tree.name),
+        "status": run.status,
+        "summary": run.summary,
+        "conclusion": said(run.summary["conclusion"]),
+        "is_open": run.is_open,
+        "start": {"status": start.run.status, "summary": start.run.summary},
+        "mechanisms": [_mechanism(name, machine, start, edits) for name in _names(machine)],
+    }
+
+
+def _names(machine: LiveMachine) -> Iterator[str]:
+    yield PRESS
+    yield from (name for name in machine.config.instances if name != PRESS)
+
+
+def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str]) -> Data:
+    instance = machine.config.instances[name]
+    assert instance is not None, "a machine with a broken plugin is not shown"
+    run = machine.run
+    kind = instance.mechanism.kind if instance.mechanism else ""
+    own = {
+        "inputs": [
+            _input(each, kind, start, edits) if isinstance(each, DesignInput) else _choice(each, kind, start, edits)
+            for each in _inputs(name, machine)
+        ]
+    }
+    if instance.mechanism is None:
+        return own | {
+            "name": name,
+            "title": said(phrase("Press")),
+            "checks": [],
+            "outputs": [],
+            "figures": [],
+            "skipped": False,
+        }
+    is_there = name in run.calculations
+    before = {check["id"]: check for check in start.run.checks.get(name, ())}
+    return own | {
+        "name": name,
+        "title": said(instance.mechanism.title, kind),
+        "skipped": not is_there,
+        "checks": [_check(each, kind, before.get(each["id"])) for each in run.checks.get(name, ()) if each["class"] != "numerical"],
+        "outputs": list(_outputs(name, kind, machine, start)) if is_there else [],
+        "figures": [_told(title, kind) for title in run.figure_titles(name)] if is_there else [],
+    }  # fmt: skip
+
+
+def _told(text: object, kind: str) -> str:
+    """A text of a plugin of this kind as the page shows it."""
+    return tidy(localised(said(text if isinstance(text, str) else "", kind)))
+
+
+def _inputs(name: str, machine: LiveMachine) -> list[DesignInput | DesignChoice]:
+    """What may be changed of a mechanism, in the order of the file."""
+    every: list[DesignInput | DesignChoice] = [*machine.inputs.values(), *machine.choices.values()]
+    own = (each for each in every if each.asked.instance == name)
+    return sorted(own, key=lambda each: machine.tree.position(each.stands))
+
+
+def _choice(asked: DesignChoice, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
+    first = start.choices.get(asked.name)
+    return {
+        "name": asked.name,
+        "path": asked.asked.path,
+        "text": _told(asked.asked.meta.description, kind),
+        "symbol": asked.asked.meta.symbol,
+        "unit": "",
+        "typed": edits.get(asked.name) or asked.typed,
+        "start": first.typed if first else "",
+        "options": list(asked.options),
+    }
+
+
+def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
+    assert asked.today is not None, "a number that the file gives has a value"
+    low, high = slider(asked)
+    own = unit(asked.unit)
+    first = start.inputs.get(asked.name)
+    return {
+        "name": asked.name,
+        "path": asked.asked.path,
+        "text": _told(asked.meta.description, kind),
+        "symbol": asked.meta.symbol,
+        "unit": "" if asked.unit == "1" else asked.unit,
+        "value": _plain(own.from_si(asked.today)),
+        "typed": edits.get(asked.name) or asked.typed(asked.today),
+        "start": first.typed(first.today) if first is not None and first.today is not None else "",
+        "low": _plain(own.from_si(low)),
+        "high": _plain(own.from_si(high)),
+        "whole": asked.is_whole,
+    }
+
+
+def slider(asked: DesignInput) -> tuple[float, float]:
+    """Return from where to where (SI) a slider moves an input: half its size to each side, within what the input may be."""
+    value = asked.today or 0.0
+    least, greatest = asked.bounds
+    if asked.is_whole:
+        return max(value - WHOLE_REACH, least), min(value + WHOLE_REACH, greatest)
+    reach = REACH * abs(value) or REACH * plausible_step(asked)
+    low, high = value - reach, value + reach
+    is_open = least == 0 < value  # a length above zero: zero itself is none
+    return (max(low, least) if not is_open else max(low, value / 100)), min(high, greatest)
+
+
+def plausible_step(asked: DesignInput) -> float:
+    """Return the size (SI) by which an input that is zero now may move."""
+    return math.sqrt(math.prod(plausible(asked.meta.unit).ends))
+
+
+def _plain(number: float) -> float:
+    return float(f"{number:.12g}")
+
+
+def _check(check: Mapping[str, Any], kind: str, before: Mapping[str, Any] | None) -> Data:
+    ratio = check.get("utilisation")
+    return {
+        "id": check["id"],
+        "title": _told(check["title"], kind),
+        "class": check["class"],
+        "status": check["status"],
+        "utilisation": ratio if isinstance(ratio, int | float) and math.isfinite(ratio) else None,
+        "message": _told(check.get("message"), kind),
+        "advice": _told(check.get("advice"), kind),
+        "start_status": before["status"] if before else "",
+        "start_utilisation": before.get("utilisation") if before else None,
+    }
+
+
+def _outputs(name: str, kind: str, machine: LiveMachine, start: LiveMachine) -> Iterator[Data]:
+    before = start.run.key_outputs(name) if name in start.run.calculations else {}
+    for key, output in machine.run.key_outputs(name).items():
+        first = before.get(key)
+        yield {
+            "id": key,
+            "text": _told(output["description"], kind),
+            "symbol": output["symbol"],
+            "shown": _shown(output),
+            "start": "" if first is None else _shown(first),
+            "change": _change(output["value"], first and first["value"]),
+        }
+
+
+def _shown(output: Mapping[str, Any]) -> str:
+    display = output.get("display")
+    if not display:
+        return str(output["value"])
+    return localised(quantity(display["text"], display["unit"]))
+
+
+def _change(value: Any, first: Any) -> float | None:
+    """By how much a number has changed since the start, as a share; None where that says nothing."""
+    numbers = isinstance(value, int | float) and isinstance(first, int | float) and not isinstance(value, bool)
+    return (value - first) / abs(first) if numbers and first and value != first and value * first >= 0 else None
+
+
+# The figures of a live machine: curves as numbers that the page draws itself, drawings as SVG; each made when it is looked at.
+
+
+class Pictures:
+    """Draw the figures of machines; what was drawn of an unchanged mechanism is kept."""
+
+    def __init__(self) -> None:
+        self._drawn: dict[tuple[str, int], tuple[Any, Data]] = {}
+
+    def figure(self, machine: LiveMachine, mechanism: str, index: int) -> Data:
+        """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""
+        if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figure_titles(mechanism)):
+            raise UserError(Problem(Phrase("There is no figure {n} of {name}.", n=index, name=repr(mechanism))))
+        figure = _pictures_of_run_shown(machine, mechanism, index)
+        known = self._drawn.get((mechanism, index))
+        if known is None or known[0] is not figure:
+            known = figure, _drawn(*_in_words(machine, mechanism, figure), mechanism, index)
+            self._drawn[mechanism, index] = known
+        return known[1]
+
+
+def _pictures_of_run_shown(machine: LiveMachine, mechanism: str, index: int) -> Data:
+    """The figure as data; a chart to which this machine gives no panel is not among them, though its title is told."""
+    declared = shown_figures(machine.run.calculations[mechanism])[index]
+    found = next((figure for figure in machine.run.figures(mechanism) if figure["id"] == declared.id), None)
+    if found is None:
+        raise UserError(Problem(Phrase("{title}: there is nothing of this machine to show.", title=declared.title)))
+    return found
+
+
+def _in_words(machine: LiveMachine, mechanism: str, figure: Data) -> tuple[Data, Data]:
+    """The figure and the curves of its mechanism, in the language that is spoken."""
+    curves, catalogues = machine.run.curves(mechanism), catalogues_spoken()
+    if catalogues is None:
+        return figure, curves
+    return figure_translated(figure, curves, machine.run.calculations[mechanism].mechanism.kind, catalogues)
+
+
+def _drawn(figure: Data, curves: Data, mechanism: str, index: int) -> Data:
+    from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
+
+    words = Catalogue(spoken_language())
+    try:
+        if figure["type"] in ("plot", "chart") and (readings := figure_readings(mechanism, figure, curves, words)):
+            return {"plot": readings}
+        return {"svg": render(figure, curves, words, f"{mechanism}-{index}").text}
+    except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
+        raise UserError(
+            Problem(Phrase("This figure cannot be drawn: {reason}", reason=f"{type(cause).__name__}: {cause}"))
+        ) from cause
+
+
+# The words that the script of the live page says, by the names that it has for them; they come with the page as data.
+
+
+WORDS = {
+    "verdict_fault": phrase("The file cannot be calculated"),
+    "count_pass": phrase("{n} pass"),
+    "governing": phrase("governing: {check}"),
+    "failed_before": phrase("at the start {n} failed"),
+    "status_pass": phrase("pass"),
+    "status_warn": phrase("warn"),
+    "status_fail": phrase("fail"),
+    "status_not_checked": phrase("not checked"),
+    "more_faults": phrase("and {n} more"),
+    "write": phrase("Write to file"),
+    "write_n": phrase("Write {n} to file"),
+    "written": phrase("Written to {file}."),
+    "taken_back": phrase("Taken back: {n}."),
+    "put_back": phrase("Put back again"),
+    "take_back": phrase("Take back"),
+    "take_back_of": phrase("Take back {input}"),
+    "slider": phrase("{input}, slider"),
+    "before": phrase("at the start {value}"),
+    "no_inputs": phrase("The file gives no number here that is not taken from elsewhere."),
+    "not_found": phrase("No input that the file gives has this in its key or words."),
+    "effect": phrase("Effect"),
+    "effect_of": phrase("Effect of {input}"),
+    "effect_line": phrase("utilisation from {first} to {last}"),
+    "absent_before": phrase("not there"),
+    "drawing": phrase("drawing …"),
+    "refused": phrase("The program does not take this ({status})."),
+    "no_answer": phrase("The program does not answer; is it still running?"),
+    "making": phrase("The report is being made; it opens in a tab of its own."),
+    "lost": phrase("The program does not answer. If it was started anew, open the address that it prints."),
+}
+"""What is in braces the script fills in."""
+
+
+def words() -> str:
+    """Return the words in the language that is spoken, as JSON."""
+    return json.dumps({name: said(text) for name, text in WORDS.items()}, ensure_ascii=False)
+
 
 FONTS = ("report-sans-regular", "report-sans-bold", "report-sans-italic", "report-symbols")
 FILES = {  # place in the folder of the templates: what it is
@@ -37,3 +336,64 @@ def assets() -> dict[str, Asset]:
 def page(file: str) -> bytes:
     """Return the page for a file of this name, in the language that is spoken."""
     return filled_page("live/live.html.j2", file=file, language=spoken_language(), say=say, words=words()).encode()
+
+
+# What an input does to every check: one vectorised run over the slider's range, of the mechanisms that follow from it.
+#
+# The checks of all others are those of the machine as it stands.
+
+
+POINTS = 25  # of a line: fine enough for its size, and quick enough for a hand on a slider
+
+
+def effect(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
+    """Return the checks' utilisations and statuses along an input's slider, with the places in the input's unit.
+
+    UserError where the file gives no such number. A place where the machine cannot exist has neither. ``tell`` is called with
+    the name of each mechanism before it is calculated; what it raises ends the run.
+    """
+    asked = machine.inputs.get(name)
+    if asked is None:
+        raise UserError(Problem(Phrase("{name} is not a number that the file gives.", name=repr(name))))
+    places = _places(asked)
+    moved = narrowed(machine.config, downstream(machine.config, asked.asked.instance))
+    found = varied(moved, {asked.asked: places}, len(places), tell=tell)
+    own = unit(asked.unit)
+    return {
+        "input": name,
+        "places": [float(f"{own.from_si(float(place)):.6g}") for place in places],
+        "exists": found.exists.tolist(),
+        "checks": _unmoved(machine, moved, found) | {check: _line(found, check) for check in found.checks},
+    }
+
+
+def _unmoved(machine: LiveMachine, moved: Config, found: VariedMachines) -> Data:
+    """The lines of the checks that are not calculated again: today's, where the machine exists."""
+    checks = ((name, check) for name, own in machine.run.checks.items() if name not in moved.instances for check in own)
+    return {
+        f"{name}.{check['id']}": {
+            "utilisation": [_effects_told(check["utilisation"]) if there else None for there in found.exists],
+            "status": [check["status"] if there else "" for there in found.exists],
+        }
+        for name, check in checks
+        if check["class"] != "numerical" and check["status"] != NOT_CHECKED
+    }
+
+
+def _effects_told(ratio: float | None) -> float | None:
+    return float(f"{ratio:.4g}") if ratio is not None and math.isfinite(ratio) else None
+
+
+def _places(asked: DesignInput) -> np.ndarray:
+    low, high = slider(asked)
+    if asked.is_whole:
+        return np.arange(round(low), round(high) + 1, dtype=float)
+    return np.linspace(low, high, POINTS)
+
+
+def _line(found: VariedMachines, check: str) -> Data:
+    ratios, statuses = found.check(check, UTILISATION), found.check(check, STATUS)
+    return {
+        "utilisation": [_effects_told(ratio) for ratio in ratios.astype(float)],
+        "status": [status or "" for status in statuses],
+    }

@@ -2,25 +2,29 @@
 
 from __future__ import annotations
 
+import asyncio
+import sys
+import tempfile
 from collections.abc import Iterable, Iterator, Mapping
 from contextlib import contextmanager
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any
+from typing import Any, NamedTuple
 
-from diecut_report.config import yaml_tree
-from diecut_report.config.discovery import Discovery, said
+from diecut_report.config import yaml
 from diecut_report.config.loader import Config, load_config
-from diecut_report.config.written_values import as_file, rewritten
-from diecut_report.config.yaml_tree import KeyPath, Tree
-from diecut_report.design.design_choices import DesignChoice, given_choices
-from diecut_report.design.design_inputs import DesignInput, given_numbers
+from diecut_report.config.plugins import Discovery, said
+from diecut_report.config.references import as_file, rewritten
+from diecut_report.config.yaml import KeyPath, Tree
+from diecut_report.design.inputs import DesignChoice, DesignInput, given_choices, given_numbers
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import write
-from diecut_report.languages.phrases import Phrase, phrase
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity
+from diecut_report.results.results_file import encoded, results_text
 from diecut_report.results.warm_press import WarmPress, WarmRun
-from diecut_report.time_limit import PATIENCE, Overran, limited
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.time_limit import PATIENCE as SESSION_PATIENCE
+from diecut_report.time_limit import Overran, limited
 
 Data = dict[str, Any]
 LONGEST = 100  # letters of a number that is typed on the page
@@ -72,7 +76,7 @@ class LiveSession:
         """Read the file again and calculate; changes of the page stay over it, but those that stand in it now."""
         self._read = self._marks()  # before the reading: what is saved meanwhile is another
         try:
-            self.tree = yaml_tree.read(self.file)
+            self.tree = yaml.read(self.file)
         except UserError as error:
             self._failed(error.problems)
             return
@@ -199,10 +203,12 @@ class LiveSession:
 def in_time(file: Path) -> Iterator[None]:
     """Let what runs within take so long at most; UserError with the place in the plugin that does not come back."""
     try:
-        with limited(PATIENCE):
+        with limited(SESSION_PATIENCE):
             yield
     except Overran as cause:
-        words = Phrase("it did not come back within {seconds} s ({said})", seconds=f"{PATIENCE:g}", said=said(cause))
+        words = Phrase(
+            "it did not come back within {seconds} s ({said})", seconds=f"{SESSION_PATIENCE:g}", said=said(cause)
+        )
         raise UserError(Problem(words, str(file))) from cause
 
 
@@ -223,3 +229,77 @@ def _require_shown(run: WarmRun) -> None:
             run.key_outputs(name)
         except Exception as cause:  # of any kind: the plugin's own, as wherever it is calculated
             raise PluginError(said(cause), calculation.mechanism.kind, name) from cause
+
+
+# LiveReports of a live machine, made by a process of their own, so that the page goes on while the sheets are set.
+
+
+MEDIA_TYPES = {"html": "text/html; charset=utf-8", "pdf": "application/pdf"}
+NAME = "report"
+PATIENCE = 900.0  # seconds for a report; while one is made the next waits
+
+
+class MadeReport(NamedTuple):
+    """Hold a report as a browser takes it."""
+
+    content: bytes
+    media_type: str
+    headers: dict[str, str]
+
+
+class LiveReports:
+    """Make reports, one at a time, in a language or in that of the project; ``folders`` are those of foreign plugins."""
+
+    def __init__(self, folders: tuple[Path, ...], language: str | None) -> None:
+        self.folders, self.language = folders, language
+        self._one = asyncio.Lock()
+
+    async def made(self, results: dict[str, Any], form: str) -> MadeReport:
+        """Return the report of these results as ``html`` or ``pdf``; UserError in the words of the command where it cannot be made."""
+        if form not in MEDIA_TYPES:
+            raise UserError(
+                Problem(
+                    Phrase(
+                        "{form} is not a format here; there are {known}.", form=repr(form), known=", ".join(MEDIA_TYPES)
+                    )
+                )
+            )
+        async with self._one:
+            with tempfile.TemporaryDirectory(prefix="diecut-report-") as folder:
+                content = await self._rendered(Path(folder), encoded(results_text(results)), form)
+        return MadeReport(content, MEDIA_TYPES[form], {"content-disposition": f'inline; filename="{NAME}.{form}"'})
+
+    async def _rendered(self, folder: Path, results: bytes, form: str) -> bytes:
+        (folder / f"{NAME}.json").write_bytes(results)
+        options = [part for place in self.folders for part in ("--plugins", str(place.absolute()))]
+        options += ["--language", self.language] if self.language else []
+        command = [
+            sys.executable,
+            "-P",
+            "-m",
+            "diecut_report",
+            "render",
+            f"{NAME}.json",
+            "-o",
+            "made",
+            "--format",
+            form,
+            "--quiet",
+        ]
+        process = await asyncio.create_subprocess_exec(*command, *options, cwd=folder, stdin=asyncio.subprocess.DEVNULL,
+                                                       stdout=asyncio.subprocess.DEVNULL, stderr=asyncio.subprocess.PIPE)  # fmt: skip
+        try:
+            async with asyncio.timeout(PATIENCE):
+                _, told = await process.communicate()
+        except asyncio.CancelledError:
+            process.kill()
+            raise
+        except TimeoutError:
+            process.kill()
+            await process.wait()
+            words = "The report was not made within {seconds} s, and was given up."
+            raise UserError(Problem(Phrase(words, seconds=f"{PATIENCE:g}"))) from None
+        files = list((folder / "made").glob(f"*.{form}"))
+        if not files:
+            raise UserError(Problem(told.decode(errors="replace").strip() or phrase("The report was not made.")))
+        return files[0].read_bytes()

@@ -1,1 +1,1 @@
-"""Shared kinematics and geometry: formulas on numbers and arrays, which plugins bind to their quantities."""
+"""Formulas that mechanisms share: linkages, cams, motion laws, beams, belts."""

@@ -13,7 +13,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.expressions import GRAVITY, as_number, formula
+from diecut_report.formulas.formula import formula
+from diecut_report.formulas.tree import GRAVITY, as_number
 
 Array = NDArray[Any]
 SAME_PLACE = 1e-9  # m, within which two places are one

@@ -12,7 +12,9 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.expressions import Array, arccos, formula
+from diecut_report.formulas import Array
+from diecut_report.formulas.formula import formula
+from diecut_report.formulas.tree import arccos
 
 TOUCHING = 1e-9  # share of the layout's size below which pulleys and runs touch only
 

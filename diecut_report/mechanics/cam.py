@@ -21,7 +21,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.expressions import formula
+from diecut_report.formulas.formula import formula
 
 
 @formula

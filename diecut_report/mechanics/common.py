@@ -6,7 +6,8 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.expressions import formula
+from diecut_report.formulas.formula import formula
+from diecut_report.formulas.tree import arccos
 
 
 @formula
@@ -85,3 +86,18 @@ def is_at_least(greater: Any, smaller: Any) -> Any:
 def rounded_up(quantity: Any, step: Any) -> Any:
     """The next multiple of a step; 1e-9 of a step below, so that what is a multiple stays as it is."""
     return step * np.ceil(quantity / step - 1e-9)
+
+
+# The law of cosines.
+
+
+@formula
+def enclosed_angle(one_side: Any, other_side: Any, opposite_side: Any) -> Any:
+    """Angle between two sides of a triangle (law of cosines)."""
+    return arccos((one_side**2 + other_side**2 - opposite_side**2) / (2 * one_side * other_side))
+
+
+@formula
+def third_side(one_side: Any, other_side: Any, enclosed: Any) -> Any:
+    """Side of a triangle opposite the angle that two others enclose (law of cosines)."""
+    return np.sqrt(one_side**2 + other_side**2 - 2 * one_side * other_side * np.cos(enclosed))

@@ -10,7 +10,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.expressions import formula
+from diecut_report.formulas.formula import formula
 
 
 @formula
@@ -35,3 +35,18 @@ def contact_half_width(force: Any, effective_modulus: Any, effective_radius: Any
 def required_length(force: Any, effective_modulus: Any, effective_radius: Any, allowable_pressure: Any) -> Any:
     """Length of contact with which a force presses with the allowed pressure."""
     return abs(force) * effective_modulus / (np.pi * effective_radius * allowable_pressure**2)
+
+
+# What the grippers of a conveyor have to hold: the sheet's own inertia.
+
+
+@formula
+def sheet_mass(grammage: Any, sheet_length: Any, sheet_width: Any) -> Any:
+    """Mass of a sheet."""
+    return grammage * sheet_length * sheet_width
+
+
+@formula
+def sheet_force(sheet_mass: Any, sheet_acceleration_max: Any) -> Any:
+    """Force with which a sheet pulls at its grippers at its greatest acceleration."""
+    return sheet_mass * sheet_acceleration_max

@@ -13,8 +13,10 @@ from typing import Any, NamedTuple
 
 import numpy as np
 
-from diecut_report.expressions import Array, arccos, formula
-from diecut_report.mechanics.triangle import enclosed_angle
+from diecut_report.formulas import Array
+from diecut_report.formulas.formula import formula
+from diecut_report.formulas.tree import arccos
+from diecut_report.mechanics.common import enclosed_angle
 
 
 @formula

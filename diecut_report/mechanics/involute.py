@@ -13,7 +13,9 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.expressions import Array, as_angle, as_number, formula
+from diecut_report.formulas import Array
+from diecut_report.formulas.formula import formula
+from diecut_report.formulas.tree import as_angle, as_number
 
 ROUNDING = 160  # points of a rack's rounded tip
 

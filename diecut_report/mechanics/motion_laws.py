@@ -16,9 +16,264 @@ from typing import Any, TypeVar
 
 import numpy as np
 
-from diecut_report.expressions import Formula, as_number, formula
-from diecut_report.mechanics import modified_laws as modified
-from diecut_report.mechanics import polynomial_laws as polynomial
+from diecut_report.formulas.formula import Formula, formula
+from diecut_report.formulas.tree import as_number
+
+# Formulas of the motion laws that are polynomials of k; ``motion_laws`` names and registers them.
+
+
+@formula
+def parabolic_position(k: Any) -> Any:
+    """Position: two parabolas."""
+    return np.where(k < 1 / 2, 2 * k**2, 1 - 2 * (1 - k) ** 2)
+
+
+@formula
+def parabolic_velocity(k: Any) -> Any:
+    """Velocity: up and down in straight lines."""
+    return np.where(k < 1 / 2, 4 * k, 4 * (1 - k))
+
+
+@formula
+def parabolic_acceleration(k: Any) -> Any:
+    """Acceleration, which jumps at both ends and in the middle."""
+    return np.where(k < 1 / 2, 4, -4)
+
+
+@formula
+def parabolic_jerk(k: Any) -> Any:
+    """Jerk: nothing but impulses, which are left out."""
+    return 0 * k
+
+
+@formula
+def parabolic_joint(k: Any) -> Any:
+    """Changes its sign in the middle."""
+    return k - 1 / 2
+
+
+@formula
+def parabolic_peak_velocity() -> Any:
+    """Peak velocity, in the middle."""
+    return 2
+
+
+@formula
+def parabolic_peak_acceleration() -> Any:
+    """Peak acceleration, all the time."""
+    return 4
+
+
+@formula
+def fifth_position(k: Any) -> Any:
+    """Position of the polynomial 3-4-5."""
+    return 10 * k**3 - 15 * k**4 + 6 * k**5
+
+
+@formula
+def fifth_velocity(k: Any) -> Any:
+    """Velocity of the polynomial 3-4-5."""
+    return 30 * k**2 * (1 - k) ** 2
+
+
+@formula
+def fifth_acceleration(k: Any) -> Any:
+    """Acceleration of the polynomial 3-4-5."""
+    return 60 * k * (1 - k) * (1 - 2 * k)
+
+
+@formula
+def fifth_jerk(k: Any) -> Any:
+    """Jerk of the polynomial 3-4-5."""
+    return 60 * (1 - 6 * k + 6 * k**2)
+
+
+@formula
+def fifth_peak_velocity() -> Any:
+    """Peak velocity, in the middle."""
+    return 15 / 8
+
+
+@formula
+def fifth_peak_acceleration() -> Any:
+    """Peak acceleration, where 6k(1 − k) = 1."""
+    return 10 / np.sqrt(3)
+
+
+@formula
+def seventh_position(k: Any) -> Any:
+    """Position of the polynomial 4-5-6-7."""
+    return 35 * k**4 - 84 * k**5 + 70 * k**6 - 20 * k**7
+
+
+@formula
+def seventh_velocity(k: Any) -> Any:
+    """Velocity of the polynomial 4-5-6-7."""
+    return 140 * k**3 * (1 - k) ** 3
+
+
+@formula
+def seventh_acceleration(k: Any) -> Any:
+    """Acceleration of the polynomial 4-5-6-7."""
+    return 420 * k**2 * (1 - k) ** 2 * (1 - 2 * k)
+
+
+@formula
+def seventh_jerk(k: Any) -> Any:
+    """Jerk of the polynomial 4-5-6-7."""
+    return 840 * k * (1 - k) * (1 - 5 * k + 5 * k**2)
+
+
+@formula
+def seventh_peak_velocity() -> Any:
+    """Peak velocity, in the middle."""
+    return 35 / 16
+
+
+@formula
+def seventh_peak_acceleration() -> Any:
+    """Peak acceleration, where 5k(1 − k) = 1."""
+    return 84 / (5 * np.sqrt(5))
+
+
+# Formulas of the modified motion laws, which join sine waves and straight lines; ``motion_laws`` names and registers them.
+
+
+@formula
+def quick_wave(k: Any) -> Any:
+    """Position that a sine wave of the acceleration, four half waves over the rise, gives from rest."""
+    return k - np.sin(4 * np.pi * k) / as_number(4 * np.pi)
+
+
+@formula
+def quick_rate(k: Any) -> Any:
+    """Velocity of the same wave."""
+    return 1 - np.cos(4 * np.pi * k)
+
+
+@formula
+def slow_angle(k: Any) -> Any:
+    """Phase of the modified sine's slow wave."""
+    return np.pi / 3 + 4 * np.pi * k / 3
+
+
+@formula
+def sine_position(k: Any) -> Any:
+    """Position of the modified sine."""
+    pi = as_number(np.pi)
+    factor = pi / (4 + pi)
+    middle = factor * (2 / pi + k - 9 / (4 * pi) * np.sin(slow_angle(k)))
+    end = factor * (4 / pi + quick_wave(k))
+    return np.where(k < 1 / 8, factor * quick_wave(k), np.where(k <= 7 / 8, middle, end))
+
+
+@formula
+def sine_velocity(k: Any) -> Any:
+    """Velocity of the modified sine."""
+    pi = as_number(np.pi)
+    factor = pi / (4 + pi)
+    middle = factor * (1 - 3 * np.cos(slow_angle(k)))
+    return np.where((k < 1 / 8) | (k > 7 / 8), factor * quick_rate(k), middle)
+
+
+@formula
+def sine_acceleration(k: Any) -> Any:
+    """Acceleration of the modified sine: a quick quarter wave, a slow half wave, a quick quarter wave."""
+    pi = as_number(np.pi)
+    peak = 4 * pi**2 / (4 + pi)
+    return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.sin(4 * np.pi * k), peak * np.sin(slow_angle(k)))
+
+
+@formula
+def sine_jerk(k: Any) -> Any:
+    """Jerk of the modified sine."""
+    pi = as_number(np.pi)
+    peak = 16 * pi**3 / (4 + pi)
+    return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.cos(4 * np.pi * k), peak / 3 * np.cos(slow_angle(k)))
+
+
+@formula
+def sine_joint(k: Any) -> Any:
+    """Changes its sign where the quick and the slow wave meet."""
+    return (k - 1 / 8) * (k - 7 / 8)
+
+
+@formula
+def sine_peak_velocity() -> Any:
+    """Peak velocity of the modified sine, in the middle."""
+    pi = as_number(np.pi)
+    return 4 * pi / (4 + pi)
+
+
+@formula
+def sine_peak_acceleration() -> Any:
+    """Peak acceleration of the modified sine, where its waves meet."""
+    pi = as_number(np.pi)
+    return 4 * pi**2 / (4 + pi)
+
+
+@formula
+def trapezoidal_position(k: Any) -> Any:
+    """Position of the modified trapezoidal law."""
+    pi = as_number(np.pi)
+    factor = 2 / (2 + pi)
+    rising = factor * (k - 1 / (4 * pi) + 2 * pi * (k - 1 / 8) ** 2)
+    middle = 1 / 2 + factor * ((1 + pi) * (k - 1 / 2) + np.sin(4 * np.pi * k) / (4 * pi))
+    falling = 1 - factor * (1 - k - 1 / (4 * pi) + 2 * pi * (7 / 8 - k) ** 2)
+    later = np.where(k <= 7 / 8, falling, 1 - factor * quick_wave(1 - k))
+    half = np.where(k <= 5 / 8, middle, later)
+    return np.where(k < 1 / 8, factor * quick_wave(k), np.where(k < 3 / 8, rising, half))
+
+
+@formula
+def trapezoidal_velocity(k: Any) -> Any:
+    """Velocity of the modified trapezoidal law."""
+    pi = as_number(np.pi)
+    factor = 2 / (2 + pi)
+    rising = factor * (1 + 4 * pi * (k - 1 / 8))
+    middle = factor * (1 + pi + np.cos(4 * np.pi * k))
+    falling = factor * (1 + 4 * pi * (7 / 8 - k))
+    inside = np.where(k < 3 / 8, rising, np.where(k <= 5 / 8, middle, falling))
+    return np.where((k < 1 / 8) | (k > 7 / 8), factor * quick_rate(k), inside)
+
+
+@formula
+def trapezoidal_acceleration(k: Any) -> Any:
+    """Acceleration of the modified trapezoidal law: quarter waves between stretches of constant acceleration."""
+    pi = as_number(np.pi)
+    peak = 8 * pi / (2 + pi)
+    middle = np.where(k <= 5 / 8, -peak * np.sin(4 * np.pi * k), -peak)
+    inside = np.where(k < 3 / 8, peak, middle)
+    return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.sin(4 * np.pi * k), inside)
+
+
+@formula
+def trapezoidal_jerk(k: Any) -> Any:
+    """Jerk of the modified trapezoidal law."""
+    pi = as_number(np.pi)
+    peak = 32 * pi**2 / (2 + pi)
+    middle = np.where((k < 3 / 8) | (k > 5 / 8), 0, -peak * np.cos(4 * np.pi * k))
+    return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.cos(4 * np.pi * k), middle)
+
+
+@formula
+def trapezoidal_joint(k: Any) -> Any:
+    """Changes its sign where waves and straight lines meet."""
+    return (k - 1 / 8) * (k - 3 / 8) * (k - 5 / 8) * (k - 7 / 8)
+
+
+@formula
+def trapezoidal_peak_velocity() -> Any:
+    """Peak velocity of the modified trapezoidal law, in the middle."""
+    return 2
+
+
+@formula
+def trapezoidal_peak_acceleration() -> Any:
+    """Peak acceleration of the modified trapezoidal law."""
+    pi = as_number(np.pi)
+    return 8 * pi / (2 + pi)
+
 
 ROUNDING = 1e-9  # by which a law may miss its ends
 
@@ -222,29 +477,29 @@ register(MotionLaw(
     peak_acceleration=harmonic_peak_acceleration,
 ))  # fmt: skip
 register(MotionLaw(
-    name="parabolic", title="Parabolic (constant acceleration)", position=polynomial.parabolic_position,
-    velocity=polynomial.parabolic_velocity, acceleration=polynomial.parabolic_acceleration, jerk=polynomial.parabolic_jerk,
-    peak_velocity=polynomial.parabolic_peak_velocity, peak_acceleration=polynomial.parabolic_peak_acceleration,
-    breakpoints=(1 / 2,), joint=polynomial.parabolic_joint,
+    name="parabolic", title="Parabolic (constant acceleration)", position=parabolic_position,
+    velocity=parabolic_velocity, acceleration=parabolic_acceleration, jerk=parabolic_jerk,
+    peak_velocity=parabolic_peak_velocity, peak_acceleration=parabolic_peak_acceleration,
+    breakpoints=(1 / 2,), joint=parabolic_joint,
 ))  # fmt: skip
 register(MotionLaw(
-    name="modified_trapezoidal", title="Modified trapezoidal acceleration", position=modified.trapezoidal_position,
-    velocity=modified.trapezoidal_velocity, acceleration=modified.trapezoidal_acceleration, jerk=modified.trapezoidal_jerk,
-    peak_velocity=modified.trapezoidal_peak_velocity, peak_acceleration=modified.trapezoidal_peak_acceleration,
-    breakpoints=(1 / 8, 3 / 8, 5 / 8, 7 / 8), joint=modified.trapezoidal_joint,
+    name="modified_trapezoidal", title="Modified trapezoidal acceleration", position=trapezoidal_position,
+    velocity=trapezoidal_velocity, acceleration=trapezoidal_acceleration, jerk=trapezoidal_jerk,
+    peak_velocity=trapezoidal_peak_velocity, peak_acceleration=trapezoidal_peak_acceleration,
+    breakpoints=(1 / 8, 3 / 8, 5 / 8, 7 / 8), joint=trapezoidal_joint,
 ))  # fmt: skip
 register(MotionLaw(
-    name="modified_sine", title="Modified sine acceleration", position=modified.sine_position, velocity=modified.sine_velocity,
-    acceleration=modified.sine_acceleration, jerk=modified.sine_jerk, peak_velocity=modified.sine_peak_velocity,
-    peak_acceleration=modified.sine_peak_acceleration, breakpoints=(1 / 8, 7 / 8), joint=modified.sine_joint,
+    name="modified_sine", title="Modified sine acceleration", position=sine_position, velocity=sine_velocity,
+    acceleration=sine_acceleration, jerk=sine_jerk, peak_velocity=sine_peak_velocity,
+    peak_acceleration=sine_peak_acceleration, breakpoints=(1 / 8, 7 / 8), joint=sine_joint,
 ))  # fmt: skip
 register(MotionLaw(
-    name="polynomial_345", title="Polynomial 3-4-5", position=polynomial.fifth_position, velocity=polynomial.fifth_velocity,
-    acceleration=polynomial.fifth_acceleration, jerk=polynomial.fifth_jerk, peak_velocity=polynomial.fifth_peak_velocity,
-    peak_acceleration=polynomial.fifth_peak_acceleration,
+    name="polynomial_345", title="Polynomial 3-4-5", position=fifth_position, velocity=fifth_velocity,
+    acceleration=fifth_acceleration, jerk=fifth_jerk, peak_velocity=fifth_peak_velocity,
+    peak_acceleration=fifth_peak_acceleration,
 ))  # fmt: skip
 register(MotionLaw(
-    name="polynomial_4567", title="Polynomial 4-5-6-7", position=polynomial.seventh_position, velocity=polynomial.seventh_velocity,
-    acceleration=polynomial.seventh_acceleration, jerk=polynomial.seventh_jerk, peak_velocity=polynomial.seventh_peak_velocity,
-    peak_acceleration=polynomial.seventh_peak_acceleration,
+    name="polynomial_4567", title="Polynomial 4-5-6-7", position=seventh_position, velocity=seventh_velocity,
+    acceleration=seventh_acceleration, jerk=seventh_jerk, peak_velocity=seventh_peak_velocity,
+    peak_acceleration=seventh_peak_acceleration,
 ))  # fmt: skip

@@ -1,1 +1,1 @@
-"""Quantities: numbers with units, and their neutral texts."""
+"""Units, how quantities are read and printed, and the sizes a machine may have."""

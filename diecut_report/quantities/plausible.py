@@ -12,8 +12,8 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import Kind, UnitError, number_and_unit, parse_quantity, pretty, unit
+from diecut_report.text.phrases import Phrase
 
 SIZES: dict[str, tuple[str, str]] = {
     "1": ("1e-6", "1e6"),

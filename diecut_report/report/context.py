@@ -6,24 +6,20 @@ from collections.abc import Callable, Iterator, Mapping, Sequence
 from functools import cached_property
 from typing import TYPE_CHECKING, Any, NamedTuple, TypeVar
 
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE, Catalogues
-from diecut_report.report.carried import CarriedFile, carried_files
-from diecut_report.report.changes import PrintedChanges, marked, printed_changes
-from diecut_report.report.declared_letters import DeclaredLetters, declared_letters
+from diecut_report.report.chapters.front import CarriedFile, PrintedChanges, carried_files, marked, printed_changes
+from diecut_report.report.chapters.sources import numbered
 from diecut_report.report.document import ReportDocument, document
-from diecut_report.report.equations import Equations
-from diecut_report.report.house_style import HouseStyle
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.equations import Equations, Typesetter
 from diecut_report.report.model import Item
-from diecut_report.report.numbered_papers import numbered
+from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.report.scope import BRIEF, FULL, parts
-from diecut_report.report.translated import translated
-from diecut_report.report.typeset import Typesetter
+from diecut_report.report.symbols import DeclaredLetters, declared_letters
+from diecut_report.report.text import Catalogue, translated
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 
 if TYPE_CHECKING:
-    from diecut_report.report.figures.raster import Raster
-    from diecut_report.report.figures.sizes import Size
-    from diecut_report.report.figures.style import Svg
+    from diecut_report.report.figures.by_type import Raster
+    from diecut_report.report.figures.style import SizesSize, Svg
 
 Data = Mapping[str, Any]
 Drawing = TypeVar("Drawing")
@@ -96,7 +92,7 @@ class Material:
     @cached_property
     def rasters(self) -> dict[str, Raster]:
         """The same as pictures of points."""
-        from diecut_report.report.figures.raster import raster
+        from diecut_report.report.figures.by_type import raster
 
         return self._drawn(raster)
 
@@ -121,7 +117,8 @@ class Material:
 
     def _sized(self, draw: Callable[..., Drawing], number: str, figure: Data, curves: Data) -> Drawing:
         """A figure in the size of its place; one whose texts take more than half the width has it alone."""
-        from diecut_report.report.figures.sizes import WIDEST_HALF, Size
+        from diecut_report.report.figures.style import WIDEST_HALF
+        from diecut_report.report.figures.style import SizesSize as Size
 
         if number in self.document.halves:
             made: Any = draw(figure, curves, self.words, number, Size.HALF)
@@ -130,15 +127,15 @@ class Material:
         return draw(figure, curves, self.words, number, self._whole)
 
     @property
-    def _whole(self) -> Size:
+    def _whole(self) -> SizesSize:
         """The size of a figure that stands alone."""
-        from diecut_report.report.figures.sizes import Size
+        from diecut_report.report.figures.style import SizesSize as Size
 
         return {BRIEF: Size.SKETCH, FULL: Size.LARGE}.get(self.document.detail, Size.LOW)
 
     def are_abreast(self, pair: tuple[Item, ...]) -> bool:
         """Whether two figures have room side by side."""
-        from diecut_report.report.figures.sizes import WIDEST_HALF
+        from diecut_report.report.figures.style import WIDEST_HALF
 
         return all(item.number not in self.figures or self.figures[item.number].width <= WIDEST_HALF for item in pair)
 
@@ -155,7 +152,7 @@ class Material:
 
 def _left_alone(pairs: Sequence[tuple[str, ...]], drawn: Mapping[str, Any]) -> Iterator[str]:
     """The figures drawn over half the width of which the other one of a pair has no room beside it."""
-    from diecut_report.report.figures.sizes import WIDEST_HALF
+    from diecut_report.report.figures.style import WIDEST_HALF
 
     for pair in pairs:
         narrow = [number for number in pair if number in drawn and drawn[number].width <= WIDEST_HALF]

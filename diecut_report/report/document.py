@@ -2,26 +2,98 @@
 
 from __future__ import annotations
 
+import re
 from collections import Counter
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass, field
+from math import cos, radians, sin
 from pathlib import PurePath
 from typing import Any
 
-from diecut_report.languages.speech import said, speaking
-from diecut_report.report.advice import followed_line
-from diecut_report.report.assumed import AssumedGroup, AssumedLine, assumed_groups, assumed_line
-from diecut_report.report.chapters import chapter
+from diecut_report.report.chapters.chapters import chapter
+from diecut_report.report.chapters.front import (
+    AssumedGroup,
+    AssumedLine,
+    PrintedInfluence,
+    assumed_groups,
+    assumed_line,
+    followed_line,
+    printed_influence,
+)
+from diecut_report.report.chapters.repetition import ToldBefore
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.influence import PrintedInfluence, printed_influence
 from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, quantity_row, rested
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
-from diecut_report.report.title_block import TitleBlock, title_block
-from diecut_report.report.told_before import ToldBefore
+from diecut_report.report.symbols import BOLD, drawn, measured
+from diecut_report.report.text import Catalogue
+from diecut_report.results.checks import calculated, is_doubtful
 from diecut_report.results.conclusion import conclusion, is_open
+from diecut_report.text.translation import said, speaking
+
+# What each sheet says of the document: title, number, revision, date, status, and whether it may be released at all.
+
 
 Data = Mapping[str, Any]
+PLAIN, ISO, DSTU = "plain", "iso7200", "dstu2104"
+DRAFT, RELEASED = "draft", "released"
+FIELDS = (
+    "title", "document_number", "revision", "date", "organisation", "department", "document_type", "prepared_by",
+    "checked_by", "norm_checked_by", "approved_by",
+)  # fmt: skip
+REVISION = ("revision", "date", "description", "by")
+SIGNERS = ("prepared", "checked", "norm_checked", "approved")
+"""Who signs a report; a PDF has a field for each that is named after it."""
+LOWER_WORD = re.compile(r"(?<![^\W_])(?![A-ZА-ЯІЇЄҐ])[^\W\d_]{3,}")
+
+
+@dataclass(frozen=True)
+class TitleBlock:
+    """What stands in the title block; ``project`` holds its texts, of which one that is not given is empty."""
+
+    project: Data
+    press: str
+    frame: str
+    status: str  # in words
+    is_held: bool  # it may not be released: a check fails or is not made
+
+    @property
+    def signers(self) -> list[tuple[str, str]]:
+        """Who signs, with their names; norm control where somebody does it, or the frame has a place for it."""
+        is_asked = self.frame == DSTU or self.project["norm_checked_by"]
+        return [(key, self.project[f"{key}_by"]) for key in SIGNERS if key != "norm_checked" or is_asked]
+
+
+def title_block(results: Data, words: Catalogue) -> TitleBlock:
+    """Return what the sheets of a report say of it."""
+    asked = results.get("report", {})
+    is_held = held(results)
+    status = asked.get("status", DRAFT)
+    shown = words["not_released"] if is_held and status == RELEASED else words[f"status_{status}"]
+    return TitleBlock(
+        _texts(results["project"], words), results["press"]["name"], asked.get("frame", PLAIN), shown, is_held
+    )
+
+
+def held(results: Data) -> bool:
+    """Return whether a calculation cannot be released: a check fails, is not made, something could not be calculated, or formulas have faults."""
+    parts = calculated(results)
+    is_left = any(check["status"] == "not_checked" for data in parts for check in data.get("checks", ()))
+    return is_left or any(map(is_doubtful, parts)) or results["status"] not in ("pass", "warn")
+
+
+def _texts(project: Data, words: Catalogue) -> Data:
+    """The project's texts; what is not given is empty, but for the type of the document."""
+    revisions = [{key: str(row.get(key) or "") for key in REVISION} for row in project.get("revisions") or ()]
+    found = {key: str(project.get(key) or "") for key in FIELDS}
+    return found | {"document_type": found["document_type"] or words["calculation"], "revisions": revisions}
+
+
+def machine_named(name: str, words: Catalogue) -> str:
+    """What is calculated, as the first sheet names it: a designation as that of a press, a name in words as it is."""
+    is_said = LOWER_WORD.search(name) or name.casefold().startswith(words["press"].casefold())
+    return name if is_said else f"{words['press']} {name}"
+
+
 APPENDIX = (
     ("self-tests", "5.1", "self_test_list"),
     ("curves", "5.2", "curves"),
@@ -270,3 +342,52 @@ def _contents(
     if detail == FULL:
         yield "appendix", "5", words["appendix"], 1
         yield from ((anchor, number, words[key], 2) for anchor, number, key in APPENDIX)
+
+
+# What lies behind each sheet's text: the frame, and words across a report that may not be released. Pictures, no text to be read.
+
+
+WIDTH, HEIGHT = 210, 297  # millimetres
+FRAMES = {ISO: (20, 10, 10, 10), DSTU: (20, 5, 5, 5)}  # margins in millimetres: left, top, right, bottom
+ACROSS = 0.66  # of the diagonal
+HIGHEST = 34.0  # millimetres of an em
+SLOPE = radians(54.7)
+LINE, STAMP = "0.082 0.11 0.149 RG 0.5 w", "0.957 0.871 0.871 rg"  # ink and width
+RULE = '@page {{ background: url("{}") no-repeat fixed; background-size: 210mm 297mm }}'
+
+
+class Backdrop:
+    """An image as WeasyPrint wants it (``get_intrinsic_size``, ``draw``) of what lies behind a sheet; false where that is nothing."""
+
+    def __init__(self, frame: str, across: str) -> None:
+        self.operators = " ".join(filter(None, (_across(across), _frame(frame))))
+
+    def __bool__(self) -> bool:
+        return bool(self.operators)
+
+    def get_intrinsic_size(self, _resolution: float, _font_size: float) -> tuple[float, float, float]:
+        """Width, height and their ratio; the style gives the size on the sheet."""
+        return WIDTH, HEIGHT, WIDTH / HEIGHT
+
+    def draw(self, stream: Any, width: float, height: float, _style: Any) -> None:
+        """Draw it into a sheet (y downwards)."""
+        stream.transform(width / WIDTH, 0, 0, -height / HEIGHT, 0, height)
+        stream.stream.append(self.operators)
+
+
+def _frame(frame: str) -> str:
+    if frame not in FRAMES:
+        return ""
+    left, top, right, bottom = FRAMES[frame]
+    return f"{LINE} {left} {bottom} {WIDTH - left - right} {HEIGHT - top - bottom} re S"
+
+
+def _across(text: str) -> str:
+    """The words along the sheet's diagonal, as outlines."""
+    if not text:
+        return ""
+    width = measured(text, BOLD)
+    size = min(ACROSS * (WIDTH**2 + HEIGHT**2) ** 0.5 / width, HIGHEST)
+    along, up = size * cos(SLOPE), size * sin(SLOPE)
+    start = f"1 0 0 1 {-width / 2:.4g} -0.36 cm"
+    return f"q {STAMP} {along:.5g} {up:.5g} {-up:.5g} {along:.5g} {WIDTH / 2:g} {HEIGHT / 2:g} cm {start} {drawn(text, BOLD)} Q"

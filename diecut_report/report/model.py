@@ -3,21 +3,19 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Collection, Mapping
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
+from itertools import groupby
 from typing import Any
 
 from markupsafe import Markup
 
 from diecut_report.quantities.units import pretty
+from diecut_report.report.chapters.printed_tables import PartsTable, PrintedTable
+from diecut_report.report.chapters.value_tables import RecordTable, ValueRow
 from diecut_report.report.equations import Equation
-from diecut_report.report.given_names import value_in_words
-from diecut_report.report.number_format import is_words, joined, number, quantity
-from diecut_report.report.printed_tables import PartsTable, PrintedTable
-from diecut_report.report.record_tables import RecordTable
-from diecut_report.report.symbol_list import SymbolRow
-from diecut_report.report.symbols import symbol
-from diecut_report.report.value_rows import ValueRow
+from diecut_report.report.symbols import SymbolRow, symbol
+from diecut_report.report.text import is_words, joined, number, quantity, value_in_words
 
 Data = Mapping[str, Any]
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
@@ -252,3 +250,66 @@ def utilisation(ratio: float | None, status: str, decimal: str) -> str:
     while digits < 6 and status != "pass" and f"{percent:.{digits}f}" == f"{100:.{digits}f}":
         digits += 1
     return joined(number(f"{percent:.{digits}f}", decimal), "%")
+
+
+# How steps of one line each share the lines of a sheet: two side by side, or each alone, so that no description stands in a narrow column.
+
+
+LETTER = 1.55  # mm, of the letters of a description
+REFERENCE = 0.86  # how wide letters of what is referred to are, against those
+ROOM, WIDEST = 50.0, 19.0  # mm for a description and for its value, in half a line
+ALONE = "broad"
+
+
+def in_lines(rows: Sequence[ValueRow]) -> list[tuple[ValueRow, str]]:
+    """Return the rows, each with how it is set: two by two where all of them have room in half a line, else each in a line of its own."""
+    is_short = len(rows) > 1 and all(_value(row) <= WIDEST and _said(row) <= ROOM for row in rows)
+    return [(row, "" if is_short else ALONE) for row in rows]
+
+
+def _said(row: ValueRow) -> float:
+    """How wide what is said of a row is, mm."""
+    letters = sum(len(new.striptags()) + len(old.striptags()) + 10 for new, old in row.letters)
+    behind = len(row.refers) + 7 + letters if row.refers else len(row.source) + 1
+    return LETTER * (len(row.description) + REFERENCE * (behind + len(row.note)))
+
+
+def _value(row: ValueRow) -> float:
+    """How wide its symbol and value are, mm."""
+    place = len(row.at.striptags()) + 4 if row.at else 0
+    return LETTER * (len(row.symbol.striptags()) * REFERENCE + len(row.value) + place + 3)
+
+
+# Steps that do not apply to a machine: those that stand one after the other in one sentence, not in a line each.
+
+
+def gathered_notes(items: Sequence[Data | None]) -> list[Data | None]:
+    """Return the steps in their places; the notes of one kind that follow each other stand as one in the first's place."""
+    found: list[Data | None] = []
+    for said, group in groupby(items, key=_left_out_said):
+        run = list(group)
+        found += list(_as_one(said, run)) if said and len(run) > 1 else run
+    return found
+
+
+def under_heading(absent: Sequence[Data], heading: str) -> list[Data]:
+    """Return why parts are absent, without the words of the heading that stands above them; those for one reason in one line."""
+    titles: dict[str, list[str]] = {}
+    for told in absent:
+        titles.setdefault(told["text"].removeprefix(f"{heading.lower()}: "), []).append(told["title"])
+    return [{"title": "; ".join(named), "text": text} for text, named in titles.items()]
+
+
+def _left_out_said(item: Data | None) -> str:
+    """What a note says of its step, without its name; nothing of any other step."""
+    if item is None or item["type"] != "note" or not item.get("description"):
+        return ""
+    name, text = f"{item['description']}: ", str(item["text"])
+    return text.removeprefix(name) if text.startswith(name) else ""
+
+
+def _as_one(said: str, notes: Sequence[Data | None]) -> Iterator[Data | None]:
+    names = "; ".join(str(note["description"]) for note in notes if note)
+    start = said.rstrip(".")
+    yield {"type": "note", "text": f"{start[:1].upper()}{start[1:]}: {names}."}
+    yield from (None for _ in notes[1:])

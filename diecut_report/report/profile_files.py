@@ -10,8 +10,8 @@ from contextlib import contextmanager
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.quantities.units import unit
-from diecut_report.report.curves import period_of
-from diecut_report.report.file_names import suffixes
+from diecut_report.report.chapters.tables import period_of
+from diecut_report.report.scope import suffixes
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing

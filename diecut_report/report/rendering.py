@@ -5,10 +5,10 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from diecut_report.languages.catalogues import Catalogues
 from diecut_report.report.context import DrawingFault, Material
-from diecut_report.report.house_style import HouseStyle
-from diecut_report.report.html import page
+from diecut_report.report.pages.firm_templates import HouseStyle
+from diecut_report.report.pages.html import page
+from diecut_report.text.catalogues import Catalogues
 
 
 class Rendering:
@@ -30,7 +30,7 @@ class Rendering:
 
     def pdf(self) -> bytes:
         """The report as PDF (A4, PDF/A-3 and PDF/UA-1); needs the system's pango (OSError without it)."""
-        from diecut_report.report.pdf import sheets
+        from diecut_report.report.pages.pdf import sheets
 
         return sheets(self.material)
 

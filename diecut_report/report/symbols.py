@@ -3,14 +3,25 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Collection, Iterator
+from collections.abc import Collection, Iterator, Mapping
 from contextlib import contextmanager
 from contextvars import ContextVar
-from typing import NamedTuple
+from functools import cache
+from importlib import import_module
+from itertools import accumulate
+from math import ceil
+from pathlib import Path
+from typing import Any, NamedTuple
 
+from fontTools.pens.transformPen import TransformPen
+from fontTools.ttLib import TTFont
 from markupsafe import Markup, escape
 
-from diecut_report.report.number_format import tidy
+from diecut_report.quantities.units import pretty
+from diecut_report.report.chapters.printed_tables import WIDE
+from diecut_report.report.mathematics import OperatorPen
+from diecut_report.report.scope import parts
+from diecut_report.report.text import given_names, tidy
 
 LONGEST_WHOLE = 26  # letters of a source that stands in one line
 _SIGNS = "=<>≤≥≈≠−+√"
@@ -122,3 +133,241 @@ def prose(sentence: str) -> Markup:
         parts += [escape(text[start : found.start()]), symbol(f"{base}_{found[2]}" if found[2] else base)]
         start = found.end()
     return Markup(_RATIO.sub("/\u2060", "".join([*parts, escape(text[start:])])))
+
+
+# The list of a chapter's symbols: each letter of its formulas with its meaning and unit, and what a source writes for it.
+
+
+Data = Mapping[str, Any]
+GROUPS = ("inputs", "curves", "outputs", "values")
+COLUMNS, ROOM = 3, 33  # on paper, and the letters that a line has beside its symbol
+LINES = 14  # of a block's columns: less than a third of a sheet is left empty before one
+TREES = ("equation", "relation", "condition")
+
+
+class SymbolRow(NamedTuple):
+    """A symbol with its meaning, its unit, and the letter of the source where that is another one."""
+
+    symbol: Markup
+    meaning: str
+    unit: str
+    in_source: Markup
+    name: str = ""
+    stands: str = ""  # the number of the step, or of the inputs, where it is explained
+    is_step: bool = False
+
+    @property
+    def anchor(self) -> str:
+        """Where the link to that place leads."""
+        return f"{'eq' if self.is_step else 's'}-{self.stands}"
+
+
+def symbol_rows(mechanism: Data) -> list[SymbolRow]:
+    """The symbols that stand in a chapter's formulas, in the order of the alphabet, Latin letters first."""
+    used = set(used_symbols(mechanism["sections"]))
+    printed = {item["id"] for section in mechanism["sections"] for item in section["items"] if "id" in item}
+    rows = [(name, row) for group in GROUPS for name, row in mechanism[group].items()]
+    known: dict[str, Data] = {}
+    for _, row in sorted(rows, key=lambda each: each[0] not in printed):  # what a step prints, before a chart's curves
+        if row["symbol"] in used and any(map(str.isalpha, row["symbol"])):
+            known.setdefault(row["symbol"], row)
+    return [_row(known[name]) for name in sorted(known, key=_order)]
+
+
+def in_blocks(rows: list[SymbolRow]) -> list[list[list[SymbolRow]]]:
+    """The rows for paper, in blocks of columns that no sheet's end cuts: each block is read column by column."""
+    blocks: list[list[SymbolRow]] = [[]]
+    room = COLUMNS * LINES
+    for row in rows:
+        if sum(map(_lines, blocks[-1])) + _lines(row) > room:
+            blocks.append([])
+        blocks[-1].append(row)
+    return [_in_columns(block) for block in blocks if block]
+
+
+def _lines(row: SymbolRow) -> int:
+    """How many lines a row takes on paper, about."""
+    return ceil((len(row.meaning) + len(row.unit) + 2) / ROOM)
+
+
+def _in_columns(rows: list[SymbolRow]) -> list[list[SymbolRow]]:
+    """The rows in columns, of about as many lines each."""
+    lines = [_lines(row) for row in rows]
+    count = min(COLUMNS, len(rows))
+    share = ceil(sum(lines) / count)
+    before = [0, *accumulate(lines)]
+    columns: list[list[SymbolRow]] = [[] for _ in range(count)]
+    for row, above, height in zip(rows, before, lines, strict=False):
+        columns[min(int((above + height / 2) / share), count - 1)].append(row)
+    return columns
+
+
+def symbols_at(rows: list[SymbolRow], steps: Mapping[str, str], inputs: Mapping[str, str]) -> list[SymbolRow]:
+    """The rows with the place of each symbol: the step that gives it, else the inputs; by their names."""
+    return [
+        row._replace(stands=steps.get(row.name) or inputs.get(row.name, ""), is_step=row.name in steps) for row in rows
+    ]
+
+
+def _row(row: Data) -> SymbolRow:
+    unit = row["display_unit"] if "display_unit" in row else row["display"]["unit"]
+    in_source = row.get("source_symbol", "")
+    return SymbolRow(
+        symbol(row["symbol"]),
+        row["description"].partition(";")[0],
+        pretty(unit),
+        symbol(in_source) if in_source else Markup(""),
+        row["symbol"],
+    )
+
+
+def _order(name: str) -> tuple[bool, str, str]:
+    letter = name.lstrip("|[0123456789")
+    return not letter[:1].isascii(), letter.casefold(), letter
+
+
+def used_symbols(sections: list[Data]) -> Iterator[str]:
+    """The symbols of results and of formulas."""
+    for section in sections:
+        for item in section["items"]:
+            if any(map(str.isalpha, item.get("symbol", ""))):  # no arrow before a choice in words
+                yield item["symbol"]
+            if len(columns := item.get("columns", ())) >= WIDE:
+                yield from (column["symbol"] for column in columns if column["symbol"])
+            for tree in (item.get(key) for key in TREES):
+                yield from _leaves(tree)
+            for each in item.get("where", ()):
+                yield from _leaves(each["as"])
+
+
+def _leaves(tree: Any) -> Iterator[str]:
+    if isinstance(tree, list):
+        if len(tree) == 2 and tree[0] == "sym":
+            yield tree[1]
+        else:
+            for part in tree:
+                yield from _leaves(part)
+
+
+# Widths and outlines of letters in the report's own fonts: what must fit into a box is measured before it is set.
+
+
+MILLIMETRE = 72 / 25.4  # in points
+LINE = 1.2  # of a line's letters
+LETTERS_ROOM = 1.02  # what a line may come out wider than it is measured
+STEP = 0.25  # points
+REGULAR, BOLD = "report-sans-regular", "report-sans-bold"
+MISSING = ".notdef"
+
+
+class FittedText(NamedTuple):
+    """A text in lines that fit into a box, and the size of its letters in points."""
+
+    lines: tuple[str, ...]
+    size: float
+
+
+def fitted(text: str, width: float, height: float, largest: float, smallest: float, face: str = REGULAR) -> FittedText:
+    """Return a text as large as it may be in a box of so many millimetres; at its smallest it is cut where it still has no room."""
+    size = largest
+    while True:
+        lines = list(_letters_lines(text, width * MILLIMETRE / size / LETTERS_ROOM, face))
+        most = max(int(height * MILLIMETRE / (LINE * size) + 1e-6), 1)
+        if len(lines) <= most:
+            return FittedText(tuple(lines), size)
+        if size <= smallest:
+            kept = lines[:most]
+            kept[-1] = f"{kept[-1][: max(len(kept[-1]) - 2, 0)].rstrip()}…"
+            return FittedText(tuple(kept), size)
+        size = max(size - STEP, smallest)
+
+
+def measured(text: str, face: str = REGULAR) -> float:
+    """Return the width of a text in em."""
+    return float(sum(map(_widths(face), text)))
+
+
+def drawn(text: str, face: str = REGULAR) -> str:
+    """Return the operators that draw a text in a PDF, in em from its baseline's start, y upwards."""
+    glyphs, x, scale = _font(face).getGlyphSet(), 0.0, 1 / _font(face)["head"].unitsPerEm
+    pen = OperatorPen(glyphs)
+    for letter in text:
+        glyphs[_named(letter, face)].draw(TransformPen(pen, (scale, 0, 0, scale, x, 0)))
+        x += _widths(face)(letter)
+    return " ".join([*pen.operators, "f"]) if pen.operators else ""
+
+
+def _letters_lines(text: str, width: float, face: str) -> Iterator[str]:
+    """A text in lines of so many em; a word that is longer is parted."""
+    line = ""
+    for word in text.split():
+        longer = f"{line} {word}".lstrip()
+        if measured(longer, face) <= width:
+            line = longer
+            continue
+        if line:
+            yield line
+        *full, line = _parts(word, width, face)
+        yield from full
+    if line:
+        yield line
+
+
+def _parts(word: str, width: float, face: str) -> list[str]:
+    parts = [""]
+    for letter in word:
+        if parts[-1] and measured(parts[-1] + letter, face) > width:
+            parts.append("")
+        parts[-1] += letter
+    return parts
+
+
+@cache
+def _font(face: str) -> TTFont:
+    return TTFont(Path(import_module("diecut_report.templates").__path__[0]) / "fonts" / f"{face}.ttf")
+
+
+def _named(letter: str, face: str) -> str:
+    """What the font calls a letter; another font's letter counts as the one for what is missing."""
+    name: str = _letters_letters(face).get(ord(letter), MISSING)
+    return name
+
+
+@cache
+def _letters_letters(face: str) -> dict[int, str]:
+    found: dict[int, str] = _font(face).getBestCmap()
+    return found
+
+
+@cache
+def _widths(face: str) -> Any:
+    font = _font(face)
+    metrics, units = font["hmtx"], font["head"].unitsPerEm
+    return cache(lambda letter: metrics[_named(letter, face)][0] / units)
+
+
+# Which letters a report declares as symbols, and which names its configuration gives: sentences hold both.
+
+
+class DeclaredLetters(NamedTuple):
+    """Letters that are symbols, alone or with an index (a sentence may speak of the k of k_a), and the names that a configuration gives."""
+
+    symbols: frozenset[str]
+    names: frozenset[str]
+
+
+def declared_letters(results: Data) -> DeclaredLetters:
+    """Return those of all mechanisms of a report and of what compares them."""
+    mechanisms = results["mechanisms"]
+    own = {name for data in mechanisms.values() for name in given_names(data, mechanisms)}
+    found = (SYMBOL.fullmatch(name) for _, data in parts(results) for name in _symbols(data))
+    symbols = {each["base"] for each in found if each and len(each["base"].rstrip("′'")) == 1}
+    for data in mechanisms.values():  # what was found wrong in a source speaks of the source's letters
+        symbols.update(letter for each in data.get("errata", ()) for letter in lone_letters(each["text"]))
+    return DeclaredLetters(frozenset(symbols), frozenset(own | set(mechanisms)))
+
+
+def _symbols(mechanism: Data) -> Iterator[str]:
+    """What its quantities and formulas are written with."""
+    yield from (row["symbol"] for group in GROUPS for row in mechanism.get(group, {}).values())
+    yield from used_symbols(mechanism.get("sections", ()))

@@ -1,1 +1,1 @@
-"""From calculations to plain data: mechanisms in the order of their references, checks, the results document."""
+"""The results of a press, and the JSON file that they are written to."""

@@ -8,7 +8,7 @@ from typing import Any
 
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import UnitError, unit
-from diecut_report.results.summary import COUNTED, RANK, SELF_TEST
+from diecut_report.results.conclusion import COUNTED, RANK, SELF_TEST
 
 Data = Mapping[str, Any]
 Row = dict[str, Any]

@@ -11,33 +11,27 @@ import numpy as np
 import scipy
 
 from diecut_report import __version__
-from diecut_report.config import partners
-from diecut_report.config.basis import GIVEN
-from diecut_report.config.hidden_letters import printable
-from diecut_report.config.instances import Instance
+from diecut_report.config import loader
+from diecut_report.config.instances import Instance, Node
 from diecut_report.config.loader import Config
-from diecut_report.config.logo import Logo
 from diecut_report.config.model import PRESS, Press
+from diecut_report.config.own_tables import Logo
 from diecut_report.config.source_hashes import plugin_code, program_hash
-from diecut_report.config.targets import Node
-from diecut_report.config.validation import declared, keys_of
-from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Block, CurveInput, InOtherUnit, Quantity, TakenWhole, Text, flatten
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.varying import Extremes
-from diecut_report.engine import CurveHandle
-from diecut_report.languages.phrases import Phrase, wordings
-from diecut_report.limits import MAX_COMPARISONS
+from diecut_report.config.validation import GIVEN, declared, keys_of
+from diecut_report.config.yaml import KeyPath, printable
+from diecut_report.errors import MAX_COMPARISONS
+from diecut_report.machine.calculation import CurveHandle
+from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit, TakenWhole
+from diecut_report.mechanism.inputs import Block, Extremes, Quantity, flatten
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import as_given, given_shown
-from diecut_report.results.bases import Bases, assumed
-from diecut_report.results.comparisons import Found
-from diecut_report.results.conclusion import conclusion
-from diecut_report.results.form.version import FORM_VERSION, SCHEMA_VERSION
-from diecut_report.results.handed_on import told_alike
+from diecut_report.results.conclusion import conclusion, counts, governing, summary, told_alike
+from diecut_report.results.form import FORM_VERSION, SCHEMA_VERSION
 from diecut_report.results.mechanism import worst
-from diecut_report.results.press_run import Run
-from diecut_report.results.reference_origins import with_origins
-from diecut_report.results.summary import counts, governing, summary
+from diecut_report.results.origins import Bases, assumed, with_origins
+from diecut_report.results.press_run import Found, Run
+from diecut_report.text.phrases import Phrase, wordings
 
 Data = dict[str, Any]
 LEFT_OUT = (
@@ -176,7 +170,7 @@ def resolved(run: Run) -> Data:
     for name, kind in config.kinds.items():
         block, instance = run.blocks.get(name), config.instances[name]
         plain = _plain(block, (name,), instance, bases) if block and instance else {}
-        taken = partners.compared(instance) if instance else {}  # which may not be given, and is taken again
+        taken = loader.compared(instance) if instance else {}  # which may not be given, and is taken again
         mechanisms[name] = {"kind": kind} | {key: value for key, value in plain.items() if key not in taken}
     press = config.instances[PRESS]
     assert press is not None

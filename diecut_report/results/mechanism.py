@@ -4,33 +4,206 @@ from __future__ import annotations
 
 import math
 from collections.abc import Callable, Iterator, Mapping
-from typing import Any
+from decimal import Decimal
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from diecut_report.config.source_hashes import plugin_code
-from diecut_report.contract.chapters import MISSING, Chapter
-from diecut_report.contract.input_lists import list_titles
-from diecut_report.contract.result_names import ResultName, count_name, named, pattern, place_name, result_names
-from diecut_report.contract.steps import SILENT, Crossings, Step
-from diecut_report.engine import Calculation, listings
-from diecut_report.engine.figure_views import figures
-from diecut_report.engine.printing.items import section_items
-from diecut_report.engine.shown_units import declared_unit, unit_for
-from diecut_report.engine.steps import facts
-from diecut_report.languages.phrases import Phrase, keys_listed, phrase
+from diecut_report.formulas import Array
+from diecut_report.machine import mechanism as listings
+from diecut_report.machine.calculation import Calculation, Unproven, declared_unit, unit_for
+from diecut_report.machine.figure_views import figures
+from diecut_report.machine.mechanism import intervals, period_of, phases_of, speed_of
+from diecut_report.machine.numerics.domain import Domain
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps import soundness
+from diecut_report.machine.steps.soundness import require_whole
+from diecut_report.mechanics.timing.intervals import Interval, composed
+from diecut_report.mechanism.chapters import MISSING, Chapter
+from diecut_report.mechanism.figures import Spectrum, SpectrumLine
+from diecut_report.mechanism.inputs import list_titles
+from diecut_report.mechanism.steps import (
+    PREFIX,
+    SILENT,
+    Crossings,
+    Phase,
+    ResultName,
+    Step,
+    count_name,
+    named,
+    pattern,
+    place_name,
+    result_names,
+)
 from diecut_report.quantities.formatting import author_digits, place_shown, shown
 from diecut_report.quantities.units import unit
-from diecut_report.results.checks import applies, check_results, checks_of
-from diecut_report.results.cited_sources import cited_sources
-from diecut_report.results.curves import curves
-from diecut_report.results.exports import exports
-from diecut_report.results.phases import phases, phases_absent
-from diecut_report.results.stated_inputs import GIVEN, Provenance, inputs
-from diecut_report.results.summary import RANK, counts, failed_self_tests
-from diecut_report.results.unchecked import missing
+from diecut_report.results.checks import applies, check_results, checks_of, missing_checks
+from diecut_report.results.conclusion import RANK, cited_sources, counts, exports, failed_self_tests
+from diecut_report.results.origins import GIVEN, Provenance, inputs
+from diecut_report.text.phrases import Phrase, keys_listed, phrase
+
+# Curves and spectra of a calculation as plain data.
+
 
 Data = dict[str, Any]
+
+
+def curves(calc: Calculation) -> Data:
+    """Return each curve at the samples of its abscissa, with its one-sided values at the breakpoints."""
+    found: Data = {}
+    for name, domain in calc.domains.items():
+        step = calc.steps[name]
+        found[name] = _curve(step, domain.samples[0], declared_unit(calc, name, step.unit))
+        edges = np.unique(domain.joints[0])[1:-1]
+        if len(edges):
+            found[name]["breakpoints"] = edges.tolist()
+    pieces = {axis: _edges(domain) for axis, domain in calc.domains.items()}
+    asked = {getattr(step, "of", "") for step in calc.steps.values()}
+    for name, curve in calc.curves.items():
+        if curve.output or name in asked:
+            require_whole(calc, name)
+        if curve.output:
+            values = calc.curve_samples(name)[0]
+            shown = _curve(curve, values, unit_for(calc, name, curve.unit, values))
+            found[name] = shown | _limits(calc, name, pieces[calc.axis[name]])
+    for spectrum in calc.mechanism.spectra:
+        found |= _spectrum(spectrum)
+    return found
+
+
+def _spectrum(spectrum: Spectrum) -> Data:
+    common = {"is_spectrum": True}
+    lines = {
+        line.id: _curve(line, line.values, line.unit) | {"abscissa": spectrum.id} | common for line in spectrum.lines()
+    }
+    return {spectrum.id: _curve(spectrum, spectrum.values, spectrum.unit) | common} | lines
+
+
+def _curve(step: Step | SpectrumLine, values: Any, display: str) -> Data:
+    if not np.isfinite(np.asarray(values, dtype=float)).all():
+        raise Unproven(
+            Phrase(
+                "{description} ({id}) is a curve that has no value at some of its places",
+                description=step.description,
+                id=step.id,
+            ),
+            step.at,
+        )
+    return {"unit": unit(step.unit).si, "values": np.asarray(values, dtype=float).tolist(), "symbol": step.symbol,
+            "description": step.description, "display_unit": display, "source": step.source,
+            **({"source_symbol": step.source_symbol} if isinstance(step, Step) and step.source_symbol else {})}  # fmt: skip
+
+
+class _Edges(NamedTuple):
+    """Hold the smooth pieces of an abscissa: their ends and middles, each (1, pieces), and at which of those between them a curve may jump."""
+
+    starts: Array
+    ends: Array
+    middles: Array
+    joint: Array
+
+
+def _edges(domain: Domain) -> _Edges:
+    wide = domain.widths[0] > 1e-12 * domain.period[0, 0]
+    starts, ends = domain.edges[:1, :-1][:, wide], domain.edges[:1, 1:][:, wide]
+    joint = (domain.is_joint(starts[:, 1:]) | domain.is_joint(ends[:, :-1]))[0]
+    return _Edges(starts, ends, domain.middles[:1, wide], joint)
+
+
+def _limits(calc: Calculation, name: str, edges: _Edges) -> Data:
+    axis = calc.axis[name]
+    first = np.zeros(1, dtype=int)
+    after = calc.kept("starts", axis, lambda _: (edges.starts, edges.middles), first)[name]
+    before = calc.kept("ends", axis, lambda _: (edges.ends, edges.middles), first)[name]
+    after, before = (np.broadcast_to(limits, edges.starts.shape)[0] for limits in (after, before))
+    return {
+        "abscissa": axis,
+        "breakpoints": edges.starts[0, 1:][edges.joint].tolist(),
+        "left": before[:-1][edges.joint].tolist(),
+        "right": after[1:][edges.joint].tolist(),
+    }
+
+
+# Phases in the results: their intervals as numbers and as they are printed, and which there are not, and why.
+
+
+MORE = range(3)  # digits beyond those that mean something
+
+
+def phases(calc: Calculation) -> Data:
+    """Return each phase that the machine has: its role, the abscissa it runs over with its period, and its intervals, SI."""
+    found: Data = {}
+    for name, step in phases_of(calc).items():
+        held = intervals(calc, name)
+        if held:
+            axis = calc.steps[step.abscissa]
+            display = declared_unit(calc, axis.id, axis.unit)
+            speed = speed_of(calc, step.abscissa)
+            more = _more_digits(calc, step.abscissa, display)
+            found[name] = {
+                "role": step.role,
+                "description": step.description,
+                "abscissa": step.abscissa,
+                "period": period_of(calc, step),
+                "unit": unit(axis.unit).si,
+                "intervals": [list(interval) for interval in held],
+                "display": {
+                    "unit": display,
+                    "intervals": [_shown(interval, display, more) | _lasts(interval, speed) for interval in held],
+                },
+            }
+    return _with_parts(found)
+
+
+def _with_parts(phases: Data) -> Data:
+    """The phases, those that are nothing but others together with these."""
+    sets = {
+        name: frozenset((each["role"], each["abscissa"], *ends) for ends in each["intervals"])
+        for name, each in phases.items()
+    }
+    whole = composed(sets)
+    return {name: each | ({"parts": list(whole[name])} if name in whole else {}) for name, each in phases.items()}
+
+
+def _shown(interval: Interval, display: str, more: int) -> dict[str, str]:
+    """An interval as texts: both ends and its length in the abscissa's unit."""
+    start, end = interval
+    texts = {"from": start, "to": end, "length": end - start}
+    return {key: place_shown(value, display, more)["text"] for key, value in texts.items()}
+
+
+def _lasts(interval: Interval, speed: float | None) -> dict[str, str]:
+    """The time of an interval in ms, where the speed is known."""
+    return {"time": shown((interval[1] - interval[0]) / speed, "ms")["text"]} if speed else {}
+
+
+def _more_digits(calc: Calculation, abscissa: str, display: str) -> int:
+    """With how many more digits all phases over an abscissa are shown, so that the printed ends give the printed lengths."""
+    names = [name for name, step in phases_of(calc).items() if step.abscissa == abscissa]
+    held = [interval for name in names for interval in intervals(calc, name)]
+    return next((more for more in MORE if all(_agree(_shown(each, display, more)) for each in held)), 0)
+
+
+def _agree(told: dict[str, str]) -> bool:
+    """Whether the printed ends give the printed length."""
+    return Decimal(told["to"]) - Decimal(told["from"]) == Decimal(told["length"])
+
+
+def phases_absent(calc: Calculation) -> Data:
+    """Return each declared phase that the machine does not have: the keys that are missing, and the reason in words."""
+    there = phases(calc)
+    found: Data = {}
+    for chapter, step in calc.mechanism.steps:
+        name = step.id.removeprefix(PREFIX)
+        if not isinstance(step, Phase) or name in there:
+            continue
+        missing = [key for key in (*chapter.needs, *step.needs) if key not in calc.given]
+        if name not in found or len(missing) < len(found[name]["missing"]):
+            words = "does not apply to this machine"
+            words = Phrase("{keys} not given", keys=keys_listed(missing)) if missing else words
+            found[name] = {"description": step.description, "missing": missing, "text": words}
+    return found
 
 
 class SelfTestFailed(Exception):
@@ -111,10 +284,10 @@ def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data
     """Return what is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
     unmade = [s for s in calc.mechanism.chapters if not calc.given.issuperset(s.needs)]
     left_out = [
-        {"title": s.title, "text": words} for s in unmade if (words := facts.unmet(calc, s.needs) or _why(calc, s))
+        {"title": s.title, "text": words} for s in unmade if (words := soundness.unmet(calc, s.needs) or _why(calc, s))
     ]
     checks = checks_of(calc)
-    made = {check.id for check in checks if applies(calc, check) or missing(calc, check)}
+    made = {check.id for check in checks if applies(calc, check) or missing_checks(calc, check)}
     used = {check.limit for check in checks if check.id in made}
     idle = [
         {"title": c.title, "text": Phrase(IDLE, key=c.limit)}

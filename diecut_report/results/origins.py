@@ -2,9 +2,364 @@
 
 from __future__ import annotations
 
-from diecut_report.config.instances import Instance, Slot
+import math
+import re
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from typing import Any, Literal, NamedTuple
+
+import numpy as np
+
+from diecut_report.config.instances import Instance, Node, Slot, Target
 from diecut_report.config.loader import Config
-from diecut_report.results.stated_inputs import Origin, Provenance
+from diecut_report.config.model import PRESS
+from diecut_report.config.validation import ASSUMED, Basis, is_founded, weakest
+from diecut_report.config.validation import GIVEN as BASES_GIVEN
+from diecut_report.config.yaml import KeyPath
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, CurveHandle, declared_unit
+from diecut_report.machine.mechanism import MechanismHandle, PhaseHandle
+from diecut_report.machine.steps import soundness
+from diecut_report.machine.steps.rows import needed
+from diecut_report.mechanism.chapters import taken
+from diecut_report.mechanism.curve_inputs import CurveInput, TakenWhole
+from diecut_report.mechanism.inputs import Block, Extremes, Quantity, Varying
+from diecut_report.mechanism.names import SI
+from diecut_report.mechanism.steps import PREFIX, named
+from diecut_report.quantities.formatting import given_shown, shortest
+from diecut_report.quantities.plausible import without_rounding
+from diecut_report.quantities.units import unit
+from diecut_report.text.phrases import Phrase, joined, phrase
+
+# What advice names is changed where it begins: a key that follows from another one is not changed in one mechanism alone.
+
+
+Data = dict[str, Any]
+InputsOf = Callable[[str], Data]  # a mechanism's inputs as results hold them, by its name; nothing of what is not one
+FOLLOWS = "{key} follows from {origin}: change it there, so that what else takes it keeps in step."
+ADVISED = r"(?:\bset |\blower |\braise |\btake |\bmake |\baccept |\bchange |\ban? |\bno )({key})\b|\b({key})\b(?= of at (?:least|most)|: )"
+
+
+def with_origins(mechanisms: Data) -> Data:
+    """Return the mechanisms' results, in which each failing check says where a key that it names begins."""
+    own = {name: data["checks"] for name, data in mechanisms.items()}
+    told = told_checks(own, lambda name: mechanisms.get(name, {}).get("inputs", {}))
+    return {name: data | _told(told[name]) if data["checks"] else data for name, data in mechanisms.items()}
+
+
+def _told(checks: list[Data]) -> Data:
+    return {"checks": checks, "warnings": [check["message"] for check in checks if check["status"] == "warn"]}
+
+
+def told_checks(checks: Mapping[str, list[Data]], inputs_of: InputsOf) -> dict[str, list[Data]]:
+    """Return the checks of all mechanisms, of which the failing ones say where a key that they name begins."""
+    return {name: [_check(inputs_of, name, check) for check in own] for name, own in checks.items()}
+
+
+def _check(inputs_of: InputsOf, name: str, check: Data) -> Data:
+    if check["status"] not in ("warn", "fail"):
+        return check
+    words = dict.fromkeys(_origins(inputs_of, name, check["message"]))
+    return check | ({"message": joined([check["message"], *words], " ")} if words else {})
+
+
+def _origins(inputs_of: InputsOf, name: str, message: str) -> Iterator[str]:
+    for key, data in inputs_of(name).items():
+        if "path" in data and re.search(ADVISED.format(key=re.escape(key)), message):
+            yield Phrase(FOLLOWS, key=key, origin=_beginning(inputs_of, data["path"]))
+
+
+def _beginning(inputs_of: InputsOf, path: str) -> str:
+    """Where a reference begins: a field of the press, a result, or the key that is given in words or numbers."""
+    while True:  # references have an order, so none goes round
+        name, _, key = path.partition(".")
+        further = inputs_of(name).get(key, {}).get("path")
+        if further is None:
+            return path
+        path = further
+
+
+# What a reference takes over of a calculated mechanism.
+
+
+class Unavailable(LookupError):
+    """Stand for a value that a broken or skipped mechanism would have given."""
+
+
+class Valueless(ValueError):
+    """Stand for an expression without a value; the text says why."""
+
+
+class Absent(LookupError):
+    """Stand for a value that this machine does not have; the text says so."""
+
+
+class Withheld(LookupError):
+    """Stand for a value that is not calculated, since the machine does not meet what it stands on; the text says what is not met."""
+
+
+def require_facts(calc: Calculation, name: str, target: Target) -> None:
+    """Raise Withheld where a result stands on a fact that the machine (of several: none of them) does not meet."""
+    missed, words = soundness.without(calc, name)
+    if missed.all():
+        raise Withheld(Phrase("{path}, which is {reason}", path=target.path, reason=phrase(words or "not calculated")))
+
+
+def number(calc: Calculation, name: str) -> Array | None:
+    """Return a number or text by its name in the results, shape (variants,); None where there is no such one."""
+    if name in calc.values:
+        return calc.values[name][:, 0]
+    part = named(name, calc.steps)
+    row = calc.values.get(part.id) if part and part.role == "part" else None
+    return row[:, part.index] if part and row is not None and part.index < row.shape[1] else None
+
+
+def phase(calc: Calculation, name: str, target: Target) -> PhaseHandle:
+    """Return a phase as a reference takes it over. Absent where the (first) machine does not have it."""
+    handle = PhaseHandle(calc, name.removeprefix(PREFIX), f"${{{target.path}}}")
+    if not handle.intervals():
+        raise Absent(phrase("does not apply to this machine."))
+    return handle
+
+
+def output(calc: Calculation, name: str, target: Target) -> Any:
+    """Return a result as a reference takes it over: a curve, a number with its SI unit, or a text. Absent where there is none."""
+    if target.is_mechanism:
+        return MechanismHandle(calc, target.instance)
+    require_facts(calc, name, target)
+    if target.phase_unit:
+        return phase(calc, name, target)
+    if calc.axis.get(name) in calc.domains:
+        return CurveHandle(calc, name)
+    numbers = number(calc, name)
+    if numbers is None:
+        raise Absent(phrase("does not exist for this machine."))
+    value = numbers[0]
+    if isinstance(value, str):
+        return value
+    if math.isnan(value):
+        raise Absent(phrase("does not apply to this machine."))
+    return SI(float(without_rounding(value, str(target.unit))), str(target.unit), target.path)
+
+
+# What the values of a run rest on: a reference carries the weakest basis of all that it is calculated from.
+
+
+class _Slots(NamedTuple):
+    """Hold the inputs of a mechanism: the keys of those that are given, and of all with the names that its steps know them by."""
+
+    given: frozenset[KeyPath]
+    named: Sequence[tuple[str, KeyPath]]
+
+
+class Bases:
+    """Follow the references of a run, of which all calculations are known that a value refers to."""
+
+    def __init__(self, config: Config, calculations: Mapping[str, Calculation]) -> None:
+        self.config, self.calculations = config, calculations
+        self._known: dict[Node, str] = {}
+        self._slots_of: dict[str, _Slots] = {}
+        self._linked: dict[Node, list[Target]] = {}
+        for node, target in config.links.items():
+            for length in range(2, len(node) + 1):  # also of the whole list that it stands in
+                self._linked.setdefault(node[:length], []).append(target)
+
+    def of(self, node: Node) -> str:
+        """Return what an input rests on; nothing for a default."""
+        if node not in self._known:
+            self._known[node] = self._of(node)
+        return self._known[node]
+
+    def said(self, node: Node) -> Basis:
+        """Return what the file says of an input itself."""
+        instance = self.config.instances[str(node[0])]
+        return instance.bases.get(node[1:], Basis()) if instance else Basis()
+
+    def is_founded(self, node: Node) -> bool:
+        """Return whether an input is at its default, or rests on what can be looked up."""
+        return not self._is_given(node) or is_founded(self.of(node), self.said(node).note)
+
+    def unfounded(self, instance: Instance, block: Block) -> frozenset[str]:
+        """Return the inputs of which a check asks a basis that can be looked up, and which have none; a typed default is a default."""
+        asked = {name for check in instance.mechanism.checks for name in check.founded} if instance.mechanism else ()
+        typed = [name for name in asked if np.any(getattr(block, name) != type(block).model_fields[name].get_default())]
+        return frozenset(name for name in typed if not self.is_founded((instance.name, name)))
+
+    def _of(self, node: Node) -> str:
+        chain = [self.said(node).basis]
+        if node in self._linked:
+            chain += [self._target(single) or BASES_GIVEN for target in self._linked[node] for single in target.single]
+        return weakest(filter(None, chain)) or (BASES_GIVEN if self._is_given(node) else "")
+
+    def _is_given(self, node: Node) -> bool:
+        instance = self.config.instances[str(node[0])]
+        return instance is not None and node[1:] in self._slots(instance).given
+
+    def _slots(self, instance: Instance) -> _Slots:
+        if instance.name not in self._slots_of:
+            found = instance.slots
+            given = frozenset(slot.key for slot in found if slot.is_given)
+            names = [(".".join(part for part in slot.key if isinstance(part, str)), slot.key) for slot in found]
+            self._slots_of[instance.name] = _Slots(given, names)
+        return self._slots_of[instance.name]
+
+    def _target(self, target: Target) -> str:
+        if target.result is None:
+            return self.of(target.node)
+        calculation = self.calculations.get(target.instance)
+        return weakest(filter(None, map(self.of, self._inputs(calculation, target)))) if calculation else ""
+
+    def _inputs(self, calculation: Calculation, target: Target) -> Iterator[Node]:
+        """The inputs that a result is calculated from."""
+        instance = self.config.instances[target.instance]
+        assert instance is not None, "what is calculated has a model"
+        names = needed(calculation.mechanism, calculation.given, [str(target.result)])
+        used = {
+            name
+            for _, step in calculation.mechanism.active(calculation.given)
+            if step.id in names
+            for name in taken(step)
+        }
+        yield from ((instance.name, *key) for name, key in self._slots(instance).named if name in used)
+
+
+def assumed(config: Config) -> list[str]:
+    """Return the paths of the values that the file says are assumed, in its order."""
+    return [
+        ".".join(map(str, (*((PRESS,) if name == PRESS else ("mechanisms", name)), *key)))
+        for name, instance in config.instances.items()
+        for key, said in (instance.bases.items() if instance else ())
+        if said.basis == ASSUMED
+    ]
+
+
+# What a calculation rests on that is assumed: those first that move a governing check most.
+
+
+AssumedData = Mapping[str, Any]
+MOVES = 1e-3  # change of a utilisation, by a change of the value by a tenth, below which it does not count
+
+
+class Assumed(NamedTuple):
+    """Name an assumed value by its path, and the governing check (``train.motor``) that it moves most, "" where none is known.
+
+    ``change`` is the greatest change of that check's utilisation when the value changes by a tenth.
+    """
+
+    path: str
+    check: str = ""
+    change: float = 0.0
+
+
+def ordered(results: AssumedData) -> list[Assumed]:
+    """Return the assumed values of a results document: those that move a governing check first, then in the file's order."""
+    summary = results.get("summary", {})
+    moves = {move["path"]: Assumed(move["path"], move["check"], move["change"]) for move in summary.get("moves", ())}
+    found = [moves.get(path, Assumed(path)) for path in summary.get("assumed", ())]
+    return sorted(found, key=lambda each: -each.change)
+
+
+# Inputs that vary over a cycle, as the results tell them.
+
+
+def varying(meta: Varying, value: Any, display: str) -> dict[str, Any]:
+    """Return what is given in place of a number: extremes, a text, a curve."""
+    text = value if isinstance(value, str) else "a curve"
+    if isinstance(value, Extremes):
+        text = " … ".join(shortest(unit(display).from_si(end)) for end in (value.low, value.high))
+    return {"value": text, "unit": meta.parsed_unit.si, "symbol": meta.symbol, "description": meta.description,
+            "display": {"text": text, "unit": display if isinstance(value, Extremes) else "1"}}  # fmt: skip
+
+
+# The inputs of a mechanism as results hold them: value, unit, where each comes from and what was typed.
+
+
+Origin = Literal["given", "default", "reference", "expression"]
+
+
+@dataclass(frozen=True)
+class Provenance:
+    """Hold where an input comes from, the path it refers to (an expression: the ``paths``), its text as typed, and what it rests on."""
+
+    origin: Origin
+    path: str = ""
+    text: str | None = None
+    paths: tuple[str, ...] = ()
+    basis: str = ""
+    note: str = ""
+
+
+GIVEN = Provenance("given")
+
+
+def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
+    """Return each input with value, unit, origin and typed text; the parts of a list as ``gears.0.driver_teeth``."""
+    found: Data = {}
+    for path, name, index, value in placed_inputs(calc):
+        meta = calc.meta[name]
+        display = declared_unit(calc, name, meta.unit) if isinstance(meta, Quantity) else "1"
+        found[path] = _input(meta, value, display) | _origin(provenance.get(path))
+        if index is not None:
+            home = calc.axis[name]
+            found[path]["part"] = {"family": home, "index": index, "quantity": name.removeprefix(f"{home}.")}
+    return found
+
+
+def placed_inputs(calc: Calculation) -> Iterator[tuple[str, str, int | None, Any]]:
+    """Yield each input that has a value: its path, its id, for a part of a list which one, and the value."""
+    for name in calc.meta:
+        if name not in calc.inputs:
+            continue
+        row = calc.inputs[name]
+        if name not in calc.axis:
+            if row is not None:
+                yield name, name, None, row
+            continue
+        home = calc.axis[name]
+        for index, part in enumerate(row[0] if isinstance(row, np.ndarray) else row):
+            if part is not None:  # else left out of this part of the list
+                yield f"{home}.{index}{name.removeprefix(home)}", name, index, part
+
+
+def _origin(provenance: Provenance | None) -> Data:
+    known = provenance or Provenance("default")
+    return (
+        {"origin": known.origin}
+        | ({"path": known.path} if known.path else {})
+        | ({"paths": list(known.paths)} if known.paths else {})
+        | ({"text": known.text} if known.text else {})
+        | ({"basis": known.basis} if known.basis else {})
+        | ({"note": known.note} if known.note else {})
+    )
+
+
+def _as_text(value: Any) -> str:
+    """A choice as one would say it: texts after one another, yes or no."""
+    if isinstance(value, bool):
+        return "yes" if value else "no"
+    return ", ".join(value) if isinstance(value, tuple) else str(value)
+
+
+def _input(meta: Any, value: Any, display: str) -> Data:
+    if isinstance(value, TakenWhole) or (isinstance(meta, Quantity) and isinstance(value, str)):
+        return {"value": str(value), "unit": "1", "symbol": meta.symbol, "description": meta.description,
+                "display": {"text": str(value), "unit": "1"}}  # fmt: skip
+    if not isinstance(meta, Quantity):
+        is_curve = isinstance(meta, CurveInput)
+        text = "a curve" if is_curve else _as_text(value)
+        plain = list(value) if isinstance(value, tuple) else value
+        return {"value": text if is_curve else plain, "unit": unit(meta.unit).si if is_curve else "1", "symbol": meta.symbol,
+                "description": meta.description, "display": {"text": text, "unit": "1"}}  # fmt: skip
+    if isinstance(meta, Varying) and not isinstance(value, float | np.ndarray):
+        return varying(meta, value, display)
+    number = float(np.ravel(value)[0])
+    return {
+        "value": int(number) if meta.integer else number,
+        "unit": meta.parsed_unit.si,
+        "symbol": meta.symbol,
+        "description": meta.description,
+        "display": given_shown(number, display),
+    }
 
 
 def origin_of(config: Config, instance: Instance, slot: Slot) -> Provenance:

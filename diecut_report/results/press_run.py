@@ -3,36 +3,130 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable
-from dataclasses import replace
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from functools import cached_property
+from itertools import product
 from typing import Any, TypeVar
 
 import numpy as np
+from pydantic import ValidationError
 
-from diecut_report.config import report_units
-from diecut_report.config.discovery import said
-from diecut_report.config.instances import Instance
-from diecut_report.config.loader import Config, substituted
+from diecut_report.config import instances
+from diecut_report.config.instances import Instance, Node, Target, substituted
+from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.targets import Node, Target
+from diecut_report.config.plugins import said
 from diecut_report.config.validation import declared, validate
-from diecut_report.contract.inputs import SI, Block, CurveInput, Quantity, Text, flatten
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.chosen_units import ChosenUnits
-from diecut_report.errors import PluginError, Problem, UserError
-from diecut_report.languages.phrases import Phrase, named, phrase
-from diecut_report.limits import MAX_COMPARISONS
-from diecut_report.results.bases import Bases
-from diecut_report.results.comparisons import Found, Uncomparable, compared, found
+from diecut_report.errors import MAX_COMPARISONS, PluginError, Problem, UserError
+from diecut_report.machine.calculation import NONE_CHOSEN, Calculation, ChosenUnits, CurveHandle, Impossible
+from diecut_report.machine.steps.rows import needed
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.chapters import in_form, taken
+from diecut_report.mechanism.curve_inputs import CurveInput
+from diecut_report.mechanism.inputs import Block, Quantity, flatten, meta_of, texts_given
+from diecut_report.mechanism.mechanism import Comparison, Mechanism
+from diecut_report.mechanism.names import SI, Text
+from diecut_report.mechanism.steps import Clash, Require
+from diecut_report.quantities.plausible import without_rounding
+from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
-from diecut_report.results.origins import origin_of
-from diecut_report.results.stated_inputs import Provenance
-from diecut_report.results.taken_over import Absent, Unavailable, Valueless, Withheld, output
+from diecut_report.results.origins import Absent, Bases, Provenance, Unavailable, Valueless, Withheld, origin_of, output
+from diecut_report.text.phrases import Phrase, named, phrase
 from diecut_report.time_limit import in_time
 
+# Comparisons over the results of named kinds, calculated when all mechanisms are known.
+
+
 Data = dict[str, Any]
+
+
+class Uncomparable(ValueError):
+    """A result or an input of an instance that a comparison cannot be made with, in words."""
+
+    def __init__(self, words: str, instance: str, name: str) -> None:
+        super().__init__(words)
+        self.instance, self.name = instance, name
+
+
+@dataclass(frozen=True)
+class Found:
+    """Hold a comparison with the instances that it is between, by their kinds."""
+
+    comparison: Comparison
+    between: Mapping[str, str]
+
+    @property
+    def name(self) -> str:
+        """Return what the results know it by: its kind and the instances."""
+        return "-".join([self.comparison.mechanism.kind, *self.between.values()])
+
+
+def found(calculations: Mapping[str, Calculation]) -> Iterator[Found]:
+    """Yield the comparisons that the calculated mechanisms declare, for each choice of one instance of each kind."""
+    by_kind: dict[str, list[str]] = {}
+    for name, calc in calculations.items():
+        by_kind.setdefault(calc.mechanism.kind, []).append(name)
+    declared = {c.mechanism.kind: c for calc in calculations.values() for c in calc.mechanism.comparisons}
+    for comparison in declared.values():
+        for names in product(*(by_kind.get(kind, []) for kind in comparison.kinds)):
+            yield Found(comparison, dict(zip(comparison.kinds, names, strict=True)))
+
+
+def compared(case: Found, calculations: Mapping[str, Calculation], chosen: ChosenUnits = NONE_CHOSEN) -> Data:
+    """Return the results of a comparison, in the form of a mechanism's, shown in the chosen units, and between which instances it is."""
+    values, origins = {}, {}
+    for key, (kind, name) in case.comparison.takes.items():
+        instance = case.between[kind]
+        value = _taken(calculations[instance], name)
+        if value is not None:
+            values[key], origins[key] = value, Provenance("reference", f"{instance}.{name}")
+    block = _block(case, values)
+    calculation = calculate(case.comparison.mechanism, flatten(block))
+    calculation.chosen_units = chosen
+    return mechanism_results(calculation, origins) | {"between": list(case.between.values())}
+
+
+def _block(case: Found, values: Mapping[str, Any]) -> Block:
+    """Return the validated inputs; Uncomparable in words where a result is none that they may have."""
+    try:
+        return in_form(case.comparison.mechanism.inputs, values).model_validate(values)
+    except ValidationError as error:
+        fault = error.errors(include_url=False)[0]
+        key = str(fault["loc"][0])
+        if not _is_of_its_kind(case, key, values.get(key)):
+            raise  # a fault of what is declared
+        kind, name = case.comparison.takes[key]
+        instance = case.between[kind]
+        words = Phrase(
+            "The comparison {name} takes {output}: {fault}.",
+            name=case.name,
+            output=f"{instance}.{name}",
+            fault=fault["msg"].removeprefix("Value error, "),
+        )
+        raise Uncomparable(words, instance, name) from error
+
+
+def _is_of_its_kind(case: Found, key: str, value: Any) -> bool:
+    """Return whether a result is a number of the kind that an input takes."""
+    meta = meta_of(case.comparison.mechanism.inputs, key)
+    return isinstance(meta, Quantity) and isinstance(value, SI) and unit(value.unit).kind == meta.parsed_unit.kind
+
+
+def _taken(calc: Calculation, name: str) -> Any:
+    """A number with its SI unit, a text, a curve; None where there is none."""
+    if calc.axis.get(name) in calc.domains:
+        return CurveHandle(calc, name)
+    values = calc.values.get(name, calc.inputs.get(name))
+    if not isinstance(values, np.ndarray):
+        return values
+    value = values[0, 0]
+    if isinstance(value, str):
+        return value
+    si = unit(calc.step_or_input(name).unit).si
+    return None if np.isnan(value) else SI(float(without_rounding(value, si)), si, name)
+
+
 Tell = Callable[[str], None]
 R = TypeVar("R", bound="Run")
 
@@ -247,7 +341,7 @@ class Run:
     def chosen_units(self, name: str) -> ChosenUnits:
         """Return the units that the report chose for the quantities of a mechanism."""
         chosen = self.config.report.units or {}
-        return ChosenUnits(report_units.by_si(chosen), report_units.by_id(chosen, name))
+        return ChosenUnits(instances.by_si(chosen), instances.by_id(chosen, name))
 
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
         self._store(instance, mechanism_results(calculation, self._provenance(instance)))
@@ -296,3 +390,84 @@ class Run:
             rests = bases.of(node) if isinstance(slot.meta, Quantity | CurveInput | Text) else ""
             found[".".join(map(str, slot.key))] = replace(origin, basis=rests, note=bases.said(node).note)
         return found
+
+
+# Whether the machines of a config can exist, without their results: only the steps run on which that depends, or a reference.
+
+
+def impossible(config: Config, known: Sequence[Problem]) -> tuple[list[Problem], list[PluginError]]:
+    """Return what cannot be in a config, beside the ``known`` problems of it, and the plugins that break on it.
+
+    Mechanisms with a known problem are left out, with those that refer to them.
+    """
+    run = _FeasibilityRun(config, known)
+    return run.problems, [error for name, error in run.errors.items() if name not in config.broken]
+
+
+class _FeasibilityRun(Run):
+    """One way through the graph that stops at what must hold."""
+
+    def __init__(self, config: Config, known: Sequence[Problem]) -> None:
+        self.known = known
+        self.wrong = {name for name in config.instances for problem in known if _concerns(problem, name)}
+        super().__init__(config, lambda _: None)
+
+    def _mechanism(self, name: str) -> None:
+        if name in self.wrong:
+            self.skipped[name] = phrase("It has problems of its own.")
+        else:
+            super()._mechanism(name)
+
+    def _referred(self, target: Target) -> Any:
+        """Return what a reference stands for; Unavailable where the value there has a problem of its own, for it cannot be read."""
+        path = ".".join(map(str, (*_home(target.instance), *target.key)))
+        if target.instance in self.wrong and any(_overlap(problem.path, path) for problem in self.known):
+            raise Unavailable(target.instance)
+        return super()._referred(target)
+
+    def _comparisons(self) -> None:
+        """A comparison needs results."""
+
+    def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
+        inputs = flatten(block)
+        given = frozenset(inputs) | texts_given(inputs)
+        names = [*self._referred_to(instance.name), *_conditions(mechanism, given)]
+        if self._is_taken_whole(instance.name):
+            return calculate(mechanism, inputs)
+        try:
+            return calculate(mechanism, inputs, 1, needed(mechanism, given, names))
+        except Impossible:  # its words may name what these steps do not know
+            return calculate(mechanism, inputs)
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        """Nothing is printed."""
+
+    def _referred_to(self, name: str) -> Iterator[str]:
+        for target in self.config.links.values():
+            yield from (str(single.result) for single in target.single if single.instance == name and single.result)
+
+    def _is_taken_whole(self, name: str) -> bool:
+        """Whether another mechanism takes it, or a phase of it, which is more than a few of its results."""
+        links = self.config.links.values()
+        return any(link.instance == name and (link.is_mechanism or link.phase_unit is not None) for link in links)
+
+
+def _concerns(problem: Problem, name: str) -> bool:
+    return f"{problem.path}.".startswith(f"{'.'.join(_home(name))}.")
+
+
+def _home(name: str) -> tuple[str, ...]:
+    """Return the key path of the press or a mechanism."""
+    return (PRESS,) if name == PRESS else ("mechanisms", name)
+
+
+def _overlap(one: str, other: str) -> bool:
+    """Return whether one of two key paths is the other or lies within it."""
+    return f"{one}.".startswith(f"{other}.") or f"{other}.".startswith(f"{one}.")
+
+
+def _conditions(mechanism: Mechanism, given: frozenset[str]) -> Iterator[str]:
+    """What must be known of what must hold."""
+    for step in mechanism.active(given):
+        if isinstance(step[1], Require | Clash):
+            yield from taken(step[1])

@@ -28,24 +28,19 @@ from diecut_report.config.instances import Instance
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.source_hashes import plugin_code
-from diecut_report.contract.inputs import SI, Block, flatten
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.engine import Calculation, CurveHandle, calculate
-from diecut_report.engine.chosen_units import ChosenUnits
-from diecut_report.engine.figure_views import figures, shown_figures
-from diecut_report.engine.printing.items import section_items
-from diecut_report.engine.same_curves import same_curve
-from diecut_report.results.bases import assumed
+from diecut_report.machine.calculation import Calculation, ChosenUnits, CurveHandle, same_curve
+from diecut_report.machine.figure_views import figures, shown_figures
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import Block, flatten
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import SI
 from diecut_report.results.checks import check_results
-from diecut_report.results.conclusion import conclusion, is_open
-from diecut_report.results.curves import curves
+from diecut_report.results.conclusion import conclusion, governing, is_open, summary
 from diecut_report.results.document import document, verdict
-from diecut_report.results.mechanism import key_outputs, mechanism_results, numbers, require_self_tests, worst
-from diecut_report.results.origins import origin_of
+from diecut_report.results.mechanism import curves, key_outputs, mechanism_results, numbers, require_self_tests, worst
+from diecut_report.results.origins import assumed, origin_of, placed_inputs, told_checks
 from diecut_report.results.press_run import Run, Tell, require_possible
-from diecut_report.results.reference_origins import told_checks
-from diecut_report.results.stated_inputs import placed_inputs
-from diecut_report.results.summary import governing, summary
 
 Data = dict[str, Any]
 KEPT = 4  # machines of each mechanism that are remembered: the one at the start, to compare with, and the last ones

@@ -5,20 +5,62 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, overload
+from typing import TYPE_CHECKING, Any, TypeVar, overload
 
-from diecut_report.errors import Problem, UnknownName
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.errors import Problem, UnknownName, nearest
 from diecut_report.quantities.units import unit
-from diecut_report.scripting.named_parts import unknown
-from diecut_report.scripting.spoken import told_in
-from diecut_report.scripting.values import QuantityValue
+from diecut_report.scripting.values import QuantityValue, told_in
+from diecut_report.text.phrases import Phrase, phrase
 
 if TYPE_CHECKING:
     import numpy as np
     from numpy.typing import NDArray
 
-    from diecut_report.scripting.printable import Printable
+    from diecut_report.scripting.values import Printable
+
+
+# Parts by their names, and the error of a name that is not known.
+
+
+PartT = TypeVar("PartT")
+SHOWN = 20  # known names that a message lists
+
+
+def unknown(what: str, name: str, known: Sequence[str], *, also: Sequence[str] = ()) -> UnknownName:
+    """Return the error of a name that is not known; ``what`` says of what, ``drive has no figure``. The nearest is sought ``also`` in others."""
+    near = nearest(name, (*known, *also)) or _listed(known)
+    return UnknownName(Problem(Phrase("{what} {name}{nearest}.", what=what, name=repr(name), nearest=near)))
+
+
+def _listed(known: Sequence[str]) -> str:
+    return Phrase("; there are {known}", known=", ".join(known[:SHOWN])) if known else ""
+
+
+class NamedParts(Mapping[str, PartT]):
+    """Hold parts by their names, as a mapping; another name is an UnknownName (a KeyError) that tells the nearest."""
+
+    def __init__(self, parts: Mapping[str, PartT], missing: str, language: str | None) -> None:
+        self._parts, self._missing, self._language = dict(parts), missing, language
+
+    def __getitem__(self, name: str) -> PartT:
+        """Return a part by its name; UnknownName where there is none."""
+        if name not in self._parts:
+            with told_in(self._language):
+                raise unknown(self._missing, name, list(self._parts))
+        return self._parts[name]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._parts)
+
+    def __len__(self) -> int:
+        return len(self._parts)
+
+    def _ipython_key_completions_(self) -> list[str]:
+        return list(self)
+
+    def __repr__(self) -> str:
+        return repr(self._parts)
+
 
 Data = Mapping[str, Any]
 
@@ -109,19 +151,19 @@ class CheckList(Sequence[CheckResult]):
 
     def to_arrow(self) -> Any:
         """Return them as a table of pyarrow, a row each; demand, limit and margin in the SI unit of the column ``unit``."""
-        from diecut_report.study.storage.part_files import plain_table
+        from diecut_report.study.storage.parts import plain_table
 
         return plain_table([_row(check) for check in self._checks])
 
     def to_pandas(self) -> Any:
         """Return them as a table of pandas; ConfigError where pandas is not installed."""
-        from diecut_report.scripting.tables import to_pandas
+        from diecut_report.scripting.values import to_pandas
 
         return to_pandas(self.to_arrow(), self._results.language)
 
     def to_polars(self) -> Any:
         """Return them as a table of polars; ConfigError where polars is not installed."""
-        from diecut_report.scripting.tables import to_polars
+        from diecut_report.scripting.values import to_polars
 
         return to_polars(self.to_arrow(), self._results.language)
 
@@ -129,7 +171,7 @@ class CheckList(Sequence[CheckResult]):
         return "\n".join(map(repr, self._checks)) or "<no checks>"
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.display import checks_html
+        from diecut_report.scripting.values import checks_html
 
         return checks_html(self._results, {check.name for check in self})
 
@@ -248,6 +290,6 @@ class FigureResult:
         return f"<figure {self.id}: {self.title}>"
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.display import figure_html
+        from diecut_report.scripting.values import figure_html
 
         return figure_html(self.svg, self.title)

@@ -6,19 +6,20 @@ from collections.abc import Iterator, Sequence
 from dataclasses import dataclass
 from typing import Any, Literal, get_args, get_origin, overload
 
-from diecut_report.config.basis import GIVEN, Basis
 from diecut_report.config.instances import Instance, Slot
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import InOtherUnit, Quantity, Text
+from diecut_report.config.validation import GIVEN, Basis
+from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import ConfigError, Problem
-from diecut_report.languages.phrases import Phrase
+from diecut_report.mechanism.curve_inputs import InOtherUnit
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import given_shown
-from diecut_report.scripting.named_parts import unknown
-from diecut_report.scripting.spoken import told_in
-from diecut_report.scripting.values import QuantityValue
+from diecut_report.scripting.parts import unknown
+from diecut_report.scripting.values import QuantityValue, told_in
 from diecut_report.study.definition.base_inputs import MECHANISMS, UnknownPath, find_input
+from diecut_report.text.phrases import Phrase
 
 
 @dataclass(frozen=True)
@@ -81,7 +82,7 @@ class InputList(Sequence[PressInput]):
         return "\n".join(map(repr, self._inputs))
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.display import inputs_html
+        from diecut_report.scripting.values import inputs_html
 
         return inputs_html(self, self.language)
 

@@ -7,17 +7,16 @@ from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
-from diecut_report.design import advice, advice_text, influence, influence_text
-from diecut_report.design.answers import Answer, FoundValue, data, lines
-from diecut_report.design.design_inputs import DesignInput, design_input, with_input
-from diecut_report.design.questions import question
+from diecut_report.config.plugins import Discovery
+from diecut_report.design import advice, influence
+from diecut_report.design.answers import Answer, FoundValue, data, lines, question
+from diecut_report.design.inputs import DesignInput, design_input, with_input
 from diecut_report.design.solving import solved
 from diecut_report.errors import ConfigError, Problem
-from diecut_report.languages.phrases import Phrase
 from diecut_report.quantities.units import number_and_unit
 from diecut_report.scripting.values import QuantityValue
+from diecut_report.text.phrases import Phrase
 
 Data = dict[str, Any]
 PressT = TypeVar("PressT")
@@ -122,7 +121,7 @@ def mended_press(
     found = advice.mended(config, discovery, free=free, keep=keep, tell=lambda _: None)
     press = None if found.machine is None else make(found.machine.config)
     changes = {each.name: each.after for each in found.changes} if found.machine is not None else {}
-    return MendedPress(changes, press, advice.data(found), "\n".join(advice_text.lines(found)))
+    return MendedPress(changes, press, advice.data(found), "\n".join(advice.lines(found)))
 
 
 def influence_of(config: Config, names: Sequence[str], share: float, *, defaults: bool = False) -> InfluenceTable:
@@ -135,5 +134,5 @@ def influence_of(config: Config, names: Sequence[str], share: float, *, defaults
             )
         )
     found = influence.tornados(config, list(names), share, {}, defaults=defaults)
-    text = "\n".join(influence_text.lines(found, None, "defaults=True"))
-    return InfluenceTable(influence_text.data(found, None), text)
+    text = "\n".join(influence.lines(found, None, "defaults=True"))
+    return InfluenceTable(influence.data(found, None), text)

@@ -10,19 +10,19 @@ import numpy as np
 import yaml
 from numpy.typing import NDArray
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config
-from diecut_report.config.yaml_tree import parse
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import parse
 from diecut_report.errors import ConfigError, PluginError, Problem
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.scripting.named_parts import NamedParts
+from diecut_report.scripting.parts import NamedParts
 from diecut_report.scripting.press_inputs import whole_path
-from diecut_report.scripting.typed_values import plain
+from diecut_report.scripting.values import plain
 from diecut_report.study.definition.study_file import Study, study_of
 from diecut_report.study.execution.study_run import result_columns, varied_columns
 from diecut_report.study.execution.worker import Chunk, Done, calculate
 from diecut_report.study.storage.description import VARIANT, VERDICT, ResultColumn
-from diecut_report.study.storage.part_files import described_table
+from diecut_report.study.storage.parts import described_table
+from diecut_report.text.phrases import Phrase, phrase
 
 MOST = 1_000_000  # machines of a table in memory
 FILE = "sweep"
@@ -89,13 +89,13 @@ class SweepTable:
 
     def to_pandas(self) -> Any:
         """Return it as a table of pandas; ConfigError where pandas is not installed."""
-        from diecut_report.scripting.tables import to_pandas
+        from diecut_report.scripting.values import to_pandas
 
         return to_pandas(self._table, self._language)
 
     def to_polars(self) -> Any:
         """Return it as a table of polars; ConfigError where polars is not installed."""
-        from diecut_report.scripting.tables import to_polars
+        from diecut_report.scripting.values import to_polars
 
         return to_polars(self._table, self._language)
 
@@ -104,7 +104,7 @@ class SweepTable:
         return f"<{len(self)} machines ({told}); {len(self.columns)} columns: {', '.join(list(self.columns)[:4])}, …>"
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.display import sweep_html
+        from diecut_report.scripting.values import sweep_html
 
         return sweep_html(self.columns, self.__getitem__, self.counts())
 

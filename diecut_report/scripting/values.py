@@ -2,17 +2,41 @@
 
 from __future__ import annotations
 
+import json
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from contextlib import contextmanager
 from dataclasses import dataclass, field, replace
 from functools import total_ordering
-from typing import TYPE_CHECKING, Any
+from importlib import import_module
+from itertools import groupby
+from typing import TYPE_CHECKING, Any, Protocol
 
-from diecut_report.errors import ConfigError, Problem
-from diecut_report.languages.phrases import Phrase, phrase
+from markupsafe import Markup
+
+from diecut_report import pipeline
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import resolved
+from diecut_report.errors import ConfigError, Problem, UnknownName, Unwritable, UserError
 from diecut_report.quantities.formatting import shown, with_unit
 from diecut_report.quantities.units import UnitError, kind_name, parse_quantity, pretty, unit
+from diecut_report.report.context import Material
+from diecut_report.report.mathematics import Latex
+from diecut_report.report.pages.html import Screen, filled_page
+from diecut_report.report.scope import BRIEF, STANDARD
+from diecut_report.report.symbols import symbol
+from diecut_report.report.text import Catalogue, quantity
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, of_all_plugins
+from diecut_report.text.catalogues import SOURCE_LANGUAGE as ENGLISH
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import said, speaking
 
 if TYPE_CHECKING:
     import pint
+
+    from diecut_report.report.model import PrintedChapter
+    from diecut_report.study.storage.description import ResultColumn
+
 
 PlainValue = float | int | bool | str
 
@@ -99,12 +123,12 @@ class QuantityValue:
         return with_unit(format(self.magnitude, form), self.unit) if form else str(self)
 
     def _repr_html_(self) -> str:
-        from diecut_report.scripting.display import value_html
+        pass  # REMOVE
 
         return value_html(self.symbol, self.printed)
 
     def _repr_latex_(self) -> str:
-        from diecut_report.scripting.display import value_latex
+        pass  # REMOVE
 
         return value_latex(self.symbol, self.printed)
 
@@ -167,3 +191,310 @@ class InputValue(QuantityValue):
     typed: str = ""
     basis: str = ""
     note: str = ""
+
+
+# Values of a script as they are typed into a configuration: numbers, texts with units, quantities of this program, of pint and of NumPy.
+
+
+SIGNS = ",[]{}#:&*!|>'\"%@`\n"  # of YAML, or within its braces
+NEEDED = phrase("a number, a text such as `120 mm`, a quantity, true or false is needed")
+
+
+def linspace(start: Any, stop: Any, count: int) -> dict[str, Any]:
+    """Return so many values from ``start`` to ``stop``, both included, in equal steps, for ``sweep``: ``linspace("80 mm", "120 mm", 41)``."""
+    return {"from": start, "to": stop, "count": count}
+
+
+def scalar(given: Any, path: str) -> float | int | bool | str:
+    """Return a value of a script as a configuration holds it; ConfigError where it is not a single value."""
+    if isinstance(given, bool | str):
+        return given
+    if isinstance(given, QuantityValue):
+        return given.value if given.unit == "1" else f"{given.value!r} {given.unit}"
+    if hasattr(given, "magnitude") and hasattr(given, "units"):
+        return _of_pint(given, path)
+    if hasattr(given, "item") and not _is_array(given):  # a number of NumPy
+        given = given.item()
+    if isinstance(given, bool | str | int) or (isinstance(given, float) and math.isfinite(given)):
+        return given
+    words = Phrase("is {kind}; {needed}.", kind=f"{given!r:.60}", needed=NEEDED)
+    raise ConfigError(Problem(words, path=path))
+
+
+def _of_pint(given: Any, path: str) -> float | str:
+    """A quantity of pint; its unit in the short form, which is read back as the same one."""
+    number = scalar(given.magnitude, path)
+    own = f"{given.units:~C}"
+    return float(number) if own == "" else f"{number!r} {own}"
+
+
+def _is_array(given: Any) -> bool:
+    return bool(getattr(given, "ndim", False))
+
+
+def typed(given: Any, path: str) -> str:
+    """Return a value as it stands in the file: a text in quotes where it would be read as something else."""
+    value = scalar(given, path)
+    if isinstance(value, bool):
+        return str(value).lower()
+    if not isinstance(value, str):
+        return repr(value)
+    is_plain = value == value.strip() and resolved(value) == value and not any(sign in value for sign in SIGNS)
+    return value if is_plain and not value.startswith(("-", "?")) else json.dumps(value, ensure_ascii=False)
+
+
+def plain(given: Any, path: str) -> Any:
+    """Return blocks and lists of a script with each value as a configuration holds it."""
+    if isinstance(given, Mapping):
+        return {str(key): plain(part, f"{path}.{key}".lstrip(".")) for key, part in given.items()}
+    if hasattr(given, "magnitude") and _is_array(given.magnitude):  # an array of pint
+        return [plain(part, f"{path}.{index}") for index, part in enumerate(given)]
+    if given is None or isinstance(given, str | QuantityValue) or hasattr(given, "magnitude"):
+        return None if given is None else scalar(given, path)
+    if isinstance(given, Iterable) and (_is_array(given) or not hasattr(given, "ndim")):
+        return [plain(part, f"{path}.{index}") for index, part in enumerate(given)]
+    return scalar(given, path)
+
+
+# What goes wrong in a script, told in the language that it asked for.
+
+
+@contextmanager
+def told_in(language: str | None, *, without_places: bool = False) -> Iterator[None]:
+    """Let errors of a user leave as errors of a script, a ConfigError where they have no class of their own, in a language.
+
+    ``without_places``: lines and columns are of a text that the user has not written, and are left out.
+    """
+    try:
+        yield
+    except UserError as error:
+        own = type(error) if isinstance(error, UnknownName | Unwritable) else ConfigError
+        raise own(_translated(error.problems, language or SOURCE_LANGUAGE, without_places)) from error.__cause__
+
+
+def _translated(problems: tuple[Problem, ...], language: str, without_places: bool) -> Iterator[Problem]:
+    with speaking(language, None if language == SOURCE_LANGUAGE else of_all_plugins(language)):
+        for problem in problems:
+            told = replace(problem, message=said(problem.message))
+            yield replace(told, file="", line=None, column=None) if without_places else told
+
+
+def known_language(language: str | None) -> str | None:
+    """Return the language that is asked for; ConfigError where the program has no words of it."""
+    try:
+        return None if language is None else known(language)
+    except UnknownLanguage as error:
+        raise ConfigError(Problem(Phrase("The language {error}.", error=error), path="language")) from None
+
+
+# What a notebook shows: the very texts, formulas and figures of a report, as HTML without scripts, on light and on dark paper.
+
+
+class DisplayedValue(Protocol):
+    """Declare what is shown of a quantity."""
+
+    @property
+    def printed(self) -> tuple[str, str]: ...
+
+
+TEMPLATE = "notebook.html.j2"
+ROWS, COLUMNS = 12, 8  # of a table of machines
+
+
+def results_html(results: Printable) -> str:
+    """Return the verdict, what governs, and all checks."""
+    material = results.material(BRIEF)
+    return _page("results", material.words, doc=material.document)
+
+
+def checks_html(results: Printable, names: set[str]) -> str:
+    """Return some checks of results as a table."""
+    material = results.material(STANDARD)
+    rows = [row for part in material.document.chapters for row in part.checks if f"{row.mechanism}.{row.id}" in names]
+    return _page("checks", material.words, rows=rows)
+
+
+def mechanism_html(results: Printable, name: str) -> str:
+    """Return a mechanism, or a comparison: key results, checks, its calculation with formulas and figures, results."""
+    material = results.material(STANDARD, name)
+    screen = Screen(material)
+    return _page(
+        "mechanism",
+        material.words,
+        c=_chapter(material, name),
+        math=screen,
+        figure=screen.figure,
+        failed=material.failed,
+    )
+
+
+def _chapter(material: Material, name: str) -> PrintedChapter:
+    return next(part for part in material.document.chapters if part.name == name)
+
+
+def _page(part: str, words: Catalogue, **given: object) -> str:
+    return filled_page(TEMPLATE, part=part, t=words, **given)
+
+
+# --- inputs ----------------------------------------------------------------------------------------------------------
+
+
+class ShownInput(Protocol):
+    """Declare what is shown of an input."""
+
+    @property
+    def path(self) -> str: ...
+    @property
+    def kind(self) -> str: ...
+    @property
+    def description(self) -> str: ...
+    @property
+    def symbol(self) -> str: ...
+    @property
+    def value(self) -> DisplayedValue | None: ...
+    @property
+    def typed(self) -> str: ...
+    @property
+    def allowed(self) -> str: ...
+    @property
+    def basis(self) -> str: ...
+    @property
+    def note(self) -> str: ...
+
+
+def inputs_html(inputs: Iterable[ShownInput], language: str | None, title: str = "") -> str:
+    """Return the inputs of a press, by mechanism."""
+    words = Catalogue(language or ENGLISH)
+    by_home = groupby(inputs, lambda each: each.path.split(".")[0])
+    with speaking(words.language):
+        groups = [(home, [_told(each, words) for each in rows]) for home, rows in by_home]
+    return _page("inputs", words, title=title, groups=groups)
+
+
+def _told(each: ShownInput, words: Catalogue) -> Mapping[str, object]:
+    """An input as a row of a table, in the language that is spoken."""
+    value = "" if each.value is None else quantity(*each.value.printed, words["decimal"])
+    return {
+        "path": each.path, "description": said(each.description, each.kind), "symbol": symbol(each.symbol), "value": value, "typed": each.typed,
+        "allowed": each.allowed, "basis": words[each.basis] if each.basis else "", "note": each.note,
+    }  # fmt: skip
+
+
+# --- single things ---------------------------------------------------------------------------------------------------
+
+
+def value_html(letter: str, printed: tuple[str, str]) -> str:
+    """Return a quantity as a report prints it: ``M = 523.4 N·m``."""
+    head = Markup("{} = ").format(symbol(letter)) if letter else Markup("")
+    return str(head + quantity(*printed))
+
+
+def value_latex(letter: str, printed: tuple[str, str]) -> str:
+    """Return the same as LaTeX."""
+    latex = Latex(Catalogue(ENGLISH), ".")
+    head = f"{latex.symbol(letter)} = " if letter else ""
+    return f"${head}{latex.quantity(*printed)}$"
+
+
+def drawing(figure: Mapping[str, Any], curves: Mapping[str, Any], language: str, key: str) -> str:
+    """Return a figure of the results, drawn as SVG; any exception where it cannot be."""
+    from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
+
+    return render(figure, curves, Catalogue(language), key).text
+
+
+def figure_html(svg: str, title: str) -> str:
+    """Return a figure with its title."""
+    # matplotlib escapes the texts within the drawing
+    return _page("figure", Catalogue(ENGLISH), svg=Markup(svg), title=title)
+
+
+# --- tables of machines ----------------------------------------------------------------------------------------------
+
+
+def sweep_html(columns: Mapping[str, ResultColumn], values: Callable[[str], Any], counts: Mapping[str, int]) -> str:
+    """Return the first machines of a table: what varies, some outputs, the verdict."""
+    words, total = Catalogue(ENGLISH), sum(counts.values())
+    names = [name for name in columns if ".checks." not in name and name != "error"]
+    names = names if len(names) <= COLUMNS else [*names[: COLUMNS - 2], *names[-2:]]
+    units = {name: columns[name].display or columns[name].unit for name in names}
+    rows = list(zip(*(list(_cells(values(name)[:ROWS].tolist(), units[name])) for name in names), strict=True))
+    told = f"{total}: " + ", ".join(f"{number} {words[status]}" for status, number in counts.items())
+    heads = [(name, pretty(unit)) for name, unit in units.items()]
+    return _page("sweep", words, told=told, columns=heads, rows=rows, more=total > ROWS)
+
+
+def _cells(values: list[Any], unit: str) -> Iterator[str]:
+    for value in values:
+        is_number = isinstance(value, int | float) and not isinstance(value, bool)
+        if value is None or (is_number and value != value):
+            yield "–"
+        else:
+            yield quantity(shown(float(value), unit)["text"], "1") if is_number else str(value)
+
+
+# Tables of pyarrow as those of pandas or polars, where these are installed.
+
+
+def to_pandas(table: Any, language: str | None) -> Any:
+    """Return a table of pandas; ConfigError where it is not installed."""
+    _require("pandas", language)
+    return table.to_pandas(strings_to_categorical=False)
+
+
+def to_polars(table: Any, language: str | None) -> Any:
+    """Return a table of polars; ConfigError where it is not installed."""
+    return _require("polars", language).from_arrow(table)
+
+
+def _require(library: str, language: str | None) -> Any:
+    try:
+        return import_module(library)
+    except ImportError as cause:
+        words = Phrase("{library} is not installed; install it (pip install {library}), or take the table of pyarrow by to_arrow().",
+                       library=library)  # fmt: skip
+        with told_in(language):
+            raise ConfigError(Problem(words)) from cause
+
+
+# Results as documents and notebooks are made of them.
+
+
+Data = dict[str, Any]
+
+
+@dataclass(frozen=True, eq=False)
+class Printable:
+    """Hold results with what finds the words of their plugins; ``language`` is that of messages and documents, where one was asked for."""
+
+    data: Data
+    discovery: Discovery
+    language: str | None
+
+    @property
+    def document_language(self) -> str:
+        """Return the language of documents: the one that was asked for, else that of the project."""
+        return self.language or str(self.data["project"].get("language") or SOURCE_LANGUAGE)
+
+    def copied(self) -> Data:
+        """Return the results in the language of documents, free to be asked for in another form."""
+        data = {**self.data, **{key: dict(self.data[key]) for key in ("project", "report", "summary")}}
+        data["project"]["language"] = self.document_language
+        return data
+
+    def material(self, detail: str, only: str = "") -> Material:
+        """Return the parts of the report at a detail; ``only`` is the mechanism, or the comparison, that is shown."""
+        data = self.copied()
+        data["report"] |= {"detail": detail}
+        if only in data["mechanisms"]:
+            data["report"] |= {"only": [only]}
+        elif only:
+            data |= self._compared(only)
+        return Material(data, pipeline.catalogues_of(data, self.discovery, ("html",)))
+
+    def _compared(self, name: str) -> Data:
+        """A comparison alone, and the mechanisms that it is between without what takes time to print."""
+        comparison = self.data["comparisons"][name]
+        bare: Data = {"figures": [], "sections": []}
+        mechanisms = {each: self.data["mechanisms"][each] | bare for each in comparison["between"]}
+        return {"mechanisms": mechanisms, "comparisons": {name: comparison}, "governing": None}

@@ -19,8 +19,7 @@ from functools import cache
 from pathlib import Path
 from types import MappingProxyType
 
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.standards.file_forms import (
+from diecut_report.standards.files import (
     DecadesData,
     ListedData,
     NamedData,
@@ -31,10 +30,18 @@ from diecut_report.standards.file_forms import (
     fault,
     form_of,
     in_range,
+    table_beside,
 )
-from diecut_report.standards.own_tables import own_series, own_table
-from diecut_report.standards.table_files import table_beside
-from diecut_report.standards.tables import Column, StandardFault, StandardSeries, StandardTable, sources_told
+from diecut_report.standards.tables import (
+    Column,
+    StandardFault,
+    StandardSeries,
+    StandardTable,
+    own_series,
+    own_table,
+    sources_told,
+)
+from diecut_report.text.phrases import Phrase, phrase
 
 __all__ = ["Column", "StandardFault", "StandardSeries", "StandardTable", "own_series", "own_table", "sources_told", "standard_ids",
            "standard_series", "standard_series_by", "standard_table", "table_beside"]  # fmt: skip

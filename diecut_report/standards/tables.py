@@ -2,11 +2,15 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+import math
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import pairwise
 from types import MappingProxyType
+from typing import Any, NoReturn
 
-from diecut_report.languages.phrases import Phrase, joined, phrase
+from diecut_report.quantities.units import UnitError, unit
+from diecut_report.text.phrases import Phrase, joined, phrase
 
 
 class StandardFault(ValueError):
@@ -123,3 +127,141 @@ def sources_told(taken_from: StandardTable | StandardSeries) -> str:
     if not taken_from.only_source:
         return told
     return Phrase("{told} (one source: {reason})", told=told, reason=phrase(taken_from.only_source))
+
+
+# Tables and series of an author's own, with their sources, checked where they are written.
+
+
+Rows = Mapping[str, Any] | Sequence[Sequence[Any]]
+
+
+def own_table(
+    *,
+    title: str,
+    rows: Rows,
+    sources: Sequence[str],
+    unit: str = "",
+    columns: Mapping[str, str] | None = None,
+    left_out: str = "",
+    only_source: str = "",
+) -> StandardTable:
+    """Return a table that an author brings, checked; StandardFault says what is wrong with it.
+
+    ``rows`` are values by name, {"steel": 7850} in ``unit`` or {"6204": (20, 13.5)} in the units of ``columns``
+    ({"bore": "mm", "C": "kN"}); or rows of numbers, ((12, 0.245), (15, 0.29)), whose first column ascends.
+    ``sources`` are two published tables that agree, or one and in ``only_source`` why there is no other.
+    """
+    _texts(title, sources, only_source)
+    if bool(unit) is bool(columns):
+        _fault(title, phrase('needs one of unit="…" (a value for each name) and columns={"name": "unit", …}'))
+    names, cells = _cells(title, rows)
+    units = dict(columns) if columns else {"": unit}
+    for number, (where, row) in enumerate(zip(names or cells, cells, strict=True)):
+        _row(title, where, row, len(units), number)
+    made = [
+        Column(name, shown, tuple(float(v) for v in values))
+        for (name, shown), values in zip(units.items(), zip(*cells, strict=True), strict=True)
+    ]
+    _units(title, made)
+    if not names:
+        _ascending(title, made)
+    return StandardTable("", title, tuple(made), tuple(sources), left_out, tuple(names), only_source)
+
+
+def own_series(
+    *,
+    title: str,
+    unit: str,
+    values: Sequence[float],
+    sources: Sequence[str],
+    left_out: str = "",
+    only_source: str = "",
+) -> StandardSeries:
+    """Return a standard series that an author brings, checked as ``own_table`` checks; its values ascend."""
+    _texts(title, sources, only_source)
+    for value in values:
+        _number(title, phrase("the series"), value)
+    column = Column("values", unit, tuple(float(value) for value in values))
+    _units(title, [column])
+    _ascending(title, [column], least=1)
+    return StandardSeries("", title, unit, column.values, tuple(sources), left_out, only_source)
+
+
+def _texts(title: object, sources: Any, only_source: str) -> None:
+    if not isinstance(title, str) or not title.strip():
+        _fault(str(title), phrase("has no title"))
+    if isinstance(sources, str) or not all(isinstance(text, str) and text.strip() for text in sources):
+        _fault(title, phrase("needs its sources as texts in brackets, that say what was published where"))
+    if not sources or (len(set(sources)) < 2 and not only_source):
+        _fault(title, phrase('needs two sources that agree, or one and only_source="why there is no other"'))
+
+
+def _cells(title: str, rows: Rows) -> tuple[list[str], list[tuple[Any, ...]]]:
+    """The names of the rows (none where they go by numbers), and the values in them."""
+    if isinstance(rows, Mapping):
+        listed = [(name, *(cells if isinstance(cells, list | tuple) else (cells,))) for name, cells in rows.items()]
+    else:
+        listed = [tuple(row) if isinstance(row, list | tuple) else (row,) for row in rows]
+    if not listed:
+        _fault(title, phrase("has no rows"))
+    if not isinstance(listed[0][0], str):
+        return [], listed
+    names = [row[0] for row in listed]
+    for number, name in enumerate(names):
+        if not isinstance(name, str) or not name.strip():
+            told = Phrase("has the name {strange} of a row, which is not a text", strange=repr(name))
+            _fault(title, told, row=number)
+        if name in names[:number]:
+            _fault(title, Phrase("has two rows of the name {twice}", twice=repr(name)), row=number)
+    return names, [row[1:] for row in listed]
+
+
+def _row(title: str, where: object, row: tuple[Any, ...], count: int, number: int) -> None:
+    if len(row) != count:
+        words = "has {count} values in the row {where}, where {wanted} are needed"
+        _fault(title, Phrase(words, count=len(row), where=repr(where), wanted=count), row=number)
+    for value in row:
+        _number(title, Phrase("the row {where}", where=repr(where)), value, number)
+
+
+def _number(title: str, where: str, value: object, row: int | None = None) -> None:
+    if isinstance(value, bool) or not isinstance(value, int | float) or not math.isfinite(value):
+        words = "holds {value} in {where}, which is not a finite number"
+        _fault(title, Phrase(words, value=repr(value), where=where), row=row)
+
+
+def _units(title: str, columns: Iterable[Column]) -> None:
+    for column in columns:
+        try:
+            unit(column.unit)
+        except UnitError as error:
+            _fault(
+                title,
+                Phrase(
+                    "has no usable unit{where}: {error}",
+                    where=Phrase(" of {name}", name=column.name) if column.name else "",
+                    error=error,
+                ),
+                error,
+            )
+
+
+def _ascending(title: str, columns: Sequence[Column], least: int = 2) -> None:
+    """Check the first column; a table that goes by numbers needs two rows and a column of values."""
+    if len(columns) < least:
+        _fault(
+            title, phrase("goes by the numbers of its first column and has no other; name its rows, or add a column")
+        )
+    if len(columns[0].values) < least:
+        _fault(title, phrase("has too few values; give two rows at least") if least > 1 else phrase("has no values"))
+    for number, (before, after) in enumerate(pairwise(columns[0].values), 1):
+        if not before < after:
+            words = "must ascend in {name} without repetition, but {after} follows {before}"
+            told = Phrase(words, name=columns[0].name, after=format(after, "g"), before=format(before, "g"))
+            _fault(title, told, row=number)
+
+
+def _fault(title: str, what: str, cause: Exception | None = None, row: int | None = None) -> NoReturn:
+    found = StandardFault(Phrase("The table “{title}” {what}.", title=title, what=what))
+    found.row = row
+    raise found from cause

@@ -1,1 +1,1 @@
-"""Batch: many variants of a press from one study file, their stored results and their summary."""
+"""Many variants of a press."""

@@ -10,10 +10,7 @@ from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.config.catalogues import catalogues_for, lacking
-from diecut_report.config.discovery import Discovery
-from diecut_report.languages.catalogues import Catalogues
-from diecut_report.languages.phrases import phrase
-from diecut_report.languages.speech import said, say, speaking
+from diecut_report.config.plugins import Discovery
 from diecut_report.study.definition.study_file import Study, load_study
 from diecut_report.study.execution.refusals import refuse_empty, refuse_huge, refuse_unsampled
 from diecut_report.study.execution.study_run import Counts, StudyOutcome, Where, engine_for, run_study
@@ -21,6 +18,9 @@ from diecut_report.study.execution.variant_reports import write_reports
 from diecut_report.study.storage import state
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.summary import summarise
+from diecut_report.text.catalogues import Catalogues
+from diecut_report.text.phrases import phrase
+from diecut_report.text.translation import said, say, speaking
 
 if TYPE_CHECKING:
     from rich.progress import Progress

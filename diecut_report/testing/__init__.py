@@ -7,18 +7,21 @@ against printed ones. ``load("hook", "my_plugins")`` finds a mechanism.
 
 from __future__ import annotations
 
-from diecut_report.formula_checks import check_mechanism
+from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.testing.contract import ContractTest, check_contract
-from diecut_report.testing.found_values import (
+from diecut_report.testing.machines import Refused, calculate, load
+from diecut_report.testing.values import (
     CheckFound,
+    ComparedValue,
+    ComparedValues,
     CurveFound,
     MechanismFound,
     NotGiven,
     PhaseFound,
+    PrintedValue,
     QuantityFound,
+    compare,
 )
-from diecut_report.testing.printed_values import ComparedValue, ComparedValues, PrintedValue, compare
-from diecut_report.testing.single_machine import Refused, calculate, load
 
 __all__ = [
     "CheckFound",

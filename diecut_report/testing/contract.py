@@ -8,35 +8,157 @@ from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import suppress
 from dataclasses import dataclass, field, replace
 from functools import cached_property
+from itertools import islice
 from pathlib import Path
-from typing import Any
+from typing import Any, Literal
+
+import numpy as np
 
 from diecut_report.config.catalogues import catalogues_for
-from diecut_report.config.discovery import Discovery, said
 from diecut_report.config.loader import Config
-from diecut_report.contract.inputs import flatten
-from diecut_report.contract.mechanism import Mechanism
+from diecut_report.config.plugins import Discovery, Origin, said
 from diecut_report.declaration import faults, faults_at_load
-from diecut_report.engine import Impossible, Unproven, calculate
+from diecut_report.declaration.dimensions import at_place, by_id
+from diecut_report.declaration.formula_checks import doubts, forms, idle_inputs, printing, quantities
 from diecut_report.errors import Problem, UserError
-from diecut_report.formula_checks import forms, printing, quantities
-from diecut_report.formula_checks.doubts import doubts
-from diecut_report.formula_checks.fault_places import at_place, by_id
-from diecut_report.formula_checks.idle import idle_inputs
-from diecut_report.languages.catalogues import SOURCE_LANGUAGE, built_in, languages
-from diecut_report.languages.phrases import Counted, Phrase, joined, phrase
-from diecut_report.report import Rendering
-from diecut_report.results.checks import check_results
+from diecut_report.files import content, write_all
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Impossible, Unproven
+from diecut_report.machine.steps.run import calculate
+from diecut_report.machine.steps.soundness import is_made
+from diecut_report.mechanism.inputs import Quantity, fields, flatten
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.report.rendering import Rendering
+from diecut_report.results.checks import check_results, checks_of, is_of_machine, is_sized, judged
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
-from diecut_report.testing import wide_machines
-from diecut_report.testing.constant_verdicts import constant
+from diecut_report.testing import machines
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
-from diecut_report.testing.many_machines import MachineCase, one_of, unlike
+from diecut_report.testing.machines import Keys, MachineCase, WithMechanism, configured, one_of, unlike
 from diecut_report.testing.plugin_words import PluginWords
-from diecut_report.testing.single_machine import Keys, WithMechanism, configured
-from diecut_report.testing.tried_rules import TITLES, TOLD, TriedRule, rule
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, ChangedCatalogue, built_in, changed, file_beside, languages
+from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 from diecut_report.time_limit import Overran, limited
+
+# What the contract test tells of each rule, and where in a plugin something stands.
+
+
+RuleStatus = Literal["pass", "note", "not_tried", "fail", "broke"]
+WORST_LAST = ("pass", "not_tried", "note", "fail", "broke")
+TOLD = 5  # faults of a rule that a short list tells
+TITLES = {
+    "declaration": phrase("Declarations"),
+    "dimensions": phrase("Dimensions of formulas"),
+    "printed": phrase("Printed as computed"),
+    "inputs": phrase("Inputs that are taken"),
+    "doubts": phrase("Doubtful declarations"),
+    "example": phrase("Example machine"),
+    "alone": phrase("Many machines as each alone"),
+    "verdicts": phrase("Checks that can fail"),
+    "hostile": phrase("Extreme inputs"),
+    "figures": phrase("Figures and report"),
+    "languages": phrase("Words in all languages"),
+    "speed": phrase("Time of 1000 variants"),
+}
+"""The rules of the contract, in the order in which they are tried."""
+
+
+@dataclass(frozen=True)
+class TriedRule:
+    """Hold a rule of the contract that was tried: what was found in words, and each fault with its place and what to do.
+
+    ``note`` is no fault, but what an author should know; ``broke`` is a plugin that raises where it should not.
+    """
+
+    id: str
+    status: RuleStatus
+    told: str = ""
+    faults: tuple[str, ...] = ()
+
+    @property
+    def title(self) -> Phrase:
+        """Return what the rule is about."""
+        return TITLES[self.id]
+
+    @property
+    def short_list(self) -> tuple[str, ...]:
+        """Return the first faults, and how many more there are."""
+        left = len(self.faults) - TOLD
+        if left <= 0:
+            return self.faults
+        if self.status == "note":
+            return (*self.faults[:TOLD], Counted(left, "{n} more note", "{n} more notes"))
+        return (*self.faults[:TOLD], Counted(left, "{n} more fault", "{n} more faults"))
+
+
+def rule(id: str, told: str, faults: Iterable[str], otherwise: RuleStatus = "fail") -> TriedRule:
+    """Return a rule that passes where there is no fault; of many faults the first thousand."""
+    found = tuple(dict.fromkeys(islice(faults, 1000)))
+    return TriedRule(id, otherwise if found else "pass", told, found)
+
+
+# Checks whose verdict is the same for every machine that was tried: can they fail, or hold, at all?
+
+
+CONSTANT_VERDICTS_FAR = 1.0  # powers of ten by which a number is made greater or less
+AT_ONCE, CONSTANT_VERDICTS_LONGEST = 40, 10.0  # machines calculated together; seconds after which no more are tried
+
+
+def constant(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str, str]]:
+    """Yield each check whose verdict never changes over about so many machines, each with one number, or all, far from the example's."""
+    found: dict[str, set[bool]] = {}
+    began, tried = time.process_time(), 0
+    for number in range(-(-count // AT_ONCE)):
+        for id, held in _verdicts(machine, AT_ONCE, seed + number):
+            found.setdefault(id, set()).update(held)
+        tried += AT_ONCE
+        if time.process_time() - began > CONSTANT_VERDICTS_LONGEST or all(len(held) == 2 for held in found.values()):
+            break
+    yield from ((id, _told(held.pop(), tried)) for id, held in found.items() if len(held) == 1)
+
+
+def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str, set[bool]]]:
+    """Each check of the machine with the verdicts that occur; impossible machines have none."""
+    calc = calculate(machine.mechanism, {**machine.values, **_varied(machine, count, seed)}, count)
+    possible = np.array([i not in calc.flaws for i in range(count)])
+    for check in checks_of(calc):
+        is_free = not (
+            check.presumed or is_sized(calc.given, check)
+        )  # the others hold by what the program chose or presumes
+        if is_free and is_of_machine(check) and is_made(calc, check):
+            judgement = judged(calc, check)
+            rows = judgement.governing(judgement.there) & possible
+            yield check.id, set(judgement.governing(judgement.held)[rows].tolist())
+
+
+def _told(holds: bool, count: int) -> Phrase:
+    words = (
+        "holds in all of {n} machines far from the example; make sure that it can fail"
+        if holds
+        else "fails in all of {n} machines far from the example; make sure that it can hold"
+    )
+    return Phrase(words, n=count)
+
+
+def _varied(machine: MachineCase, count: int, seed: int) -> dict[str, Array]:
+    """The numbers of all machines: each has one, or all, far from the example's, as far as that is allowed."""
+    draw, known = np.random.default_rng(seed), dict(fields(machine.mechanism.inputs))
+    numbers = [
+        name for name, value in machine.values.items() if isinstance(value, int | float) and not isinstance(value, bool)
+    ]
+    metas = {name: known.get(name) for name in numbers}
+    names = [name for name, meta in metas.items() if isinstance(meta, Quantity) and name != "n_points"]
+    chosen = draw.integers(0, len(names) + 1, count)
+    found = {}
+    for number, name in enumerate(names):
+        meta, value = metas[name], machine.values[name]
+        assert isinstance(meta, Quantity)
+        far = value * 10 ** draw.uniform(-CONSTANT_VERDICTS_FAR, CONSTANT_VERDICTS_FAR, count)
+        far = np.round(far) if meta.integer else far
+        is_far = ((chosen == number) | (chosen == len(names))) & meta.holds(far)
+        found[name] = np.where(is_far, far, value)
+    return found
+
 
 TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
 FAR = 400  # machines of which each is far from the example
@@ -179,8 +301,8 @@ class ContractTest:
         told = Phrase("{count} machines at once, {alone} of them alone too", count=TOGETHER, alone=ALONE)
         try:
             found = list(unlike(self.case, TOGETHER, ALONE, SEED))
-            if wide_machines.has_picks(self.case):
-                wide, changing, picks = wide_machines.picks(self.case, SEED, TOGETHER)
+            if machines.has_picks(self.case):
+                wide, changing, picks = machines.picks(self.case, SEED, TOGETHER)
                 found += unlike(wide, TOGETHER, ALONE, SEED)
                 told += Phrase("; again where {changing} of {picks} picks change", changing=changing, picks=picks)
         except Unproven:
@@ -296,3 +418,36 @@ def check_contract(
     test = ContractTest(mechanism, WithMechanism(mechanism, map(Path, plugins)), config, mechanism.kind)
     broken = [each for each in test.tried() if each.status in ("fail", "broke")]
     assert not broken, "\n".join(f"{each.title}: {fault}" for each in broken for fault in each.short_list)
+
+
+# Writes into a plugin's catalogues the texts that they lack, to be translated, and marks those that nothing says any more.
+
+
+LARGEST = 10_000_000  # bytes of a catalogue
+
+
+def refuse_own(origin: Origin) -> None:
+    """Refuse to write into catalogues of the program itself: UserError says why."""
+    if origin.is_own:
+        words = "{kind} comes with the program, whose catalogues are made by its own tool."
+        raise UserError(Problem(Phrase(words, kind=origin.kind)))
+
+
+def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatalogue]:
+    """Write the entries that a plugin's catalogues lack, and mark those as obsolete that nothing says; what was changed, by the file."""
+    found = {file: made for file, made in _changed(test, origin.file()) if made.added or made.obsolete}
+    write_all({file: made.content for file, made in found.items()}, keep=None)
+    return found
+
+
+def _changed(test: ContractTest, code: Path) -> Iterator[tuple[Path, ChangedCatalogue]]:
+    """Each catalogue as it is to be."""
+    for language in languages():
+        if language != SOURCE_LANGUAGE:
+            file = file_beside(code, language)
+            there = content(file, LARGEST, phrase("a catalogue of texts")) if file.is_file() else None
+            words = test.words
+            yield (
+                file,
+                changed(there, language, test.mechanism.kind, words.untranslated(language), words.unused(language)),
+            )

@@ -10,14 +10,13 @@ from functools import cached_property
 from pathlib import Path
 
 from diecut_report.config.catalogues import catalogues_for
-from diecut_report.config.discovery import Discovery
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.part_steps import Interpolated, Lookup, Pick
-from diecut_report.declaration.code_texts import code_texts, template
-from diecut_report.declaration.sources import files_around, own_files, parsed
-from diecut_report.declaration.texts import texts
-from diecut_report.languages.catalogues import Catalogues, built_in
-from diecut_report.standards import StandardSeries, StandardTable
+from diecut_report.config.plugins import Discovery
+from diecut_report.declaration.code import code_texts, template
+from diecut_report.declaration.texts import files_around, own_files, parsed, texts
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.part_steps import Interpolated, Lookup, Pick
+from diecut_report.standards.tables import StandardSeries, StandardTable
+from diecut_report.text.catalogues import Catalogues, built_in
 
 TABLES = (".csv", ".yaml", ".yml", ".json")
 LARGEST = 1_000_000  # bytes of a table that is looked through

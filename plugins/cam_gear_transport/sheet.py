@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, bind
-from diecut_report.mechanics import gripping
+from diecut_report.mechanics import contact
 from diecut_report.plugins.cam_gear_transport import advice, formulas, loads
 from diecut_report.plugins.cam_gear_transport.inputs import GRIPPED, SHEET, TORQUE
 
@@ -29,8 +29,8 @@ conveyor.words("sheet_gentler", advice.gentler_sheet,
 grippers = Chapter("Hold of the grippers",
                    text="The grippers must hold the sheet against its own inertia; air and the friction of what it slides on are left out.",
                    needs=GRIPPED, absent="not calculated: {missing} not given")
-grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", gripping.sheet_mass, source="geometry")
-grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", gripping.sheet_force, source="mechanics")
+grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", contact.sheet_mass, source="geometry")
+grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", contact.sheet_force, source="mechanics")
 grippers.words("cycles_fewer", advice.gentler_grip, ("cycles_per_hour", "sheet_force", "gripper_force"), output=False, needs=("gripper_force",))
 rest = Chapter("Rest of the sheet within a tolerance",
                text="The sheet rests as long as it is no farther than e from where it stands in the dwell: so long before and after the dwell as its "

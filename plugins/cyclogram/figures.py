@@ -25,8 +25,7 @@ from diecut_report.api import (
     told,
     vertical,
 )
-from diecut_report.mechanics.timing.intervals import Intervals
-from diecut_report.mechanics.timing.offsets import slack
+from diecut_report.mechanics.timing.intervals import Intervals, slack
 from diecut_report.mechanics.timing.productivity import tents_of
 from diecut_report.plugins.cyclogram.timing import Timing
 from diecut_report.plugins.cyclogram.torques import Motions, Torques

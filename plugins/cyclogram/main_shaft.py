@@ -12,8 +12,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import GivenMechanism, GivenPhase, Phrase, Refusal, named
-from diecut_report.mechanics.timing.intervals import Intervals, composed
-from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
+from diecut_report.mechanics.timing.intervals import DrivenLine, Intervals, common_period, composed, exact_turns
 from diecut_report.plugins.cyclogram.passing import Stretch
 
 TURN = 2 * pi

@@ -10,7 +10,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import GivenMechanism, Phrase, Refusal, told
-from diecut_report.mechanics.bracketed_roots import root
+from diecut_report.mechanics.numerics import root
 from diecut_report.plugins.cyclogram.inputs import Passage
 from diecut_report.plugins.cyclogram.kinds import POSITION, STEP
 

@@ -13,10 +13,20 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import InOtherUnit, Phrase, Refusal, phrase, told
-from diecut_report.mechanics.timing.intervals import Interval, Intervals, complement
-from diecut_report.mechanics.timing.lines import common_period
-from diecut_report.mechanics.timing.margins import PairMargin, margins_within, worst
-from diecut_report.mechanics.timing.offsets import BestOffset, Moved, best_offset, needed_length, tents
+from diecut_report.mechanics.timing.intervals import (
+    BestOffset,
+    Interval,
+    Intervals,
+    Moved,
+    PairMargin,
+    best_offset,
+    common_period,
+    complement,
+    margins_within,
+    needed_length,
+    tents,
+    worst,
+)
 from diecut_report.mechanics.timing.productivity import (
     Interlock,
     ProductivityLimit,

@@ -10,7 +10,7 @@ from numpy.typing import NDArray
 
 from diecut_report.api import Phrase, joined, phrase, si, standard_series, standard_series_by, told
 from diecut_report.mechanics import belt_path
-from diecut_report.mechanics.bracketed_roots import root
+from diecut_report.mechanics.numerics import root
 from diecut_report.plugins.drive_train.belts import length_left_over
 
 Array = NDArray[Any]

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Level, Mark, Panel, Plot, Series
 from diecut_report.plugins.drive_train.chain_figure import CHAIN
-from diecut_report.plugins.drive_train.toothed_belt import TOOTHED_BELT_FIGURES
+from diecut_report.plugins.drive_train.toothed_belt_figure import TOOTHED_BELT_FIGURES
 from diecut_report.plugins.drive_train.vbelt_figure import VBELT_LAYOUT
 
 TURN = Plot(

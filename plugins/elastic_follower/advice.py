@@ -7,7 +7,7 @@ from collections.abc import Callable, Iterator
 import numpy as np
 
 from diecut_report.api import Phrase, joined, outward, told
-from diecut_report.mechanics.follower_peaks import peaks
+from diecut_report.mechanics.followers import peaks
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.elastic_follower.motion import STIFFEST
 

@@ -22,7 +22,7 @@ from diecut_report.api import (
     phrase,
     worded,
 )
-from diecut_report.mechanics.follower_peaks import peaks
+from diecut_report.mechanics.followers import peaks
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.elastic_follower.drawing import DRAWINGS
 from diecut_report.plugins.elastic_follower.motion import CURVE

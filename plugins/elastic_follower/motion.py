@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import ByText, Chapter, Formula, Steps, bind, case
-from diecut_report.mechanics import common, linear_follower
+from diecut_report.mechanics import common, followers
 from diecut_report.mechanics.motion_laws import ACCELERATION, JOINT, PEAK_ACCELERATION, POSITION
 from diecut_report.plugins.elastic_follower import formulas, rests
 
@@ -29,14 +29,14 @@ def of_each_body(id: str, symbol: str, unit: str, description: str, formula: For
 
 
 drive = Chapter("Elastic drive")
-drive.add(of_each_body("angular_frequency", "ω", "rad/s", "Natural angular frequency", linear_follower.natural_angular_frequency,
+drive.add(of_each_body("angular_frequency", "ω", "rad/s", "Natural angular frequency", followers.natural_angular_frequency,
                        source="001, first paper"))
 drive.value("natural_frequency", "f_n", "Hz", "Natural frequency", lambda angular_frequency: angular_frequency / (2 * np.pi),
             source="001, first paper")
 drive.value("natural_period", "T_n", "ms", "Natural period", bind(formulas.inverse, frequency="natural_frequency"), source="vibration", output=False)
-drive.value("damped_frequency", "ω_d", "rad/s", "Angular frequency of the damped vibration", linear_follower.damped_angular_frequency,
+drive.value("damped_frequency", "ω_d", "rad/s", "Angular frequency of the damped vibration", followers.damped_angular_frequency,
             source="vibration", output=False)
-drive.add(of_each_body("damping_constant", "C", "N*m*s/rad", "Damping of the drive", linear_follower.damping_constant,
+drive.add(of_each_body("damping_constant", "C", "N*m*s/rad", "Damping of the drive", followers.damping_constant,
                        units=(("mass", "N*s/m"),), source="vibration"))
 
 times = Chapter("Duration of the motion",
@@ -63,7 +63,7 @@ times.require("share_of_cycle", lambda rise_time: rise_time <= 1, key="rise_time
                       "to 1, or seconds without cycles_per_hour", needs=("rise_time", *RATE))
 times.value("rise_duration", "t_r", "ms", "Duration of the rise", lambda rise_time, cycle_time: rise_time * cycle_time, needs=("rise_time", *RATE))
 times.value("rise_duration", "t_r", "ms", "Duration of the motion", lambda motion_share, cycle_time: motion_share * cycle_time, needs=CURVE)
-times.value("tuning_ratio", "λ", "1", "Natural periods within the rise", bind(linear_follower.tuning_ratio, rise_time="rise_duration"),
+times.value("tuning_ratio", "λ", "1", "Natural periods within the rise", bind(followers.tuning_ratio, rise_time="rise_duration"),
             source="001, first paper")
 times.require("not_too_soft", bind(common.is_at_least, greater="tuning_ratio", smaller=SOFTEST), key="stiffness",
               message=f"leaves {{tuning_ratio}} natural periods within the rise; at least {SOFTEST} are needed for this calculation "

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Binding, Case, Chapter, Steps, bind, case
-from diecut_report.mechanics import common, linear_follower
-from diecut_report.mechanics.follower_peaks import peaks
+from diecut_report.mechanics import common, followers
+from diecut_report.mechanics.followers import peaks
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.elastic_follower import formulas, rests
 from diecut_report.plugins.elastic_follower.motion import (
@@ -30,32 +30,32 @@ response_chapter = Chapter("Motion of the driven link",
                            text="I·ẍ = K·(y − x) + C·(ẏ − ẋ), from rest. The deflection z = x − y follows exactly from two running integrals over "
                                 "the input's acceleration (Duhamel's integral taken apart), which are taken piece by piece.")
 response_chapter.breakpoints("natural_periods", "time", every="natural_period")
-response_chapter.value("decay", "E", "1", "Share of a vibration that is left after the time t", linear_follower.decay, source="vibration",
+response_chapter.value("decay", "E", "1", "Share of a vibration that is left after the time t", followers.decay, source="vibration",
                        output=False)
-response_chapter.value("phase", "ψ", "deg", "Phase of the damped vibration", linear_follower.phase, source="vibration", output=False)
+response_chapter.value("phase", "ψ", "deg", "Phase of the damped vibration", followers.phase, source="vibration", output=False)
 response_chapter.value("in_phase_part", "c", "rad/s**2", "What the first integral adds up",
-                       bind(linear_follower.in_phase_part, input_acceleration="rigid_acceleration"), units=STRAIGHT_ACCELERATION,
+                       bind(followers.in_phase_part, input_acceleration="rigid_acceleration"), units=STRAIGHT_ACCELERATION,
                        source="Duhamel's integral", output=False)
 response_chapter.value("quadrature_part", "s_q", "rad/s**2", "What the second integral adds up",
-                       bind(linear_follower.quadrature_part, input_acceleration="rigid_acceleration"), units=STRAIGHT_ACCELERATION,
+                       bind(followers.quadrature_part, input_acceleration="rigid_acceleration"), units=STRAIGHT_ACCELERATION,
                        source="Duhamel's integral", output=False)
 response_chapter.accumulated("in_phase", "C_t", "rad/s", "First integral up to the time t", of="in_phase_part", units=STRAIGHT_SPEED,
                              source="Duhamel's integral", output=False)
 response_chapter.accumulated("quadrature", "S_t", "rad/s", "Second integral up to the time t", of="quadrature_part", units=STRAIGHT_SPEED,
                              source="Duhamel's integral", output=False)
-response_chapter.value("deflection", "z", "deg", "Deflection of the drive: link ahead of the input", linear_follower.deflection, units=STRAIGHT,
+response_chapter.value("deflection", "z", "deg", "Deflection of the drive: link ahead of the input", followers.deflection, units=STRAIGHT,
                        source="Duhamel's integral")
-response_chapter.value("swing_speed", "v_ψ", "rad/s", "What the phase's growth gives of the deflection's speed", linear_follower.swing_speed,
+response_chapter.value("swing_speed", "v_ψ", "rad/s", "What the phase's growth gives of the deflection's speed", followers.swing_speed,
                        units=STRAIGHT_SPEED, source="Duhamel's integral", output=False)
-response_chapter.value("deflection_speed", "v_z", "rad/s", "Speed of the deflection", linear_follower.deflection_velocity, units=STRAIGHT_SPEED,
+response_chapter.value("deflection_speed", "v_z", "rad/s", "Speed of the deflection", followers.deflection_velocity, units=STRAIGHT_SPEED,
                        source="Duhamel's integral", output=False)
 response_chapter.value("response", "x", "deg", "Position of the driven link", lambda input, deflection: input + deflection, units=STRAIGHT,
                        source="kinematics")
 response_chapter.value("acceleration", "a", "rad/s**2", "Acceleration of the driven link",
-                       bind(linear_follower.response_acceleration, deflection_velocity="deflection_speed"), units=STRAIGHT_ACCELERATION,
+                       bind(followers.response_acceleration, deflection_velocity="deflection_speed"), units=STRAIGHT_ACCELERATION,
                        source="001, first paper")
 response_chapter.value("torque", "M", "N*m", "Torque (or force) of the drive on the link",
-                       bind(linear_follower.drive_torque, deflection_velocity="deflection_speed"), units=FORCE, source="statics")
+                       bind(followers.drive_torque, deflection_velocity="deflection_speed"), units=FORCE, source="statics")
 
 
 def _while(rising: bool, symbol: str, words: str) -> Steps:

@@ -8,7 +8,7 @@ from functools import cache
 import numpy as np
 
 from diecut_report.api import Spectrum, SpectrumLine
-from diecut_report.mechanics.follower_peaks import Peaks, peaks
+from diecut_report.mechanics.followers import Peaks, peaks
 from diecut_report.mechanics.motion_laws import LAWS
 
 FIRST, LAST = 0.5, 10.0  # natural periods within the rise

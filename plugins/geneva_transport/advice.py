@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Phrase, below, phrase, told
-from diecut_report.mechanics import triangle
+from diecut_report.mechanics import common
 from diecut_report.plugins.geneva_transport import formulas, loads
 
 ACCEPTED_OVERLAP = 5e-6  # m, of the arms' tips and the disc: half of what the check accepts
@@ -28,7 +28,7 @@ def gaps(slots: float, center: float, rim: Any, locking: Any, disc: Any, alpha: 
     ratio, step = formulas.crank_ratio(slots), formulas.step_angle(slots)
     tip = loads.tip_half_angle(center, rim, locking)
     place = loads.corner_place(formulas.wheel_angle(alpha, 0, step, ratio), 0, step, tip, slots)
-    distance = triangle.third_side(center, rim, place)
+    distance = common.third_side(center, rim, place)
     crank = formulas.crank_radius(ratio, center)
     hollow, radius = (loads.scaled(length, disc, crank) for length in (center, formulas.wheel_radius(slots, center)))
     along = loads.corner_along(center, rim, place, alpha)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, as_angle, bind, case
-from diecut_report.mechanics import common, contact, triangle
+from diecut_report.mechanics import common, contact
 from diecut_report.plugins.geneva_transport import advice, formulas, loads
 from diecut_report.plugins.geneva_transport.motion import CONVEYOR_NEEDS
 
@@ -89,7 +89,7 @@ locking.value("tip_half_angle", "δ_l", "deg", "Half the angle of a locking arc 
 locking.value("corner_place", "δ", "deg", "Angle of an arm's inner corner, beside its locking arc, from the line of centres", loads.corner_place,
               source="geometry", output=False)
 locking.value("corner_distance", "d_δ", "mm", "Distance of this corner from the crank's axis",
-              bind(triangle.third_side, one_side="center_distance", other_side="rim_radius", enclosed="corner_place"), source="geometry",
+              bind(common.third_side, one_side="center_distance", other_side="rim_radius", enclosed="corner_place"), source="geometry",
               output=False)
 locking.value("corner_along", "x_δ", "mm", "Part of it along the crank", loads.corner_along, source="geometry", output=False)
 locking.value("corner_to_hollow", "h_δ", "mm", "Distance of this corner from the hollow's centre", loads.corner_to_hollow, source="geometry",
@@ -100,7 +100,7 @@ locking.reduction("cutout_gap", "g", "mm", "Least gap between the arms' tips and
 locking.value("cutout_overlap", "g_o", "mm", "Overlap of the arms' tips and the disc", bind(loads.overlap, gap="cutout_gap"), source="geometry",
               output=False)
 locking.value("hold_half_angle", "θ_l", "deg", "Half the angle over which an arc of the wheel encloses the disc",
-              bind(triangle.enclosed_angle, one_side="center_distance", other_side="locking_radius", opposite_side="rim_radius"), source="geometry",
+              bind(common.enclosed_angle, one_side="center_distance", other_side="locking_radius", opposite_side="rim_radius"), source="geometry",
               exists=REACHES)
 locking.value("cover", "φ_d", "deg", "Angle by which the disc covers the wheel's arc on the side where it does so least",
               lambda cover_angle, hold_half_angle: np.minimum(cover_angle, hold_half_angle), source="geometry", exists=REACHES, needs=HELD)

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Case, Chapter, Steps, as_angle, bind, case
-from diecut_report.mechanics import gripping
+from diecut_report.mechanics import contact
 from diecut_report.plugins.geneva_transport import advice, formulas
 from diecut_report.plugins.geneva_transport.inputs import GRIPPED
 
@@ -128,8 +128,8 @@ conveyor.value("sheet_acceleration_entry", "a_e", "m/s**2", "Jump of the sheet's
 grippers = Chapter("Hold of the grippers",
                    text="The grippers must hold the sheet against its own inertia; air and the friction of what it slides on are left out.",
                    needs=GRIPPED, absent="not calculated: {missing} not given")
-grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", gripping.sheet_mass, source="geometry")
-grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", gripping.sheet_force, source="mechanics")
+grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", contact.sheet_mass, source="geometry")
+grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", contact.sheet_force, source="mechanics")
 grippers.words("crank_slower_for_grippers", advice.slower_crank, ("crank_speed", "sheet_force", "gripper_force"), output=False,
                needs=("gripper_force",))
 rest = Chapter("Rest of the sheet within a tolerance",

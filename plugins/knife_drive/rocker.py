@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from diecut_report.api import Bound, Formula, Steps, bind
-from diecut_report.mechanics import common, four_bar, triangle
+from diecut_report.mechanics import common, four_bar
 from diecut_report.plugins.knife_drive import advice, formulas, working
 from diecut_report.plugins.knife_drive.drives import GRIP, NO_SPEED
 
@@ -120,7 +120,7 @@ PLACES.add(_either("dead_span", "λ_d", "1", "Crank and coupler in line at the l
                    bind(formulas.longer_by_one, ratio="coupler_ratio"), bind(formulas.shorter_by_one, ratio="coupler_ratio"), source="geometry",
                    output=False))
 PLACES.value("dead_transmission_angle", "μ_0", "deg", "Transmission angle at the lowest point",
-             bind(triangle.enclosed_angle, one_side="dead_span", other_side="rocker_ratio",
+             bind(common.enclosed_angle, one_side="dead_span", other_side="rocker_ratio",
              opposite_side="frame_ratio"), source="law of cosines")
 PLACES.add(_either("acceleration_end", "a_0", "m/s**2", "Acceleration of the edge at its lowest point",
                    bind(formulas.end_acceleration_outer, knife_arm=ARM, dead_angle="dead_transmission_angle"),

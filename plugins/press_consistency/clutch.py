@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 
 from diecut_report.mechanics.timing.engagement import Slip, SlippingClutch, inertia_at_crank, slip, worst_slip
-from diecut_report.mechanics.timing.piece_rows import PieceRows
+from diecut_report.mechanics.timing.shaft_curves import PieceRows
 
 TURN = 2 * np.pi
 CYLINDER = ("cylinder_inertia", "cylinder_mass", "cylinder_radius", "static_unbalance")

@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, as_number, bind, case
-from diecut_report.mechanics.timing import motor_slip
+from diecut_report.mechanics.timing import engagement as motor_slip
 from diecut_report.mechanics.timing.engagement import inertia_at_crank
 from diecut_report.plugins.press_consistency import clutch, ends, motor, motor_advice, on_main_shaft
 

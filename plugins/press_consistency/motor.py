@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Curve
-from diecut_report.mechanics.timing.motor_slip import motor_response
-from diecut_report.mechanics.timing.piece_rows import PieceRows
+from diecut_report.mechanics.timing.engagement import motor_response
+from diecut_report.mechanics.timing.shaft_curves import PieceRows
 
 PIECES = 8  # of each turn of the drive train's output, at least
 

@@ -12,8 +12,8 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Curve, Phrase, joined, phrase, told
-from diecut_report.mechanics.timing.motor_slip import motor_response
-from diecut_report.mechanics.timing.piece_rows import PieceRows
+from diecut_report.mechanics.timing.engagement import motor_response
+from diecut_report.mechanics.timing.shaft_curves import PieceRows
 from diecut_report.plugins.press_consistency.motor import load_of
 
 DOUBLINGS = 16

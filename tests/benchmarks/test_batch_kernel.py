@@ -9,8 +9,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.contract.steps import Crossings
-from diecut_report.engine import calculate
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.steps import Crossings
 from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.results.checks import applies, judged
 

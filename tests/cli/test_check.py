@@ -136,7 +136,7 @@ def test_only_the_asked_formats_are_written(firm: Path, tmp_path: Path) -> None:
 
 def test_strict_ends_with_1_where_something_is_not_checked() -> None:
     from diecut_report.cli.checking import _code
-    from diecut_report.study.machines.verdicts import Verdict
+    from diecut_report.study.machines import Verdict
 
     doubtful = [Verdict("a", "a.yaml", "pass", not_checked=2)]
     assert (_code(doubtful, strict=False), _code(doubtful, strict=True)) == (0, 1)
@@ -145,8 +145,7 @@ def test_strict_ends_with_1_where_something_is_not_checked() -> None:
 
 
 def test_what_is_not_checked_is_counted_from_the_results() -> None:
-    from diecut_report.study.machines.calculation import CheckedMachine
-    from diecut_report.study.machines.verdicts import verdict
+    from diecut_report.study.machines import CheckedMachine, verdict
 
     results = {"mechanisms": {}, "summary": {"warn": 0, "not_checked": 7}}
     assert verdict(CheckedMachine("a.yaml", "pass", results), "a").not_checked == 7

@@ -16,7 +16,7 @@ import pytest
 
 from diecut_report import __version__, plugins
 from diecut_report.cli.main import main
-from diecut_report.cli.progress import Progress
+from diecut_report.cli.output import Progress
 from tests.configs import BROKEN, GOOD, HEAD, LEVER, LISTED, SMALL, saved
 from tests.processes import Example, in_another_process
 
@@ -393,7 +393,7 @@ def test_an_interrupted_run_ends_at_once_and_writes_nothing(tmp_path: Path) -> N
 
 
 def test_progress_is_not_shown_when_it_is_quick(capfd: Capture, monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("diecut_report.cli.progress.PATIENCE", 60)
+    monkeypatch.setattr("diecut_report.cli.output.PATIENCE", 60)
     monkeypatch.setattr("sys.stderr.isatty", lambda: True, raising=False)
     with Progress(quiet=False) as progress:
         progress("doing")

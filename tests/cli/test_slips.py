@@ -10,7 +10,7 @@ import pytest
 
 import diecut_report as dr
 from diecut_report.cli.main import main, program
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.live.session import LiveSession
 from tests.configs import problems, saved
 from tests.examples import few

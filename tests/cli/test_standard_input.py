@@ -11,7 +11,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config import yaml_tree
+from diecut_report.config import yaml
 from tests.configs import GOOD, HEAD
 
 Capture = pytest.CaptureFixture[str]
@@ -107,7 +107,7 @@ def test_relative_files_are_sought_from_the_current_folder(give: Give, tmp_path:
 def test_what_is_too_much_closed_or_asked_for_twice_is_refused(
     give: Give, monkeypatch: pytest.MonkeyPatch, capfd: Capture
 ) -> None:
-    give(b"#" * (yaml_tree.MAX_BYTES + 1))
+    give(b"#" * (yaml.MAX_BYTES + 1))
     assert main(["calc", "-"]) == 2
     give(PRESS)
     assert main(["diff", "-", "-", *PLUGINS]) == 2

@@ -6,9 +6,8 @@ import re
 
 import pytest
 
-from diecut_report.cli.main import main
-from diecut_report.cli.usage import worded
-from diecut_report.languages.phrases import Phrase
+from diecut_report.cli.main import main, worded
+from diecut_report.text.phrases import Phrase
 from tests.configs import EXAMPLE
 
 KNIFE = EXAMPLE.with_name("circular_knife.yaml")

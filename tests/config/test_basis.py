@@ -8,7 +8,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.config.basis import BASES, weakest
+from diecut_report.config.validation import BASES, weakest
 from tests.config.test_references import results
 from tests.configs import HEAD, LEVER, problems
 

@@ -6,8 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.model import Project
+from diecut_report.config.plugins import Discovery
 from tests.configs import BROKEN, DISCOVERY, GOOD, HEAD, LEVER, loaded, problems
 
 

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.config import curve_keys
-from diecut_report.config.discovery import Discovery
+from diecut_report.config import references
 from diecut_report.config.instances import Instance
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import Linker
 from diecut_report.config.schema import block_schema
 from diecut_report.errors import UserError
@@ -86,7 +86,7 @@ def test_curves_of_several_mechanisms_are_laid_under_their_keys_together(
             made.append(self)
             super().__init__(instances)
 
-    monkeypatch.setattr(curve_keys, "Linker", CountedLinker)
+    monkeypatch.setattr(references, "Linker", CountedLinker)
     torque = 'torque: "${drive.total_moment}"'
     text = HEAD + "".join(gears(name, torque) for name in ("first", "next", "last")) + DRIVE
     instances = loaded(tmp_path, text, PLUGINS).instances

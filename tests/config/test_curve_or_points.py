@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from tests.configs import problems
 
 PLUGIN = '''"""A load over a way, point by point or as a curve."""

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.config import discovery
-from diecut_report.config.discovery import Discovery, DuplicateKind, UnknownKind
+from diecut_report.config import plugins
+from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, UserError
 from tests.configs import BROKEN, GOOD, LISTED
 
@@ -19,13 +19,13 @@ pytestmark = pytest.mark.wheel
 
 def installed(monkeypatch: pytest.MonkeyPatch, **values: str) -> None:
     """Pretend that other packages announce these kinds."""
-    entries = [EntryPoint(name, value, discovery.GROUP) for name, value in values.items()]
-    monkeypatch.setattr(discovery, "entry_points", lambda group: [e for e in entries if e.group == group])
+    entries = [EntryPoint(name, value, plugins.GROUP) for name, value in values.items()]
+    monkeypatch.setattr(plugins, "entry_points", lambda group: [e for e in entries if e.group == group])
 
 
 def test_the_built_in_kinds_are_known_without_importing_them() -> None:
     code = (
-        "import sys; from diecut_report.config.discovery import Discovery; print(sorted(Discovery().origins)); "
+        "import sys; from diecut_report.config.plugins import Discovery; print(sorted(Discovery().origins)); "
         "print([m for m in sys.modules if m.startswith('diecut_report.plugins.')])"
     )
     shown = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout.splitlines()
@@ -65,7 +65,7 @@ def project(folder: Path, title: str, name: str = "bar_chain", inner: str = "wor
     """A project whose package imports its own modules by its name, as where it is installed."""
     package = folder / "src" / name
     package.mkdir(parents=True)
-    (folder / "pyproject.toml").write_text(f"[project.entry-points.'{discovery.GROUP}']\nbar_chain = '{name}'\n")
+    (folder / "pyproject.toml").write_text(f"[project.entry-points.'{plugins.GROUP}']\nbar_chain = '{name}'\n")
     (package / "words.py").write_text(f"TITLE = {title!r}\n")
     (package / "__init__.py").write_text(
         f"from diecut_report.api import Inputs, Mechanism\nfrom {name}.{inner} import TITLE\n"
@@ -202,8 +202,8 @@ def test_an_extension_is_run_once_and_is_no_kind(tmp_path: Path) -> None:
 
 
 def test_an_extension_of_an_installed_package_is_run(monkeypatch: pytest.MonkeyPatch) -> None:
-    entries = [EntryPoint("laws", "no_such_module_of_laws", discovery.EXTENSIONS)]
-    monkeypatch.setattr(discovery, "entry_points", lambda group: [e for e in entries if e.group == group])
+    entries = [EntryPoint("laws", "no_such_module_of_laws", plugins.EXTENSIONS)]
+    monkeypatch.setattr(plugins, "entry_points", lambda group: [e for e in entries if e.group == group])
     with pytest.raises(
         UserError, match=r"laws of an installed package: This extension cannot be loaded: .*no_such_module"
     ):

@@ -10,11 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report import limits, pipeline
+from diecut_report import errors, pipeline
 from diecut_report.config.loader import load_config
 from diecut_report.errors import UserError
-from diecut_report.quantities.unit_spelling import normalised
-from diecut_report.quantities.units import UnitError, parse_quantity
+from diecut_report.quantities.units import UnitError, normalised, parse_quantity
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from tests.configs import DISCOVERY, HEAD, LEVER, problems, saved
@@ -90,7 +89,7 @@ def test_a_pdf_of_many_mechanisms_is_refused_before_it_is_calculated(tmp_path: P
 def test_comparisons_beyond_the_cap_are_named_with_the_way_to_them(
     tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    assert limits.MAX_COMPARISONS == 12
+    assert errors.MAX_COMPARISONS == 12
     for module in ("press_run", "document"):
         monkeypatch.setattr(f"diecut_report.results.{module}.MAX_COMPARISONS", 2)  # quicker
     feeders = "".join(f"  c{index}: {CAM}\n  g{index}: {GENEVA}\n" for index in range(2))
@@ -116,7 +115,7 @@ def test_blanks_within_a_unit_are_as_before() -> None:
 
 def test_the_page_tells_each_cap() -> None:
     page = re.sub(r"(?<=\d) (?=\d{3})", "", PAGE.read_text("utf-8"))
-    for name, value in vars(limits).items():
+    for name, value in vars(errors).items():
         assert not name.startswith("MAX_") or re.search(rf"\| {value} \|", page), name
 
 

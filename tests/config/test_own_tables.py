@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
 from diecut_report.config.own_tables import MOST
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema
-from diecut_report.config.yaml_tree import MAX_BYTES
+from diecut_report.config.yaml import MAX_BYTES
 from diecut_report.errors import UserError
 from diecut_report.plugins.shaft import MECHANISM
 from diecut_report.results.document import document

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.config.references import texts
-from diecut_report.contract.mechanism import Partner
+from diecut_report.config.model import texts
+from diecut_report.config.plugins import Discovery
+from diecut_report.mechanism.mechanism import Partner
 from diecut_report.pipeline import calc
 from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.results.document import document

@@ -8,8 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema
 from diecut_report.errors import UserError
 from diecut_report.results.document import document

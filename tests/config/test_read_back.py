@@ -11,9 +11,9 @@ import pytest
 from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
-from diecut_report.config import yaml_tree
-from diecut_report.config.discovery import Discovery
+from diecut_report.config import yaml
 from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
 from diecut_report.quantities import units
 from diecut_report.quantities.formatting import as_given, as_typed
 from diecut_report.quantities.units import unit
@@ -43,7 +43,7 @@ SOME = {*list(TABLE["units"])[::4], *RARE[::2]}  # what a unit does to a value i
 @example(value=-1e-300)
 def test_a_value_of_any_unit_is_read_back_as_the_same_float(name: str, value: float) -> None:
     for written in (as_given(value, name), as_typed(value, name)):
-        read = yaml_tree.parse(json.dumps({"key": written}), "test").data["key"]
+        read = yaml.parse(json.dumps({"key": written}), "test").data["key"]
         found = units.parse_quantity(read, name)
         assert found.hex() == value.hex()
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 
 KNIFE = Path(__file__, "../../../configs/circular_knife.yaml").resolve().read_text(encoding="utf-8")

@@ -14,8 +14,8 @@ import pytest
 
 from diecut_report import pipeline
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.source_hashes import PACKAGE, plugin_hash, program_hash
 from diecut_report.errors import UserError
 from diecut_report.report.rendering import render_html

@@ -9,8 +9,8 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.config.written_values import as_file, written
-from diecut_report.config.yaml_tree import KeyPath, load, parse
+from diecut_report.config.references import as_file, written
+from diecut_report.config.yaml import KeyPath, load, parse
 from diecut_report.errors import UserError
 from tests.configs import EXAMPLE
 

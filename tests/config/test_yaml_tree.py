@@ -12,9 +12,8 @@ from typing import Any
 import pytest
 import yaml
 
-from diecut_report.config import yaml_tree
-from diecut_report.config.hidden_letters import printable
-from diecut_report.config.yaml_tree import MAX_BYTES, MAX_DEPTH, load, parse
+from diecut_report.config import yaml as yaml_tree
+from diecut_report.config.yaml import MAX_BYTES, MAX_DEPTH, load, parse, printable
 from diecut_report.errors import Problem, UserError
 
 LOADERS = [yaml.SafeLoader, *([yaml.CSafeLoader] if yaml.__with_libyaml__ else [])]

@@ -7,11 +7,20 @@ from typing import Any
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.result_names import ResultName, named, names_ahead, result_names
-from diecut_report.contract.sections import prefixed, taken
-from diecut_report.contract.steps import SILENT, Breakpoints, Crossings, Reduction, Step
+from diecut_report.config.plugins import Discovery
+from diecut_report.mechanism.chapters import prefixed, taken
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.steps import (
+    SILENT,
+    Breakpoints,
+    Crossings,
+    Reduction,
+    ResultName,
+    Step,
+    named,
+    names_ahead,
+    result_names,
+)
 from tests.engine.loop import MECHANISM as LOOP
 from tests.engine.test_loop import told
 

@@ -47,10 +47,10 @@ from diecut_report.api import (
     bind,
     formula,
 )
-from diecut_report.contract.figures import Figure
 from diecut_report.declaration import faults
-from diecut_report.languages.speech import said, speaking
-from diecut_report.testing import check_mechanism
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.mechanism.figures import Figure
+from diecut_report.text.translation import said, speaking
 
 
 class Bar(Block):

@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report import declaration
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError
 from tests.configs import GOOD
 

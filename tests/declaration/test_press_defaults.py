@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from diecut_report.api import ExampleBlock, FromPress, Inputs, Quantity, formula
-from diecut_report.config.discovery import Discovery
-from diecut_report.config.press_defaults import faults
+from diecut_report.config.model import faults
+from diecut_report.config.plugins import Discovery
 from tests.declaration.test_faults import made
 
 

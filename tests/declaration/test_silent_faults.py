@@ -34,7 +34,7 @@ from diecut_report.api import (
     formula,
     standard_series,
 )
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
 from diecut_report.errors import PluginError
 from tests.declaration.test_faults import (

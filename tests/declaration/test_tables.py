@@ -27,9 +27,10 @@ from diecut_report.api import (
     own_series,
     own_table,
 )
-from diecut_report.config.discovery import Discovery, PluginError
-from diecut_report.contract.place import Misdeclared
+from diecut_report.config.plugins import Discovery
 from diecut_report.declaration import faults
+from diecut_report.errors import PluginError
+from diecut_report.mechanism.names import Misdeclared
 
 SOURCES = ("One", "Two")
 BEARINGS = own_table(

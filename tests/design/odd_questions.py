@@ -9,11 +9,10 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, load_config
-from diecut_report.design.design_inputs import given_numbers
-from diecut_report.design.proved_machine import proved
-from diecut_report.design.varied_machines import CHECKS, quantities
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.inputs import given_numbers
+from diecut_report.design.machines import CHECKS, proved, quantities
 from diecut_report.study.definition.base_inputs import known_paths
 from tests.configs import EXAMPLE, GOOD, HEAD
 

@@ -10,12 +10,11 @@ import numpy as np
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.design.advice import mended
-from diecut_report.design.advice_text import share_told
-from diecut_report.design.design_inputs import design_input
-from diecut_report.design.varied_machines import varied
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.advice import mended, share_told
+from diecut_report.design.inputs import design_input
+from diecut_report.design.machines import varied
 from diecut_report.results.advised_changes import AdvisedChange, advised_changes
 from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 from tests.examples import few

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.design.demanded import demanded
+from diecut_report.design.inputs import demanded
 from tests.configs import DISCOVERY, HEAD, saved
 
 PLUGIN = """

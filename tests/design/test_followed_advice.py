@@ -8,8 +8,8 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.report.advice import followed_line
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.chapters.front import followed_line
+from diecut_report.report.text import Catalogue
 from tests.configs import HEAD, saved
 
 CLUTCH = (

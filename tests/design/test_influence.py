@@ -12,10 +12,10 @@ from scipy.stats import beta, norm
 
 from diecut_report import __version__
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.design.design_inputs import DesignInput, given_numbers, numbers_at_default
+from diecut_report.config.plugins import Discovery
 from diecut_report.design.influence import _ends
+from diecut_report.design.inputs import DesignInput, given_numbers, numbers_at_default
 from tests.configs import EXAMPLE, GOOD, HEAD, saved
 
 Capture = pytest.CaptureFixture[str]

@@ -8,9 +8,8 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from diecut_report.design.line_search import crossings, greatest, looked_closer
-from diecut_report.design.root_search import roots
-from diecut_report.expressions import Array
+from diecut_report.design.solving import crossings, greatest, looked_closer, roots
+from diecut_report.formulas import Array
 
 X = np.linspace(0.1, 4.0, 20)
 

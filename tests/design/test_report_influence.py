@@ -9,7 +9,7 @@ import pytest
 from scipy.stats import norm
 
 from diecut_report.cli.main import main
-from diecut_report.report import Rendering
+from diecut_report.report.rendering import Rendering
 from tests.configs import GOOD, HEAD, saved
 
 Capture = pytest.CaptureFixture[str]

@@ -12,9 +12,8 @@ from scipy.optimize import brentq
 
 from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
-from diecut_report.design.design_inputs import design_input
-from diecut_report.design.proved_machine import proved
-from diecut_report.design.varied_machines import varied
+from diecut_report.design.inputs import design_input
+from diecut_report.design.machines import proved, varied
 from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 
 KNIFE = EXAMPLE.with_name("circular_knife.yaml")

@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from diecut_report.config.loader import load_config
-from diecut_report.config.yaml_tree import load
-from diecut_report.design.design_inputs import design_input, given_numbers
-from diecut_report.design.proved_machine import proved, write_config
-from diecut_report.design.varied_machines import SLACK, narrowed, quantities, varied
+from diecut_report.config.yaml import load
+from diecut_report.design.inputs import design_input, given_numbers
+from diecut_report.design.machines import SLACK, narrowed, proved, quantities, varied, write_config
 from diecut_report.errors import UserError
 from tests.configs import DISCOVERY, EXAMPLE, HEAD, loaded, saved
 

@@ -6,7 +6,8 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.testing import check_mechanism, load
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.testing.machines import load
 from tests.docs.pages import ROOT, PageRun
 
 FOLDER = ROOT / "docs" / "how-to"

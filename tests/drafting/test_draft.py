@@ -13,13 +13,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report import pipeline
-from diecut_report.config import yaml_tree
+from diecut_report.config import yaml as yaml_tree
 from diecut_report.config.catalogues import catalogues_for
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.drafting import Draft, draft
 from diecut_report.config.loader import load_config
-from diecut_report.drafting.draft import Draft, draft
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError
-from diecut_report.languages.speech import speaking
+from diecut_report.text.translation import speaking
 from tests.configs import DISCOVERY
 from tests.examples import examples, few
 

@@ -7,9 +7,10 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.inputs import flatten
-from diecut_report.contract.unit_variants import in_form
-from diecut_report.engine import Calculation, CurveHandle, calculate
+from diecut_report.machine.calculation import Calculation, CurveHandle
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.chapters import in_form
+from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.mechanism import mechanism_results
 from tests.engine.swing import MECHANISM, Swing
 

@@ -10,10 +10,10 @@ import pytest
 
 from diecut_report.api import POINTS, Annotated, Block, Chapter, Drawing, Inputs, Mechanism, Quantity, Text
 from diecut_report.declaration import faults
-from diecut_report.engine import calculate
-from diecut_report.engine.calculation import Impossible, Unproven
-from diecut_report.engine.figure_views import figures
-from diecut_report.engine.printing.items import section_items
+from diecut_report.machine.calculation import Impossible, Unproven
+from diecut_report.machine.figure_views import figures
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
 
 SERIES = (100.0, 160.0, 200.0)
 

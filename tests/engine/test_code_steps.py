@@ -19,12 +19,13 @@ from diecut_report.api import (
     Refusal,
     Varying,
 )
-from diecut_report.contract.inputs import flatten
-from diecut_report.contract.place import Misdeclared
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.printing.items import section_items
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
+from diecut_report.mechanism.names import Misdeclared
 from diecut_report.results.checks import check_results
-from diecut_report.testing import check_mechanism
 
 
 class Ramp(Inputs):

@@ -8,16 +8,15 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.model import PRESS
-from diecut_report.contract.inputs import Quantity
-from diecut_report.contract.steps import Choice, Value
-from diecut_report.engine import Calculation
-from diecut_report.engine.numerics import curve_evaluation
-from diecut_report.engine.numerics.codegen import Program
-from diecut_report.engine.numerics.curve_evaluation import MANY, Curves
+from diecut_report.config.plugins import Discovery
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.numerics import curves as curve_evaluation
+from diecut_report.machine.numerics.curves import MANY, Curves, Program
 from diecut_report.mechanics.motion_laws import LAWS
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.mechanism.steps import Choice, Value
 from diecut_report.study.definition.base_inputs import Input, UnknownPath, find_input, known_paths
 from diecut_report.study.execution.press_batch import calculated
 from tests.configs import ON_ARRAYS

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Annotated, Chapter, CurveInput, Inputs, Mechanism, Require, Value, bind, formula
-from diecut_report.contract.steps import Root
-from diecut_report.engine import Calculation, CurveHandle, Impossible, Unproven, calculate
+from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible, Unproven
+from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
+from diecut_report.mechanism.steps import Root
 from diecut_report.results.mechanism import mechanism_results
 from tests.engine.toy import MECHANISM, ROOTED, cube, cubed, doubled, plus_one, same, zero
 from tests.machines import inputs, number

@@ -9,15 +9,15 @@ from typing import Any
 import jsonschema
 import pytest
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema, kind_schema
-from diecut_report.contract.inputs import flatten
-from diecut_report.contract.unit_variants import in_form
-from diecut_report.engine import calculate
 from diecut_report.errors import UserError
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.chapters import in_form
+from diecut_report.mechanism.inputs import flatten
 from diecut_report.pipeline import calc as run
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import problems, saved
 from tests.engine.swing import MECHANISM, Swing

@@ -8,9 +8,9 @@ from typing import Annotated, Any
 import pytest
 
 from diecut_report.api import Block, Derivative, FromPress, Inputs, Mechanism, Quantity, SpectrumLine, Step
-from diecut_report.contract.inputs import meta_of
-from diecut_report.contract.unit_variants import form_keys, in_all_units, in_form, in_unit
-from diecut_report.testing import check_mechanism
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.mechanism.chapters import form_keys, in_all_units, in_form, in_unit
+from diecut_report.mechanism.inputs import meta_of
 from tests.engine.swing import MECHANISM, RATIOS, SPECTRUM, Swing
 from tests.testing.test_testing import mechanism as of_steps
 

@@ -10,12 +10,14 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Block, Chapter, Inputs, ListedColumn, Mechanism, Quantity, Text, case, own_table
-from diecut_report.contract.inputs import flatten
-from diecut_report.contract.place import Misdeclared
 from diecut_report.declaration import faults
-from diecut_report.engine import Calculation, calculate, listings
-from diecut_report.engine.printing.items import section_items
-from diecut_report.testing import check_mechanism
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.machine import mechanism as listings
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
+from diecut_report.mechanism.names import Misdeclared
 
 BEARINGS = own_table(
     title="Bearings",

@@ -6,7 +6,7 @@ import tracemalloc
 
 import numpy as np
 
-from diecut_report.engine.numerics.domain import SAME, Domain
+from diecut_report.machine.numerics.domain import SAME, Domain
 
 
 def cut(places: np.ndarray, period: float = 2.0) -> Domain:

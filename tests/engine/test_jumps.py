@@ -7,11 +7,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.engine import Calculation
-from diecut_report.engine.numerics.discontinuities import jumping
-from diecut_report.engine.numerics.sample_cache import JUMP
+from diecut_report.config.plugins import Discovery
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.numerics.jumps import jumping
+from diecut_report.machine.numerics.samples import JUMP
 from tests.configs import ON_ARRAYS
 from tests.engine.test_compiled import EXAMPLES_AT_HAND, axes, machines, stem
 

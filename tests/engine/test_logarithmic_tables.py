@@ -9,12 +9,13 @@ import pytest
 from scipy.integrate import quad
 
 from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity, own_table
-from diecut_report.contract.inputs import flatten
-from diecut_report.contract.place import Misdeclared
 from diecut_report.declaration import faults
-from diecut_report.engine import Calculation, calculate
-from diecut_report.engine.printing.items import section_items
-from diecut_report.testing import check_mechanism
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
+from diecut_report.mechanism.names import Misdeclared
 from tests.engine.test_tables import eval_json
 
 SPEEDS, FORCES = (10.0, 100.0, 1000.0), (8.0, 2.0, 1.0)  # rpm, kN

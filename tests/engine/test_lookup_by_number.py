@@ -8,11 +8,12 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Block, Chapter, Inputs, Mechanism, Quantity, Text, own_table
-from diecut_report.contract.inputs import flatten
 from diecut_report.declaration import faults
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.printing.items import section_items
-from diecut_report.testing import check_mechanism
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
 
 RODS = own_table(
     title="Cylinders",

@@ -9,13 +9,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.contract.inputs import flatten
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.printing.substitution import printed
+from diecut_report.config.plugins import Discovery
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.printing.substitution import printed
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
 from diecut_report.pipeline import calc as run
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import check_mechanism
 from tests.configs import problems, saved
 from tests.engine.loop import COMPARED, MECHANISM, Loop
 

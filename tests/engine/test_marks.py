@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from diecut_report.api import POINTS, Annotated, Chapter, Chart, Inputs, Mark, Mechanism, Panel, Plot, Quantity, Series
-from diecut_report.engine import calculate
-from diecut_report.engine.figure_views import figures
+from diecut_report.machine.figure_views import figures
+from diecut_report.machine.steps.run import calculate
 
 
 class Wave(Inputs):

@@ -4,9 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.engine.printing.definitions import definitions
-from diecut_report.engine.printing.substitution import _constant, _quantity
-from diecut_report.expressions import Node, formula
+from diecut_report.formulas.formula import formula
+from diecut_report.formulas.tree import Node
+from diecut_report.machine.printing.items import definitions
+from diecut_report.machine.printing.substitution import _constant, _quantity
 
 
 @formula(printed_as="inv")

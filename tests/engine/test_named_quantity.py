@@ -9,11 +9,12 @@ import numpy as np
 import pytest
 
 from diecut_report.api import POINTS, Block, Chapter, Inputs, Mechanism, Quantity, Text
-from diecut_report.contract.place import Misdeclared
 from diecut_report.declaration import faults
-from diecut_report.engine import Calculation, calculate
-from diecut_report.engine.printing.substitution import filled
-from diecut_report.expressions import Node
+from diecut_report.formulas.tree import Node
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.printing.substitution import filled
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.names import Misdeclared
 from diecut_report.results.mechanism import mechanism_results
 
 

@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report.testing import Refused, calculate, load
-from diecut_report.testing.found_values import MechanismFound
+from diecut_report.testing.machines import Refused, calculate, load
+from diecut_report.testing.values import MechanismFound
 
 SPRINGS = """
 from diecut_report.api import *

@@ -9,9 +9,10 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Block, Chapter, Inputs, Mechanism, Quantity
-from diecut_report.contract.place import Misdeclared
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.printing.items import section_items
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.names import Misdeclared
 
 
 class Peg(Block):

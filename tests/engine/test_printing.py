@@ -8,7 +8,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.expressions import Node, evaluate
+from diecut_report.formulas.formula import evaluate
+from diecut_report.formulas.tree import Node
 from diecut_report.quantities.formatting import number_text, shortest, told
 from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism import mechanism_results

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.engine.calculation import CurveHandle
-from diecut_report.engine.numerics.recent_places import RecentPlaces
+from diecut_report.machine.calculation import CurveHandle
+from diecut_report.machine.numerics.domain import RecentPlaces
 from tests.engine.test_switches import FORMULAS, run, wheel
 
 X = np.linspace(0, 1, 5)[None, :]

@@ -8,8 +8,9 @@ import numpy as np
 import pytest
 
 from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity, as_number
-from diecut_report.engine import Calculation, Unproven, calculate
-from diecut_report.results.curves import curves
+from diecut_report.machine.calculation import Calculation, Unproven
+from diecut_report.machine.steps.run import calculate
+from diecut_report.results.mechanism import curves
 
 
 class Arm(Inputs):
@@ -55,7 +56,7 @@ def test_a_rough_place_is_refused_with_its_place(name: str, place: float) -> Non
         curves(calculated(*ROUGH[name], place))
     told = str(caught.value)
     assert told.startswith(
-        "Rough (rough, test_rough_places.py:46) jumps or has a pole inside a smooth piece, near φ = "
+        "Rough (rough, test_rough_places.py:47) jumps or has a pole inside a smooth piece, near φ = "
     )
     found = float(told.partition("φ = ")[2].partition("°")[0])
     assert np.tan(np.radians(found)) == pytest.approx(

@@ -13,11 +13,12 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.api import Annotated, Chapter, Constant, Inputs, Mechanism, Quantity, Value, bind, formula
-from diecut_report.engine import calculate
-from diecut_report.engine.calculation import Unproven
-from diecut_report.engine.printing.items import section_items
-from diecut_report.engine.printing.rounding import bounded
-from diecut_report.expressions import Formula, Node
+from diecut_report.formulas.formula import Formula
+from diecut_report.formulas.tree import Node
+from diecut_report.machine.calculation import Unproven
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.substitution import bounded
+from diecut_report.machine.steps.run import calculate
 
 SHARE = Constant(2.0, "k", "1")
 

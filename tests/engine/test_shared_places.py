@@ -7,8 +7,8 @@ from collections.abc import Sequence
 import numpy as np
 import pytest
 
-from diecut_report.engine.numerics.shared_places import SharedPlaces
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.numerics.domain import SharedPlaces
 
 HERE, THERE = np.linspace(0, 1, 12).reshape(3, 4), np.linspace(0, 2, 12).reshape(3, 4)
 

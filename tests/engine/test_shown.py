@@ -9,16 +9,15 @@ import numpy as np
 import pytest
 
 from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.contract.inputs import flatten
-from diecut_report.engine import calculate
-from diecut_report.engine.printing.items import items, section_items
-from diecut_report.report.chapters import chapter as chapter_of
-from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.latex import Linear
-from diecut_report.report.typeset import Typesetter
+from diecut_report.config.plugins import Discovery
+from diecut_report.machine.printing.items import items, section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
+from diecut_report.report.chapters.chapters import chapter as chapter_of
+from diecut_report.report.equations import Equations, Typesetter
+from diecut_report.report.mathematics import Linear
+from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.press_run import compute
 from tests.configs import MECHANISMS

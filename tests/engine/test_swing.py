@@ -5,8 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from diecut_report.engine import CurveHandle, Impossible, calculate
-from diecut_report.engine.figure_views import MachineView
+from diecut_report.machine.calculation import CurveHandle, Impossible
+from diecut_report.machine.figure_views import MachineView
+from diecut_report.machine.steps.run import calculate
 from tests.engine.loop import MECHANISM as LOOP
 from tests.engine.swing import MECHANISM, RATIOS
 from tests.engine.swings import CLOSED, TURN, follower, grown, made, results, swing, values

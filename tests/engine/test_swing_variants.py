@@ -5,9 +5,9 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from diecut_report.engine import CurveHandle, Unproven, calculate
-from diecut_report.engine.numerics.domain import Domain
-from diecut_report.engine.steps.rerun import varied, varied_curves
+from diecut_report.machine.calculation import CurveHandle, Unproven
+from diecut_report.machine.numerics.domain import Domain
+from diecut_report.machine.steps.run import calculate, varied, varied_curves
 from tests.engine.swing import MECHANISM
 from tests.engine.swings import CLOSED, TURN, follower, grown, made, results, several, single
 

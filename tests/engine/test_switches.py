@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from diecut_report.api import POINTS, Annotated, Chapter, Check, Inputs, Mechanism, Quantity, bind, case, formula
-from diecut_report.engine import Calculation, calculate
-from diecut_report.engine.calculation import Unproven
+from diecut_report.machine.calculation import Calculation, Unproven
+from diecut_report.machine.steps.run import calculate
 
 DEGREE = np.pi / 180
 

@@ -11,14 +11,15 @@ import pytest
 from scipy.integrate import quad
 
 from diecut_report.api import BarGroup, Bars, Chart, Polar, Series, chart_panel, level, line
-from diecut_report.contract.inputs import flatten
 from diecut_report.declaration import faults
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.figure_views import figures
-from diecut_report.engine.printing.items import section_items
-from diecut_report.expressions import evaluate
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.formulas.formula import evaluate
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.figure_views import figures
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
 from diecut_report.quantities.units import unit
-from diecut_report.testing import check_mechanism
 from tests.engine.geared import FACTORS, LIFTS, MECHANISM, Geared
 
 TEETH, Y = (column.values for column in FACTORS.columns)
@@ -109,7 +110,7 @@ def symbols(tree: Any) -> list[str]:
 
 
 def eval_json(tree: Any) -> float:
-    from diecut_report.expressions import Node
+    from diecut_report.formulas.tree import Node
 
     def node(part: Any) -> Any:
         return Node(part[0], tuple(node(p) if isinstance(p, list) else p for p in part[1:]))
@@ -172,7 +173,7 @@ def test_many_variants_are_each_alone(count: int) -> None:
 
 
 def test_what_a_table_gives_can_be_varied() -> None:
-    from diecut_report.engine.steps.rerun import varied
+    from diecut_report.machine.steps.run import varied
 
     rerun = partial(varied, geared())
     assert rerun({"teeth": [13.0, 40.0]}, ["factor"])["factor"] == pytest.approx(

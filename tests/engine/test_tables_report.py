@@ -8,9 +8,9 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.pipeline import report
-from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData
+from diecut_report.report.figures.labels import Across, Line, Note, PanelData
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import HEAD, loaded, saved

@@ -7,9 +7,9 @@ from collections.abc import Callable
 import numpy as np
 import pytest
 
-from diecut_report.engine.numerics.domain import shares
-from diecut_report.engine.numerics.polynomial_peaks import Spots, around, vertices
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.numerics.domain import shares
+from diecut_report.machine.numerics.extremes import Spots, around, vertices
 from tests.examples import few
 
 INTERVALS = 32

@@ -8,8 +8,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report.report.changes import printed_changes, relative
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.chapters.front import printed_changes, relative
+from diecut_report.report.text import Catalogue
 from diecut_report.results.changes import changes
 from tests.configs import HEAD, saved
 from tests.exchange.reports import run

@@ -34,7 +34,7 @@ from diecut_report.exchange import signature_status
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.signatures import signatures
 from diecut_report.exchange.signing import Additions
-from diecut_report.languages.phrases import cell
+from diecut_report.text.phrases import cell
 from tests.configs import SMALL, saved
 from tests.examples import few
 from tests.exchange.forgeries import (

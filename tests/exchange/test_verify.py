@@ -13,7 +13,7 @@ import numpy as np
 import pytest
 import scipy
 
-from diecut_report.exchange.agreement import agreement
+from diecut_report.exchange.verification import agreement
 from tests.configs import SMALL, saved
 from tests.examples import few
 from tests.exchange.reports import changed, page_with, run

@@ -10,15 +10,15 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Abscissa, Annotated, Chapter, Constant, Inputs, Mechanism, Quantity, Value, bind, formula
-from diecut_report.engine import calculate
-from diecut_report.engine.numerics.codegen import Program
-from diecut_report.engine.printing.items import section_items
-from diecut_report.expressions import Formula, FormulaError, Node, evaluate
-from diecut_report.formula_checks.dimensions import dimensions
-from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.latex import Latex, Linear
-from diecut_report.report.typeset import Typesetter
+from diecut_report.declaration.dimensions import dimensions
+from diecut_report.formulas.formula import Formula, FormulaError, evaluate
+from diecut_report.formulas.tree import Node
+from diecut_report.machine.numerics.curves import Program
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.report.equations import Equations, Typesetter
+from diecut_report.report.mathematics import Latex, Linear
+from diecut_report.report.text import Catalogue
 
 TWICE = Constant(2.0, "k_0", "1")
 

@@ -8,18 +8,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.expressions import (
-    GRAVITY,
-    Constant,
-    Formula,
-    FormulaError,
-    Node,
-    arccos,
-    evaluate,
-    formula,
-    substitute,
-    symbols,
-)
+from diecut_report.formulas.formula import Formula, FormulaError, evaluate, formula
+from diecut_report.formulas.tree import GRAVITY, Constant, Node, arccos, substitute, symbols
 
 GENT = Constant(98100.0, "k_G", "Pa")
 

@@ -8,8 +8,8 @@ from functools import cache
 from typing import Any
 
 from diecut_report.config.model import Press
-from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Quantity
+from diecut_report.config.yaml import KeyPath
+from diecut_report.mechanism.inputs import Quantity
 from tests.extremes.harness import Extreme, judged, quantities, values
 from tests.plugins.cases import CONFIGS, OF_KINDS
 

@@ -7,8 +7,8 @@ from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 from diecut_report.config.model import Press
-from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import Quantity, meta_of
+from diecut_report.config.yaml import KeyPath
+from diecut_report.mechanism.inputs import Quantity, meta_of
 from diecut_report.results.warm_press import WarmPress
 from diecut_report.testing.extreme_inputs import extreme_values as values
 from diecut_report.testing.extreme_inputs import numeric_inputs as quantities

@@ -10,11 +10,11 @@ from typing import NamedTuple
 
 import numpy as np
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, load_config
-from diecut_report.contract.inputs import SI
-from diecut_report.design.design_inputs import DesignInput, given_numbers
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.inputs import DesignInput, given_numbers
 from diecut_report.errors import UserError
+from diecut_report.mechanism.names import SI
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import checks_of
 from diecut_report.results.warm_press import WarmPress, WarmRun

@@ -6,7 +6,7 @@ import random
 
 import pytest
 
-from diecut_report.contract.inputs import Quantity
+from diecut_report.mechanism.inputs import Quantity
 from diecut_report.quantities.plausible import Plausible
 from tests.extremes.examples import HOMES, example_extremes, example_fault, new_extremes
 from tests.extremes.harness import ALONE, extremes, fault, values

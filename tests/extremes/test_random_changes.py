@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.config.loader import load_config
-from diecut_report.config.yaml_tree import load
+from diecut_report.config.yaml import load
 from diecut_report.errors import UserError
 from diecut_report.results.warm_press import WarmPress, WarmRun
 from tests.configs import DISCOVERY, EXAMPLES

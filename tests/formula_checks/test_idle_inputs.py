@@ -7,7 +7,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.api import Drawing, Mechanism
-from diecut_report.formula_checks.idle import idle_inputs
+from diecut_report.declaration.formula_checks import idle_inputs
 from tests import used_inputs
 from tests.used_inputs import PLOT, draw, many
 
@@ -27,7 +27,7 @@ def test_an_input_that_nothing_takes_is_told_with_its_line() -> None:
 
 
 def test_what_a_figure_names_has_a_use(monkeypatch: pytest.MonkeyPatch) -> None:
-    monkeypatch.setattr("diecut_report.formula_checks.idle.own_files", lambda mechanism: [])
+    monkeypatch.setattr("diecut_report.declaration.formula_checks.own_files", lambda mechanism: [])
     assert named(many()) == ["drawn", "level", "parts.depth", "idle"]
     assert named(many(PLOT)) == ["drawn", "parts.depth", "idle"]
 

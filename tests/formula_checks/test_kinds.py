@@ -38,21 +38,23 @@ from diecut_report.api import (
     bind,
     formula,
 )
-from diecut_report.contract.between import Between
-from diecut_report.contract.binding import Bound
-from diecut_report.engine import calculate
-from diecut_report.expressions import Node
-from diecut_report.formula_checks import check_mechanism, forms
-from diecut_report.formula_checks.dimensions import dimensions, formulas, units_of
-from diecut_report.formula_checks.kinds import (
+from diecut_report.declaration.dimensions import (
     ANGLE,
     ANGLE_AT,
     NUMBER,
     Found,
     KindError,
+    dimensions,
+    formulas,
     kind_given,
+    units_of,
 )
+from diecut_report.declaration.formula_checks import check_mechanism, forms
+from diecut_report.formulas.tree import Node
+from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
+from diecut_report.mechanism.names import Bound
+from diecut_report.mechanism.part_steps import Between
 from diecut_report.quantities.units import DIMENSIONS, unit
 
 

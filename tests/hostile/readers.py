@@ -13,12 +13,12 @@ from collections.abc import Callable
 from contextlib import suppress
 from pathlib import Path
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.quantities.units import UnitError, parse_quantity
 from diecut_report.quantities.units import unit as read_unit
-from diecut_report.study.analysis.query import variants
+from diecut_report.study.analysis.answers import variants
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
 from diecut_report.study.storage.state import write_state

@@ -11,9 +11,9 @@ from typing import Any
 import pyarrow as pa
 import pyarrow.parquet as pq
 
-from diecut_report.conditions.words import FUNCTIONS, KEYWORDS
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema
+from diecut_report.formulas.conditions import FUNCTIONS, KEYWORDS
 from diecut_report.quantities.units import TABLE_FILE
 from diecut_report.study.definition.schema import study_schema
 from tests.configs import EXAMPLES, SMALL

@@ -9,7 +9,7 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.errors import UserError
-from diecut_report.languages.catalogues import TextCatalogue
+from diecut_report.text.catalogues import TextCatalogue
 from tests.configs import GOOD, LEVER, saved
 
 TEXT = b'msgid "Force"\nmsgstr "x"\n'

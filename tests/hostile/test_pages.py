@@ -13,7 +13,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.report.html import SCRIPTS
+from diecut_report.report.pages.html import SCRIPTS
 from diecut_report.study import command as study_command
 from diecut_report.study.summary import summarise
 from tests.configs import GOOD, saved

@@ -8,8 +8,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.yaml_tree import parse
-from diecut_report.config.yaml_values import with_values
+from diecut_report.config.yaml import parse, with_values
 from diecut_report.errors import UserError
 from diecut_report.study.storage.state import write_state
 from tests.configs import GOOD, saved

@@ -9,15 +9,13 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.kit.checking import meant
-from diecut_report.kit.missing_words import write_missing
-from diecut_report.kit.scaffold import contents
-from diecut_report.languages.catalogues import catalogue
-from diecut_report.languages.po_files import changed, read
-from diecut_report.testing import ContractTest, check_contract, extreme_inputs
-from diecut_report.testing.tried_rules import TITLES, TriedRule
+from diecut_report.config.plugins import Discovery
+from diecut_report.testing import extreme_inputs
+from diecut_report.testing.contract import TITLES, ContractTest, TriedRule, check_contract, write_missing
+from diecut_report.testing.plugin_page import meant
+from diecut_report.testing.scaffold import contents
+from diecut_report.text.catalogues import catalogue, changed, read
 from tests.configs import BROKEN, SMALL, saved
 
 Capture = pytest.CaptureFixture[str]
@@ -69,7 +67,7 @@ def test_its_chapter_is_written_where_it_is_asked_for_and_nowhere_else(
     home, shown = toggle(tmp_path), list[str]()
     monkeypatch.chdir(home)
     monkeypatch.setattr("webbrowser.open", shown.append)
-    monkeypatch.setattr("diecut_report.cli.kit.mkdtemp", lambda prefix: str(tmp_path))
+    monkeypatch.setattr("diecut_report.cli.plugins.mkdtemp", lambda prefix: str(tmp_path))
     before = sorted(home.rglob("*.html"))
     (home / "build").mkdir()
     one = ["check-plugin", "toggle", "--plugins", "plugins", "--language", "uk"]

@@ -16,11 +16,10 @@ import pyarrow.parquet as pq
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
-from diecut_report.kit.scaffold import LIKE, contents
-from diecut_report.languages.catalogues import file_beside
-from diecut_report.languages.po_files import read
-from diecut_report.testing import ContractTest
+from diecut_report.config.plugins import Discovery
+from diecut_report.testing.contract import ContractTest
+from diecut_report.testing.scaffold import LIKE, contents
+from diecut_report.text.catalogues import file_beside, read
 
 Capture = pytest.CaptureFixture[str]
 FOLDER = {

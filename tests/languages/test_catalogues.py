@@ -9,10 +9,10 @@ from pathlib import Path
 import pytest
 from babel.messages.catalog import Message
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.declaration.texts import texts
-from diecut_report.languages import po_files
-from diecut_report.languages.catalogues import languages
+from diecut_report.text import catalogues
+from diecut_report.text.catalogues import languages
 from tools.make_catalogues import ROOT, untranslatable, wanted
 
 KINDS = sorted(Discovery().origins)
@@ -25,7 +25,7 @@ def name(file: Path) -> str:
 
 @cache
 def messages(file: Path) -> tuple[Message, ...]:
-    return tuple(message for message in po_files.read(file, file.stem) if message.id)
+    return tuple(message for message in catalogues.read(file, file.stem) if message.id)
 
 
 def pairs(file: Path) -> Iterator[tuple[str, str]]:

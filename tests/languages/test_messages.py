@@ -35,15 +35,15 @@ NOT_TOLD = {"another text", "curve input", "list of parts"}  # what the check of
 TEMPLATES = {"words", "told"}  # names of templates that a phrase of the same function fills
 WORDS = re.compile(r"[A-Za-z]{2,}[,;:]? [a-z]{2,}")
 FILES = sorted(ROOT.rglob("*.py"))
-OF_TESTS = ("testing/found_values.py", "testing/printed_values.py", "testing/single_machine.py")
+OF_TESTS = ("testing/values.py", "testing/machines.py", "testing/scaffold.py", "testing/plugin_page.py")
 """What the tests of plugins' authors call, which speaks to them alone, in English."""
-OF_AUTHORS = ("declaration", "formula_checks", "testing")
+OF_AUTHORS = ("declaration", "testing")
 """Packages in which texts are yielded rather than raised: every text with words in them is part of a phrase."""
 OF_PROGRAM = {  # faults of the program itself, or of a plugin's code, which nobody mends by typing something else
-    "__init__.py": 1, "errors.py": 1, "conditions/formula_tree.py": 1, "conditions/numpy_emitter.py": 3, "engine/steps/run.py": 2,
-    "mechanics/motion_laws.py": 1, "mechanics/timing/lines.py": 1, "mechanics/timing/motor_slip.py": 1, "report/expression_printer.py": 1,
-    "report/figures/drawing.py": 2, "report/pdf_math.py": 1, "report/profile_files.py": 2, "report/typeset.py": 1,
-    "study/definition/tables.py": 1, "study/sampling/listed_samples.py": 1, "study/storage/part_files.py": 3, "study/storage/store.py": 2,
+    "__init__.py": 1, "errors.py": 1, "formulas/condition_tree.py": 1, "formulas/condition_numpy.py": 3, "machine/steps/run.py": 2,
+    "mechanics/motion_laws.py": 1, "mechanics/timing/intervals.py": 1, "mechanics/timing/engagement.py": 1, "report/mathematics.py": 1,
+    "report/figures/drawing.py": 2, "report/pages/pdf_math.py": 1, "report/profile_files.py": 2, "report/equations.py": 1,
+    "study/definition/sample.py": 1, "study/definition/samples.py": 1, "study/storage/parts.py": 3, "study/storage/store.py": 2,
 }  # fmt: skip
 
 

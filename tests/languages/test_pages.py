@@ -17,19 +17,19 @@ from zipfile import ZipFile
 import pytest
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.languages import po_files
-from diecut_report.languages.catalogues import Catalogues, built_in_kinds
-from diecut_report.languages.speech import speaking
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.optimisation import page as optimisation_page
 from diecut_report.live.page import page as live_page
-from diecut_report.live.page_data import page_data
+from diecut_report.live.page import page_data
 from diecut_report.live.session import LiveSession
-from diecut_report.optimisation import page as optimisation_page
-from diecut_report.report.translated import translated
+from diecut_report.report.text import translated
 from diecut_report.study import command
 from diecut_report.study.summary import summarise
 from diecut_report.testing.contract import ContractTest
+from diecut_report.text import catalogues
+from diecut_report.text.catalogues import Catalogues, built_in_kinds
+from diecut_report.text.translation import speaking
 from tests.cli.test_cli import run
 from tests.configs import EXAMPLES
 from tests.examples import few
@@ -230,5 +230,7 @@ def test_an_example_is_ukrainian(config: Path) -> None:
 @pytest.mark.parametrize("name", CATALOGUES)
 def test_english_texts_have_english_letters(name: str) -> None:
     """What documents and messages say in English is what catalogues translate."""
-    ids = [each for m in po_files.read(CATALOGUES[name], "uk") for each in ((m.id,) if isinstance(m.id, str) else m.id)]
+    ids = [
+        each for m in catalogues.read(CATALOGUES[name], "uk") for each in ((m.id,) if isinstance(m.id, str) else m.id)
+    ]
     assert [text for text in ids if re.search("[а-яіїєґё]", PLACE.sub("", text), re.IGNORECASE)] == []

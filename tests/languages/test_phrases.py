@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 import pickle
 
-from diecut_report.languages.phrases import Phrase, capital, joined, named, phrase, wordings
+from diecut_report.text.phrases import Phrase, capital, joined, named, phrase, wordings
 
 
 def test_a_phrase_is_its_english_text() -> None:

@@ -9,8 +9,8 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.errors import PluginError, Problem, nearest
-from diecut_report.languages.phrases import Counted, Phrase
-from diecut_report.languages.speech import decimal_sign, localised, said, say, say_counted, speaking, spoken_language
+from diecut_report.text.phrases import Counted, Phrase
+from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted, speaking, spoken_language
 from tests.cli.test_cli import Capture, run
 
 VARIANTS = ("{n} variant", "{n} variants")

@@ -6,9 +6,9 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.languages.catalogues import Catalogues
-from diecut_report.languages.translation import Translator
+from diecut_report.config.plugins import Discovery
+from diecut_report.text.catalogues import Catalogues
+from diecut_report.text.translation import Translator
 
 HEAD = 'msgid ""\nmsgstr ""\n"Language: uk\\n"\n"Content-Type: text/plain; charset=utf-8\\n"\n\n'
 

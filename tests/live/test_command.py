@@ -12,9 +12,9 @@ from urllib.request import url2pathname
 
 import pytest
 
-from diecut_report.languages.speech import spoken_language
-from diecut_report.live.application import LiveApplication
-from diecut_report.live.page_data import page_data
+from diecut_report.live.page import page_data
+from diecut_report.live.server import LiveApplication
+from diecut_report.text.translation import spoken_language
 from tests.cli.test_cli import Capture, run
 from tests.configs import EXAMPLES
 

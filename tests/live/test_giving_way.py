@@ -13,11 +13,12 @@ from typing import Any
 import pytest
 from httpx import ASGITransport, AsyncClient
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
-from diecut_report.live import application, reports, server
+from diecut_report.live import server
 from diecut_report.live import session as live_session
-from diecut_report.live.application import LiveApplication
+from diecut_report.live import session as reports
+from diecut_report.live.server import LiveApplication
 from diecut_report.live.session import LiveSession
 from tests.configs import EXAMPLES
 
@@ -72,12 +73,12 @@ def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
     file.write_bytes(KNIFE.read_bytes())
     session = LiveSession(file, Discovery([]))
     made = LiveApplication(session, (), None)
-    monkeypatch.setattr(live_session, "PATIENCE", 0.2)
+    monkeypatch.setattr(live_session, "SESSION_PATIENCE", 0.2)
 
     async def told() -> tuple[int, bytes]:
         with monkeypatch.context() as patch:
             patch.setattr(LiveSession, "_made", endless)
-            patch.setattr(application, "effect", endless)
+            patch.setattr(server, "effect", endless)
             await made._done(session.read)
             assert session.machine is not None and "did not come back within 0.2 s" in str(session.faults[0].message)
             transport = ASGITransport(made.starlette)
@@ -128,7 +129,7 @@ def test_an_effect_gives_way_to_a_change_and_is_made_again_after_it(
             time.sleep(0.005)
         return {"input": name}
 
-    monkeypatch.setattr(application, "effect", slow)
+    monkeypatch.setattr(server, "effect", slow)
 
     async def asked() -> tuple[int, Any]:
         transport = ASGITransport(LiveApplication(session, (), None).starlette)

@@ -6,9 +6,8 @@ import json
 import re
 from html.parser import HTMLParser
 
-from diecut_report.languages.speech import speaking
-from diecut_report.live.page import assets, page
-from diecut_report.live.words import WORDS
+from diecut_report.live.page import WORDS, assets, page
+from diecut_report.text.translation import speaking
 
 FILE = "knife.yaml"
 SAME = {FILE, "PDF"}  # in each language

@@ -10,20 +10,18 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.config import yaml_tree
-from diecut_report.config.discovery import Discovery
+from diecut_report.config import yaml
 from diecut_report.config.loader import load_config
-from diecut_report.config.yaml_tree import Tree
-from diecut_report.design.varied_machines import UTILISATION, varied
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import Tree
+from diecut_report.design.machines import UTILISATION, varied
 from diecut_report.errors import UserError
-from diecut_report.languages.speech import speaking
-from diecut_report.live.effects import effect
-from diecut_report.live.page_data import page_data, slider
-from diecut_report.live.pictures_of_run import Pictures
+from diecut_report.live.page import Pictures, effect, page_data, slider
 from diecut_report.live.session import LiveSession
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.results.warm_press import WarmRun
+from diecut_report.text.translation import speaking
 from tests.configs import EXAMPLES
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
@@ -336,13 +334,13 @@ def test_a_change_reads_its_text_once_and_makes_nothing_that_is_not_shown_at_onc
     session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     read: list[str] = []
-    parse = yaml_tree._parse
+    parse = yaml._parse
 
     def counted(text: str, *given: str) -> Tree:
         read.append(text)
         return parse(text, *given)
 
-    monkeypatch.setattr(yaml_tree, "_parse", counted)
+    monkeypatch.setattr(yaml, "_parse", counted)
     for what in ("outputs", "curves", "figures", "sections", "document"):
         monkeypatch.setattr(WarmRun, what, lambda *_, what=what: pytest.fail(f"{what} are made that nobody looks at"))
     for value in ("22 mm", "23 mm"):

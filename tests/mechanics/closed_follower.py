@@ -6,7 +6,7 @@ from typing import NamedTuple
 
 import numpy as np
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 from diecut_report.mechanics.motion_laws import MotionLaw
 
 

@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 from scipy.spatial import ConvexHull
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 from diecut_report.mechanics import belt_path
 from tests.examples import examples
 

@@ -7,7 +7,7 @@ import math
 import numpy as np
 from scipy.optimize import brentq
 
-from diecut_report.mechanics.bracketed_roots import root
+from diecut_report.mechanics.numerics import root
 
 
 def test_each_bracket_has_its_root() -> None:

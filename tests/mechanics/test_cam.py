@@ -11,7 +11,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 from diecut_report.mechanics import cam
 
 TURN = np.linspace(0, 2 * np.pi, 1441)[:-1]

@@ -13,8 +13,9 @@ from hypothesis import strategies as st
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
 
-from diecut_report.expressions import Array, formula
-from diecut_report.mechanics.follower_peaks import peaks
+from diecut_report.formulas import Array
+from diecut_report.formulas.formula import formula
+from diecut_report.mechanics.followers import peaks
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
 from tests.examples import examples, few
 from tests.mechanics.closed_follower import WAVES, Wave, after, response, undamped_cycloidal

@@ -10,7 +10,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
-from diecut_report.expressions import Array, Formula
+from diecut_report.formulas import Array
+from diecut_report.formulas.formula import Formula
 from diecut_report.mechanics import four_bar
 from tests.examples import examples
 

@@ -8,7 +8,7 @@ import numpy as np
 import pytest
 from scipy.optimize import brentq
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 from diecut_report.mechanics import involute
 from diecut_report.mechanics.involute import RackCutTooth
 

@@ -6,9 +6,10 @@ import numpy as np
 import pytest
 from scipy.interpolate import make_interp_spline
 
-from diecut_report.expressions import Array, Formula, evaluate
-from diecut_report.mechanics import linear_follower as follower
-from diecut_report.mechanics.follower_peaks import peaks
+from diecut_report.formulas import Array
+from diecut_report.formulas.formula import Formula, evaluate
+from diecut_report.mechanics import followers as follower
+from diecut_report.mechanics.followers import peaks
 from diecut_report.mechanics.motion_laws import LAWS
 
 

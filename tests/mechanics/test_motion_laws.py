@@ -14,7 +14,8 @@ from scipy.integrate import quad
 from scipy.optimize import minimize_scalar
 
 from diecut_report.api import Annotated, Inputs, Text, formula
-from diecut_report.expressions import Array, Formula, evaluate
+from diecut_report.formulas import Array
+from diecut_report.formulas.formula import Formula, evaluate
 from diecut_report.mechanics import motion_laws
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, Registry, register
 

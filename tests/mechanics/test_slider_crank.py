@@ -7,7 +7,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 from diecut_report.mechanics import slider_crank as sc
 from tests.examples import examples
 

@@ -63,10 +63,10 @@ MODULE = (
     load("a wrong indent", "    slope = np.arcsin", "  slope = np.arcsin", "IndentationError"),
     load("an unknown name of the api", "    Chapter,\n", "    Chaptre,\n", "Chaptre", r"diecut_report\.api"),
     load("a name that is not imported", "    Profile,\n", "", "NameError", "Profile", placed=False),
-    load("an import of the engine", "import numpy as np\n", "import numpy as np\nfrom diecut_report.engine import calculate\n",
+    load("an import of the engine", "import numpy as np\n", "import numpy as np\nfrom diecut_report.machine import calculate\n",
          r"diecut_report\.engine", r"diecut_report\.api"),
     load("an import of what the api has from elsewhere", "import numpy as np\n",
-         "import numpy as np\nfrom diecut_report.contract.steps import Value\n", r"diecut_report\.contract\.steps",
+         "import numpy as np\nfrom diecut_report.mechanism.steps import Value\n", r"diecut_report\.mechanism\.steps",
          r"import Value from diecut_report\.api"),
     load("an import of a library that is not there", "import numpy as np\n", "import numpy as np\nimport sympie\n", "sympie"),
 )

@@ -11,9 +11,9 @@ from pathlib import Path
 from typing import Any, Literal
 
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
+from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.errors import PluginError
-from diecut_report.testing import check_mechanism
 
 KIND = "bucket_elevator"
 PLUGIN = Path(__file__).with_name(f"{KIND}.py")

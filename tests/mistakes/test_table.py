@@ -12,11 +12,12 @@ from typing import Any
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.engine import Calculation, calculate
+from diecut_report.config.plugins import Discovery
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.results.checks import check_results
-from diecut_report.testing import check_mechanism
 from tests.examples import few
 from tests.machines import inputs, number
 from tests.mistakes.runner import KIND, MACHINE, PLUGIN, Mistake, faults, tried

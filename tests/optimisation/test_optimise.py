@@ -10,8 +10,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.optimisation import run as run_module
-from diecut_report.optimisation.search import search
+from diecut_report.design.optimisation import run as run_module
+from diecut_report.design.optimisation.search import search
 from tests.optimisation.searches import ARM, BASE, FORCE, VARY, WIDTH, optimised, search_file
 
 pytestmark = pytest.mark.usefixtures("without_page")
@@ -152,7 +152,7 @@ def test_texts_lists_and_ranges_are_searched_together(tmp_path: Path) -> None:
 
 
 def test_reports_of_chosen_machines_are_made(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
-    from diecut_report.optimisation import command
+    from diecut_report.design.optimisation import command
 
     asked: list[tuple[int, ...]] = []
     monkeypatch.setattr(command, "write_chosen", lambda chosen, *_, **__: (asked.append(chosen.variants), ((), {}))[1])
@@ -183,9 +183,9 @@ def test_what_is_stored_is_asked_as_a_study(tmp_path: Path, capfd: Any) -> None:
 
 
 def test_equal_searches_ask_for_equal_machines() -> None:
-    from diecut_report.study.definition.optimise import Optimise
+    from diecut_report.study.definition.study_file import Optimise
+    from diecut_report.study.definition.variables import ChoiceVariable, RangeVariable
     from diecut_report.study.definition.wanted_results import Objective
-    from diecut_report.study.sampling.variables import ChoiceVariable, RangeVariable
 
     variables = (RangeVariable("x", 0.0, 1.0), ChoiceVariable("t", ("p", "q", "r")))
     asked = Optimise((Objective("a", True), Objective("b", True)), variables, 400, 20, 3, True, 5)

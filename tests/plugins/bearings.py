@@ -8,8 +8,9 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.engine import Calculation, calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.rolling_bearing import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import inputs

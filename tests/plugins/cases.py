@@ -7,16 +7,15 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.contract.inputs import SI
-from diecut_report.engine import Calculation, CurveHandle
+from diecut_report.config.plugins import Discovery
+from diecut_report.machine.calculation import Calculation, CurveHandle
 from diecut_report.mechanics.motion_laws import LAWS
+from diecut_report.mechanism.names import SI
 from diecut_report.quantities.units import unit
-from diecut_report.results.comparisons import Found
-from diecut_report.results.press_run import Run, compute
-from diecut_report.testing.many_machines import MachineCase as Case
-from diecut_report.testing.many_machines import Ranges
+from diecut_report.results.press_run import Found, Run, compute
+from diecut_report.testing.machines import MachineCase as Case
+from diecut_report.testing.machines import Ranges
 from tests.configs import EXAMPLES
 from tests.machines import PUBLISHED_CYLINDER, PUBLISHED_DRIVE, UNBALANCED, inputs
 from tests.plugins import bearings, chains

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.engine import Calculation, calculate
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import inputs

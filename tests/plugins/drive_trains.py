@@ -9,8 +9,9 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import Abscissa, Annotated, Chapter, Inputs, Mechanism, Quantity, Value, formula
-from diecut_report.engine import Calculation, CurveHandle, calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, CurveHandle
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.results.checks import check_results
 from tests.machines import inputs

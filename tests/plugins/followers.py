@@ -11,10 +11,11 @@ import numpy as np
 from scipy.integrate import solve_ivp
 from scipy.interpolate import CubicHermiteSpline
 
-from diecut_report.contract.inputs import flatten
-from diecut_report.contract.unit_variants import in_form
-from diecut_report.engine import Calculation, CurveHandle, calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, CurveHandle
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.chapters import in_form
+from diecut_report.mechanism.inputs import flatten
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.results.checks import applies, check_results, judged
 

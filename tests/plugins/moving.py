@@ -6,11 +6,10 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.contract.figures import Drawing
-from diecut_report.engine import Calculation
-from diecut_report.engine.figure_views import MachineView, _listed, _moving
-from diecut_report.engine.moving_shapes import laid_out
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.figure_views import MachineView, _listed, _moving, laid_out
+from diecut_report.mechanism.figures import Drawing
 
 Shape = dict[str, Any]
 

@@ -7,7 +7,8 @@ from typing import Any
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.engine import Calculation, calculate
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.platen_press import MECHANISM
 from diecut_report.plugins.platen_press.inputs import JOINTS
 from diecut_report.results.checks import check_results

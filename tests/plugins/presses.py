@@ -4,8 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.contract.inputs import SI
-from diecut_report.engine import Calculation, CurveHandle, calculate
+from diecut_report.machine.calculation import Calculation, CurveHandle
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.names import SI
 from diecut_report.plugins.drive_train import MECHANISM as DRIVE_TRAIN
 from tests.machines import UNBALANCED, drive, inputs, number
 from tests.plugins.drive_trains import EXAMPLE as TRAIN

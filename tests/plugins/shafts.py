@@ -5,7 +5,8 @@ from __future__ import annotations
 from functools import cache
 from typing import Any
 
-from diecut_report.engine import Calculation, calculate
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.shaft import MECHANISM
 from tests.machines import inputs
 

@@ -6,8 +6,9 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.engine import Calculation, calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cam_gear_transport import MECHANISM
 from diecut_report.results.checks import check_results
 from tests.machines import inputs

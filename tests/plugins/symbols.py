@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from collections.abc import Collection
 
-from diecut_report.contract.inputs import fields
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import SILENT
+from diecut_report.mechanism.inputs import fields
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.steps import SILENT
 
 
 def doubled(mechanism: Mechanism, alike: Collection[tuple[str, str]] = ()) -> list[str]:

@@ -12,7 +12,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import arms
 from diecut_report.plugins.cam_gear_transport.advice import smaller_roller

@@ -14,8 +14,8 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 from scipy.optimize import minimize_scalar
 
-from diecut_report.engine import Calculation, Impossible
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.mechanics.motion_laws import LAWS
 from tests.examples import examples, few
 from tests.machines import number

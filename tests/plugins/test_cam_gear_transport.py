@@ -14,9 +14,8 @@ from pydantic import ValidationError
 from scipy.integrate import quad
 
 from diecut_report.api import formula
-from diecut_report.engine import Calculation, Impossible
-from diecut_report.engine.figure_views import MachineView
-from diecut_report.engine.moving_shapes import laid_out
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.figure_views import MachineView, laid_out
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
 from diecut_report.plugins.cam_gear_transport import drawing, figures
 from diecut_report.plugins.cam_gear_transport.advice import leaves_return

@@ -12,8 +12,8 @@ import numpy as np
 import pytest
 from scipy import integrate
 
-from diecut_report.engine import Calculation
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation
 from diecut_report.plugins.circular_knife import formulas as f
 from tests.examples import few
 from tests.machines import number

@@ -10,7 +10,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.engine import calculate
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.circular_knife import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples

@@ -11,9 +11,9 @@ from hypothesis import assume, example, given
 from hypothesis import strategies as st
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
-from diecut_report.engine import Impossible
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.machine.calculation import Impossible
 from diecut_report.plugins.circular_knife.advice import SIZES
 from tests.configs import EXAMPLES, HEAD, problems
 from tests.examples import examples

@@ -12,11 +12,12 @@ from pydantic import ValidationError
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from diecut_report.engine import Impossible, calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Impossible
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.clutch import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.stated_inputs import Provenance
+from diecut_report.results.origins import Provenance
 from tests.machines import inputs, number
 from tests.plugins.clutches import BASE, checks, clutch
 

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from tests.machines import number
 from tests.plugins.clutches import BASE, checks, clutch
 

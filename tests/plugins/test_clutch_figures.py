@@ -7,8 +7,8 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.engine import Calculation
-from diecut_report.engine.figure_views import figures
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.figure_views import figures
 from tests.machines import number
 from tests.plugins.clutches import clutch
 

@@ -6,7 +6,7 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import number
 from tests.plugins.clutches import COOLED, HEATED, checks, clutch

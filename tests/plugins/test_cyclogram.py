@@ -12,20 +12,20 @@ import numpy as np
 import pytest
 import yaml
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.config.yaml_tree import parse
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.mechanism_handle import MechanismHandle
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import parse
 from diecut_report.errors import UserError
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.mechanism import MechanismHandle
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cyclogram import MECHANISM
 from diecut_report.plugins.cyclogram.timing import Timing
 from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
 from diecut_report.study.definition.base_inputs import find_input
-from diecut_report.study.execution.result_columns import columns_of
-from diecut_report.study.execution.variant_rows import calculate_rows
+from diecut_report.study.execution.variant_rows import calculate_rows, columns_of
 from tests.configs import EXAMPLE
 from tests.machines import inputs, number
 

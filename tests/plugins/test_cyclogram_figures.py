@@ -8,8 +8,8 @@ import numpy as np
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from tests.configs import HEAD, problems, saved

@@ -10,7 +10,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.engine.figure_views import figures
+from diecut_report.machine.figure_views import figures
 from diecut_report.results.mechanism import mechanism_results
 from tests.plugins.test_cyclogram import example, locks, press
 

@@ -9,9 +9,10 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.contract.inputs import flatten
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
 from diecut_report.plugins.cylinder_drive import MECHANISM
 from tests.examples import examples
 from tests.machines import LOSSLESS, PUBLISHED_DRIVE, UNBALANCED, drive, number

@@ -12,7 +12,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from diecut_report.engine import Impossible, calculate
+from diecut_report.machine.calculation import Impossible
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cylinder_sizing import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples

@@ -14,9 +14,10 @@ from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.figure_views import figures
+from diecut_report.config.plugins import Discovery
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.figure_views import figures
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import problems, saved

@@ -10,8 +10,8 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.engine import calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
 from diecut_report.quantities.formatting import outward
 from tests.examples import examples

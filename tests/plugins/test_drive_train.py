@@ -13,7 +13,7 @@ from hypothesis import strategies as st
 from scipy.integrate import cumulative_trapezoid
 
 from diecut_report.api import standard_series
-from diecut_report.engine import CurveHandle, Impossible
+from diecut_report.machine.calculation import CurveHandle, Impossible
 from diecut_report.quantities.units import unit as parsed
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples

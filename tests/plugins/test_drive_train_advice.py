@@ -12,7 +12,7 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 
 from diecut_report.api import standard_series_by
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from diecut_report.plugins.drive_train import MECHANISM, advice
 from diecut_report.results.checks import check_results
 from tests.examples import examples

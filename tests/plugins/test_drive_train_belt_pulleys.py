@@ -10,7 +10,7 @@ import numpy as np
 import pytest
 import yaml
 
-from diecut_report.engine import Calculation, Impossible
+from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.plugins.drive_train.layout import layout
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import EXAMPLES

@@ -10,8 +10,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from scipy.integrate import cumulative_trapezoid, solve_ivp
 
-from diecut_report.engine import calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples

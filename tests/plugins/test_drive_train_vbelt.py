@@ -15,7 +15,7 @@ from scipy.integrate import solve_ivp
 from scipy.spatial import ConvexHull
 
 from diecut_report.api import standard_series, standard_series_by, standard_table
-from diecut_report.engine import Calculation, Impossible
+from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.plugins.drive_train.inputs import Section
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples, few

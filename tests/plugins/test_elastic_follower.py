@@ -15,7 +15,8 @@ import numpy as np
 import pytest
 from scipy.interpolate import BSpline, make_interp_spline
 
-from diecut_report.engine import Calculation, calculate
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import motion_laws
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.results.mechanism import mechanism_results

@@ -11,8 +11,9 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
-from diecut_report.engine import Calculation, CurveHandle, calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, CurveHandle
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from tests.examples import few

@@ -11,9 +11,10 @@ import pytest
 from diecut_report import pipeline
 from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
-from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import calculate
 from tests.configs import HEAD, saved
 from tests.examples import few
 from tests.machines import number

@@ -8,8 +8,7 @@ from typing import Any
 import pytest
 
 from diecut_report.results.document import document
-from diecut_report.results.feasible import impossible
-from diecut_report.results.press_run import compute
+from diecut_report.results.press_run import compute, impossible
 from tests.configs import loaded
 
 PRESS = Path(__file__).parent / "data/press_before_corrections.yaml"

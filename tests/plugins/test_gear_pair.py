@@ -11,7 +11,8 @@ from hypothesis import assume, given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import contact, involute
 from diecut_report.plugins.gear_pair import MECHANISM
 from diecut_report.plugins.gear_pair import formulas as f

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from tests.examples import examples
 from tests.machines import number
 from tests.plugins.gears import HELICAL, SECTOR, SPUR, STEEL, checks, pair

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from diecut_report.plugins.geneva_transport.advice import arc_that_fits, greatest_overlap, roller_that_fits
 from tests.examples import few
 from tests.machines import number

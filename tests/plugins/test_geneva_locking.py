@@ -8,8 +8,8 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.optimize import brentq
 
-from diecut_report.engine import Calculation
-from diecut_report.engine.figure_views import MachineView
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.figure_views import MachineView
 from diecut_report.plugins.geneva_transport.drawing import disc_outline, wheel_outline
 from tests.examples import examples, few
 from tests.machines import number

@@ -12,9 +12,10 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.expressions import Array
+from diecut_report.config.plugins import Discovery
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.geneva_transport import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import HEAD, problems, saved

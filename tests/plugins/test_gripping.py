@@ -7,8 +7,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.engine import calculate
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.plugins.cam_gear_transport import MECHANISM as STEPPER
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.results.mechanism import mechanism_results

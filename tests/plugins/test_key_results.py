@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.steps import Choice
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.steps import Choice
 from diecut_report.quantities.units import unit
 from tests.plugins.cases import OF_KINDS
 

@@ -7,8 +7,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.engine import Calculation, calculate
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import four_bar
 from diecut_report.plugins.knife_drive import MECHANISM
 from tests.machines import inputs, number

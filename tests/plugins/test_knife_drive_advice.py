@@ -8,7 +8,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from diecut_report.plugins.knife_drive import advice
 from diecut_report.results.checks import check_results
 from tests.examples import few

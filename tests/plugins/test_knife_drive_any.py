@@ -7,7 +7,7 @@ import pytest
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from tests.examples import examples
 from tests.machines import number
 from tests.plugins.test_knife_drive import OMEGA, at, knife

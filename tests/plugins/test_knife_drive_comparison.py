@@ -8,8 +8,9 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.engine import Calculation, Impossible, calculate
-from diecut_report.engine.figure_views import figures
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.figure_views import figures
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.knife_drive import MECHANISM
 from diecut_report.results.checks import check_results
 from tests.configs import EXAMPLES

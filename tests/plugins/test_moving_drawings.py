@@ -10,11 +10,11 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.contract.figures import Drawing
-from diecut_report.engine import Calculation
-from diecut_report.engine.moving_shapes import FRAMES
-from diecut_report.expressions import Array
+from diecut_report.config.plugins import Discovery
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.figure_views import FRAMES
+from diecut_report.mechanism.figures import Drawing
 from tests.machines import drive, number
 from tests.plugins.followers import follower, integrated, law_stretches
 from tests.plugins.knives import knife as circular_knife

@@ -7,7 +7,7 @@ from typing import Any
 
 import pytest
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from diecut_report.results.checks import check_results
 from tests.machines import drive, number
 from tests.plugins.test_geneva_transport import geneva

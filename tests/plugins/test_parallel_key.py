@@ -11,7 +11,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from diecut_report.plugins.parallel_key import MECHANISM
 from diecut_report.plugins.parallel_key.dimensions import KEYS, LENGTHS
 from tests.examples import examples

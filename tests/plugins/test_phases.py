@@ -10,9 +10,10 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.engine import Calculation, calculate
-from diecut_report.engine.phases import PhaseHandle, intervals, speed_of
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.mechanism import PhaseHandle, intervals, speed_of
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.plugins.knife_drive import MECHANISM as KNIFE_DRIVE
 from diecut_report.results.mechanism import mechanism_results

@@ -7,8 +7,8 @@ from typing import Any
 import pytest
 import yaml
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from tests.configs import EXAMPLES, saved

@@ -15,8 +15,8 @@ from scipy.integrate import quad
 from scipy.optimize import brentq
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
-from diecut_report.engine import Calculation
+from diecut_report.config.plugins import Discovery
+from diecut_report.machine.calculation import Calculation
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import EXAMPLES
 from tests.examples import examples

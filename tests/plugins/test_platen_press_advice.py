@@ -8,7 +8,7 @@ from typing import Any
 from hypothesis import assume, given
 from hypothesis import strategies as st
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from tests.examples import examples
 from tests.plugins.platens import GUIDED, checks, platen
 

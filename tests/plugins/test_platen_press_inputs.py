@@ -10,10 +10,10 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import kind_schema
-from diecut_report.engine import Impossible
 from diecut_report.errors import UserError
+from diecut_report.machine.calculation import Impossible
 from diecut_report.plugins.platen_press import MECHANISM
 from tests.configs import HEAD, problems, saved
 from tests.machines import number

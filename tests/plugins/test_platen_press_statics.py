@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from tests.machines import number
 from tests.plugins.platens import GUIDED, at, platen
 

@@ -11,12 +11,13 @@ import pytest
 import yaml
 from scipy.optimize import brentq
 
-from diecut_report.engine import Calculation, CurveHandle, Impossible, calculate
-from diecut_report.languages.phrases import Phrase
+from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM as DRIVE_TRAIN
 from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.plugins.press_consistency.on_main_shaft import listed
 from diecut_report.results.checks import check_results
+from diecut_report.text.phrases import Phrase
 from tests.configs import EXAMPLE
 from tests.machines import inputs, number
 from tests.mechanics.timing.example_press import calculations

@@ -8,11 +8,11 @@ from typing import Any
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.engine import calculate
-from diecut_report.engine.printing.items import section_items
-from diecut_report.engine.printing.substitution import printed
+from diecut_report.config.plugins import Discovery
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.printing.substitution import printed
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM_GEAR
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import inputs

@@ -10,8 +10,8 @@ import pytest
 from jsonschema import Draft202012Validator
 
 from diecut_report.config.schema import config_schema
-from diecut_report.engine import Impossible
 from diecut_report.errors import UserError
+from diecut_report.machine.calculation import Impossible
 from diecut_report.plugins.roller_chain import MECHANISM
 from diecut_report.results.press_run import compute
 from tests.configs import HEAD, loaded, problems

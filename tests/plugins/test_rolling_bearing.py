@@ -12,7 +12,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy.integrate import quad
 
-from diecut_report.engine import listings
+from diecut_report.machine import mechanism
 from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES
 from tests.examples import examples
 from tests.plugins.bearings import (
@@ -295,7 +295,7 @@ def test_a_series_has_all_its_bearings_in_the_order_of_their_bores() -> None:
 )
 def test_a_bearing_of_the_table_is_shown_between_its_neighbours_of_the_series(sought: str, names: list[str]) -> None:
     kind = SOUGHT_ROLLER if sought.startswith("NU") else SOUGHT
-    rows = listings.results(one(kind, designation=sought))["listings"]["choice"]["rows"]
+    rows = mechanism.results(one(kind, designation=sought))["listings"]["choice"]["rows"]
     assert [row[1] for row in rows] == names
     assert [row[1] for row in rows if row[2] == "yes"] == [sought]
 

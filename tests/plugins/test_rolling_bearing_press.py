@@ -9,14 +9,13 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.results.document import document
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input
-from diecut_report.study.execution.result_columns import columns_of
-from diecut_report.study.execution.variant_rows import calculate_rows
+from diecut_report.study.execution.variant_rows import calculate_rows, columns_of
 from tests.configs import HEAD, loaded, problems
 from tests.plugins.bearings import (
     ANGULAR,

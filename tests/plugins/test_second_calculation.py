@@ -7,7 +7,7 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from tests.configs import loaded

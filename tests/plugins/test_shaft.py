@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 from numpy.testing import assert_allclose
 
-from diecut_report.engine import Calculation, Impossible
+from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.plugins.shaft import MECHANISM
 from diecut_report.results.checks import check_results
 from tests.examples import few

@@ -7,15 +7,17 @@ from typing import Any
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.engine import Calculation, Impossible, calculate, listings
+from diecut_report.config.plugins import Discovery
+from diecut_report.machine import mechanism
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.shaft import MECHANISM
 from diecut_report.plugins.shaft.sizing import SERIES
 from diecut_report.results.checks import check_results
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.study_file import load_study
-from diecut_report.study.execution.result_columns import columns_of
+from diecut_report.study.execution.variant_rows import columns_of
 from diecut_report.study.execution.worker import Chunk
 from diecut_report.study.execution.worker import calculate as calculated
 from tests.configs import loaded, saved
@@ -93,7 +95,7 @@ def test_a_steel_is_taken_at_the_size_that_is_found() -> None:
 
 def test_the_neighbours_in_the_series_are_shown() -> None:
     found = shaft(CRANKSHAFT, sections=without(2, of=PLAIN), required_fatigue_safety=1)
-    rows = listings.results(found)["listings"]["size_neighbours"]["rows"]
+    rows = mechanism.results(found)["listings"]["size_neighbours"]["rows"]
     size = diameters(found)[2]
     place = [round(float(each) * 1e3, 6) for each in SERIES].index(size)
     assert [row[1] for row in rows] == pytest.approx(SERIES[place - 1 : place + 2])
@@ -105,7 +107,7 @@ def test_the_neighbours_in_the_series_are_shown() -> None:
 def test_diameters_that_are_given_are_not_sought() -> None:
     found = shaft(CRANKSHAFT)
     assert diameters(found) == [45, 55, 60, 50]
-    assert listings.results(found)["listings"]["size_neighbours"]["rows"] == []
+    assert mechanism.results(found)["listings"]["size_neighbours"]["rows"] == []
 
 
 @pytest.mark.parametrize(

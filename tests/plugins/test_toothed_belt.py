@@ -11,17 +11,18 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.api import Annotated, Inputs, Mechanism, Source, Text
-from diecut_report.engine import Calculation, Impossible, calculate
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train.toothed_belt import (
     TOOTHED_BELT,
     TOOTHED_BELT_ASSUMPTIONS,
     TOOTHED_BELT_CHECKS,
     TOOTHED_BELT_ERRATA,
-    TOOTHED_BELT_FIGURES,
     ToothedBelt,
 )
+from diecut_report.plugins.drive_train.toothed_belt_figure import TOOTHED_BELT_FIGURES
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.testing import check_mechanism
 from tests.examples import examples
 from tests.machines import inputs, number
 

@@ -12,13 +12,14 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
-from diecut_report.engine import Calculation, calculate
-from diecut_report.expressions import Array
+from diecut_report.config.plugins import Discovery
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
-from diecut_report.results.comparisons import compared, found
+from diecut_report.results.press_run import compared, found
 from tests.configs import HEAD, saved
 from tests.examples import examples, few
 from tests.machines import inputs, number

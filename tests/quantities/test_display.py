@@ -8,8 +8,17 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.quantities.display import FAMILIES, easy_unit
-from diecut_report.quantities.formatting import listed_text, number_text, place_shown, shortest, shown, si, with_unit
+from diecut_report.quantities.formatting import (
+    FAMILIES,
+    easy_unit,
+    listed_text,
+    number_text,
+    place_shown,
+    shortest,
+    shown,
+    si,
+    with_unit,
+)
 from diecut_report.quantities.units import parse_quantity, unit
 
 

@@ -11,14 +11,15 @@ import numpy as np
 import pytest
 
 from diecut_report.api import CurveInput, Quantity
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.contract.inputs import SI, fields
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.mechanism.inputs import fields
+from diecut_report.mechanism.names import SI
 from diecut_report.quantities.plausible import SIZES, Plausible, plausible, without_rounding
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.results.press_run import compute
-from diecut_report.study.analysis.query import variants
+from diecut_report.study.analysis.answers import variants
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
 from tests.configs import DISCOVERY, HEAD, problems, saved

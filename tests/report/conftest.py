@@ -12,9 +12,9 @@ from typing import Any
 import matplotlib as mpl
 import pytest
 
-from diecut_report.report import Rendering
 from diecut_report.report.figures.style import load_fonts
 from diecut_report.report.figures.style import style as style_of
+from diecut_report.report.rendering import Rendering
 from tests.report.made_results import sample
 from tests.shared import once
 

@@ -11,7 +11,7 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.report import Rendering
+from diecut_report.report.rendering import Rendering
 from tests.examples import few
 
 

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.report.alignment import rooms
+from diecut_report.report.text import rooms
 
 
 @pytest.mark.parametrize(

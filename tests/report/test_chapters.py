@@ -8,9 +8,9 @@ from typing import Any
 
 import pytest
 
-from diecut_report.report import Rendering, render_html
 from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.profile_files import CENTER, PITCH_CURVE, PROFILE, exports
+from diecut_report.report.rendering import Rendering, render_html
 from tests.report.made_results import SOURCE, check, export, mechanism, sample
 
 Data = dict[str, Any]

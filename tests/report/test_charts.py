@@ -14,11 +14,9 @@ from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.charts import _of_curves, _of_lines, diagrams
 from diecut_report.report.figures.charts import chart as sheet_of
 from diecut_report.report.figures.diagram import STROKES, Diagram, legend
-from diecut_report.report.figures.label_layout import LabelLayout
-from diecut_report.report.figures.panel_data import PanelData, framed, pieces
-from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import overlap, text_size
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.figures.labels import LabelLayout, PanelData, framed, pieces
+from diecut_report.report.figures.style import SizesSize, overlap, text_size
+from diecut_report.report.text import Catalogue
 from tests.report.made_figures import CHARTS, block, chart, energy, laws, line, panel, wedge
 
 pytestmark = pytest.mark.usefixtures("style")
@@ -287,12 +285,12 @@ def test_names_of_a_legend_are_broken_where_they_are_wider_than_the_diagram() ->
 def test_many_diagrams_stand_two_by_two_where_the_sheet_is_to_be_saved() -> None:
     figure = chart("c", "Chart", [panel(f"Panel {n}", "mm", TURN, lines=[line([0, 1], [0, 1], "a")]) for n in range(4)])
 
-    def places(size: Size) -> list[tuple[float, float]]:
+    def places(size: SizesSize) -> list[tuple[float, float]]:
         axes = sheet_of(figure, {}, WORDS, size).axes
         return [(round(each.get_position().x0, 3), round(each.get_position().y0, 3)) for each in axes]
 
-    assert len({x for x, _ in places(Size.LOW)}) == 2 and len({y for _, y in places(Size.LOW)}) == 2
-    assert len({x for x, _ in places(Size.LARGE)}) == 1
+    assert len({x for x, _ in places(SizesSize.LOW)}) == 2 and len({y for _, y in places(SizesSize.LOW)}) == 2
+    assert len({x for x, _ in places(SizesSize.LARGE)}) == 1
 
 
 def test_points_that_are_counted_have_whole_numbers_below() -> None:
@@ -300,6 +298,6 @@ def test_points_that_are_counted_have_whole_numbers_below() -> None:
     figure = chart(
         "c", "Chart", [panel("Life", "1", ("Part", "", "1"), lines=[line([0.5, 3.5], [0, 0], "a")], marks=marks)]
     )
-    (axes,) = sheet_of(figure, {}, WORDS, Size.LOW).axes
+    (axes,) = sheet_of(figure, {}, WORDS, SizesSize.LOW).axes
     low, high = axes.get_xlim()
     assert [tick for tick in axes.get_xticks() if low <= tick <= high] == [1, 2, 3]

@@ -17,16 +17,17 @@ from pypdf import PdfReader
 
 from diecut_report import pipeline
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.languages.tokens import worded
-from diecut_report.report import Rendering, html, render_html
+from diecut_report.config.plugins import Discovery
+from diecut_report.report.chapters.steps import BEFORE, Place, placed, sketch
 from diecut_report.report.context import Material, _left_alone
-from diecut_report.report.figure_places import BEFORE, Place, placed, sketch
-from diecut_report.report.number_format import number
+from diecut_report.report.pages import html
+from diecut_report.report.rendering import Rendering, render_html
 from diecut_report.report.scope import scope
+from diecut_report.report.text import number
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
+from diecut_report.text.phrases import worded
 from tests.configs import DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, SMALL, problems, saved
 from tests.shared import once
 
@@ -147,7 +148,7 @@ def test_a_result_that_its_step_prints_stands_in_no_table_of_standard(plain: Dat
 
 
 def test_contents_come_before_the_summary_on_paper(plain: Data) -> None:
-    from diecut_report.report.pdf import Paper
+    from diecut_report.report.pages.pdf import Paper
 
     material = Rendering(plain).material
     page = html.filled(material, Paper(material), "print")
@@ -155,7 +156,7 @@ def test_contents_come_before_the_summary_on_paper(plain: Data) -> None:
 
 
 def test_keys_that_checks_miss_are_said_on_paper_in_the_summary_alone(plain: Data) -> None:
-    from diecut_report.report.pdf import Paper
+    from diecut_report.report.pages.pdf import Paper
 
     plain["report"] = {"detail": "standard"}
     plain["mechanisms"]["cylinder"]["checks"][0] |= {"status": "not_checked", "missing": ["allowable_load"]}

@@ -11,12 +11,20 @@ import numpy as np
 import pytest
 
 from diecut_report.report.figures.by_type import render
-from diecut_report.report.figures.drawing import Shapes
-from diecut_report.report.figures.drawing_scale import LARGEST, PAD, PAGE, SIZES, content, filled, folded
-from diecut_report.report.figures.shapes import beyond, hatching
-from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import MM, marked, overlap, text_size
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.figures.drawing import (
+    LARGEST,
+    PAD,
+    PAGE,
+    SIZES,
+    Shapes,
+    beyond,
+    content,
+    filled,
+    folded,
+    hatching,
+)
+from diecut_report.report.figures.style import MM, SizesSize, marked, overlap, text_size
+from diecut_report.report.text import Catalogue
 from tests.examples import few
 from tests.report.made_figures import (
     DRAWINGS,
@@ -231,7 +239,7 @@ def test_a_drawing_with_many_texts_is_not_made_lower(texts: int, is_lower: bool)
     ]
     outline = {"shape": "polyline", "points": points, "closed": True, "role": "outline"}
     figure = drawing("d", "Rows", [outline, *labels])
-    low, large = (render(figure, {}, Catalogue("en"), "d", size).height for size in (Size.LOW, Size.LARGE))
+    low, large = (render(figure, {}, Catalogue("en"), "d", size).height for size in (SizesSize.LOW, SizesSize.LARGE))
     assert (low < large) is is_lower
 
 

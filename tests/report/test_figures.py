@@ -11,13 +11,12 @@ from xml.etree import ElementTree
 import numpy as np
 import pytest
 
-from diecut_report.report.curves import continuous, period_of, through_pole
-from diecut_report.report.figures.bars import bars
+from diecut_report.report.chapters.tables import continuous, period_of, through_pole
 from diecut_report.report.figures.by_type import render
-from diecut_report.report.figures.polar import polar
-from diecut_report.report.figures.shapes import hatching
+from diecut_report.report.figures.charts import bars, polar
+from diecut_report.report.figures.drawing import hatching
 from diecut_report.report.figures.style import Labels, marked
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.text import Catalogue
 
 WORDS = Catalogue("en")
 

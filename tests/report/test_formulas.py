@@ -12,15 +12,13 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.report.equations import WIDTH, Equations
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.latex import Latex, Linear, unit_latex
+from diecut_report.report.chapters.repetition import SaidOnce, ToldBefore
+from diecut_report.report.chapters.steps import PrintedSteps
+from diecut_report.report.chapters.tables import Tables
+from diecut_report.report.equations import WIDTH, Equations, Typesetter
+from diecut_report.report.mathematics import Latex, Linear, unit_latex
 from diecut_report.report.model import Heading
-from diecut_report.report.said_once import SaidOnce
-from diecut_report.report.steps import PrintedSteps
-from diecut_report.report.tables import Tables
-from diecut_report.report.told_before import ToldBefore
-from diecut_report.report.typeset import Typesetter
+from diecut_report.report.text import Catalogue
 
 Tree = list[Any]
 A, B, C = ["sym", "a"], ["sym", "b"], ["sym", "c"]

@@ -6,10 +6,9 @@ from typing import Any
 
 import pytest
 
-from diecut_report.languages.catalogues import Catalogues
-from diecut_report.report.given_names import given_names, value_in_words
-from diecut_report.report.translated import translated
-from diecut_report.report.value_rows import value_row
+from diecut_report.report.chapters.value_tables import value_row
+from diecut_report.report.text import given_names, translated, value_in_words
+from diecut_report.text.catalogues import Catalogues
 
 Data = dict[str, Any]
 

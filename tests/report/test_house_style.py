@@ -12,13 +12,13 @@ from jinja2 import Environment, FileSystemLoader
 
 from diecut_report.cli.main import main
 from diecut_report.errors import UserError
-from diecut_report.exchange.page_comparison import other_templates
-from diecut_report.house_folder import house_style
+from diecut_report.exchange.verification import other_templates
+from diecut_report.firm_folder import house_style
 from diecut_report.report.context import Material
-from diecut_report.report.house_style import HouseStyle, blocks
-from diecut_report.report.html import Screen, filled, folder, page, policy
-from diecut_report.report.page_policy import refuse_fetching
-from diecut_report.report.pdf import Paper, sheets
+from diecut_report.report.pages.firm_templates import HouseStyle, blocks
+from diecut_report.report.pages.html import Screen, filled, folder, page, policy
+from diecut_report.report.pages.page_policy import refuse_fetching
+from diecut_report.report.pages.pdf import Paper, sheets
 from tests.configs import SMALL, saved
 
 Data = dict[str, Any]

@@ -9,9 +9,10 @@ from typing import Any
 import pytest
 from jinja2 import UndefinedError
 
-from diecut_report.languages.catalogues import UnknownLanguage
-from diecut_report.report import Rendering, html, render_html
-from diecut_report.report.html import SCRIPTS
+from diecut_report.report.pages import html
+from diecut_report.report.pages.html import SCRIPTS
+from diecut_report.report.rendering import Rendering, render_html
+from diecut_report.text.catalogues import UnknownLanguage
 
 BAD = "<script>alert(1)</script>"
 VOID = {"wbr", "meta", "img", "br", "col", "path", "use", "rect", "link", "mspace", "circle", "line", "input"}

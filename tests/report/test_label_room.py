@@ -15,18 +15,15 @@ import pytest
 from matplotlib.backends.backend_svg import RendererSVG
 from matplotlib.text import Text
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.languages.catalogues import Catalogues
+from diecut_report.config.plugins import Discovery
 from diecut_report.pipeline import calc
-from diecut_report.report.figure_places import placed, rows_of
+from diecut_report.report.chapters.steps import placed, rows_of
 from diecut_report.report.figures.by_type import build
-from diecut_report.report.figures.label_layout import AWAY, LabelLayout
-from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, framed
-from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import load_fonts, text_size, wrapped
+from diecut_report.report.figures.labels import AWAY, Across, LabelLayout, Line, Note, PanelData, SpanData, framed
+from diecut_report.report.figures.style import SizesSize, load_fonts, text_size, wrapped
 from diecut_report.report.figures.style import style as style_of
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.translated import translated
+from diecut_report.report.text import Catalogue, translated
+from diecut_report.text.catalogues import Catalogues
 from tests.configs import EXAMPLES
 from tests.report.made_figures import chart, line, panel
 
@@ -45,7 +42,7 @@ class Box(NamedTuple):
 
 
 def _boxes(
-    figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size, language: str = "en"
+    figure: Mapping[str, Any], curves: Mapping[str, Any], size: SizesSize, language: str = "en"
 ) -> tuple[list[Box], float, float]:
     """The texts that are really drawn (ticks beyond an axis are not), and the size of the picture."""
     drawn: dict[Text, None] = {}
@@ -68,7 +65,9 @@ def _boxes(
     return found, width, height
 
 
-def _faults(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size, language: str = "en") -> Iterator[str]:
+def _faults(
+    figure: Mapping[str, Any], curves: Mapping[str, Any], size: SizesSize, language: str = "en"
+) -> Iterator[str]:
     boxes, width, height = _boxes(figure, curves, size, language)
     for box in boxes:
         if min(box.left, box.bottom) < -EDGE or box.right > width + EDGE or box.top > height + EDGE:
@@ -82,14 +81,16 @@ def _faults(figure: Mapping[str, Any], curves: Mapping[str, Any], size: Size, la
             yield f"{figure['id']}: {one.text!r} over {other.text!r}"
 
 
-Drawn = tuple[Mapping[str, Any], Mapping[str, Any], Size]  # a figure, the curves that it shows, and how large it stands
+Drawn = tuple[
+    Mapping[str, Any], Mapping[str, Any], SizesSize
+]  # a figure, the curves that it shows, and how large it stands
 
 
 def _drawn(results: Mapping[str, Any], *, paired: bool) -> Iterator[Drawn]:
     parts = (*results["mechanisms"].values(), *results.get("comparisons", {}).values())
     for part in (part for part in parts if part.get("figures")):
         for row in rows_of(placed("A", part), paired=paired):
-            size = Size.HALF if len(row.figures) > 1 else Size.LOW if paired else Size.LARGE
+            size = SizesSize.HALF if len(row.figures) > 1 else SizesSize.LOW if paired else SizesSize.LARGE
             yield from ((e.figure, part["curves"], size) for e in row.figures if "error" not in e.figure)
 
 
@@ -144,8 +145,8 @@ def test_titles_that_are_wider_than_their_diagram_stand_in_lines() -> None:
         "lines": [line | {"label": f"law number {n} with a long name"} for n in range(3)], "levels": [], "verticals": [],
     }  # fmt: skip
     figure = {"id": "narrow", "type": "chart", "panels": [panel, panel]}
-    assert list(_faults(figure, {}, Size.HALF)) == []
-    assert sum("\n" in box.text for box in _boxes(figure, {}, Size.HALF)[0]) == 3
+    assert list(_faults(figure, {}, SizesSize.HALF)) == []
+    assert sum("\n" in box.text for box in _boxes(figure, {}, SizesSize.HALF)[0]) == 3
 
 
 def _crowded(line_count: int = 3) -> LabelLayout:
@@ -203,7 +204,7 @@ def test_a_vertical_line_through_several_diagrams_is_named_once() -> None:
     each = panel(
         "y", "N", ("Angle", "φ", "deg"), lines=[line([0, 1], [0, 1])], verticals=[{"x": 0.5, "label": "contact"}]
     )
-    found = _boxes(chart("x", "x", [each, each, each]), {}, Size.LARGE)[0]
+    found = _boxes(chart("x", "x", [each, each, each]), {}, SizesSize.LARGE)[0]
     assert [box.text for box in found].count("contact") == 1
 
 
@@ -233,10 +234,10 @@ def test_the_legend_names_such_marks_and_levels_by_their_signs() -> None:
         "lines": [wave], "levels": [{"value": 30.0, "label": "mean of the whole turn"}], "verticals": [],
     }  # fmt: skip
     figure = {"id": "narrow", "type": "chart", "panels": [panel]}
-    boxes = {box.text: box for box in _boxes(figure, {}, Size.HALF)[0]}
+    boxes = {box.text: box for box in _boxes(figure, {}, SizesSize.HALF)[0]}
     names = [box for text, box in boxes.items() if text.startswith(("greatest driving", "mean of"))]
     assert len(names) == 2 and all(box.bottom > boxes["Torque, N·m"].top - 20 for box in names)
-    assert list(_faults(figure, {}, Size.HALF)) == []
+    assert list(_faults(figure, {}, SizesSize.HALF)) == []
 
 
 @pytest.mark.usefixtures("style")

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.report.left_out import gathered_notes, under_heading
+from diecut_report.report.model import gathered_notes, under_heading
 
 
 def _note(name: str, said: str = "does not apply to this machine.") -> dict[str, Any]:

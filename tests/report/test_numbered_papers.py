@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.report.numbered_papers import numbered
+from diecut_report.report.chapters.sources import numbered
 
 
 def test_papers_stand_by_their_number_and_nothing_else_changes() -> None:

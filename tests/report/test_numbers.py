@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.report.number_format import displayed, number, quantity, significant, tidy
+from diecut_report.report.text import displayed, number, quantity, significant, tidy
 
 THIN = "\u202f"
 NARROW = "\u2009"

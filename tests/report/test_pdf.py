@@ -21,12 +21,12 @@ from page import validate_pdf
 from pypdf import PdfReader
 from weasyprint.urls import URLFetcher
 
-from diecut_report.report import Rendering
-from diecut_report.report.html import filled
-from diecut_report.report.page_reading import read_page, well_formed
-from diecut_report.report.pdf import Paper
-from diecut_report.report.pdf_math import Letters, operators
-from diecut_report.report.typeset import Typesetter
+from diecut_report.report.equations import Typesetter
+from diecut_report.report.pages.html import filled
+from diecut_report.report.pages.page_policy import read_page, well_formed
+from diecut_report.report.pages.pdf import Paper
+from diecut_report.report.pages.pdf_math import Letters, operators
+from diecut_report.report.rendering import Rendering
 from tests.report.conftest import Printed
 
 AGAIN = """
@@ -134,7 +134,7 @@ def test_each_signer_has_a_field_in_the_box_for_his_signature(pdf: Path) -> None
 
 
 def test_a_picture_from_outside_stops_the_rendering(results: dict[str, Any], monkeypatch: pytest.MonkeyPatch) -> None:
-    from diecut_report.report import pdf as module
+    from diecut_report.report.pages import pdf as module
 
     monkeypatch.setattr(
         module, "filled", lambda *_: '<html lang="en"><title>x</title><img alt="" src="http://localhost/x.png">'

@@ -11,11 +11,11 @@ import numpy as np
 import pytest
 from PIL import Image
 
-from diecut_report.report import Rendering
 from diecut_report.report.figures.style import Svg
-from diecut_report.report.page_engine import HTML
-from diecut_report.report.pdf import Paper
-from diecut_report.report.pdf_figures import FigurePicture, NotDrawn
+from diecut_report.report.pages.page_engine import HTML
+from diecut_report.report.pages.pdf import Paper
+from diecut_report.report.pages.pdf_figures import FigurePicture, NotDrawn
+from diecut_report.report.rendering import Rendering
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 100 50">'
 PAGE = '<html lang="en"><style>@page {{ size: 200mm 120mm; margin: 5mm }} img {{ display: block }}</style><img alt="" src="{}">'

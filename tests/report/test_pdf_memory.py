@@ -19,7 +19,7 @@ import pikepdf
 from diecut_report.report import Rendering
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.loader import load_config
 
 path = Path(sys.argv[1])

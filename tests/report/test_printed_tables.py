@@ -9,11 +9,11 @@ from pathlib import Path
 import pytest
 from markupsafe import Markup
 
-from diecut_report.report.html import folder
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.page_engine import HTML
-from diecut_report.report.printed_tables import PrintedTable
-from diecut_report.report.tables import Tables
+from diecut_report.report.chapters.printed_tables import PrintedTable
+from diecut_report.report.chapters.tables import Tables
+from diecut_report.report.pages.html import folder
+from diecut_report.report.pages.page_engine import HTML
+from diecut_report.report.text import Catalogue
 
 NONE = Markup("")
 PHASE = {

@@ -9,9 +9,9 @@ from typing import Any
 
 import pytest
 
-from diecut_report.report import Rendering
 from diecut_report.report.document import ReportDocument
 from diecut_report.report.model import Item, PrintedChapter
+from diecut_report.report.rendering import Rendering
 from tests.processes import Example
 
 Data = dict[str, Any]

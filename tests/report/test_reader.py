@@ -13,13 +13,20 @@ import numpy as np
 import pytest
 
 from diecut_report.api import chart_panel, line
-from diecut_report.report import Rendering
-from diecut_report.report.figures.panel_data import Across, Line, PanelData
-from diecut_report.report.html import SCRIPTS, folder
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.reader_data import _figure, _is_readable, _line, figure_readings, reader_data
-from diecut_report.report.reader_moving import _room, _shape
-from diecut_report.report.reader_pool import ReaderRows
+from diecut_report.report.figures.labels import Across, Line, PanelData
+from diecut_report.report.pages.html import SCRIPTS, folder
+from diecut_report.report.reader_data import (
+    ReaderRows,
+    _figure,
+    _is_readable,
+    _line,
+    _room,
+    _shape,
+    figure_readings,
+    reader_data,
+)
+from diecut_report.report.rendering import Rendering
+from diecut_report.report.text import Catalogue
 
 UPLOT = {  # version 1.6.32 as it is published, with its licence
     "uPlot.iife.min.js": "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f",

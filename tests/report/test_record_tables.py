@@ -4,10 +4,10 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.record_tables import RecordTable
-from diecut_report.report.repeated_parts import FEWEST_GIVEN, gathered
-from diecut_report.report.tables import Tables
+from diecut_report.report.chapters.repetition import FEWEST_GIVEN, gathered
+from diecut_report.report.chapters.tables import Tables
+from diecut_report.report.chapters.value_tables import RecordTable
+from diecut_report.report.text import Catalogue
 
 Data = dict[str, Any]
 

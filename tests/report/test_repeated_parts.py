@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.report.repeated_parts import counted, gathered
+from diecut_report.report.chapters.repetition import counted, gathered
 from tests.report.made_results import inputs, outputs, part, quantity
 
 Data = dict[str, Any]

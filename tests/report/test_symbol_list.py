@@ -6,7 +6,7 @@ from typing import Any
 
 from markupsafe import Markup
 
-from diecut_report.report.symbol_list import SymbolRow, in_blocks, symbol_rows
+from diecut_report.report.symbols import SymbolRow, in_blocks, symbol_rows
 
 
 def row(symbol: str, description: str, unit: str = "mm", **more: Any) -> dict[str, Any]:

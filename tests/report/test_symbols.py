@@ -6,8 +6,7 @@ import re
 
 import pytest
 
-from diecut_report.report.declared_letters import declared_letters
-from diecut_report.report.symbols import letters_declared, own_words, prose, symbol
+from diecut_report.report.symbols import declared_letters, letters_declared, own_words, prose, symbol
 from tests.report.made_results import sample
 
 

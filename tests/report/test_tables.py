@@ -7,9 +7,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report.report.curves import table_places
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.tables import Tables
+from diecut_report.report.chapters.tables import Tables, table_places
+from diecut_report.report.text import Catalogue
 
 TURN = {
     "values": [math.radians(k / 2) for k in range(720)],

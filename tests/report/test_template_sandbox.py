@@ -15,10 +15,10 @@ from markupsafe import Markup
 
 from diecut_report.errors import UserError
 from diecut_report.pipeline import rendered
-from diecut_report.report import template_limits, template_sandbox
 from diecut_report.report.context import Material
-from diecut_report.report.house_style import HouseStyle
-from diecut_report.report.html import (
+from diecut_report.report.pages import firm_templates
+from diecut_report.report.pages.firm_templates import HouseStyle, TemplateSandbox
+from diecut_report.report.pages.html import (
     FILTERS,
     MathFunctions,
     Screen,
@@ -26,9 +26,8 @@ from diecut_report.report.html import (
     template_functions,
     template_variables,
 )
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.pdf import Paper
-from diecut_report.report.template_sandbox import TemplateSandbox
+from diecut_report.report.pages.pdf import Paper
+from diecut_report.report.text import Catalogue
 
 Data = dict[str, Any]
 PLAIN = (str, int, float, bytes, type(None))
@@ -88,7 +87,7 @@ def test_all_that_a_template_reaches_is_plain_data_or_a_listed_function(plain: D
 
 def test_filters_and_tests_are_those_of_jinja_and_of_the_report() -> None:
     environment = HouseStyle("house").environment(folder(), FILTERS, [])
-    assert environment.filters == defaults.DEFAULT_FILTERS | FILTERS | {"round": template_sandbox._rounded}
+    assert environment.filters == defaults.DEFAULT_FILTERS | FILTERS | {"round": firm_templates._rounded}
     assert environment.tests == defaults.DEFAULT_TESTS
     for each in FILTERS.values():
         assert isinstance(getattr(each, "func", each), FunctionType) and not isinstance(each, MethodType)
@@ -199,8 +198,8 @@ ENDLESS = [
 def test_what_never_ends_or_takes_all_memory_is_told(
     brief: Data, text: str, words: str, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(template_limits, "SECONDS", 5.0)
-    monkeypatch.setattr(template_limits, "MEMORY", 2**28)
+    monkeypatch.setattr(firm_templates, "SECONDS", 5.0)
+    monkeypatch.setattr(firm_templates, "MEMORY", 2**28)
     before = resource.getrlimit(resource.RLIMIT_AS)
     with pytest.raises(UserError, match=words):
         closed(brief, text)

@@ -12,9 +12,8 @@ from matplotlib.figure import Figure
 from matplotlib.font_manager import FontProperties
 from matplotlib.textpath import TextToPath
 
-from diecut_report.report.figures.style import canvas, written
-from diecut_report.report.figures.text_writing import TextCanvas, TextMeasure, TextWriter
-from diecut_report.report.pdf_figures import FigurePicture
+from diecut_report.report.figures.style import TextCanvas, TextMeasure, TextWriter, canvas, written
+from diecut_report.report.pages.pdf_figures import FigurePicture
 
 TEXTS = ("die", "c = 164.9 mm", r"$R_{\mathrm{b}}$ = 70 mm", r"Displacement $S$, mm", r"$\varphi$")
 

@@ -12,11 +12,11 @@ from typing import Any
 import pytest
 from pypdf import PdfReader
 
-from diecut_report.report import Rendering
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.letters import BOLD, LINE, MILLIMETRE, drawn, fitted, measured
-from diecut_report.report.sheet_frames import Cell, sheet_blocks
-from diecut_report.report.title_block import TitleBlock, machine_named, title_block
+from diecut_report.report.document import TitleBlock, machine_named, title_block
+from diecut_report.report.pages.frames import Cell, sheet_blocks
+from diecut_report.report.rendering import Rendering
+from diecut_report.report.symbols import BOLD, LINE, MILLIMETRE, drawn, fitted, measured
+from diecut_report.report.text import Catalogue
 from tests.configs import HEAD, SMALL, problems, saved
 from tests.examples import few
 from tests.exchange.reports import run

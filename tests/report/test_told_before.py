@@ -5,11 +5,11 @@ from __future__ import annotations
 import copy
 from typing import Any
 
-from diecut_report.report import Rendering
-from diecut_report.report.figure_places import Place, Placed, rows_of
+from diecut_report.report.chapters.repetition import Reference, ToldBefore
+from diecut_report.report.chapters.steps import Place, Placed, rows_of
+from diecut_report.report.chapters.tables import brought_together
 from diecut_report.report.model import Item, PrintedChapter
-from diecut_report.report.section_tables import brought_together
-from diecut_report.report.told_before import Reference, ToldBefore
+from diecut_report.report.rendering import Rendering
 
 Data = dict[str, Any]
 

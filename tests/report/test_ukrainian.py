@@ -13,9 +13,9 @@ from typing import Any
 import pytest
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
-from diecut_report.languages import po_files
-from diecut_report.report import Rendering
+from diecut_report.config.plugins import Discovery
+from diecut_report.report.rendering import Rendering
+from diecut_report.text import catalogues
 from tests.examples import few
 
 ROOT = Path(__file__).parents[2]
@@ -85,7 +85,7 @@ def titles() -> frozenset[str]:
     """The words of the catalogues that stand in them in another language: titles of works, names of makers and authors."""
     found = set()
     for file in (ROOT / "diecut_report" / "locale" / "uk.po", *ROOT.glob("plugins/*/locale/uk.po")):
-        for message in po_files.read(file, "uk"):
+        for message in catalogues.read(file, "uk"):
             if message.context in CITED or any(
                 "standard series" in of or "of a table" in of for of in message.auto_comments
             ):

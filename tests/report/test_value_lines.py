@@ -4,8 +4,8 @@ from __future__ import annotations
 
 from markupsafe import Markup
 
-from diecut_report.report.value_lines import ALONE, in_lines
-from diecut_report.report.value_rows import ValueRow
+from diecut_report.report.chapters.value_tables import ValueRow
+from diecut_report.report.model import ALONE, in_lines
 
 
 def row(description: str, value: str = "1 mm") -> ValueRow:

@@ -6,11 +6,11 @@ from typing import Any
 
 import pytest
 
-from diecut_report.report.advice import followed_line
+from diecut_report.report.chapters.front import followed_line
 from diecut_report.report.document import document
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Catalogue
-from diecut_report.results.summary import governing, summary
+from diecut_report.report.text import Catalogue
+from diecut_report.results.conclusion import governing, summary
 from tests.report.made_results import check, mechanism, sample
 
 SHOWN = {"text": "16", "unit": "N"}

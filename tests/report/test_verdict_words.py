@@ -2,10 +2,8 @@
 
 from __future__ import annotations
 
-from diecut_report.report.advice import followed_line
-from diecut_report.report.assumed import assumed_groups
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.number_format import sentence
+from diecut_report.report.chapters.front import assumed_groups, followed_line
+from diecut_report.report.text import Catalogue, sentence
 
 
 def test_the_counts_begin_a_sentence() -> None:

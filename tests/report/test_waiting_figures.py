@@ -7,8 +7,8 @@ from io import BytesIO
 
 from pypdf import PdfReader
 
-import diecut_report.report.pdf  # noqa: F401 - figures wait where reports are set
-from diecut_report.report.page_engine import HTML
+import diecut_report.report.pages.pdf  # noqa: F401 - figures wait where reports are set
+from diecut_report.report.pages.page_engine import HTML
 
 STYLE = (
     "@page { size: 100mm 101mm; margin: 0 } body { margin: 0 } html { font: 4mm/10mm sans-serif } p, h2 { margin: 0 }"

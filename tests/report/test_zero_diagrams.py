@@ -4,10 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.report.captions import told_once
-from diecut_report.report.figure_places import BEFORE, Place, Placed
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.zero_diagrams import without_zero_diagrams
+from diecut_report.report.chapters.repetition import without_zero_diagrams
+from diecut_report.report.chapters.steps import BEFORE, Place, Placed, told_once
+from diecut_report.report.text import Catalogue
 
 WORDS = Catalogue("en")
 CURVES = {"torque": {"values": [0.0, 1e-14, -0.0]}, "moment": {"values": [0.0, 5.0, None]}}

@@ -22,14 +22,15 @@ from diecut_report.api import (
     bind,
     formula,
 )
-from diecut_report.contract.inputs import flatten
-from diecut_report.engine import Calculation, calculate
-from diecut_report.report.chapters import chapter
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
+from diecut_report.report.chapters.chapters import chapter
 from diecut_report.report.equations import Equations
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.text import Catalogue
 from diecut_report.results.checks import check_results
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.study.execution import result_columns
+from diecut_report.study.execution import variant_rows
 
 
 class Bar(Block):
@@ -202,13 +203,13 @@ def test_a_study_judges_as_each_machine_alone(number: int, count: int) -> None:
               {"strength": (1, 15), "swing": (1, 5), "phase": (0, 6), "play": (1e-4, 5e-4)}.items()}  # fmt: skip
     loads = random.uniform(0.2, 7, (3, count))
     together = calculate(made, {"bars": True, "n_points": 36, **varied, "bars.load": tuple(loads)}, count)
-    found = result_columns.verdicts({"rack": together}, count)
+    found = variant_rows.verdicts({"rack": together}, count)
     for i in range(count):
         one = {name: values[i] for name, values in varied.items()}
         [single] = check_results(
             calculate(made, {"bars": True, "n_points": 36, **one, "bars.load": tuple(loads[:, i])})
         )
-        assert result_columns.STATUS[found.codes[0, i]] == single["status"]
+        assert variant_rows.STATUS[found.codes[0, i]] == single["status"]
         expected = np.nan if single["utilisation"] is None else single["utilisation"]
         np.testing.assert_allclose(found.ratios[0, i], expected, rtol=1e-9)
 

@@ -6,8 +6,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report.languages.speech import said, speaking
 from diecut_report.results.conclusion import conclusion, is_open
+from diecut_report.text.translation import said, speaking
 
 
 def results(**counts: Any) -> dict[str, Any]:

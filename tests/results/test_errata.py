@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from diecut_report.api import Erratum, Source
-from diecut_report.engine import calculate
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
 from tests.machines import inputs

@@ -16,9 +16,7 @@ from pydantic import ValidationError
 
 import diecut_report as dr
 from diecut_report.cli.main import main
-from diecut_report.results.form.document import ResultsFileKeys
-from diecut_report.results.form.schema import results_schema
-from diecut_report.results.form.version import FORM_VERSION
+from diecut_report.results.form import FORM_VERSION, ResultsFileKeys, results_schema
 from tests.configs import BROKEN, EXAMPLES, GOOD, HEAD, saved
 from tests.processes import Example
 

@@ -8,14 +8,14 @@ from typing import Any
 import numpy as np
 import pytest
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import load_config
-from diecut_report.config.yaml_tree import load
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import load
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.press_batch import calculated
-from diecut_report.study.execution.result_columns import verdicts
+from diecut_report.study.execution.variant_rows import verdicts
 from tests.configs import EXAMPLES, saved
 
 HEAD = "schema_version: 1\nproject: {title: Gears}\npress: {name: P}\nmechanisms:\n"

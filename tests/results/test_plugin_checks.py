@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 
 import diecut_report
-from diecut_report.results.plugin_checks import found_check, is_doubtful
+from diecut_report.results.checks import found_check, is_doubtful
 
 ROOT = Path(diecut_report.__file__).parent
 
@@ -29,4 +29,4 @@ def test_nothing_else_reads_it() -> None:
         for node in ast.walk(ast.parse(file.read_text("utf-8"))):
             if isinstance(node, ast.Constant) and node.value == "plugin_check":
                 reading.add(str(file.relative_to(ROOT)))
-    assert reading == {"results/plugin_checks.py", "config/source_hashes.py"}
+    assert reading == {"results/checks.py", "config/source_hashes.py"}

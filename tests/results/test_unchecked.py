@@ -8,13 +8,14 @@ import numpy as np
 import pytest
 
 from diecut_report.api import Annotated, Block, Chapter, Check, Inputs, Mechanism, OneOf, Quantity, Text
-from diecut_report.contract.inputs import flatten
 from diecut_report.declaration import faults
-from diecut_report.engine import Calculation, calculate
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.checks import check_results
+from diecut_report.results.conclusion import governing, summary
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
-from diecut_report.results.summary import governing, summary
-from diecut_report.study.execution import result_columns
+from diecut_report.study.execution import variant_rows
 
 
 class Stop(Block):
@@ -163,7 +164,7 @@ def test_in_a_study_self_tests_make_errors_and_what_is_not_checked_has_columns()
     own = check("doubled", 20.0, id="own", check_class="numerical")
     values = flatten(Bar.model_validate({})) | {"force": np.array([8.0, 12.0])}
     calc = calculate(bar(own, check("doubled", 20.0), check("doubled", "rated", id="b")), values, 2)
-    found = result_columns.verdicts({"bar": calc}, 2)
+    found = variant_rows.verdicts({"bar": calc}, 2)
     assert found.names == ["bar.checks.c"] and found.unchecked == ["bar.checks.b"]
     assert list(found.faults) == [1] and "Bar" in found.faults[1]
 

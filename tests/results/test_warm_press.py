@@ -9,10 +9,11 @@ from typing import Any
 
 import pytest
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.loader import Config, load_config
-from diecut_report.contract.inputs import SI, Quantity
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.mechanism.names import SI
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.results.results_file import results_text

@@ -10,7 +10,7 @@ import pytest
 
 import diecut_report as dr
 from diecut_report.cli.main import main
-from diecut_report.contract.steps import SILENT
+from diecut_report.mechanism.steps import SILENT
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 
 KNIFE = EXAMPLE.with_name("circular_knife.yaml")

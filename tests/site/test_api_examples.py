@@ -9,9 +9,9 @@ from pathlib import Path
 import pytest
 
 from diecut_report import api
-from diecut_report.contract.mechanism import Mechanism
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.quantities.units import parse_quantity
-from diecut_report.testing import check_mechanism
 from tools.site.api_examples import ApiExample, api_examples, example_of, given_by, run
 
 EXAMPLES = [pytest.param(each, id=each.name) for each in api_examples()]

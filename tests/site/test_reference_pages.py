@@ -13,13 +13,13 @@ from types import ModuleType
 import pytest
 
 from diecut_report import api
-from diecut_report.config.discovery import Discovery, UnknownKind
-from diecut_report.contract.options import Options
+from diecut_report.config.plugins import Discovery, UnknownKind
+from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.errors import PluginError, UserError
-from diecut_report.expressions.functions import FUNCTIONS, OF_TWO, SAID
+from diecut_report.formulas.tree import FUNCTIONS, OF_TWO, SAID
+from diecut_report.mechanism.steps import Options
 from diecut_report.quantities.units import UnitError, parse_quantity
 from diecut_report.report.figures.drawing import ROLES
-from diecut_report.testing import check_mechanism
 from tools import make_form_page
 from tools.site import drawing_page, functions_page
 from tools.site.api_groups import GROUPS, TOLD

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 import yaml
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from tools.site.__main__ import mechanisms
 from tools.site.examples import Example as ConfigExample
 from tools.site.examples import configurations, shown_kinds

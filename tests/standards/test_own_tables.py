@@ -7,7 +7,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report.standards import StandardFault, StandardTable, own_series, own_table, table_beside
+from diecut_report.standards.files import table_beside
+from diecut_report.standards.tables import StandardFault, StandardTable, own_series, own_table
 
 STEELS: dict[str, Any] = {
     "title": "Steels",

@@ -10,8 +10,9 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.standards import StandardSeries, standard_ids, standard_series, standard_series_by, standard_table
-from diecut_report.standards.file_forms import FORMS
+from diecut_report.standards import standard_ids, standard_series, standard_series_by, standard_table
+from diecut_report.standards.files import FORMS
+from diecut_report.standards.tables import StandardSeries
 
 ROOT = Path(__file__).parents[2]
 

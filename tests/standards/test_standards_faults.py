@@ -8,7 +8,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report.standards import StandardFault, standard_ids, standard_series, standard_series_by, standard_table
+from diecut_report.standards import standard_ids, standard_series, standard_series_by, standard_table
+from diecut_report.standards.tables import StandardFault
 
 GOOD: dict[str, Any] = {"title": "Rods", "unit": "mm", "sources": ["One", "Two"], "range": [1, 3], "values": [1, 2, 3]}
 TABLE: dict[str, Any] = {"title": "Rods", "unit": "mm", "sources": ["One", "Two"], "table": {"a": 5, "b": 2.5, "c": 5}}

@@ -4,10 +4,10 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.study.storage import verified_parts
+from diecut_report.study.storage import parts
 
 
 @pytest.fixture(autouse=True)
 def _without_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing of a test stays in the user's cache."""
-    monkeypatch.setattr(verified_parts, "LARGE", float("inf"))
+    monkeypatch.setattr(parts, "LARGE", float("inf"))

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.study.execution.in_flight import Warm
+from diecut_report.study.execution.pending import Warm
 from diecut_report.study.storage.description import Description, ResultColumn, StudySource
 
 SPEED, MASS = "mechanisms.drive.crank_speed", "cylinder.mass"

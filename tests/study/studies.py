@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.study.definition.study_file import Study, load_study
 from tests.configs import DISCOVERY, HEAD, saved

@@ -4,8 +4,8 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.study.analysis.near_equality import rounded
-from diecut_report.study.summary.pareto import best
+from diecut_report.study.analysis.answers import rounded
+from diecut_report.study.summary.best import pareto_best
 
 
 def test_ten_digits_are_kept() -> None:
@@ -17,5 +17,5 @@ def test_ten_digits_are_kept() -> None:
 
 def test_no_variant_stands_on_the_front_by_rounding() -> None:
     costs = np.array([[151.9, 1.925, 3.555090058200241], [187.3, 2.062, 3.5550900582002396]])
-    assert sorted(best(costs).tolist()) == [0, 1]
-    assert best(rounded(costs)).tolist() == [0]
+    assert sorted(pareto_best(costs).tolist()) == [0, 1]
+    assert pareto_best(rounded(costs)).tolist() == [0]

@@ -9,8 +9,8 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.yaml_tree import load
-from diecut_report.results.assumed import Assumed, ordered
+from diecut_report.config.yaml import load
+from diecut_report.results.origins import Assumed, ordered
 from diecut_report.study.analysis.variant_config import _value
 from tests.configs import GOOD, HEAD, LEVER, saved
 from tests.study.studies import varied

@@ -5,8 +5,8 @@ from __future__ import annotations
 import pytest
 
 from diecut_report.errors import UserError
-from diecut_report.study.analysis.stored_variants import StoredColumn
-from diecut_report.study.conditions.where import condition
+from diecut_report.study.analysis.query import condition
+from diecut_report.study.analysis.variants import StoredColumn
 
 COLUMNS = {
     column.name: column

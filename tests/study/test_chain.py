@@ -10,18 +10,18 @@ import numpy as np
 import pytest
 import yaml
 
-from diecut_report.config.discovery import Discovery
 from diecut_report.config.instances import slots
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.model import PRESS
-from diecut_report.config.yaml_tree import parse
-from diecut_report.contract.inputs import SI, Quantity
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import parse
 from diecut_report.errors import UserError
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.mechanism.names import SI
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input, with_values
-from diecut_report.study.execution.result_columns import columns_of
-from diecut_report.study.execution.variant_rows import Rows, calculate_rows
+from diecut_report.study.execution.variant_rows import Rows, calculate_rows, columns_of
 from tests.configs import EXAMPLE, EXAMPLES
 from tests.examples import few
 

@@ -15,17 +15,15 @@ import pytest
 from hypothesis import given, settings
 from hypothesis import strategies as st
 
-from diecut_report.conditions.numpy_emitter import judged
-from diecut_report.conditions.parts import Name
-from diecut_report.conditions.reading import read
-from diecut_report.conditions.tree import Node, names
-from diecut_report.conditions.words import ConditionError
 from diecut_report.errors import UserError
-from diecut_report.expressions import Node as Expression
-from diecut_report.study.analysis.stored_variants import StoredColumn
-from diecut_report.study.conditions.constraints import Term, parse
-from diecut_report.study.conditions.sql_emitter import written
-from diecut_report.study.conditions.where import condition
+from diecut_report.formulas.condition_numpy import judged
+from diecut_report.formulas.condition_parts import Name, read
+from diecut_report.formulas.condition_tree import Node, names
+from diecut_report.formulas.conditions import ConditionError
+from diecut_report.formulas.tree import Node as Expression
+from diecut_report.study.analysis.query import condition, written
+from diecut_report.study.analysis.variants import StoredColumn
+from diecut_report.study.definition.constraints import Term, parse
 
 COLUMNS = {
     column.name: column

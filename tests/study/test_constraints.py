@@ -10,9 +10,9 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.conditions.words import ConditionError
-from diecut_report.expressions import Node
-from diecut_report.study.conditions.constraints import Constraint, Term, parse
+from diecut_report.formulas.conditions import ConditionError
+from diecut_report.formulas.tree import Node
+from diecut_report.study.definition.constraints import Constraint, Term, parse
 
 UNITS: dict[str, str | None] = {
     "mechanisms.a.bore": "m", "mechanisms.a.height": "m", "mechanisms.a.speed": "rad/s", "mechanisms.a.law": None,

@@ -18,12 +18,12 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.errors import UserError
-from diecut_report.study.analysis.query import variants
-from diecut_report.study.analysis.stored_variants import opened
+from diecut_report.study.analysis.answers import variants
+from diecut_report.study.analysis.variants import opened
 from diecut_report.study.execution.study_run import Where, run_study
-from diecut_report.study.storage import state, verified_parts
+from diecut_report.study.storage import parts, state
+from diecut_report.study.storage.parts import Verified
 from diecut_report.study.storage.store import Store
-from diecut_report.study.storage.verified_parts import Verified
 from tests.configs import GOOD
 from tests.examples import few
 from tests.study.made_store import description, part
@@ -181,8 +181,8 @@ def test_a_question_that_the_database_refuses_is_told_in_words(folder: Path) -> 
 
 def test_large_parts_are_read_once(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(verified_parts, "LARGE", 1)
-    monkeypatch.setattr(verified_parts, "SETTLED", 0)
+    monkeypatch.setattr(parts, "LARGE", 1)
+    monkeypatch.setattr(parts, "SETTLED", 0)
     right, read = answer(folder), []
     assert list((tmp_path / "cache").rglob("*.json"))
     monkeypatch.setattr("hashlib.file_digest", lambda *_: read.append(1))
@@ -207,8 +207,8 @@ def test_a_memory_that_cannot_be_read_remembers_nothing(
     folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch, text: str
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "cache"))
-    monkeypatch.setattr(verified_parts, "LARGE", 1)
-    monkeypatch.setattr(verified_parts, "SETTLED", 0)
+    monkeypatch.setattr(parts, "LARGE", 1)
+    monkeypatch.setattr(parts, "SETTLED", 0)
     right = answer(folder)
     for path in (tmp_path / "cache").rglob("*.json"):
         path.write_text(text)
@@ -218,8 +218,8 @@ def test_a_memory_that_cannot_be_read_remembers_nothing(
 def test_no_place_for_a_memory_costs_nothing(folder: Path, tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     (tmp_path / "file").touch()
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path / "file"))
-    monkeypatch.setattr(verified_parts, "LARGE", 1)
-    monkeypatch.setattr(verified_parts, "SETTLED", 0)
+    monkeypatch.setattr(parts, "LARGE", 1)
+    monkeypatch.setattr(parts, "SETTLED", 0)
     assert answer(folder)
 
 
@@ -398,12 +398,12 @@ def test_a_memory_that_is_none_remembers_nothing(
     known: object, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     monkeypatch.setenv("XDG_CACHE_HOME", str(tmp_path))
-    file = verified_parts._memory(tmp_path)
+    file = parts._memory(tmp_path)
     assert file is not None
     file.parent.mkdir(parents=True)
     file.write_text(json.dumps({"part-00000.parquet": known}), "utf-8")
     Verified(tmp_path).write()
-    assert verified_parts._read(file) == {}
+    assert parts._read(file) == {}
 
 
 def test_a_cache_that_is_named_from_the_current_folder_is_not_taken(
@@ -412,5 +412,5 @@ def test_a_cache_that_is_named_from_the_current_folder_is_not_taken(
     """By its specification a relative one does not count: nothing is written beside a config."""
     monkeypatch.setenv("XDG_CACHE_HOME", "cache")
     monkeypatch.setenv("HOME", str(tmp_path))
-    file = verified_parts._memory(tmp_path)
+    file = parts._memory(tmp_path)
     assert file is not None and file.is_relative_to(tmp_path / ".cache")

@@ -17,8 +17,8 @@ import pytest
 
 from diecut_report.errors import UserError
 from diecut_report.study.execution import dask_cluster as module
-from diecut_report.study.execution.engines import ChunkFailed, InProcess, dask_cluster, results
-from diecut_report.study.execution.process_pool import SAFE_PATH
+from diecut_report.study.execution.pending import SAFE_PATH, ChunkFailed, InProcess, results
+from diecut_report.study.execution.refusals import dask_cluster
 from diecut_report.study.execution.study_run import Counts, Where, run_study
 from tests.configs import GOOD
 from tests.optimisation.searches import optimised, search_file
@@ -129,7 +129,7 @@ def test_study_on_a_cluster_that_loses_a_worker_has_the_rows_of_one_in_this_proc
 def test_a_search_on_a_cluster_has_the_bytes_of_one_in_this_process(
     cluster: Cluster, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("diecut_report.optimisation.command._files", lambda *_: {})
+    monkeypatch.setattr("diecut_report.design.optimisation.command._files", lambda *_: {})
     cluster.worker()
     asked = search_file(tmp_path, more="evaluations: 900, population: 300")  # two chunks in a generation
     assert optimised(asked, tmp_path / "there", "--quiet", "--dask", cluster.address) == 0

@@ -15,8 +15,9 @@ import psutil
 import pytest
 
 from diecut_report.errors import UserError
-from diecut_report.study.execution import in_flight
-from diecut_report.study.execution.engines import ChunkFailed, Engine, InProcess, Pool, dask_cluster, results
+from diecut_report.study.execution import pending
+from diecut_report.study.execution.pending import ChunkFailed, Engine, InProcess, Pool, results
+from diecut_report.study.execution.refusals import dask_cluster
 from tests.processes import at_most, until
 from tests.study.made_store import dies_at_three, dies_in_its_result, fails_at_three, slow_square, square, warm
 
@@ -24,7 +25,7 @@ ROOT = Path(__file__).parents[2]
 RUN = """
 import sys
 from pathlib import Path
-from diecut_report.study.execution.engines import Pool, results
+from diecut_report.study.execution.refusals import Pool, results
 from tests.study.made_store import sleeps, warm
 if __name__ == "__main__":
     folder = Path(sys.argv[1])
@@ -133,7 +134,7 @@ def test_chunk_that_ends_its_process_is_told_after_three_times_and_no_other_is_b
         Pool(2, warm(tmp_path)) as pool,
     ):
         found.extend(chunk for chunk, _ in results(pool, dies_at_three, range(12)))
-    assert len(list(tmp_path.glob("call.3.*"))) == in_flight.TRIES
+    assert len(list(tmp_path.glob("call.3.*"))) == pending.TRIES
     assert 3 not in found
 
 
@@ -201,5 +202,5 @@ def test_missing_dask_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -
 
 
 def test_dask_is_imported_only_for_a_cluster() -> None:
-    code = "import sys, diecut_report.study.execution.engines; print({'dask', 'distributed', 'pyarrow'} & set(sys.modules))"
+    code = "import sys, diecut_report.study.execution.refusals; print({'dask', 'distributed', 'pyarrow'} & set(sys.modules))"
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "set()\n"

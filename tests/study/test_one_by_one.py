@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import LEVER, PLUGINS
 from tests.study.studies import study, varied

@@ -17,16 +17,16 @@ from openpyxl import load_workbook
 
 from diecut_report.cli import study
 from diecut_report.cli.main import main
-from diecut_report.config import yaml_tree
-from diecut_report.config.discovery import Discovery
-from diecut_report.config.yaml_tree import Tree
+from diecut_report.config import yaml
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import Tree
 from diecut_report.errors import UserError
 from diecut_report.quantities.units import parse_quantity
 from diecut_report.study.analysis import answers
-from diecut_report.study.analysis.query import variants
-from diecut_report.study.analysis.stored_variants import StoredColumn as Read
+from diecut_report.study.analysis.answers import variants
+from diecut_report.study.analysis.query import condition
 from diecut_report.study.analysis.variant_config import variant_config
-from diecut_report.study.conditions.where import condition
+from diecut_report.study.analysis.variants import StoredColumn as Read
 from diecut_report.study.storage.description import Kind, ResultColumn
 from tests.study.stored_study import BORE, SPEED, calculated, many, ten, written
 
@@ -299,13 +299,13 @@ def test_asking_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
 def taken(folder: Path, variant: int) -> Tree:
     """The configuration of a variant; what it is as text reads back as the same."""
     tree = variant_config(folder, variant, Discovery([]), f"study-{variant}.yaml")
-    assert yaml_tree.parse(tree.text, "variant").data == tree.data
+    assert yaml.parse(tree.text, "variant").data == tree.data
     return tree
 
 
 def test_a_variants_configuration_is_the_base_with_its_values(folder: Path) -> None:
     tree = taken(folder, 4)
-    base, data = yaml_tree.load(folder / "base.yaml").data, tree.data
+    base, data = yaml.load(folder / "base.yaml").data, tree.data
     assert tree.text.startswith("# Variant 4 of study.yaml: ")
     assert (tree.name, tree.file) == ("study-4.yaml", str(folder / "base.yaml"))
     assert data["mechanisms"]["cylinder"].pop("bore_radius") == "65 mm"

@@ -17,11 +17,19 @@ from hypothesis import given
 from hypothesis import strategies as st
 from scipy import stats
 
-from diecut_report.expressions import Array
-from diecut_report.study.analysis.sensitivity import sobol_indices
-from diecut_report.study.sampling import methods
-from diecut_report.study.sampling.methods import Sample, SampleError
-from diecut_report.study.sampling.variables import ChoiceVariable, Normal, RangeVariable, Triangular, Uniform, Variable
+from diecut_report.formulas import Array
+from diecut_report.study.analysis.answers import sobol_indices
+from diecut_report.study.definition import samples
+from diecut_report.study.definition.samples import Sample
+from diecut_report.study.definition.variables import (
+    ChoiceVariable,
+    Normal,
+    RangeVariable,
+    SampleError,
+    Triangular,
+    Uniform,
+    Variable,
+)
 from tests.examples import examples
 
 SPEED = RangeVariable("drive.crank_speed", 4.0, 12.0, 5)
@@ -37,14 +45,14 @@ MIXED: tuple[Variable, ...] = (
     Triangular("friction", 0.1, 0.12, 0.2),
 )
 SAMPLES: dict[str, Callable[[int], Sample]] = {
-    "latin hypercube": lambda count: methods.latin_hypercube(MIXED, count, seed=3),
-    "sobol": lambda count: methods.sobol(MIXED, count, seed=3),
-    "indices": lambda count: methods.sobol(MIXED, count, seed=3, indices=True),
-    "grid": lambda count: methods.grid([LAW, RangeVariable("x", 0.0, 1.0, count), TEETH]),
-    "zip": lambda count: methods.zipped(
+    "latin hypercube": lambda count: samples.latin_hypercube(MIXED, count, seed=3),
+    "sobol": lambda count: samples.sobol(MIXED, count, seed=3),
+    "indices": lambda count: samples.sobol(MIXED, count, seed=3, indices=True),
+    "grid": lambda count: samples.grid([LAW, RangeVariable("x", 0.0, 1.0, count), TEETH]),
+    "zip": lambda count: samples.zipped(
         [RangeVariable("y", 2.0, 5.0, count), RangeVariable("x", 1.0, 0.1, count, log=True)]
     ),
-    "table": lambda count: methods.table({"x": np.arange(count) * 0.1, "law": [f"law {i}" for i in range(count)]}),
+    "table": lambda count: samples.table({"x": np.arange(count) * 0.1, "law": [f"law {i}" for i in range(count)]}),
 }
 SHARES = (np.arange(200_000) + 0.5) / 200_000
 
@@ -67,7 +75,7 @@ def as_lists(rows: dict[str, Any]) -> dict[str, list[Any]]:
 
 
 def test_a_grid_is_the_product_with_the_first_path_slowest() -> None:
-    sample = methods.grid([SPEED, LAW, RADIUS])
+    sample = samples.grid([SPEED, LAW, RADIUS])
     expected = list(itertools.product([4.0, 6.0, 8.0, 10.0, 12.0], ["cycloidal", "harmonic"], [0.055, 0.06, 0.065]))
     assert sample.count == 30
     assert sample.paths == ("drive.crank_speed", "drive.motion_law", "cylinder.bore_radius")
@@ -75,7 +83,7 @@ def test_a_grid_is_the_product_with_the_first_path_slowest() -> None:
 
 
 def test_a_grid_of_a_million_by_a_million_says_its_size_and_gives_its_last_row() -> None:
-    sample = methods.grid([RangeVariable("a", 0.0, 1.0, 10**6), RangeVariable("b", 5.0, 7.0, 10**6), LAW])
+    sample = samples.grid([RangeVariable("a", 0.0, 1.0, 10**6), RangeVariable("b", 5.0, 7.0, 10**6), LAW])
     assert sample.count == 2 * 10**12
     last = sample.rows(sample.count - 3, sample.count)
     assert list(last["a"]) == [1.0, 1.0, 1.0]
@@ -84,12 +92,12 @@ def test_a_grid_of_a_million_by_a_million_says_its_size_and_gives_its_last_row()
 
 
 def test_zipped_lists_go_together() -> None:
-    sample = methods.zipped([RADIUS, RangeVariable("x", 3.0, 1.0, 3)])
+    sample = samples.zipped([RADIUS, RangeVariable("x", 3.0, 1.0, 3)])
     assert as_lists(whole(sample)) == {"cylinder.bore_radius": [0.055, 0.06, 0.065], "x": [3.0, 2.0, 1.0]}
 
 
 def test_a_table_gives_its_own_rows() -> None:
-    sample = methods.table({"x": np.array([1.0, 2.0, 3.0]), "law": ["a", "b", "c"]})
+    sample = samples.table({"x": np.array([1.0, 2.0, 3.0]), "law": ["a", "b", "c"]})
     assert (sample.count, sample.paths) == (3, ("x", "law"))
     assert as_lists(sample.rows(1, 3)) == {"x": [2.0, 3.0], "law": ["b", "c"]}
 
@@ -160,7 +168,7 @@ def test_rows_that_are_not_there_are_refused(bounds: tuple[int, int]) -> None:
         SAMPLES["zip"](33).rows(*bounds)
 
 
-@pytest.mark.parametrize("method", [methods.latin_hypercube, methods.sobol])
+@pytest.mark.parametrize("method", [samples.latin_hypercube, samples.sobol])
 def test_another_seed_gives_other_rows(method: Callable[..., Sample]) -> None:
     one, two = (whole(method(MIXED, 16, seed))["mass"] for seed in (0, 1))
     assert not np.isclose(one, two).any()
@@ -184,7 +192,7 @@ def test_many_rows_need_no_more_memory_than_a_chunk(kind: str, count: int) -> No
 
 @MANY_ROWS
 def test_a_latin_hypercube_holds_one_number_for_each_row_and_path(count: int) -> None:
-    sample = methods.latin_hypercube(MIXED, count, seed=77)
+    sample = samples.latin_hypercube(MIXED, count, seed=77)
     tracemalloc.start()
     for start in range(0, count, 10_000):
         sample.rows(start, start + 10_000)
@@ -198,20 +206,20 @@ def test_a_latin_hypercube_holds_one_number_for_each_row_and_path(count: int) ->
 
 
 def test_a_latin_hypercube_takes_each_part_of_each_variable_once() -> None:
-    rows = whole(methods.latin_hypercube([Uniform("x", 0.0, 1.0), Uniform("y", 0.0, 1.0)], 500, seed=9))
+    rows = whole(samples.latin_hypercube([Uniform("x", 0.0, 1.0), Uniform("y", 0.0, 1.0)], 500, seed=9))
     for values in rows.values():
         assert sorted(np.floor(values * 500)) == list(range(500))
     assert abs(np.corrcoef(rows["x"], rows["y"])[0, 1]) < 0.2
 
 
 def test_sobol_points_are_those_of_scipy_in_the_middle_of_their_cells() -> None:
-    rows = whole(methods.sobol([Uniform("x", 0.0, 1.0), Uniform("y", 0.0, 1.0)], 64, seed=5))
+    rows = whole(samples.sobol([Uniform("x", 0.0, 1.0), Uniform("y", 0.0, 1.0)], 64, seed=5))
     expected = stats.qmc.Sobol(2, rng=np.random.default_rng(5)).random(64)
     np.testing.assert_allclose(np.stack([rows["x"], rows["y"]], axis=1), expected + 2**-31, rtol=0, atol=1e-15)
 
 
 def test_sobol_points_put_one_in_each_part_of_each_variable() -> None:
-    rows = whole(methods.sobol([Uniform(name, 0.0, 1.0) for name in "abcde"], 256))
+    rows = whole(samples.sobol([Uniform(name, 0.0, 1.0) for name in "abcde"], 256))
     for values in rows.values():
         assert sorted(np.floor(values * 256)) == list(range(256))
 
@@ -219,15 +227,15 @@ def test_sobol_points_put_one_in_each_part_of_each_variable() -> None:
 def test_a_count_that_is_no_power_of_two_is_noted_and_not_warned_of() -> None:
     with warnings.catch_warnings():
         warnings.simplefilter("error")
-        whole(methods.sobol(MIXED, 1000))
-    assert "512 or 1024" in str(methods.sobol(MIXED, 1000).note)
-    assert methods.sobol(MIXED, 1024).note is None
-    assert methods.grid([SPEED]).note is None
+        whole(samples.sobol(MIXED, 1000))
+    assert "512 or 1024" in str(samples.sobol(MIXED, 1000).note)
+    assert samples.sobol(MIXED, 1024).note is None
+    assert samples.grid([SPEED]).note is None
 
 
 def test_a_large_latin_hypercube_says_how_much_it_holds() -> None:
-    assert "458 MB" not in str(methods.latin_hypercube(MIXED, 10_000_000).note)
-    assert "763 MB" in str(methods.latin_hypercube([*MIXED, *(Uniform(n, 0, 1) for n in "abcd")], 10_000_000).note)
+    assert "458 MB" not in str(samples.latin_hypercube(MIXED, 10_000_000).note)
+    assert "763 MB" in str(samples.latin_hypercube([*MIXED, *(Uniform(n, 0, 1) for n in "abcd")], 10_000_000).note)
 
 
 # --- distributions ---------------------------------------------------------------------------------------------------
@@ -311,7 +319,7 @@ def test_whole_numbers_of_a_log_range_take_the_share_of_their_ratio() -> None:
 
 
 def test_texts_are_drawn_as_often_as_each_other() -> None:
-    drawn = whole(methods.sobol([LAW, RADIUS], 256))["drive.motion_law"]
+    drawn = whole(samples.sobol([LAW, RADIUS], 256))["drive.motion_law"]
     assert Counter(drawn) == {"cycloidal": 128, "harmonic": 128}
 
 
@@ -319,7 +327,7 @@ def test_texts_are_drawn_as_often_as_each_other() -> None:
 
 
 def test_the_rows_for_indices_mix_two_matrices_one_column_at_a_time() -> None:
-    sample = methods.sobol(MIXED, 16, seed=2, indices=True)
+    sample = samples.sobol(MIXED, 16, seed=2, indices=True)
     assert sample.count == 16 * 8
     design = sample.design
     assert design is not None
@@ -336,8 +344,8 @@ def test_the_rows_for_indices_mix_two_matrices_one_column_at_a_time() -> None:
 
 
 def test_samples_without_that_design_say_so() -> None:
-    assert methods.sobol(MIXED, 16).design is None
-    assert methods.grid([SPEED]).design is None
+    assert samples.sobol(MIXED, 16).design is None
+    assert samples.grid([SPEED]).design is None
 
 
 def ishigami(rows: dict[str, Any]) -> Array:
@@ -346,7 +354,7 @@ def ishigami(rows: dict[str, Any]) -> Array:
 
 
 def ishigami_values(points: int, seed: int = 0) -> Array:
-    sample = methods.sobol([Uniform(n, -math.pi, math.pi) for n in "xyz"], points, seed, indices=True)
+    sample = samples.sobol([Uniform(n, -math.pi, math.pi) for n in "xyz"], points, seed, indices=True)
     return ishigami(whole(sample)).reshape(points, 5)
 
 
@@ -404,19 +412,19 @@ WRONG: dict[str, Callable[[], object]] = {
     "sd .* above zero": lambda: Normal("x", 2.0, 0.0),
     "more than 8 standard deviations": lambda: Normal("x", 2.0, 0.1, low=3.0),
     "mode must lie between": lambda: Triangular("x", 1.0, 5.0, 2.0),
-    "no list of values for sample: grid": lambda: methods.grid([SPEED, Uniform("x", 0.0, 1.0)]),
-    "no list of values for sample: zip": lambda: methods.zipped([Normal("x", 0.0, 1.0)]),
-    "count is missing; sample: grid": lambda: methods.grid([RangeVariable("x", 0.0, 1.0)]),
-    "drive.crank_speed has 5, cylinder.bore_radius has 3": lambda: methods.zipped([SPEED, RADIUS]),
-    "varied more than once": lambda: methods.sobol([SPEED, SPEED], 8),
-    "nothing is varied": lambda: methods.grid([]),
-    "the sample is empty": lambda: methods.latin_hypercube([SPEED], 0),
-    "seed must be 0 or more": lambda: methods.sobol([SPEED], 8, seed=-1),
-    "at most 1073741824 different points": lambda: methods.sobol([SPEED], 2**30 + 1),
-    "at most 21201 dimensions": lambda: methods.sobol([Uniform(f"x{i}", 0, 1) for i in range(10601)], 2, indices=True),
-    "no rows below its header": lambda: methods.table({"x": np.array([])}),
-    "no columns": lambda: methods.table({}),
-    "unlike lengths: x has 2, y has 1": lambda: methods.table({"x": np.zeros(2), "y": ["a"]}),
+    "no list of values for sample: grid": lambda: samples.grid([SPEED, Uniform("x", 0.0, 1.0)]),
+    "no list of values for sample: zip": lambda: samples.zipped([Normal("x", 0.0, 1.0)]),
+    "count is missing; sample: grid": lambda: samples.grid([RangeVariable("x", 0.0, 1.0)]),
+    "drive.crank_speed has 5, cylinder.bore_radius has 3": lambda: samples.zipped([SPEED, RADIUS]),
+    "varied more than once": lambda: samples.sobol([SPEED, SPEED], 8),
+    "nothing is varied": lambda: samples.grid([]),
+    "the sample is empty": lambda: samples.latin_hypercube([SPEED], 0),
+    "seed must be 0 or more": lambda: samples.sobol([SPEED], 8, seed=-1),
+    "at most 1073741824 different points": lambda: samples.sobol([SPEED], 2**30 + 1),
+    "at most 21201 dimensions": lambda: samples.sobol([Uniform(f"x{i}", 0, 1) for i in range(10601)], 2, indices=True),
+    "no rows below its header": lambda: samples.table({"x": np.array([])}),
+    "no columns": lambda: samples.table({}),
+    "unlike lengths: x has 2, y has 1": lambda: samples.table({"x": np.zeros(2), "y": ["a"]}),
 }
 
 
@@ -428,5 +436,5 @@ def test_what_cannot_be_is_told_in_words(words: str) -> None:
 
 def test_an_error_names_the_path_that_it_is_about() -> None:
     with pytest.raises(SampleError) as caught:
-        methods.grid([SPEED, Uniform("x", 0.0, 1.0)])
+        samples.grid([SPEED, Uniform("x", 0.0, 1.0)])
     assert caught.value.path == "x"

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError
 from diecut_report.study.definition.schema import study_schema
 from diecut_report.study.definition.study_file import load_study

@@ -13,18 +13,19 @@ import pytest
 import scipy.stats
 from pypdf import PdfReader
 
-from diecut_report.config import yaml_tree
-from diecut_report.config.discovery import Discovery
+from diecut_report.config import yaml
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
-from diecut_report.study.analysis.query import variants
-from diecut_report.study.analysis.stored_variants import STATUSES, opened
-from diecut_report.study.analysis.titles import titles
+from diecut_report.study.analysis.answers import variants
+from diecut_report.study.analysis.variants import STATUSES, opened, titles
 from diecut_report.study.storage.description import ResultColumn
+from diecut_report.study.summary import best as influence
+from diecut_report.study.summary import best as pareto
+from diecut_report.study.summary import content, data, summarise
 from diecut_report.study.summary import content as contents
-from diecut_report.study.summary import data, influence, pareto, questions, summarise
-from diecut_report.study.summary.pages import page
-from diecut_report.study.summary.point_charts import near
-from diecut_report.study.summary.quantity_names import WORST, display, utilised, value_told
+from diecut_report.study.summary.charts import near
+from diecut_report.study.summary.content import page
+from diecut_report.study.summary.data import WORST, display, utilised, value_told
 from tests.hostile.bounded import PEAK
 from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, calculated, made, many, ten, written
 
@@ -249,9 +250,9 @@ def test_what_was_studied_stands_there_as_it_is_written(tmp_path: Path) -> None:
 
 def test_a_table_is_told_by_its_file() -> None:
     text = "vary: {a.b: {table: motors.csv, column: n}, a.c: {from: 1, to: 9, count: 3, spacing: log}}"
-    tree = yaml_tree.parse(text, "study.yaml")
-    assert questions.written(tree, ("vary", "a.b")) == "column n of the table motors.csv"
-    assert questions.written(tree, ("vary", "a.c")) == "from 1 to 9, count 3, spacing log"
+    tree = yaml.parse(text, "study.yaml")
+    assert content.written(tree, ("vary", "a.b")) == "column n of the table motors.csv"
+    assert content.written(tree, ("vary", "a.c")) == "from 1 to 9, count 3, spacing log"
 
 
 def test_inputs_of_a_table_name_its_file(tmp_path: Path) -> None:
@@ -312,14 +313,14 @@ def test_best_variants_tell_status_and_what_governs(large: Path, large_summary: 
 def test_the_front_is_what_comparing_all_pairs_gives(objectives: int) -> None:
     costs = np.random.default_rng(objectives).integers(0, 9, (600, objectives)).astype(float)
     beaten = [any((other <= row).all() and (other < row).any() for other in costs) for row in costs]
-    assert sorted(pareto.best(costs)) == [index for index, lost in enumerate(beaten) if not lost]
+    assert sorted(pareto.pareto_best(costs)) == [index for index, lost in enumerate(beaten) if not lost]
 
 
 def test_the_front_over_several_blocks_is_a_staircase() -> None:
     x = np.random.default_rng(0).permutation(5 * pareto.BLOCK) / 1000.0
     on_front = np.column_stack([x, -x])
     behind = on_front + np.array([0.5, 0.5])
-    assert sorted(pareto.best(np.concatenate([behind, on_front]))) == list(range(len(x), 2 * len(x)))
+    assert sorted(pareto.pareto_best(np.concatenate([behind, on_front]))) == list(range(len(x), 2 * len(x)))
 
 
 def test_only_variants_that_do_not_fail_are_on_the_front(large: Path, large_summary: contents.Summary) -> None:

@@ -8,11 +8,11 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config import yaml_tree
-from diecut_report.config.discovery import Discovery
+from diecut_report.config import yaml
+from diecut_report.config.plugins import Discovery
 from diecut_report.quantities.units import parse_quantity
-from diecut_report.study.analysis.query import variants
-from diecut_report.study.analysis.taken_config import taken_config
+from diecut_report.study.analysis.answers import variants
+from diecut_report.study.analysis.variant_config import taken_config
 from tests.configs import GOOD, HEAD, saved
 from tests.study.stored_study import BORE, SPEED, ten
 
@@ -25,7 +25,7 @@ def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
 def test_its_values_are_read_back_as_those_that_were_calculated_and_all_else_stays(folder: Path) -> None:
     text = taken_config(folder, 4, Discovery([])).content.decode()
     (row,) = json.loads("".join(variants(folder, "variant = 4", format="json")))["variants"]
-    data = yaml_tree.parse(text, "taken").data["mechanisms"]
+    data = yaml.parse(text, "taken").data["mechanisms"]
     assert parse_quantity(data["cylinder"]["bore_radius"], "mm") == row[BORE]
     assert parse_quantity(data["drive"]["crank_speed"], "rpm") == row[SPEED]  # a reference stood there
     base = (folder / "base.yaml").read_text("utf-8").splitlines()
@@ -37,7 +37,7 @@ def test_its_values_are_read_back_as_those_that_were_calculated_and_all_else_sta
 
 def test_its_values_may_be_rounded(folder: Path) -> None:
     text = taken_config(folder, 4, Discovery([]), digits=2).content.decode()
-    data = yaml_tree.parse(text, "taken").data["mechanisms"]
+    data = yaml.parse(text, "taken").data["mechanisms"]
     assert (data["cylinder"]["bore_radius"], data["drive"]["crank_speed"]) == ("65 mm", "50 rpm")
 
 
@@ -98,7 +98,7 @@ def test_a_stored_variant_is_solved_and_written_with_what_was_found(tmp_path: Pa
     assert main(["batch", str(study), "-o", str(tmp_path / "out"), *plugins]) == 1
     target, asked = tmp_path / "solved.yaml", ("--vary", "a.arm", "--for", "a.moment = 240 N*m")
     assert main(["solve", f"{tmp_path / 'out'}#1", *asked, "-o", str(target), *plugins]) == 0
-    found = yaml_tree.load(target)
+    found = yaml.load(target)
     assert found.data["mechanisms"]["a"] | {"force": "3 kN", "arm": "80 mm"} == found.data["mechanisms"]["a"]
     assert "those that were calculated" not in found.text
     assert main(["advise", f"{tmp_path / 'out'}#1", "-o", str(tmp_path / "mended.yaml"), *plugins]) == 0

@@ -12,7 +12,7 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.study.execution import study_run
-from diecut_report.study.execution.time_limit import ChunkClock
+from diecut_report.study.execution.worker import ChunkClock
 from diecut_report.time_limit import Overran, limited
 from tests.configs import saved
 from tests.study.test_broken_plugins import BASE, COMPUTED, PLUGIN

@@ -13,10 +13,10 @@ from hypothesis import example, given
 from hypothesis import strategies as st
 
 from diecut_report.cli.main import main
-from diecut_report.config import yaml_tree
-from diecut_report.config.discovery import Discovery
+from diecut_report.config import yaml
 from diecut_report.config.loader import load_config
-from diecut_report.config.yaml_values import as_text, with_values
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import as_text, with_values
 from diecut_report.study import command
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.execution import variant_reports
@@ -186,20 +186,17 @@ trees = st.dictionaries(
 @given(data=trees)
 @example(data={"a": "1e5", "b": [], "c": {}, "d": None, "e": [[1], {"f": "no"}]})
 def test_a_tree_as_text_reads_back_as_the_same_tree(data: dict[str, Any]) -> None:
-    root = yaml_tree.parse(json.dumps(data, ensure_ascii=False), "test").root
-    assert (
-        yaml_tree.parse(as_text(root), "again").data
-        == yaml_tree.parse(json.dumps(data, ensure_ascii=False), "test").data
-    )
+    root = yaml.parse(json.dumps(data, ensure_ascii=False), "test").root
+    assert yaml.parse(as_text(root), "again").data == yaml.parse(json.dumps(data, ensure_ascii=False), "test").data
 
 
 def test_plain_scalars_stay_as_they_were_typed() -> None:
     typed = "number: 0012\nsize: 1e5\nis_hard: True\nday: 2026-11-21\nword: yes\n"
-    assert as_text(yaml_tree.parse(typed, "test").root) == typed
+    assert as_text(yaml.parse(typed, "test").root) == typed
 
 
 def test_blocks_that_are_missing_are_made_at_the_place_of_their_parent() -> None:
-    tree = yaml_tree.parse("a:\n  b: 1\n", "base.yaml")
+    tree = yaml.parse("a:\n  b: 1\n", "base.yaml")
     changed = with_values(tree, {("a", "c", "d"): "2 mm"}, "new.yaml", "Changed")
     assert changed.data == {"a": {"b": 1, "c": {"d": "2 mm"}}} and tree.data == {"a": {"b": 1}}
     assert changed.position(("a", "c", "d")) == (2, 3)

@@ -10,13 +10,11 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.config.catalogues import spoken_catalogues
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
-from diecut_report.languages.speech import know_all_plugins, know_plugins, speaking
-from diecut_report.study.analysis.stored_variants import StoredColumn
-from diecut_report.study.analysis.titles import titles
-from diecut_report.study.analysis.variant_table import compared_text, shown
+from diecut_report.study.analysis.variants import StoredColumn, compared_text, shown, titles
 from diecut_report.study.storage.description import ResultColumn
+from diecut_report.text.translation import know_all_plugins, know_plugins, speaking
 from tests.configs import GOOD, LEVER, saved
 
 COLUMNS = (

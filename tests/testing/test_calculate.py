@@ -14,7 +14,8 @@ from diecut_report.config.loader import load_config
 from diecut_report.errors import PluginError
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
-from diecut_report.testing import MechanismFound, NotGiven, Refused, calculate, load
+from diecut_report.testing.machines import Refused, calculate, load
+from diecut_report.testing.values import MechanismFound, NotGiven
 from tests.configs import BROKEN, DISCOVERY, GOOD, HEAD, saved
 
 LEVER = load("lever", GOOD)

@@ -4,7 +4,8 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.testing import PrintedValue, calculate, compare, load
+from diecut_report.testing.machines import calculate, load
+from diecut_report.testing.values import PrintedValue, compare
 from tests.configs import GOOD
 
 FOUND = calculate(

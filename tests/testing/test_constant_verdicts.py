@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from diecut_report.testing.constant_verdicts import constant
-from diecut_report.testing.many_machines import MachineCase
+from diecut_report.testing.contract import constant
+from diecut_report.testing.machines import MachineCase
 from tests.declaration.test_faults import check, made
 
 

@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from diecut_report.api import GRAVITY, Chapter, Check, Inputs, Mechanism, Quantity
-from diecut_report.formula_checks.doubts import doubts
+from diecut_report.declaration.formula_checks import doubts
 
 
 class Drum(Inputs):

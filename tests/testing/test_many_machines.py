@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 
 from diecut_report.api import POINTS, Chapter, Check, Inputs, Mechanism, Quantity
-from diecut_report.contract.checks import CheckClass
-from diecut_report.engine import calculate
-from diecut_report.testing.many_machines import unlike_curves, unlike_verdicts
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.checks import CheckClass
+from diecut_report.testing.machines import unlike_curves, unlike_verdicts
 
 
 class Rounded(Inputs):

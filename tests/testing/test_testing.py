@@ -8,7 +8,7 @@ from typing import Any
 import pytest
 
 from diecut_report.api import Chapter, Check, Formula, Mechanism, Step, Value, bind, formula
-from diecut_report.testing import check_mechanism
+from diecut_report.declaration.formula_checks import check_mechanism
 from tests.engine.toy import MECHANISM, READ, ROOTED, Toy, same
 
 

@@ -9,7 +9,7 @@ from pathlib import Path
 from types import ModuleType
 from typing import Literal
 
-from diecut_report.testing.printed_values import rounds_to
+from diecut_report.testing.values import rounds_to
 
 Verdict = Literal["agrees", "mistake", "cannot be reproduced"]
 

@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import cache
 from math import degrees
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from tests.machines import number
 from tests.plugins.steppers import CAMS, stepper
 from tests.validation.rows import Row

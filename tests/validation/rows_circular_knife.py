@@ -9,7 +9,8 @@ from __future__ import annotations
 from functools import cache, partial
 from math import degrees
 
-from diecut_report.engine import Calculation, calculate
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.circular_knife import MECHANISM
 from tests.machines import inputs, number
 from tests.validation.rows import Row

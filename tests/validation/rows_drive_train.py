@@ -9,7 +9,7 @@ from __future__ import annotations
 from functools import cache
 from math import degrees
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from diecut_report.mechanics import belt_path
 from tests.machines import number
 from tests.plugins.drive_trains import sine_load, train

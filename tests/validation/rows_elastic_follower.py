@@ -10,7 +10,7 @@ from collections.abc import Iterator
 from functools import cache, partial
 from math import pi
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from tests.machines import number
 from tests.plugins.followers import follower
 from tests.validation.rows import Row

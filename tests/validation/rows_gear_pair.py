@@ -10,7 +10,7 @@ from __future__ import annotations
 from functools import cache
 from math import degrees, pi, radians
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from diecut_report.plugins.gear_pair import formulas as f
 from tests.machines import number
 from tests.plugins.gears import STEEL, pair

@@ -10,7 +10,8 @@ from __future__ import annotations
 from functools import cache, partial
 from math import degrees
 
-from diecut_report.engine import Calculation, calculate
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.geneva_transport import MECHANISM
 from tests.machines import inputs, number
 from tests.validation.rows import Row

@@ -8,7 +8,7 @@ from __future__ import annotations
 
 from functools import cache
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from tests.machines import number
 from tests.plugins.keys import key
 from tests.validation.rows import Row

@@ -10,7 +10,7 @@ from functools import cache
 from math import degrees, pi, radians
 from typing import Any
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from tests.machines import number
 from tests.plugins.platens import at, platen
 from tests.validation.rows import Row

@@ -14,7 +14,7 @@ from functools import cache, partial
 
 import numpy as np
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from tests.plugins.bearings import BALL, ROLLER, SOUGHT, Over, bearings, one, value
 from tests.validation.rows import Row
 

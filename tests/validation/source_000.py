@@ -11,7 +11,7 @@ from math import pi, sqrt
 
 import numpy as np
 
-from diecut_report.engine import Calculation
+from diecut_report.machine.calculation import Calculation
 from tests.machines import LOSSLESS, cylinder, drive, number
 from tests.validation.rows import Row
 

@@ -6,7 +6,7 @@ from math import degrees
 
 import pytest
 
-from diecut_report.engine.numerics.extrema import extreme
+from diecut_report.machine.numerics.extremes import extreme
 from tests.machines import UNBALANCED, drive, number
 from tests.validation.source_000 import published_cylinder, published_drive, unsigned_braking_peak
 

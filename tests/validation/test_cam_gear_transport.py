@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import pytest
 
-from diecut_report.engine import Impossible
+from diecut_report.machine.calculation import Impossible
 from tests.plugins.steppers import stepper
 
 

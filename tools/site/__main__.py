@@ -6,8 +6,8 @@ import argparse
 import gc
 from pathlib import Path
 
-from diecut_report.config.discovery import Discovery
-from diecut_report.contract.mechanism import Mechanism
+from diecut_report.config.plugins import Discovery
+from diecut_report.mechanism.mechanism import Mechanism
 from tools.site.documents import add_documents
 from tools.site.examples import examples, shown_kinds
 from tools.site.frame import add_frame

@@ -16,7 +16,7 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from diecut_report import api, pipeline
-from diecut_report.config.discovery import LIST, Discovery
+from diecut_report.config.plugins import LIST, Discovery
 from tools.site.sources import ROOT
 
 FOLDER = ROOT / "docs" / "reference" / "examples"

@@ -21,9 +21,8 @@ from diecut_report.api import (
     region,
 )  # fmt: skip
 from diecut_report.report.figures.drawing import drawing
-from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import drawn
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.figures.style import SizesSize, drawn
+from diecut_report.report.text import Catalogue
 from tools.site.markup import html, plain
 
 WORDS = Catalogue("en")
@@ -104,4 +103,4 @@ def picture(key: str, title: str, shapes: Sequence[Shape]) -> str:
         "unit": "mm",
         "schematic": True,
     }
-    return drawn(partial(drawing, figure, {}, WORDS, Size.HALF), title, key).text
+    return drawn(partial(drawing, figure, {}, WORDS, SizesSize.HALF), title, key).text

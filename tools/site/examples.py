@@ -11,15 +11,14 @@ from typing import Any, NamedTuple
 import yaml
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
-from diecut_report.design.followed_advice import followed
-from diecut_report.report.figure_places import placed, sketch
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.advised import followed
+from diecut_report.report.chapters.steps import placed, sketch
 from diecut_report.report.figures.by_type import render
-from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import Svg
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.figures.style import SizesSize, Svg
 from diecut_report.report.scope import letter, parts
-from diecut_report.study.analysis.assumed import moves
+from diecut_report.report.text import Catalogue
+from diecut_report.study.analysis.answers import moves
 from tools.site.sources import ROOT
 
 CONFIGS = ROOT / "configs"
@@ -111,7 +110,7 @@ def drawn(shown: Shown) -> tuple[Svg, str] | None:
     if not chosen:
         return None
     figure = chosen[0].figure
-    return render(figure, shown.mechanism["curves"], WORDS, shown.kind, Size.LOW), str(figure["caption"])
+    return render(figure, shown.mechanism["curves"], WORDS, shown.kind, SizesSize.LOW), str(figure["caption"])
 
 
 def block(shown: Shown) -> str:

@@ -4,18 +4,15 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 
-from diecut_report.contract.binding import Binding, Bound, ByText, bound
-from diecut_report.contract.inputs import fields
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.part_steps import Interpolated, Running, Total
-from diecut_report.contract.result_names import named
-from diecut_report.contract.steps import Accumulated, Choice, Derivative, Reduction, Require, Root, Step, Value
-from diecut_report.engine.printing.definitions import definitions
-from diecut_report.expressions import Node
-from diecut_report.expressions.tree import transform
-from diecut_report.report.equations import OPERATORS, Equations
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.typeset import Typesetter
+from diecut_report.formulas.tree import Node, transform
+from diecut_report.machine.printing.items import definitions
+from diecut_report.mechanism.inputs import fields
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import Binding, Bound, ByText, bound
+from diecut_report.mechanism.part_steps import Interpolated, Running, Total
+from diecut_report.mechanism.steps import Accumulated, Choice, Derivative, Reduction, Require, Root, Step, Value, named
+from diecut_report.report.equations import OPERATORS, Equations, Typesetter
+from diecut_report.report.text import Catalogue
 
 WIDTH = 44.0  # of the page's text, in em of its formulas
 WORDS = Catalogue("en")

@@ -1,4 +1,4 @@
-"""The functions that a formula may use, from expressions/functions.py: how each is written, how it prints, what it means."""
+"""The functions that a formula may use, from formulas/tree.py: how each is written, how it prints, what it means."""
 
 from __future__ import annotations
 
@@ -7,8 +7,8 @@ from typing import NamedTuple
 
 import numpy as np
 
-from diecut_report.expressions import Formula, Node, arccos, as_angle, as_number
-from diecut_report.expressions.functions import FUNCTIONS, OF_TWO, SAID
+from diecut_report.formulas.formula import Formula
+from diecut_report.formulas.tree import FUNCTIONS, OF_TWO, SAID, Node, arccos, as_angle, as_number
 from tools.site.formulas import EQUATIONS, TYPESETTER
 from tools.site.markup import code, plain, table
 

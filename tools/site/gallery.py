@@ -6,16 +6,16 @@ from collections.abc import Iterator, Mapping
 
 from markupsafe import escape
 
-from diecut_report.contract.chapters import Chapter
-from diecut_report.contract.checks import Check
-from diecut_report.contract.mechanism import Mechanism
-from diecut_report.contract.part_steps import Interpolated, Lookup, Pick
-from diecut_report.contract.steps import Abscissa, Breakpoints, Clash, FromCurve, Phase, Prepared, Require, Step, Words
-from diecut_report.languages.catalogues import Catalogues
+from diecut_report.mechanism.chapters import Chapter
+from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.part_steps import Interpolated, Lookup, Pick
+from diecut_report.mechanism.steps import Abscissa, Breakpoints, Clash, FromCurve, Phase, Prepared, Require, Step, Words
 from diecut_report.quantities.formatting import NAMED
 from diecut_report.quantities.units import pretty
 from diecut_report.report.figures.style import Svg
-from diecut_report.standards import StandardSeries, StandardTable
+from diecut_report.standards.tables import StandardSeries, StandardTable
+from diecut_report.text.catalogues import Catalogues
 from tools.make_mechanism_pages import check_id, choices, input_rows, output_rows
 from tools.site.examples import Shown, block, drawn
 from tools.site.formulas import Formulas

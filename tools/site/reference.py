@@ -9,8 +9,8 @@ from typing import Any
 
 from diecut_report import api, testing
 from diecut_report.report.figures.by_type import render
-from diecut_report.report.figures.sizes import Size
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.figures.style import SizesSize
+from diecut_report.report.text import Catalogue
 from tools.site.api_examples import ApiExample, example_of, run
 from tools.site.api_groups import GROUPS, TOLD, Group
 from tools.site.drawing_page import drawing_page
@@ -118,7 +118,7 @@ def _figures(example: ApiExample) -> Iterator[str]:
     results = run(example) if "figures=" in example.text else None
     for name, mechanism in results["mechanisms"].items() if results else ():
         for figure in mechanism["figures"]:
-            svg = render(figure, mechanism["curves"], WORDS, f"{example.name}-{name}-{figure['id']}", Size.HALF)
+            svg = render(figure, mechanism["curves"], WORDS, f"{example.name}-{name}-{figure['id']}", SizesSize.HALF)
             yield from html(f'<figure class="drawn"><div class="fig">{svg.text}</div></figure>')
 
 

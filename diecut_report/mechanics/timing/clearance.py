@@ -11,7 +11,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 
 Number = Any  # a number, or a column of one for each machine
 EVERY = np.pi / 720  # rad of the main shaft between the places that are looked at first

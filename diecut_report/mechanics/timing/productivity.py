@@ -7,9 +7,17 @@ from dataclasses import dataclass
 from math import inf, isfinite, pi
 from typing import Literal
 
-from diecut_report.mechanics.timing.intervals import Intervals
-from diecut_report.mechanics.timing.margins import margins_within, worst
-from diecut_report.mechanics.timing.offsets import Moved, Tents, best_offset, feasible_shifts, relevant, tents
+from diecut_report.mechanics.timing.intervals import (
+    Intervals,
+    Moved,
+    Tents,
+    best_offset,
+    feasible_shifts,
+    margins_within,
+    relevant,
+    tents,
+    worst,
+)
 
 CLOSE = 1e-10  # relative, to which the limit is found
 

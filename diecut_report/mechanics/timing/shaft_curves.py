@@ -6,16 +6,307 @@ where the shaft gives power, and take away where the line gives it back.
 
 from __future__ import annotations
 
-from dataclasses import dataclass
+from collections.abc import Callable
+from dataclasses import dataclass, replace
 from fractions import Fraction
 from functools import cached_property
 from math import ceil
 
 import numpy as np
+from numpy.polynomial import legendre
 
-from diecut_report.expressions import Array
-from diecut_report.mechanics.timing.piece_rows import PieceRows
-from diecut_report.mechanics.timing.turn_samples import Curve, TurnSamples
+from diecut_report.formulas import Array
+from diecut_report.mechanics import numerics
+
+# Curves of many machines as Legendre series on their smooth pieces: means, extremes and values anywhere follow from them.
+
+
+COUNT = 20  # Gauss–Legendre places in a piece
+NODES, WEIGHTS = legendre.leggauss(COUNT)
+_VALUES = legendre.legvander(NODES, COUNT - 1)  # of each Legendre polynomial at the places
+TO_SERIES = (_VALUES * WEIGHTS[:, None]).T * (np.arange(COUNT)[:, None] + 0.5)  # coefficients from values at the places
+LOOK = np.linspace(-1, 1, 41)  # where a piece is looked at before its greatest value is looked at closer
+_LOOK_VALUES = legendre.legvander(LOOK, COUNT)
+NARROW = 1e-12  # a piece that is no wider holds nothing
+BESIDE = 1e-11  # as near as a place is to an edge that it is taken to be on
+CLOSER = np.linspace(-1, 1, 17)
+TO_CHEBYSHEV = numerics.of_legendre(COUNT + 1)
+RESOLVED = 1e-12  # of the greatest coefficient, below which a term is nothing
+LOOKS = 3  # each makes the place of an extreme closer by 1/8; a parabola through the last ones does the rest
+
+Function = Callable[[Array, Array, Array], Array]
+"""Of places (rows, points), the middles (rows, 1) of the smooth pieces that they lie in, and the machine (rows,) of each row."""
+
+
+@dataclass(frozen=True, eq=False)
+class PieceRows:
+    """Hold pieces (pieces,) of the curves of ``count`` machines over [0, 1]: machine, start and width, and the series (pieces, 20).
+
+    They stand in the order of their machines and starts.
+    """
+
+    count: int
+    machine: Array
+    low: Array
+    width: Array
+    series: Array
+
+    @classmethod
+    def of(cls, function: Function, breakpoints: Array, pieces: int) -> PieceRows:
+        """Return a function of many machines that is smooth between its breakpoints (machines, places), in at least so many pieces."""
+        count = len(breakpoints)
+        even = np.broadcast_to(np.linspace(0, 1, pieces + 1), (count, pieces + 1))
+        edges = np.sort(np.concatenate([np.nan_to_num(breakpoints, nan=1.0), even], axis=1), axis=1)
+        machine, piece = np.nonzero(np.diff(edges, axis=1) > NARROW)
+        low, width = edges[machine, piece], np.diff(edges, axis=1)[machine, piece]
+        places = low[:, None] + width[:, None] * (NODES + 1) / 2
+        values = function(places, (low + width / 2)[:, None], machine)
+        return cls(count, machine, low, width, np.broadcast_to(values, places.shape) @ TO_SERIES.T)
+
+    @cached_property
+    def values(self) -> Array:
+        """Return the values at the Gauss–Legendre places of each piece."""
+        return self.series @ _VALUES.T
+
+    @cached_property
+    def _keys(self) -> Array:
+        return self.machine + self.low
+
+    def at(self, places: Array, machine: Array, middles: Array | None = None) -> Array:
+        """Return values at places (rows, points) in [0, 1] of the machine (rows,) of each row.
+
+        At an edge it is that of the piece on the side of ``middles`` (rows, points or 1), by default of the piece behind it.
+        """
+        towards = 0.0 if middles is None else np.clip(middles - places, -BESIDE, BESIDE)
+        inside = np.minimum(places + towards, 1 - NARROW)
+        if not places.size:
+            return np.zeros(places.shape)
+        if places.shape[1] == 1:  # as a search for a root or an extreme asks, again and again
+            return self._in_pieces(piece := self._piece_of(inside, machine), self._shares(places, piece))
+        found = np.empty(places.shape)
+        ends = self._piece_of(np.stack([inside.min(axis=1), inside.max(axis=1)], axis=1), machine)
+        alike = (ends[:, 0] == ends[:, 1]) & np.isfinite(inside).all(axis=1)
+        for rows in filter(len, (np.flatnonzero(alike), np.flatnonzero(~alike))):
+            piece = ends[rows, :1] if alike[rows].all() else self._piece_of(inside[rows], machine[rows])
+            found[rows] = self._in_pieces(piece, self._shares(places[rows], piece))
+        return found
+
+    def _shares(self, places: Array, piece: Array) -> Array:
+        """Where places lie in their pieces, from -1 to 1."""
+        return 2 * (places - self.low[piece]) / self.width[piece] - 1
+
+    def _piece_of(self, inside: Array, machine: Array) -> Array:
+        """The piece that each place (rows, points) lies in."""
+        return np.searchsorted(self._keys, machine[:, None] + inside, side="right") - 1
+
+    @cached_property
+    def _terms(self) -> Array:
+        """The Chebyshev coefficients of the pieces, (degrees, pieces): their recurrence is the shorter one."""
+        count = self.series.shape[1]
+        return np.ascontiguousarray(TO_CHEBYSHEV[:count, :count] @ self.series.T)
+
+    def _in_pieces(self, piece: Array, x: Array) -> Array:
+        """Values at places x of pieces, from -1 to 1: (rows, points), the pieces (rows, points) or (rows, 1)."""
+        return numerics.at_places(self._terms, piece, x)
+
+    @property
+    def is_resolved(self) -> bool:
+        """Return whether the series follow the curves to rounding: their last terms are nothing beside the greatest value."""
+        size = np.zeros(self.count)
+        np.fmax.at(size, self.machine, np.abs(self.series).max(axis=1))
+        last = np.abs(self.series[:, -3:]).max(axis=1)
+        return not (last > RESOLVED * size[self.machine]).any()
+
+    def split(self, parts: Array) -> PieceRows:
+        """Return the same with each piece in so many parts."""
+        if (parts == 1).all():
+            return self
+        piece = np.repeat(np.arange(len(parts)), parts)
+        number = np.arange(len(piece)) - np.repeat(np.cumsum(parts) - parts, parts)
+        width = self.width[piece] / parts[piece]
+        shares = (2 * number[:, None] + 1 + NODES) / parts[piece][:, None] - 1
+        series = self._in_pieces(piece[:, None], shares) @ TO_SERIES.T
+        return PieceRows(self.count, self.machine[piece], self.low[piece] + number * width, width, series)
+
+    def through(self, values: Array) -> PieceRows:
+        """Return curves on the same pieces through values at their places."""
+        return replace(self, series=values @ TO_SERIES.T)
+
+    @property
+    def mean(self) -> Array:
+        """Return the mean of each machine's curve."""
+        return self._added(self.series[:, 0])
+
+    @property
+    def rms(self) -> Array:
+        """Return the root mean square of each machine's curve (Gauss–Legendre)."""
+        found: Array = np.sqrt(self._added(self.values**2 @ WEIGHTS / 2))
+        return found
+
+    def _added(self, means: Array) -> Array:
+        found: Array = np.bincount(self.machine, means * self.width, self.count)
+        return found
+
+    @property
+    def excess(self) -> PieceRows:
+        """Return the integral of each machine's curve above its mean, from the start on."""
+        above = self.series.copy()
+        above[:, 0] -= self.mean[self.machine]
+        inside = legendre.legint(above, lbnd=-1, axis=1) * self.width[:, None] / 2
+        whole = above[:, 0] * self.width
+        known = np.where(np.isfinite(whole), whole, 0.0)  # a machine without values leaves nothing to those behind it
+        passed = np.cumsum(known) - known  # of the machines before nothing is left
+        inside[:, 0] += passed
+        return replace(self, series=inside)
+
+    @property
+    def range(self) -> Array:
+        """Return the greatest less the least value of each machine's curve."""
+        found: Array = self.largest - self.least
+        return found
+
+    @property
+    def largest(self) -> Array:
+        """Return the greatest value of each machine's curve, one-sided limits at the edges included."""
+        return self._largest(1.0)
+
+    @property
+    def least(self) -> Array:
+        """Return the least value of each machine's curve."""
+        return -self._largest(-1.0)
+
+    def _largest(self, sign: float) -> Array:
+        looks = sign * self.series @ _LOOK_VALUES[:, : self.series.shape[1]].T
+        tops = np.full(self.count, -np.inf)
+        np.maximum.at(tops, self.machine, looks.max(axis=1))
+        lows = np.full(self.count, np.inf)
+        np.minimum.at(lows, self.machine, looks.min(axis=1))
+        near = tops - 1e-2 * (tops - lows)
+        piece = np.flatnonzero(looks.max(axis=1) >= near[self.machine])
+        place, width = LOOK[np.argmax(looks[piece], axis=1)], 2 / (len(LOOK) - 1)
+        for _ in range(LOOKS):
+            around = np.clip(place, width - 1, 1 - width)[:, None] + width * CLOSER
+            found = sign * self._in_pieces(piece[:, None], around)
+            best = np.argmax(found, axis=1)[:, None]
+            place, width = np.take_along_axis(around, best, axis=1)[:, 0], width / 8
+            np.maximum.at(tops, self.machine[piece], np.take_along_axis(found, best, axis=1)[:, 0])
+        vertex = place + width * vertices(found)
+        np.maximum.at(tops, self.machine[piece], sign * self._in_pieces(piece[:, None], vertex[:, None])[:, 0])
+        return tops
+
+
+def vertices(heights: Array) -> Array:
+    """Return where a parabola through the greatest of equally spaced values (rows, places) and its neighbours is highest.
+
+    It is counted in their spacing from the greatest, at most half of it; 0 where the greatest is the first or the last.
+    """
+    best = np.argmax(heights, axis=1)
+    inner = np.clip(best, 1, heights.shape[1] - 2)
+    before, here, after = (heights[np.arange(len(heights)), inner + step] for step in (-1, 0, 1))
+    bend = before - 2 * here + after
+    found = np.where((bend < 0) & (best == inner), (before - after) / (2 * np.where(bend < 0, bend, -1.0)), 0.0)
+    return np.clip(found, -0.5, 0.5)
+
+
+# What is read from curves over a turn of many machines at once: where they change their sign, and their range.
+#
+# A curve is a function of places (rows, points), the middles (rows, 1) of the smooth pieces that they lie in, and the machine
+# (rows,) of each row; places are shares of the turn.
+
+
+Curve = Callable[[Array, Array, Array], Array]
+
+TURN_SAMPLES_PIECES = 16  # of a turn, at least
+TURN_SAMPLES_COUNT = 12  # Gauss–Legendre places in a piece
+TURN_SAMPLES_NODES = np.polynomial.legendre.leggauss(TURN_SAMPLES_COUNT)[0]
+SHARES = (np.concatenate([[-1.0], TURN_SAMPLES_NODES, [1.0]]) + 1) / 2
+ACROSS = np.linspace(0, 1, 17)  # places of a closer look
+TURN_SAMPLES_LOOKS = 4  # each makes a bracket narrower by 1/16, or by 1/8 about an extreme
+
+
+@dataclass(frozen=True, eq=False)
+class TurnSamples:
+    """Hold a curve of many machines over a turn; ``breakpoints`` (machines, places) are shares where it is not smooth, NaN for none."""
+
+    curve: Curve
+    breakpoints: Array
+
+    @cached_property
+    def _pieces(self) -> tuple[Array, Array, Array]:
+        """Machine, start and end of each piece."""
+        count = len(self.breakpoints)
+        even = np.broadcast_to(np.linspace(0, 1, TURN_SAMPLES_PIECES + 1), (count, TURN_SAMPLES_PIECES + 1))
+        edges = np.sort(np.concatenate([np.nan_to_num(self.breakpoints, nan=1.0), even], axis=1), axis=1)
+        machine, piece = np.nonzero(np.diff(edges, axis=1) > NARROW)
+        return machine, edges[machine, piece], edges[machine, piece + 1]
+
+    @cached_property
+    def _places(self) -> tuple[Array, Array]:
+        """The places in each piece, both ends among them, and the curve there."""
+        machine, low, high = self._pieces
+        places = low[:, None] + (high - low)[:, None] * SHARES
+        return places, self._values(places, np.arange(len(machine)))
+
+    def _values(self, places: Array, piece: Array) -> Array:
+        """The curve at places (rows, points), each row in one of the pieces."""
+        machine, low, high = self._pieces
+        found = self.curve(places, ((low + high) / 2)[piece][:, None], machine[piece])
+        return np.broadcast_to(found, places.shape)
+
+    @property
+    def sign_changes(self) -> Array:
+        """Return the places inside the pieces where the curve changes its sign, shape (machines, most), NaN where there is none.
+
+        They are found to a hundred thousandth of a piece. What is integrated over a corner there is off by the square of that.
+        """
+        places, values = self._places
+        piece, first = np.nonzero(_changes(values))
+        low, high = places[piece, first], places[piece, first + 1]
+        for _ in range(TURN_SAMPLES_LOOKS if len(piece) else 0):
+            closer = low[:, None] + (high - low)[:, None] * ACROSS
+            first = np.argmax(_changes(self._values(closer, piece)), axis=1)
+            each = np.arange(len(piece))
+            low, high = closer[each, first], closer[each, first + 1]
+        return in_rows((low + high) / 2, self._pieces[0][piece], len(self.breakpoints))
+
+    @property
+    def range(self) -> Array:
+        """Return the greatest less the least value, shape (machines, 1)."""
+        return self._greatest(1.0) + self._greatest(-1.0)
+
+    def _greatest(self, sign: float) -> Array:
+        """The greatest value times a sign, looked at closer about the greatest of the places."""
+        machine, low, high = self._pieces
+        places, values = self._places
+        best = np.argmax(sign * values, axis=1)
+        tops = np.full(len(self.breakpoints), -np.inf)
+        np.maximum.at(tops, machine, (sign * values).max(axis=1))
+        spread = np.ptp(values) if len(values) else 0.0
+        piece = np.flatnonzero((sign * values).max(axis=1) >= tops[machine] - 1e-2 * spread)
+        place, width = places[piece, best[piece]], (high - low)[piece] / 4
+        for _ in range(TURN_SAMPLES_LOOKS):
+            closer = np.clip(place[:, None] + width[:, None] * (2 * ACROSS - 1), low[piece, None], high[piece, None])
+            found = sign * self._values(closer, piece)
+            top = np.argmax(found, axis=1)[:, None]
+            place, width = np.take_along_axis(closer, top, axis=1)[:, 0], width / 8
+            np.maximum.at(tops, machine[piece], np.take_along_axis(found, top, axis=1)[:, 0])
+        return tops[:, None]
+
+
+def in_rows(places: Array, machine: Array, count: int) -> Array:
+    """Return places as rows of their machines (ascending), shape (machines, most), NaN behind them."""
+    number = np.bincount(machine, minlength=count)
+    found = np.full((count, int(number.max(initial=0))), np.nan)
+    found[machine, np.arange(len(machine)) - (np.cumsum(number) - number)[machine]] = places
+    return found
+
+
+def _changes(values: Array) -> Array:
+    """Whether the sign changes from each value to the next; at a value of zero, from the one before it to the next."""
+    found: Array = values[:, 1:] * values[:, :-1] < 0
+    found[:, 1:] |= (values[:, 1:-1] == 0) & (values[:, :-2] * values[:, 2:] < 0)
+    return found
+
 
 TURN = 2 * np.pi
 PIECES = (8, 16, 32)  # of a line's turn, at least: so many are tried

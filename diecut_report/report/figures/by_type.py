@@ -1,21 +1,23 @@
-"""The figures of the results by their type."""
+"""Figures of the results as pictures of points (PNG), for programs that show no other ones reliably."""
 
 from __future__ import annotations
 
+import io
 from collections.abc import Callable, Mapping
 from functools import partial
-from typing import Any
+from typing import Any, NamedTuple
 
+import matplotlib as mpl
+from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from diecut_report.report.figures.bars import bars
-from diecut_report.report.figures.charts import chart, plot
+from diecut_report.report.figures.charts import bars, chart, plot, polar, tornado_of
 from diecut_report.report.figures.drawing import drawing
-from diecut_report.report.figures.polar import polar
-from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import Svg, drawn
-from diecut_report.report.figures.tornado import tornado_of
-from diecut_report.report.i18n import Catalogue
+from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, load_fonts, plain, style, text_size
+from diecut_report.report.text import Catalogue
+
+# The figures of the results by their type.
+
 
 DRAW: dict[str, Callable[..., Any]] = {
     "plot": plot,
@@ -27,14 +29,56 @@ DRAW: dict[str, Callable[..., Any]] = {
 }
 
 
-def build(figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, size: Size) -> Figure:
+def build(figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, size: SizesSize) -> Figure:
     """A figure of the results as matplotlib's, so large as its place on the page lets it be."""
     made: Figure = DRAW[figure["type"]](figure, curves, words, size)
     return made
 
 
 def render(
-    figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str, size: Size = Size.LARGE
+    figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
 ) -> Svg:
     """A figure of the results; ``key`` keeps its ids apart from those of the report's other figures."""
     return drawn(partial(build, figure, curves, words, size), figure["title"], key)
+
+
+DENSITY = 200  # points an inch
+
+
+MARGIN, LARGEST = 0.9, 14.0  # share of a picture that a text may fill, points of its letters
+
+
+class Raster(NamedTuple):
+    """A figure as PNG, and its natural size in points of print."""
+
+    content: bytes
+    width: float
+    height: float
+
+
+def raster(
+    figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
+) -> Raster:
+    """A figure of the results, drawn as ``by_type.render`` draws it; the same bytes for the same figure."""
+    load_fonts()
+    with mpl.rc_context(style(key)):  # type: ignore[arg-type]  # a plain dictionary is one too
+        drawn = build(figure, curves, words, size)
+        FigureCanvasAgg(drawn)
+        content = io.BytesIO()
+        drawn.savefig(content, format="png", dpi=DENSITY, metadata={"Software": None}, facecolor="white")
+        width, height = (float(side) * 72 for side in drawn.get_size_inches())
+    return Raster(content.getvalue(), width, height)
+
+
+def raster_of_text(text: str, width: float, height: float) -> Raster:
+    """Return a line of text as a picture of a size in points, its letters as large as fit."""
+    load_fonts()
+    with mpl.rc_context(style("text")):  # type: ignore[arg-type]  # a plain dictionary is one too
+        drawn = canvas(width, height)
+        wide, high = text_size(plain(text), LARGEST)
+        size = LARGEST * min(1.0, MARGIN * width / max(wide, 1.0), MARGIN * height / max(high, 1.0))
+        drawn.text(0.5, 0.5, plain(text), size=size, ha="center", va="center")
+        FigureCanvasAgg(drawn)
+        content = io.BytesIO()
+        drawn.savefig(content, format="png", dpi=DENSITY, metadata={"Software": None}, facecolor="white")
+    return Raster(content.getvalue(), width, height)

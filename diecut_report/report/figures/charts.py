@@ -2,42 +2,57 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from functools import partial
 from itertools import pairwise, zip_longest
 from typing import Any
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
+from matplotlib.ticker import FuncFormatter, MaxNLocator
 from numpy.typing import NDArray
 
+from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, to_display, unit
-from diecut_report.report.curves import continuous, period_of
-from diecut_report.report.figures.diagram import HEAD, Diagram, further
-from diecut_report.report.figures.panel_data import Across, Line, Note, PanelData, SpanData, limits_of, range_of
-from diecut_report.report.figures.sizes import WIDTHS, Size
-from diecut_report.report.figures.style import canvas, marked, plain
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.number_format import displayed, joined, sentence
+from diecut_report.report.chapters.tables import continuous, period_of, through_pole
+from diecut_report.report.figures.diagram import HEAD as CHARTS_HEAD
+from diecut_report.report.figures.diagram import STROKES, WIDTH, Diagram, further, titled
+from diecut_report.report.figures.labels import Across, Line, Note, PanelData, SpanData, limits_of, range_of
+from diecut_report.report.figures.style import (
+    ACCENT,
+    INK,
+    MM,
+    WIDTHS,
+    SizesSize,
+    Svg,
+    canvas,
+    drawn,
+    marked,
+    plain,
+    text_size,
+)
+from diecut_report.report.text import Catalogue, displayed, joined, number, sentence, significant
 
 Data = Mapping[str, Any]
 Array = NDArray[Any]
 LEFT, RIGHT, TOP = 46.0, 10.0, 6.0  # points
 FOOT, NAMED_FOOT = 8.0, 34.0  # below a diagram: without and with its numbers and their title
 HEIGHTS = {  # of a diagram, by the number of diagrams; more share a page
-    Size.LARGE: {1: 140.0, 2: 104.0, 3: 86.0, 4: 68.0},
-    Size.LOW: {1: 96.0, 2: 74.0, 3: 60.0, 4: 52.0},
-    Size.HALF: {1: 96.0, 2: 68.0, 3: 50.0, 4: 46.0},
+    SizesSize.LARGE: {1: 140.0, 2: 104.0, 3: 86.0, 4: 68.0},
+    SizesSize.LOW: {1: 96.0, 2: 74.0, 3: 60.0, 4: 52.0},
+    SizesSize.HALF: {1: 96.0, 2: 68.0, 3: 50.0, 4: 46.0},
 }
 MANY = 4
 PAGE = 650.0  # no chart is higher
 
 
-def plot(figure: Data, curves: Data, words: Catalogue, size: Size = Size.LARGE) -> Figure:
+def plot(figure: Data, curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
     """Curves of the results, over a common abscissa."""
     return _sheet(diagrams(figure, curves, words), words, size)
 
 
-def chart(figure: Data, curves: Data, words: Catalogue, size: Size = Size.LARGE) -> Figure:
+def chart(figure: Data, curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
     """Lines that the figure brings itself, each diagram over what it likes."""
     return _sheet(diagrams(figure, curves, words), words, size)
 
@@ -49,15 +64,17 @@ def diagrams(figure: Data, curves: Data, words: Catalogue) -> list[PanelData]:
     return [_of_lines(panel, words) for panel in figure["panels"]]
 
 
-def _sheet(panels: list[PanelData], words: Catalogue, size: Size) -> Figure:
+def _sheet(panels: list[PanelData], words: Catalogue, size: SizesSize) -> Figure:
     """All diagrams, one below the other; on a sheet that is to be saved many stand two by two."""
-    return _side_by_side(panels, words) if size is Size.LOW and len(panels) >= MANY else _column(panels, words, size)
+    return (
+        _side_by_side(panels, words) if size is SizesSize.LOW and len(panels) >= MANY else _column(panels, words, size)
+    )
 
 
 def _side_by_side(panels: list[PanelData], words: Catalogue) -> Figure:
     """Diagrams in rows of two; numbers stand below the last one of a column, and where the next one runs over something else."""
-    width, share = WIDTHS[Size.LOW], WIDTHS[Size.LOW] / 2
-    wide, height = share - LEFT - RIGHT, HEIGHTS[Size.HALF][2]
+    width, share = WIDTHS[SizesSize.LOW], WIDTHS[SizesSize.LOW] / 2
+    wide, height = share - LEFT - RIGHT, HEIGHTS[SizesSize.HALF][2]
     drawn = _named_once([Diagram(panel, wide, height) for panel in panels])
     for diagram in drawn[1:]:
         diagram.follow(drawn[0])
@@ -77,12 +94,12 @@ def _side_by_side(panels: list[PanelData], words: Catalogue) -> Figure:
     return sheet
 
 
-def _column(panels: list[PanelData], words: Catalogue, size: Size) -> Figure:
+def _column(panels: list[PanelData], words: Catalogue, size: SizesSize) -> Figure:
     """All diagrams; numbers stand below a diagram where the next one runs over something else."""
     feet = [NAMED_FOOT if one.across != two.across else FOOT for one, two in pairwise(panels)]
     feet.append(NAMED_FOOT)
-    room = (PAGE - TOP - sum(feet) - HEAD * len(panels)) / len(panels)
-    height = min(HEIGHTS[size if size in HEIGHTS else Size.LOW][min(len(panels), MANY)], room)
+    room = (PAGE - TOP - sum(feet) - CHARTS_HEAD * len(panels)) / len(panels)
+    height = min(HEIGHTS[size if size in HEIGHTS else SizesSize.LOW][min(len(panels), MANY)], room)
     width = WIDTHS[size]
     wide = width - LEFT - RIGHT
     drawn = _named_once([Diagram(panel, wide, height) for panel in panels])
@@ -179,3 +196,196 @@ def _level(level: Data, shown: str, words: Catalogue) -> Note:
 
 def _value(value: float, shown: str, words: Catalogue) -> str:
     return plain(joined(displayed(value, shown, words["decimal"]), pretty(shown)))
+
+
+# Horizontal bars of quantities, in groups.
+
+
+TALL, BESIDE, LEAST = 17.0, 14.0, 56.0  # of a bar with its room, beside a group, and the least width for bars, points
+
+
+def bars(figure: Data, _curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
+    """Horizontal bars in groups side by side, in rows where they have no room; what is subtracted is hatched."""
+    groups, width = figure["groups"], WIDTHS[size]
+    rows = _rows(groups, figure.get("unit", ""), width)
+    below = 8 if all("range" not in group for group in groups) else 20
+    heights = [26 + TALL * max(len(group["bars"]) for group in row) + below for row in rows]
+    height = 4 + sum(heights)
+    sheet, top = canvas(width, height), height - 2
+    names = [max(map(_names, column)) for column in zip_longest(*rows, fillvalue=rows[0][0])]
+    for row, step in zip(rows, heights, strict=True):
+        left = 0.0
+        for group, named in zip(row, names, strict=False):
+            room, tall = _room(names, width), TALL * len(group["bars"])
+            box = (left + named + 4) / width, (top - 22 - tall) / height, room / width, tall / height
+            _group(sheet.add_axes(box), width, group, group.get("unit") or figure["unit"], words)
+            left += named + room + BESIDE
+        top -= step
+    return sheet
+
+
+def _rows(groups: Sequence[Data], shown: str, width: float) -> list[list[Data]]:
+    """The groups in as few rows as leave room for their bars and their titles."""
+    for columns in range(len(groups), 1, -1):
+        rows = [list(groups[start : start + columns]) for start in range(0, len(groups), columns)]
+        room = _room([max(map(_names, column)) for column in zip_longest(*rows, fillvalue=groups[0])], width)
+        if all(max(LEAST, text_size(_title(group, group.get("unit") or shown))[0]) <= room for group in groups):
+            return rows
+    return [[group] for group in groups]
+
+
+def _names(group: Data) -> float:
+    """How wide the names of a group's bars are, points."""
+    return max(text_size(plain(bar["label"]))[0] for bar in group["bars"]) + 8
+
+
+def _room(names: Sequence[float], width: float) -> float:
+    """How wide the bars of each group in a row are beside names of these widths, points."""
+    return (width - sum(names) - BESIDE * len(names)) / len(names)
+
+
+def _title(group: Data, shown: str) -> str:
+    return plain(group["label"]) + (f", {pretty(shown)}" if pretty(shown) else "")
+
+
+def _group(axes: Axes, width: float, group: Data, shown: str, words: Catalogue) -> None:
+    values = [bar["value"] / unit(shown).factor for bar in group["bars"]]
+    rows = np.arange(len(values))[::-1]
+    last = len(values) - 1
+    for index, (row, value) in enumerate(zip(rows, values, strict=True)):
+        colour = "white" if value < 0 else ACCENT if index == last else "#9fb4c4"
+        axes.barh(
+            row, value, 0.62, edgecolor=INK, linewidth=0.6, facecolor=colour, hatch="/////" if value < 0 else None
+        )
+        text = displayed(group["bars"][index]["value"], shown, words["decimal"])
+        axes.annotate(text, (max(value, 0), row), (3, 0), textcoords="offset points", va="center_baseline", size=8)
+    _across(axes, width, values, limits_of(group, shown), words)
+    axes.set_yticks(rows, [plain(bar["label"]) for bar in group["bars"]], va="center_baseline")
+    axes.set_ylim(-0.6, len(values) - 0.4)
+    axes.axvline(0, color=INK, linewidth=0.8)
+    axes.set_title(_title(group, shown), pad=5)
+    axes.grid(visible=False)
+    axes.tick_params(axis="y", length=0)
+    for side in ("top", "right", "bottom", "left"):
+        axes.spines[side].set_visible(False)
+
+
+def _across(
+    axes: Axes,
+    width: float,
+    values: Sequence[float],
+    limits: tuple[float | None, float | None] | None,
+    words: Catalogue,
+) -> None:
+    """Lay out the axis of the bars on a sheet of a width, with room for their numbers; where its range is declared its ends are named."""
+    room = max(text_size(number(significant(value)))[0] for value in values) + 6
+    points = axes.get_position().width * width
+    own = min([0.0, *values]), max([0.0, *values])
+    low, high = (each if end is None else end for each, end in zip(own, limits or (None, None), strict=True))
+    margin = 0.0 if limits and limits[0] is not None else 0.02 * (max(map(abs, values)) or 1.0)
+    axes.set_xlim(low - margin, high + room * (high - low) / max(points - room, 1))
+    axes.tick_params(axis="x", bottom=limits is not None, labelbottom=limits is not None)
+    if limits:
+        axes.set_xticks([low, high], [number(number_text(end), words["decimal"]) for end in (low, high)])
+
+
+# Polar diagrams: curves of the results over an angle.
+
+
+TURN = 360.0
+SIDES = {SizesSize.LARGE: 100 * MM, SizesSize.LOW: 74 * MM, SizesSize.HALF: 74 * MM}  # of the square about the circles
+HEADS = {SizesSize.LARGE: 16.0, SizesSize.HALF: 30.0}  # above it: beside the uppermost angle, or higher
+
+
+def polar(figure: Data, curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
+    """Size of curves as distance from the pole over an angle; what is negative has another line."""
+    over = curves[figure["abscissa"]]
+    side, width = SIDES.get(size, SIDES[SizesSize.LOW]), WIDTHS[size]
+    total = side + HEADS.get(size, HEADS[SizesSize.HALF])
+    sheet = canvas(width, total)
+    axes = sheet.add_axes(
+        ((width - side + 40) / 2 / width, 30 / total, (side - 40) / width, (side - 30) / total),
+        projection="polar",
+    )
+    for index, series in enumerate(figure["series"]):
+        x, y = through_pole(*continuous(curves[series["curve"]], over, period_of(over)))
+        y = y / unit(figure["unit"]).factor
+        for sign, shade in ((1, 0), (-1, 1)):
+            colour, dashes, width = STROKES[(2 * index + shade) % len(STROKES)]
+            said = f"{marked(series['label'])}, {words['positive' if sign > 0 else 'negative']}"
+            axes.plot(
+                x,
+                np.where(sign * y >= 0, np.abs(y), np.nan),
+                color=colour,
+                linestyle=dashes,
+                linewidth=width,
+                label=said,
+            )
+    axes.set_rlabel_position(_emptiest(axes))  # type: ignore[attr-defined]
+    axes.set_xticks(np.radians(np.arange(0, TURN, 30)))
+    axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
+    axes.tick_params(pad=1)
+    low, high = limits_of(figure, figure["unit"]) or (None, None)
+    axes.set_ylim(low or 0, high)
+    greatest = max(tick for tick in axes.get_yticks() if tick <= axes.get_ylim()[1])
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda v, _: _radial(v, greatest, figure["unit"], words)))
+    sheet.text(0.02, 1 - 14 / total, titled(over["description"], over["symbol"], over["display_unit"]))
+    sheet.legend(*axes.get_legend_handles_labels(), loc="lower center", ncols=2, borderaxespad=0.1)
+    return sheet
+
+
+def _emptiest(axes: Axes) -> float:
+    """The direction, in degrees, in which the curves stay nearest to the pole: there the circles are named."""
+    drawn = np.concatenate([np.column_stack(line.get_data()) for line in axes.lines])
+    angles, sizes = np.degrees(drawn[:, 0]) % TURN, np.nan_to_num(drawn[:, 1])
+    directions = np.arange(15.0, TURN, 30.0)
+    return float(min(directions, key=lambda d: sizes[np.abs((angles - d + 180) % TURN - 180) < 14].max(initial=0.0)))
+
+
+def _radial(value: float, greatest: float, shown: str, words: Catalogue) -> str:
+    """The number at a circle, at the greatest one with its unit."""
+    text = number(f"{value:.10g}", words["decimal"])
+    return "" if value == 0 else joined(text, pretty(shown)) if value == greatest else text
+
+
+# A tornado: what each input does to a number, lowered and raised, as bars beside today's value.
+
+
+ROW, HEAD, TORNADO_FOOT = 17.0, 14.0, 24.0  # points
+LOWERED = "#b06a2c"
+
+
+def tornado(today: float, bars: Sequence[Mapping[str, Any]], told: str, key: str, decimal: str) -> Svg:
+    """Return the bars (``label``, ``low``, ``high`` with the input lowered and raised, None without a machine) about today's value."""
+    return drawn(partial(_tornado, today, bars, decimal), told, key)
+
+
+def tornado_of(figure: Mapping[str, Any], _curves: Any, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
+    """Draw a figure of a report's chapter on influence."""
+    return _tornado(figure["today"], figure["bars"], words["decimal"])
+
+
+def _tornado(today: float, bars: Sequence[Mapping[str, Any]], decimal: str) -> Figure:
+    height = HEAD + TORNADO_FOOT + ROW * len(bars)
+    sheet = canvas(WIDTH, height)
+    names = max(text_size(str(bar["label"]))[0] for bar in bars) + 10
+    axes = sheet.add_axes(
+        (names / WIDTH, TORNADO_FOOT / height, (WIDTH - names - 12) / WIDTH, ROW * len(bars) / height)
+    )
+    places = np.arange(len(bars))[::-1]
+    for place, bar in zip(places, bars, strict=True):
+        for side, colour in (("low", LOWERED), ("high", ACCENT)):
+            if bar[side] is not None:
+                axes.barh(place, bar[side] - today, 0.62, left=today, color=colour, alpha=0.85)
+            else:
+                axes.plot(today, place, "x", color=colour)
+    axes.set_yticks(places, [str(bar["label"]) for bar in bars], va="center_baseline")
+    axes.xaxis.set_major_formatter(lambda value, _: number(number_text(value), decimal))
+    axes.set_ylim(-0.6, len(bars) - 0.4)
+    axes.axvline(today, color=INK, linewidth=0.8)
+    axes.grid(visible=False, axis="y")
+    axes.tick_params(axis="y", length=0)
+    for side in ("top", "right", "left"):
+        axes.spines[side].set_visible(False)
+    axes.set_axisbelow(True)
+    return sheet

@@ -13,10 +13,8 @@ from matplotlib.patches import Patch
 from matplotlib.ticker import FuncFormatter, MaxNLocator, MultipleLocator
 
 from diecut_report.quantities.units import pretty
-from diecut_report.report.figures.label_layout import SIZE, LabelLayout
-from diecut_report.report.figures.panel_data import Frame, PanelData, framed, pieces
-from diecut_report.report.figures.shapes import hatching
-from diecut_report.report.figures.sizes import WIDTHS, Size
+from diecut_report.report.figures.drawing import hatching
+from diecut_report.report.figures.labels import SIZE, Frame, LabelLayout, PanelData, framed, pieces
 from diecut_report.report.figures.style import (
     ACCENT,
     FONT_SIZE,
@@ -24,16 +22,17 @@ from diecut_report.report.figures.style import (
     LINE,
     PALE,
     SOFT,
+    WIDTHS,
+    SizesSize,
     marked,
     plain,
     symbol,
     text_size,
     wrapped,
 )
-from diecut_report.report.i18n import Catalogue
-from diecut_report.report.number_format import number
+from diecut_report.report.text import Catalogue, number
 
-WIDTH = WIDTHS[Size.LARGE]
+WIDTH = WIDTHS[SizesSize.LARGE]
 STROKES: tuple[tuple[str, Any, float], ...] = (  # more lines than there are here are named at the lines
     (ACCENT, "-", 1.4),
     (INK, (0, (5, 2)), 1.1),

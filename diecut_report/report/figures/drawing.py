@@ -2,25 +2,354 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
+import re
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from itertools import combinations
+from typing import Any, NamedTuple
 
 import numpy as np
+from matplotlib.axes import Axes
 from matplotlib.figure import Figure
 from matplotlib.patches import PathPatch, Rectangle
 from matplotlib.path import Path
 from numpy.typing import NDArray
 
-from diecut_report.report.figures import label_places
-from diecut_report.report.figures.drawing_scale import LARGEST, filled
-from diecut_report.report.figures.drawing_sheet import ARROW, THICK, THIN, THIN_LINE, DrawingSheet
-from diecut_report.report.figures.shapes import beyond, circular, hatching
-from diecut_report.report.figures.sizes import Size
-from diecut_report.report.figures.style import ACCENT, INK, LINE, SOFT, marked, sampled, text_size
-from diecut_report.report.i18n import Catalogue
+from diecut_report.quantities.units import pretty, unit
+from diecut_report.report.figures import labels
+from diecut_report.report.figures.style import (
+    ACCENT,
+    FONT_SIZE,
+    INK,
+    LINE,
+    MM,
+    SOFT,
+    Box,
+    Labels,
+    SizesSize,
+    canvas,
+    marked,
+    overlap,
+    sampled,
+    text_size,
+)
+from diecut_report.report.text import Catalogue, joined, number, significant
+
+# Shapes of drawings as points: where they reach, circles and arcs, the strokes of hatched areas.
+
 
 Array = NDArray[Any]
 Shape = Mapping[str, Any]
+HATCH_STEP = 5.0  # points between the strokes
+
+
+def extent(shape: Shape) -> Array:
+    """Points that bound a shape, in metres (texts are measured later)."""
+    match shape:
+        case {"shape": "polyline", "points": points} | {"shape": "region", "outer": points}:
+            return np.asarray(points, dtype=float).reshape(-1, 2)
+        case {"shape": "circle"}:
+            return _round(shape, 0, 2 * np.pi)
+        case {"shape": "arc", "start": start, "end": end}:
+            return _round(shape, start, end)
+        case {"shape": "radius_dimension", "angle": angle}:
+            return _round(shape, angle, angle)
+        case {"shape": "dimension", "from": start, "to": end, "offset": offset}:
+            one, two = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+            along = (two - one) / np.hypot(*(two - one))
+            line: Array = np.array([one, two]) + offset * np.array([-along[1], along[0]])
+            return line
+        case {"shape": "arrow", "from": start, "to": end}:
+            return np.array([start, end], dtype=float)
+        case {"shape": "box", "center": center, "width": width, "height": height}:
+            return np.asarray(center, dtype=float) + 0.5 * np.array([[-width, -height], [width, height]])
+    return np.asarray(shape["at"], dtype=float).reshape(-1, 2)
+
+
+def _round(shape: Shape, start: float, end: float) -> Array:
+    points: Array = np.asarray(shape["center"], dtype=float) + shape["radius"] * circular(start, end)
+    return points
+
+
+def circular(start: float, end: float) -> Array:
+    """Points on the unit circle from angle to angle (rad), close enough to look round."""
+    angles = np.linspace(start, end, max(16, int(abs(end - start) * 40)))
+    points: Array = np.column_stack([np.cos(angles), np.sin(angles)])
+    return points
+
+
+def beyond(start: Array, end: Array, center: Array, half: Array) -> Array:
+    """The place where the way from start to end leaves a box that start lies in; start itself where it lies outside.
+
+    The box is taken with its edge; where end lies in it too, start stays.
+    """
+    edge = half * (1 + 1e-9)
+    if (np.abs(start - center) > edge).any() or (np.abs(end - center) <= edge).all():
+        return start
+    way = end - start
+    with np.errstate(divide="ignore", invalid="ignore"):
+        shares = np.where(way == 0, np.inf, (half * np.sign(way) - (start - center)) / way)
+    left: Array = start + float(np.clip(shares.min(), 0.0, 1.0)) * way
+    return left
+
+
+def hatching(loops: list[Array], step: float = HATCH_STEP, *, falling: bool = False) -> tuple[Array, Array]:
+    """Starts and ends of strokes at 45° inside closed loops (even-odd), ``step`` apart."""
+    turn = np.array([1.0, -1.0 if falling else 1.0])
+    along, across = turn / np.sqrt(2), np.array([-1.0, 1.0]) * turn / np.sqrt(2)
+    starts = np.concatenate([loop[:-1] for loop in loops])
+    ends = np.concatenate([loop[1:] for loop in loops])
+    height_a, height_b = starts @ across, ends @ across
+    places: list[Array] = [np.empty((0, 2))]
+    for level in np.arange(np.floor(height_a.min() / step) + 0.5, height_a.max() / step) * step:
+        cut = (height_a <= level) != (height_b <= level)
+        share = (level - height_a[cut]) / (height_b[cut] - height_a[cut])
+        reach = np.sort((starts[cut] + share[:, None] * (ends[cut] - starts[cut])) @ along)
+        places.append(level * across + reach[:, None] * along)
+    points = np.concatenate(places)
+    return points[::2], points[1::2]
+
+
+# How large a drawing is on paper: its scale, and the size of the text in its boxes.
+
+
+PAGE = np.array([172 * MM, 222 * MM])  # what a figure may take, in points
+LARGEST = np.array([130 * MM, 80 * MM])  # of the shapes, their texts come beside them
+TALL = 1.2  # a tall drawing may be so many times as high as others
+SIZES = (FONT_SIZE, 8.0, 7.5, 7.0, 6.5)  # of text in boxes, the least last
+PAD = np.array([8.0, 6.0])  # between a box and its text, both sides together
+ROOMY = 2.5  # a schematic gives its boxes no more than so many times what their text needs
+
+
+class Scale(NamedTuple):
+    """Points a metre, across and upwards; how round things are scaled; the size of the text in boxes."""
+
+    across: float
+    upwards: float
+    text: float
+
+    @property
+    def both(self) -> Array:
+        """Across and upwards."""
+        return np.array([self.across, self.upwards])
+
+    @property
+    def round(self) -> float:
+        """For radii, which stay round."""
+        return min(self.across, self.upwards)
+
+
+def scaled(shapes: Sequence[Shape], room: Array, *, schematic: bool) -> Scale:
+    """As large as the room lets it be; a schematic is stretched, where it must be, until the text fits its boxes."""
+    corners = np.concatenate([extent(shape) for shape in shapes])
+    size = np.maximum(np.ptp(corners, axis=0), 1e-12)
+    tall = float(np.clip(size[1] / size[0] / 1.1, 1.0, TALL))
+    limits = room * np.array([1.0, tall]) / size
+    scale = float(limits.min())
+    boxes = [shape for shape in shapes if shape["shape"] == "box"]
+    needs = {text: needed(boxes, text) for text in SIZES}
+    if not boxes or not schematic:
+        fitting = [text for text in SIZES if (needs[text] <= scale).all()]
+        return Scale(scale, scale, fitting[0] if fitting else SIZES[-1])
+    scale = min(scale, ROOMY * float(needs[FONT_SIZE].max()))
+    limits = np.maximum(limits * (PAGE / LARGEST) ** [1, 0], scale)
+    fitting = [text for text in SIZES if (needs[text] <= limits).all()]
+    text = fitting[0] if fitting else SIZES[-1]
+    across, upwards = np.clip(needs[text], scale, limits)
+    return Scale(float(across), float(upwards), text)
+
+
+def needed(boxes: Sequence[Shape], text: float) -> Array:
+    """The scales, across and upwards, at which the text of a size fits all boxes."""
+    scales = [(content(box["lines"], text) + PAD) / (box["width"], box["height"]) for box in boxes]
+    found: Array = np.max(scales, axis=0) if scales else np.zeros(2)
+    return found
+
+
+def content(lines: Sequence[str], text: float) -> Array:
+    """Width and height of the lines in a box."""
+    wide = max((text_size(marked(line), text)[0] for line in lines), default=0.0)
+    return np.array([wide, text * (1.08 + LINE * (len(lines) - 1)) if lines else 0.0])
+
+
+def filled(shape: Shape, scale: Scale) -> tuple[list[str], Array]:
+    """A box on paper: its lines and its size; lines that are too wide are folded, and at last it grows about its text."""
+    size = np.array([shape["width"], shape["height"]]) * scale.both
+    lines = list(shape["lines"])
+    if (content(lines, scale.text) + PAD > size * (1 + 1e-9)).any():
+        widest = content([part for line in lines for part in folded(line, 0.0, scale.text)], scale.text)[0]
+        lines = [part for line in lines for part in folded(line, max(size[0] - PAD[0], widest), scale.text)]
+    return lines, np.maximum(size, content(lines, scale.text) + PAD)
+
+
+_BREAKS = (re.compile(r"(?<=[,;:]) "), re.compile(r"(?<![=<>·\d]) (?![=<>·\d])"))  # no unit is torn from its number
+
+
+def folded(text: str, width: float, size: float = FONT_SIZE) -> list[str]:
+    """A text in lines no wider than ``width``, as far as its parts let it: broken behind commas, else between words."""
+    if text_size(marked(text), size)[0] <= width:
+        return [text]
+    for breaks in _BREAKS:
+        parts = breaks.split(text)
+        if len(parts) > 1:
+            return [line for part in _gathered(parts, width, size) for line in folded(part, width, size)]
+    return [text]
+
+
+def _gathered(parts: list[str], width: float, size: float) -> list[str]:
+    """Parts of a text, as many in a line as fit it, though not all in one."""
+    lines = [parts[0]]
+    for part in parts[1:]:
+        longer = f"{lines[-1]} {part}"
+        if text_size(marked(longer), size)[0] <= width:
+            lines[-1] = longer
+        else:
+            lines.append(part)
+    return lines
+
+
+# A sheet to draw on: what all shapes of a drawing have in common, and the texts, which find their places at last.
+
+
+THIN_LINE: dict[str, Any] = {"color": INK, "linewidth": 0.45, "zorder": 2.5}
+ARROW, SLENDER = 7.0, 0.17  # the head of a dimension
+THICK, THIN = 8.0, 2.0  # how much texts keep clear of lines
+FAR = 12.0  # a point's name no nearer than this gets a leader
+FREE = 9.0  # what may be in the way of a text
+LONG = 50.0  # a text of so many points may be folded
+
+
+class DrawingSheet:
+    """A drawing in work: shapes in points, what texts must keep clear of, and the box that all of it needs."""
+
+    def __init__(self, figure: Mapping[str, Any], words: Catalogue, room: Array) -> None:
+        self.shapes: list[Shape] = figure["shapes"]
+        self.unit: str = figure["unit"]
+        self.schematic: bool = figure.get("schematic", False)
+        self.words = words
+        self.scale = scaled(self.shapes, room, schematic=self.schematic)
+        corners = np.concatenate([extent(shape) for shape in self.shapes]) * self.scale.both
+        self.lines: list[tuple[Array, float]] = []  # with how much texts are to keep clear of them
+        self.boxes: list[Box] = [(*corners.min(axis=0), *corners.max(axis=0))]
+        self.solid: list[Box] = []  # where no text may stand
+        self.wished: list[tuple[float, float]] = []  # from where to where labels reach where they are asked for
+        self.crowded = 0.0  # how much stands in the way of texts
+        self.texts: list[Callable[[Labels], None]] = []
+        self.sheet = canvas(10, 10)
+        self.axes: Axes = self.sheet.add_axes((0, 0, 1, 1))
+        self.axes.set_axis_off()
+
+    def finish(self) -> None:
+        """Draws all shapes first, then the texts between them; the sheet is cut to what is on it."""
+        for shape in self.shapes:
+            self.draw(shape)
+        labels = self._labels()
+        for write in self.texts:
+            write(labels)
+        self.boxes += labels.taken
+        if not self.schematic and pretty(self.unit):
+            self._scale_bar()
+        left, bottom, right, top = (pick(box[i] for box in self.boxes) for i, pick in enumerate((min, min, max, max)))
+        left, bottom, right, top = left - 4, bottom - 4, right + 4, top + 4
+        self.axes.set_xlim(left, right)
+        self.axes.set_ylim(bottom, top)
+        self.sheet.set_size_inches((right - left) / 72, (top - bottom) / 72)
+        self.crowded += 50 * float(np.maximum([right - left, top - bottom] - PAGE, 0.0).sum())
+        self.crowded += sum(overlap(one, other) for one, other in combinations(self.solid, 2))
+
+    def _labels(self) -> Labels:
+        """Where texts may stand: clear of all lines and boxes, and on the page."""
+        lines = [(sampled(line), weight) for line, weight in self.lines]
+        weights = np.concatenate([np.zeros(0), *(np.full(len(line), weight) for line, weight in lines)])
+        points = np.concatenate([np.empty((0, 2)), *(line for line, _ in lines)])
+        wide = [(self.boxes[0][0], self.boxes[0][2]), *self.wished]
+        middle = (min(left for left, _ in wide) + max(right for _, right in wide)) / 2
+        labels = Labels(points, (middle - PAGE[0] / 2 + 5, -np.inf, middle + PAGE[0] / 2 - 5, np.inf), weights)
+        labels.taken += self.solid
+        return labels
+
+    def _points(self, coordinates: Any) -> Array:
+        points: Array = np.asarray(coordinates, dtype=float).reshape(-1, 2) * self.scale.both
+        return points
+
+    def _line(self, points: Array, **look: Any) -> None:
+        self.axes.plot(points[:, 0], points[:, 1], **look)
+        self.lines.append((points, THIN if look["linewidth"] < 0.6 else THICK))
+
+    def draw(self, shape: Shape) -> None:
+        """Draw a shape."""
+        raise NotImplementedError
+
+    def _head(
+        self,
+        tip: Array,
+        along: Array,
+        length: float = ARROW,
+        slender: float = SLENDER,
+        color: str = INK,
+        zorder: float = 2.6,
+    ) -> None:
+        """The head of an arrow."""
+        across = np.array([-along[1], along[0]]) * length * slender
+        corners = np.array([tip, tip - length * along + across, tip - length * along - across])
+        self.axes.fill(*corners.T, color=color, linewidth=0, zorder=zorder)
+
+    def _later(
+        self,
+        text: str,
+        proposed: Callable[[tuple[float, float]], Iterable[tuple[float, float]]],
+        leader: tuple[float, float] | None = None,
+    ) -> None:
+        """A text that finds its place when all shapes are drawn, in two or three lines where it has none in one.
+
+        Far from its ``leader`` it gets a line to it.
+        """
+        variants = ["\n".join(map(marked, lines)) for lines in _folds(text)]
+
+        def write(labels: Labels) -> None:
+            found = [(said, text_size(said)) for said in variants]
+            tried = [(*labels.best(size, proposed(size)), said, size) for said, size in found]
+            (x, y), cost, said, size = next((t for t in tried if t[1] <= FREE), min(tried, key=lambda t: t[1]))
+            labels.take((x, y), size)
+            self.crowded += max(cost - FREE, 0.0)
+            if leader and np.hypot(x - leader[0], y - leader[1]) > FAR + size[0] / 2:
+                self.axes.plot([leader[0], x], [leader[1], y], **THIN_LINE)
+            halo = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.8}
+            self.axes.text(x, y, said, ha="center", va="center", zorder=7, bbox=halo)
+
+        self.texts.append(write)
+
+    def _scale_bar(self) -> None:
+        """A bar of a round length below the drawing, at the left."""
+        factor = unit(self.unit).factor
+        scale = self.scale.round
+        target = 30 * MM / scale / factor
+        power = 10.0 ** np.floor(np.log10(target))
+        length = max(step * power for step in (1, 2, 5) if step * power <= target)
+        left, bottom = min(box[0] for box in self.boxes), min(box[1] for box in self.boxes) - 16
+        right, middle = left + length * factor * scale, left + 0.5 * length * factor * scale
+        self.axes.fill([left, middle, middle, left], [bottom, bottom, bottom + 3, bottom + 3], color=INK, linewidth=0)
+        self.axes.plot(
+            [left, right, right, left, left], [bottom, bottom, bottom + 3, bottom + 3, bottom], color=INK, linewidth=0.5
+        )
+        text = joined(
+            number(significant(length, 1) if length < 1 else f"{length:.0f}", self.words["decimal"]), pretty(self.unit)
+        )
+        self.axes.text(right + 5, bottom + 1.5, text, va="center", ha="left", size=8)
+        self.axes.text(left, bottom + 6, "0", va="bottom", ha="center", size=0.1, alpha=0)
+        self.boxes.append((left, bottom - 3, right + 5 + text_size(text, 8)[0], bottom + 8))
+
+
+def _folds(text: str) -> list[list[str]]:
+    """A text whole, and in ever narrower lines."""
+    wide = text_size(marked(text))[0]
+    found = [[text]]
+    for share in (0.62, 0.4):
+        lines = folded(text, share * wide)
+        if wide > LONG and len(lines) > len(found[-1]):
+            found.append(lines)
+    return found
+
+
 BODY = "#f1f4f6"
 DASHED, DASH_DOT = (0, (5, 2.5)), (0, (12, 2, 2, 2))
 ROLES: dict[str, dict[str, Any]] = {
@@ -37,17 +366,19 @@ ROLES: dict[str, dict[str, Any]] = {
 }
 HEAD, STOUT = 5.5, 0.28  # of arrows, and what its strokes add to the head
 SHARES = {  # of the largest, at which a drawing is tried, so that its texts find places
-    Size.LARGE: (1.0, 0.87, 0.75, 0.64, 0.5),
-    Size.LOW: (0.66, 0.58, 0.75, 0.87, 0.5),
-    Size.HALF: (0.52, 0.46, 0.58),
-    Size.SKETCH: (0.36, 0.3, 0.42, 0.5),
+    SizesSize.LARGE: (1.0, 0.87, 0.75, 0.64, 0.5),
+    SizesSize.LOW: (0.66, 0.58, 0.75, 0.87, 0.5),
+    SizesSize.HALF: (0.52, 0.46, 0.58),
+    SizesSize.SKETCH: (0.36, 0.3, 0.42, 0.5),
 }
 MANY_TEXTS = 20
 SCHEMES = (0.6, 0.5)  # of sketches whose boxes hold texts
 WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather made a step smaller
 
 
-def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue, size: Size = Size.LARGE) -> Figure:
+def drawing(
+    figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue, size: SizesSize = SizesSize.LARGE
+) -> Figure:
     """The shapes of a drawing, as large as their place on the page lets them be, with a scale bar unless it is a schematic."""
     best, least = None, np.inf
     for step, share in enumerate(_shares(figure, size)):
@@ -62,12 +393,12 @@ def drawing(figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalo
     return best
 
 
-def _shares(figure: Mapping[str, Any], size: Size) -> tuple[float, ...]:
+def _shares(figure: Mapping[str, Any], size: SizesSize) -> tuple[float, ...]:
     """How large a drawing is tried: one with many texts is not made lower, nor is a scheme's sketch so small as others."""
-    if size is Size.SKETCH and figure.get("schematic"):
+    if size is SizesSize.SKETCH and figure.get("schematic"):
         return SCHEMES
     texts = sum(bool(shape.get("text") or shape.get("label")) for shape in figure["shapes"])
-    return SHARES[Size.LARGE if size is Size.LOW and texts > MANY_TEXTS else size]
+    return SHARES[SizesSize.LARGE if size is SizesSize.LOW and texts > MANY_TEXTS else size]
 
 
 def _look(shape: Shape) -> dict[str, Any]:
@@ -142,14 +473,14 @@ class Shapes(DrawingSheet):
         self.lines.append((np.array([[x - 4, y], [x + 4, y], [x, y - 4], [x, y + 4]]), THICK))
         self.boxes.append((x - 5, y - 5, x + 5, y + 5))
         if shape.get("label"):
-            self._later(shape["label"], lambda size: label_places.near(x, y, size), leader=(x, y))
+            self._later(shape["label"], lambda size: labels.near(x, y, size), leader=(x, y))
 
     def _label(self, shape: Shape) -> None:
         x, y = self._points(shape["at"])[0]
         size = text_size(marked(shape["text"]))
-        middle, _ = next(label_places.at(x, y, size, shape["anchor"]))
+        middle, _ = next(labels.at(x, y, size, shape["anchor"]))
         self.wished.append((middle - size[0] / 2, middle + size[0] / 2))
-        self._later(shape["text"], lambda size: label_places.at(x, y, size, shape["anchor"]))
+        self._later(shape["text"], lambda size: labels.at(x, y, size, shape["anchor"]))
 
     def _arrow(self, shape: Shape) -> None:
         """A straight arrow from box to box; its head has its size on paper, and is smaller only on a shorter arrow."""
@@ -164,9 +495,7 @@ class Shapes(DrawingSheet):
         self.lines.append((np.array([tip - head * along, tip]), THICK))
         self.boxes.append((*(tip - 3), *(tip + 3)))
         if shape.get("label"):
-            self._later(
-                shape["label"], lambda size: label_places.by_arrow(tail, tip, size), leader=tuple((tail + tip) / 2)
-            )
+            self._later(shape["label"], lambda size: labels.by_arrow(tail, tip, size), leader=tuple((tail + tip) / 2))
 
     def _outside(self, tail: Array, tip: Array) -> tuple[Array, Array]:
         """An arrow without what lies in the boxes of its ends."""
@@ -197,7 +526,7 @@ class Shapes(DrawingSheet):
         tip = center + radius * along
         self._line(np.array([center, tip]), **THIN_LINE)
         self._head(tip, along)
-        self._later(shape["text"], lambda size: label_places.along_radius(center, along, radius, size))
+        self._later(shape["text"], lambda size: labels.along_radius(center, along, radius, size))
 
     def _dimension(self, shape: Shape) -> None:
         start, end = self._points(shape["from"])[0], self._points(shape["to"])[0]
@@ -214,4 +543,4 @@ class Shapes(DrawingSheet):
         self._line(np.array([one - over, two + over]), **THIN_LINE)
         self._head(one, -along if inside else along)
         self._head(two, along if inside else -along)
-        self._later(shape["text"], lambda size: label_places.by_line(one - over, two + over, aside, size))
+        self._later(shape["text"], lambda size: labels.by_line(one - over, two + over, aside, size))

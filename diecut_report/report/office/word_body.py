@@ -2,23 +2,27 @@
 
 from __future__ import annotations
 
+from base64 import b64decode
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 from markupsafe import Markup
 
+from diecut_report.pictures import SVG, natural_size
+from diecut_report.report.chapters.printed_tables import PartsTable, PrintedTable
+from diecut_report.report.chapters.value_tables import RecordTable, ValueRow
 from diecut_report.report.equations import Equation
-from diecut_report.report.i18n import Catalogue
 from diecut_report.report.model import CheckRow, Item, QuantityRow
-from diecut_report.report.office.omml import OfficeMath, office_math
 from diecut_report.report.office.wordml import (
     Inline,
+    OfficeMath,
     TableColumn,
     bold,
     bookmark,
     key,
     link,
     new_line,
+    office_math,
     paragraph,
     picture,
     rich,
@@ -26,13 +30,12 @@ from diecut_report.report.office.wordml import (
     small,
     table,
 )
-from diecut_report.report.printed_tables import PartsTable, PrintedTable
-from diecut_report.report.record_tables import RecordTable
 from diecut_report.report.symbols import own_words, prose
-from diecut_report.report.value_rows import ValueRow
+from diecut_report.report.text import Catalogue
 
 if TYPE_CHECKING:
-    from diecut_report.report.figures.raster import Raster
+    from diecut_report.report.figures.by_type import Raster
+
 
 MARKS = {"pass": "✓", "warn": "!", "fail": "✗", "error": "✗", "skipped": "–", "not_checked": "?", "incomplete": "?"}
 NAMED_PART = 3.0  # the share of a column that names parts, where they have more than numbers
@@ -229,3 +232,30 @@ class WordBody:
             self.formula(definition)
         for note in item.notes:
             self.tell(note, "Why")
+
+
+# The organisation's logo above the title of a DOCX: a PNG as it is, an SVG beside a picture for programs that show none.
+
+
+WIDEST, HIGHEST = 144.0, 48.0  # points
+POINTS = 0.75  # to a pixel
+
+
+def logo(body: WordBody, given: Mapping[str, Any], owner: str, embed_svg: Callable[[bytes], str]) -> None:
+    """Show the logo of the results; ``embed_svg`` puts an SVG into the file and returns what names it there.
+
+    Word shows the SVG since 2016. Older programs show the picture of points beside it: as nothing here draws an SVG as one,
+    it is the owner's name.
+    """
+    from diecut_report.report.figures.by_type import Raster, raster_of_text  # with matplotlib
+
+    content = b64decode(given["base64"])
+    told = owner or body.words["logo"]
+    width, height = (POINTS * side for side in natural_size(content))
+    scale = min(WIDEST / width, HIGHEST / height)
+    if given["media_type"] == SVG:
+        plain = raster_of_text(told, width * scale, height * scale)
+        body.say(body.drawn(plain, told, embed_svg(content)))
+    else:
+        scale = min(1.0, scale)
+        body.say(body.drawn(Raster(content, width * scale, height * scale), told))

@@ -1,1 +1,1 @@
-"""Questions to the stored variants."""
+"""Questions to the results of a study."""

@@ -1,158 +1,281 @@
-"""Questions to the stored variants: which fulfil a condition, the best first, as a table, CSV, JSON or a workbook."""
+"""What is asked of stored variants: a condition, the order, how many, which columns; judged, and written as one query."""
 
 from __future__ import annotations
 
-import shutil
-import sys
-from collections.abc import Generator, Iterator, Sequence
-from pathlib import Path
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
 
-from diecut_report.errors import Problem, UserError
-from diecut_report.languages.phrases import Counted, Phrase, phrase
-from diecut_report.languages.speech import decimal_sign, said, say, say_counted
-from diecut_report.report.number_format import number
-from diecut_report.study.analysis.answers import SI, Notation, as_csv, as_json, as_workbook, csv_text, side_by_side
-from diecut_report.study.analysis.question import Question, Request, question
-from diecut_report.study.analysis.stored_variants import Stored, opened
-from diecut_report.study.storage.spreadsheets import workbook
-from diecut_report.study.storage.state import read_state
-from diecut_report.study.storage.state_form import continuing
+from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.formulas.condition_parts import Name, read
+from diecut_report.formulas.condition_tree import (
+    Call,
+    Chain,
+    ColumnName,
+    Compared,
+    Joined,
+    Like,
+    Missing,
+    Negative,
+    Node,
+    Not,
+    Number,
+    Power,
+    TextLiteral,
+    Truth,
+    names,
+)
+from diecut_report.formulas.conditions import ConditionError
+from diecut_report.study.analysis.variants import Stored, StoredColumn
+from diecut_report.text.phrases import Phrase, phrase
 
-FORMATS = ("table", "csv", "json")
-
-
-def variants(
-    directory: Path,
-    where: str | None = None,
-    sort: str | None = None,
-    top: int | None = None,
-    format: str = "table",
-    columns: Sequence[str] | None = None,
-    width: int | None = None,
-) -> Generator[str, None, None]:
-    """Yield the answer in pieces of text: a ``table`` for people (in the units that they read), ``csv`` or ``json`` (SI, all columns).
-
-    ``sort`` names columns, parted by commas, with - for the greatest first; without ``columns`` a table shows the varied
-    quantities and what the question names. UserError in words for what cannot be asked.
-    """
-    yield from answer(directory, Request(where, sort, top, columns), format, width=width)
+# A condition as SQL with parameters for DuckDB; see `tree` for what holds where there is no value.
+#
+# Nothing of what a user writes reaches DuckDB but as a parameter or as the quoted name of a known column.
 
 
-def answer(
-    directory: Path,
-    asked: Request,
-    format: str = "table",
-    notation: Notation = SI,
-    *,
-    transposed: bool = False,
-    width: int | None = None,
-) -> Generator[str, None, None]:
-    """Yield the answer in pieces of text; with ``transposed`` a line for each quantity and a column for each variant.
+_SIGNS = {"==": "=", "!=": "<>", "<": "<", "<=": "<=", ">": ">", ">=": ">="}
+_LEAST = {"min": "<=", "max": ">="}
 
-    A table that compares variants leaves out what is the same for all, and says how much that is, unless the columns are named.
-    """
-    if format not in FORMATS:
+
+class Sql(NamedTuple):
+    """Hold an expression and what goes into its question marks."""
+
+    text: str
+    given: tuple[Any, ...] = ()
+
+
+def written(node: Node, columns: Mapping[str, StoredColumn]) -> Sql:
+    """Return a condition as an SQL expression; each name in it must be a column."""
+    return _SqlWriter(columns).expression(node)
+
+
+class _SqlWriter:
+    def __init__(self, columns: Mapping[str, StoredColumn]) -> None:
+        self.columns = columns
+
+    def expression(self, node: Node) -> Sql:
+        """Return a side of a comparison or a condition; what is calculated and not finite is NULL."""
+        match node:
+            case ColumnName(name):
+                return Sql(self.columns[name].sql)
+            case Number(value) | TextLiteral(value):
+                return Sql("?", (value,))
+            case Truth(value):
+                return Sql("true" if value else "false")
+            case Negative() | Chain() | Power() | Call():
+                return _filled("list_transform([{}], lambda x: CASE WHEN isfinite(x) THEN x END)[1]", self.number(node))
+            case Compared(sign, left, right):
+                return _filled(f"({{}} {_SIGNS[sign]} {{}})", self.expression(left), self.expression(right))
+            case Like(text, pattern):
+                return _filled("({} LIKE {})", self.expression(text), Sql("?", (pattern,)))
+            case Missing(of):
+                return _filled("({} IS NULL)", self.expression(of))
+            case Not(of):
+                return _filled("(NOT {})", self.expression(of))
+            case Joined(word, parts):
+                places = f" {word.upper()} ".join(["{}"] * len(parts))
+                return _filled(f"({places})", *map(self.expression, parts))
+
+    def number(self, node: Node) -> Sql:
+        """Return a number that something is calculated from; NaN and infinite ones go on through sums, products and roots."""
+        match node:
+            case ColumnName(name) if self.columns[name].kind == "int":
+                return Sql(f"CAST({self.columns[name].sql} AS DOUBLE)")
+            case Negative(of):
+                return _filled("(-{})", self.number(of))
+            case Chain(first, rest):
+                return self._chain(first, rest)
+            case Power(base, exponent):  # 1 ** NaN would be 1
+                return _filled("pow({}, {})", self._finite(base), self._finite(exponent))
+            case Call(name, of) if name in _LEAST:  # least() and greatest() would pass over what is NULL
+                least = f"lambda x, y: CASE WHEN x {_LEAST[name]} y THEN x WHEN y {_LEAST[name]} x THEN y END"
+                given = ", ".join(["{}"] * len(of))
+                return _filled(f"list_reduce([{given}], {least})", *map(self._finite, of))
+            case Call(name, (of,)):
+                return _filled(f"{name}({{}})", self.number(of))
+        return self.expression(node)
+
+    def _chain(self, first: Node, rest: tuple[tuple[str, Node], ...]) -> Sql:
+        found = self.number(first)
+        for sign, node in rest:
+            # one divided by what is infinite would be 0
+            found = _filled(f"({{}} {sign} {{}})", found, self._finite(node) if sign == "/" else self.number(node))
+        return found
+
+    def _finite(self, node: Node) -> Sql:
+        """Return a number that is NULL where it is calculated and not finite."""
+        return self.number(node) if isinstance(node, ColumnName | Number) else self.expression(node)
+
+
+def _filled(form: str, *parts: Sql) -> Sql:
+    """Return the form with these expressions in its braces."""
+    return Sql(form.format(*(part.text for part in parts)), tuple(value for part in parts for value in part.given))
+
+
+# Conditions on stored variants: ``drive.crank_torque_peak < '40 N*m' and status = 'pass'`` to SQL with parameters.
+
+
+EXAMPLE = "drive.crank_torque_peak < '40 N*m' and status = 'pass'"
+WHERE_SHOWN = 300  # letters of a condition in a message
+
+
+@dataclass
+class Condition:
+    """Hold a condition for DuckDB with its parameters, and the columns that it names."""
+
+    sql: str
+    parameters: list[Any]
+    columns: list[str] = field(default_factory=list)
+
+
+def condition(given: str, columns: Mapping[str, StoredColumn]) -> Condition:
+    """Return the condition that a text says; UserError in words, with the place, for what cannot be asked."""
+    try:
+        tree = read(given, columns, lambda name: _name(name, columns), EXAMPLE)
+    except ConditionError as fault:
+        where = "" if fault.place is None else Phrase(", at character {place}", place=fault.place + 1)
+        shown = given if len(given) <= WHERE_SHOWN else given[:WHERE_SHOWN] + "…"
+        raise UserError(
+            Problem(Phrase("The condition “{shown}”{where}: {words}", shown=shown, where=where, words=fault.words))
+        ) from None
+    sql = written(tree, columns)
+    return Condition(sql.text, list(sql.given), list(names(tree)))
+
+
+def column_named(name: str, columns: Mapping[str, StoredColumn]) -> StoredColumn:
+    """Return the column of a name; UserError with the nearest where there is none."""
+    if name not in columns:
         raise UserError(
             Problem(
                 Phrase(
-                    "{format} is not a format of variants; known: {formats}.",
-                    format=repr(format),
-                    formats=", ".join(FORMATS),
+                    "{name} is not a column of these variants{nearest}.",
+                    name=repr(name),
+                    nearest=nearest(name, columns),
                 )
             )
         )
-    if transposed and format == "json":
-        raise UserError(
-            Problem(phrase("JSON names each value, so that it has no rows to transpose; ask for table, csv or xlsx."))
+    return columns[name]
+
+
+def _name(name: str, columns: Mapping[str, StoredColumn]) -> Name:
+    if name not in columns:
+        near = nearest(name, columns) or phrase("; put texts in quotes")
+        raise ConditionError(Phrase("{name} is not a column of these variants{near}.", name=repr(name), near=near))
+    column = columns[name]
+    if column.is_number:
+        return Name(name, "number", column.unit, column.display)
+    return Name(name, "truth" if column.kind == "bool" else "text")
+
+
+SHOWN = 20  # variants of a table that asks for no number of them
+ROWS = 2_000  # at a time
+
+Row = tuple[Any, ...]
+
+
+@dataclass(frozen=True)
+class Request:
+    """Hold what a user asks, as typed: ``sort`` names columns parted by commas, ``picked`` are variants by their numbers."""
+
+    where: str | None = None
+    sort: str | None = None
+    top: int | None = None
+    columns: Sequence[str] | None = None
+    picked: Sequence[int] = ()
+
+
+@dataclass(frozen=True)
+class Question:
+    """Say what is asked: a condition, the order, how many, and which columns."""
+
+    condition: Condition
+    order: tuple[tuple[StoredColumn, bool], ...]
+    top: int | None
+    columns: tuple[StoredColumn, ...]
+    picked: tuple[int, ...] = ()
+
+    @property
+    def where(self) -> str:
+        """Return the condition as SQL."""
+        chosen = f" AND variant IN ({', '.join(map(str, self.picked))})" if self.picked else ""
+        return f"WHERE ({self.condition.sql}){chosen}"
+
+    @property
+    def sql(self) -> str:
+        """Return the whole question; variants of equal rank stand in the order of the sample, missing values last."""
+        names = ", ".join(column.sql for column in self.columns)
+        order = [f"{column.sql} {'DESC' if falls else 'ASC'} NULLS LAST" for column, falls in self.order]
+        limit = "" if self.top is None else f" LIMIT {self.top}"
+        return f"SELECT {names} FROM v {self.where} ORDER BY {', '.join([*order, 'variant'])}{limit}"
+
+    def rows(self, stored: Stored) -> Iterator[Row]:
+        """Yield the variants that answer it."""
+        cursor = stored.connection.execute(self.sql, self.condition.parameters)
+        while rows := cursor.fetchmany(ROWS):
+            yield from rows
+
+
+def question(stored: Stored, asked: Request, *, is_table: bool) -> Question:
+    """Return the question; UserError in words for what cannot be asked.
+
+    A table for people shows the varied quantities and what the question names, of at most 20 variants; other answers hold all.
+    """
+    if asked.top is not None and asked.top < 1:
+        raise UserError(Problem(Phrase("--top is {top}; a number of variants from 1 on is needed.", top=asked.top)))
+    _refuse_strange(stored, asked.picked)
+    where = asked.where if asked.where and asked.where.strip() else None
+    found = condition(where, stored.columns) if where else Condition("true", [])
+    order = tuple(_order(asked.sort or "", stored))
+    top = SHOWN if is_table and asked.top is None else asked.top
+    columns = _columns(stored, found, order, is_table, asked.columns)
+    return Question(found, order, top, tuple(columns), tuple(asked.picked))
+
+
+def _refuse_strange(stored: Stored, picked: Sequence[int]) -> None:
+    if not picked:
+        return
+    found = {number for (number,) in stored.rows(f"SELECT variant FROM v WHERE variant IN ({_listed(picked)})")}
+    if missing := [number for number in picked if number not in found]:
+        first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
+        words = Phrase(
+            "There is no variant {listed} here. The stored ones are within {first} … {last}.",
+            listed=_listed(missing),
+            first=first,
+            last=last,
         )
-    with opened(directory) as stored:
-        found = question(stored, asked, is_table=format == "table" and not transposed)
-        if transposed and format == "csv":
-            yield from csv_text(*_rows_of(stored, found, notation), notation)
-        elif transposed:
-            yield _compared(stored, found, asked, width)
-        elif format == "table":
-            yield from _table(stored, found, width)
-        else:
-            yield from {"csv": as_csv, "json": as_json}[format](stored, found, notation)
+        raise UserError(Problem(words, str(stored.folder)))
 
 
-def answer_workbook(directory: Path, asked: Request, notation: Notation = SI, *, transposed: bool = False) -> bytes:
-    """Return the answer as a workbook (XLSX); UserError in words for what cannot be asked."""
-    with opened(directory) as stored:
-        found = question(stored, asked, is_table=False)
-        if not transposed:
-            return as_workbook(stored, found, notation)
-        (_, _, *numbers), lines = side_by_side(stored, found, notation)
-        return workbook({say("variants"): [[say("quantity"), say("unit"), *numbers], *lines]})
+def _listed(numbers: Iterable[int]) -> str:
+    return ", ".join(map(str, numbers))
 
 
-def unfinished(directory: Path) -> Iterator[str]:
-    """Return a warning where a study is not calculated to its end: its best variant may still come."""
-    state = read_state(directory)
-    if state.get("state") != "complete":
-        parts, rows, chunk = len(list((directory / "variants").glob("part-*.parquet"))), state["rows"], state["chunk"]
-        yield (
-            Phrase(
-                "This study is not finished: {parts} of {all} parts are calculated. Go on with: {continued}",
-                parts=parts,
-                all=-(-rows // chunk),
-                continued=continuing(directory, state["columns"]),
-            )
-        )
+def _order(sort: str, stored: Stored) -> Iterator[tuple[StoredColumn, bool]]:
+    for part in filter(None, (part.strip() for part in sort.split(","))):
+        yield column_named(part.removeprefix("-").strip(), stored.columns), part.startswith("-")
 
 
-def _rows_of(stored: Stored, asked: Question, notation: Notation) -> tuple[list[object], Iterator[list[object]]]:
-    head, lines = side_by_side(stored, asked, notation)
-    return head, iter(lines)
+def _columns(
+    stored: Stored,
+    asked: Condition,
+    order: Iterable[tuple[StoredColumn, bool]],
+    is_table: bool,
+    named: Sequence[str] | None,
+) -> list[StoredColumn]:
+    """The columns to give, each once."""
+    if named is not None:
+        found = dict.fromkeys(["variant", *(column_named(name, stored.columns).name for name in named)])
+        return [stored.columns[name] for name in found]
+    if not is_table:
+        return list(stored.columns.values())
+    objectives = [name for each in stored.study.get("objectives") or () for name in each.values()]
+    wanted = ["variant", "status", "governing", *(column.name for column, _ in order), *asked.columns, *objectives]
+    reason = ["error"] if _has_errors(stored, asked) else []
+    shown = dict.fromkeys([*wanted, *(column.name for column in stored.varied), *reason])
+    return [stored.columns[name] for name in shown if name in stored.columns]
 
 
-def _table(stored: Stored, asked: Question, width: int | None) -> Iterator[str]:
-    """A table for people, and how many variants there are."""
-    from diecut_report.study.analysis.variant_table import table_text
-
-    rows = list(asked.rows(stored))
-    found, without = table_text(asked.columns, rows, width or _terminal())
-    yield f"{found}\n{_counted(stored, asked, len(rows))}\n"
-    if without:
-        words = "No room on a line for: {columns} (--columns names some, --format csv has them all)."
-        yield say(words, columns=", ".join(column.name for column in without)) + "\n"
-
-
-def _compared(stored: Stored, found: Question, asked: Request, width: int | None) -> str:
-    from diecut_report.study.analysis.variant_table import compared_text
-
-    rows = list(found.rows(stored))
-    text, equal = compared_text(found.columns, rows, width or _terminal(), keep_equal=asked.columns is not None)
-    words = say_counted(len(rows), "{n} variant", "{n} variants")
-    if equal:
-        words += say_counted(
-            equal,
-            "; {n} quantity that is the same for all is left out (--columns, --format csv)",
-            "; {n} quantities that are the same for all are left out (--columns, --format csv)",
-        )
-    return f"{text}\n{words}.\n"
-
-
-def _terminal() -> int | None:
-    """How many letters a line of the terminal has; nothing where the answer goes elsewhere."""
-    return shutil.get_terminal_size().columns if sys.stdout.isatty() else None
-
-
-def _counted(stored: Stored, asked: Question, given: int) -> str:
-    sql = f"SELECT count(*) FILTER ({asked.where}), count(*) FROM v"
-    found, total = stored.rows(sql, asked.condition.parameters)[0]
-    sign = decimal_sign()
-    of_all = Counted(
-        total,
-        "{found} of {n} variant",
-        "{found} of {n} variants",
-        found=number(str(found), sign),
-        n=number(str(total), sign),
-    )
-    words = of_all if asked.condition.sql == "true" else Phrase("Fulfilling the condition: {count}", count=of_all)
-    shown = Phrase("{words}; {given} are shown (--top, --format csv).", words=words, given=given)
-    return said(shown if given < found else Phrase("{words}.", words=words))
-
-
-__all__ = ["FORMATS", "answer", "answer_workbook", "unfinished", "variants"]
+def _has_errors(stored: Stored, asked: Condition) -> bool:
+    sql = f"SELECT 1 FROM v WHERE error IS NOT NULL AND {asked.sql} LIMIT 1"
+    return bool(stored.rows(sql, asked.parameters))

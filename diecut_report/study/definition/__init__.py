@@ -1,1 +1,1 @@
-"""A study file: read and judged as a whole, against its base."""
+"""The study file, its variables, samples, constraints and tables."""

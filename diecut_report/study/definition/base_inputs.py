@@ -7,32 +7,19 @@ from copy import copy
 from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal, get_args, get_origin
 
-from diecut_report.config import partners
-from diecut_report.config.dependency_order import ordered
-from diecut_report.config.instances import Instance
-from diecut_report.config.loader import Config, substituted
+from diecut_report.config import loader
+from diecut_report.config.instances import Instance, Target, substituted, taken_anew
+from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
-from diecut_report.config.references import Linker
-from diecut_report.config.taken_entries import taken_anew
-from diecut_report.config.targets import Target
+from diecut_report.config.references import Linker, ordered
 from diecut_report.config.validation import declared, keys_of, validate
-from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.input_lists import list_inputs
-from diecut_report.contract.inputs import (
-    SI,
-    Block,
-    CurveInput,
-    MechanismInput,
-    Pending,
-    PhaseInput,
-    Quantity,
-    Referred,
-    Text,
-    fields,
-)
-from diecut_report.contract.unit_variants import in_form
+from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, nearest
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.mechanism.chapters import in_form
+from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
+from diecut_report.mechanism.inputs import Block, Quantity, Referred, fields, list_inputs
+from diecut_report.mechanism.names import SI, Pending, Text
+from diecut_report.text.phrases import Phrase, phrase
 
 MECHANISMS = "mechanisms"
 
@@ -252,9 +239,9 @@ def _typed(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
     """What is given in place of what a block that compares others takes from them."""
     for asked in values:
         instance = base.instances[asked.instance]
-        taken = partners.compared(instance) if instance else {}
+        taken = loader.compared(instance) if instance else {}
         if instance and (reference := taken.get(str(asked.key[0]))):
-            yield instance.place.problem(asked.key, partners.typed_beside(reference))
+            yield instance.place.problem(asked.key, loader.typed_beside(reference))
 
 
 def _stand_in(instance: Instance, key: KeyPath, target: Target) -> Any:

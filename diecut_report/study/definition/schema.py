@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.config.schema import DRAFT, NUMBER, Schema, block_schema
-from diecut_report.study.definition.form import DISTRIBUTIONS, OptimiseForm, SampleForm, TableForm
+from diecut_report.study.definition.sample import DISTRIBUTIONS, OptimiseForm, SampleForm, TableForm
 
 PATH = r"^(mechanisms\.[A-Za-z][A-Za-z0-9_-]*|press)(\.\w+)+$"
 OUTPUT = r"^[A-Za-z][A-Za-z0-9_-]*(\.\w+)+$"

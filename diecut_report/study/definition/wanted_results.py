@@ -12,10 +12,10 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.validation import ConfigPlace, told
 from diecut_report.errors import Problem, nearest
-from diecut_report.languages.phrases import Counted, Phrase, phrase
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
-from diecut_report.study.execution.result_columns import columns_of
+from diecut_report.study.execution.variant_rows import columns_of
 from diecut_report.study.storage.description import ResultColumn
+from diecut_report.text.phrases import Counted, Phrase, phrase
 
 SHOWN = 12  # known names that a message lists
 

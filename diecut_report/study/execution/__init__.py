@@ -1,1 +1,1 @@
-"""Running a study: chunks of variants through an engine to rows of results."""
+"""Calculates the variants of a study, in one process or in many."""

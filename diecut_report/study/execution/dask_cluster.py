@@ -14,8 +14,8 @@ from distributed.comm.addressing import get_address_host_port
 
 from diecut_report import __version__
 from diecut_report.errors import Problem, UserError
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.study.execution.in_flight import Chunk, Function, Warm, forget, make_known, work
+from diecut_report.study.execution.pending import Chunk, Function, Warm, forget, make_known, work
+from diecut_report.text.phrases import Phrase, phrase
 
 AHEAD = 2  # chunks for each thread of a worker
 PATIENCE = 10  # seconds to reach the scheduler and to find a worker

@@ -9,24 +9,25 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.conditions.arithmetic import WITHOUT_VALUE
-from diecut_report.config.discovery import said
-from diecut_report.config.instances import Instance
+from diecut_report.config.instances import Instance, Node, Target
 from diecut_report.config.loader import Config
-from diecut_report.config.targets import Node, Target
+from diecut_report.config.plugins import said
 from diecut_report.config.validation import declared, validate
-from diecut_report.config.yaml_tree import KeyPath
-from diecut_report.contract.inputs import SI, Quantity, flatten
-from diecut_report.contract.phases import PREFIX
-from diecut_report.engine import Calculation, Impossible, ImpossibleTogether, Unproven, calculate
-from diecut_report.engine.phases import PhaseHandle
+from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import PluginError, Problem
-from diecut_report.expressions import Array
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.formulas import Array
+from diecut_report.formulas.condition_parts import WITHOUT_VALUE
+from diecut_report.machine.calculation import Calculation, Impossible, ImpossibleTogether, Unproven
+from diecut_report.machine.mechanism import PhaseHandle
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.inputs import Quantity, flatten
+from diecut_report.mechanism.names import SI
+from diecut_report.mechanism.steps import PREFIX
 from diecut_report.quantities.plausible import without_rounding
+from diecut_report.results.origins import Absent, number, output, require_facts
 from diecut_report.results.press_run import Run, Tell
-from diecut_report.results.taken_over import Absent, number, output, require_facts
 from diecut_report.study.definition.base_inputs import Input, with_values
+from diecut_report.text.phrases import Phrase, phrase
 
 Values = Mapping[Input, Array | str]
 

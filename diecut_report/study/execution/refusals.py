@@ -1,12 +1,60 @@
-"""Studies that are refused before anything is calculated: those without a variant, and those that are huge by mistake."""
+"""What the constraints of a study drop from its sample, judged before or beside the calculation."""
 
 from __future__ import annotations
 
+from collections.abc import Iterator
+
+import numpy as np
+
 from diecut_report.errors import Problem, UserError
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.study.conditions.constraints import why_dropped
+from diecut_report.formulas.condition_numpy import JudgedRows
+from diecut_report.study.definition.constraints import why_dropped
 from diecut_report.study.definition.study_file import Study
-from diecut_report.study.execution.dropped_variants import judged_rows, without_value
+from diecut_report.study.execution.pending import ChunkFailed, Engine, InProcess, Pool, Warm, results
+from diecut_report.study.execution.worker import judged
+from diecut_report.text.phrases import Phrase, phrase
+
+ROWS = 65_536  # at a time
+
+
+def judged_rows(study: Study) -> Iterator[JudgedRows]:
+    """Yield which rows of the sample keep all constraints and which break one, some at a time."""
+    for start in range(0, study.sample.count, ROWS):
+        stop = min(start + ROWS, study.sample.count)
+        yield judged(study, study.sample.rows(start, stop), stop - start)
+
+
+def without_value(study: Study) -> int:
+    """Return how many rows break no constraint, but have one without a value; they are dropped too."""
+    if not study.constraints:
+        return 0
+    return sum(int(np.sum(~(found.holds | found.fails))) for found in judged_rows(study))
+
+
+# Where chunks of a study are calculated: in this process, in a pool of processes, or on a Dask cluster.
+#
+# One interface, `results`; the same function on the same chunks gives the same results on each engine.
+
+
+__all__ = ["ChunkFailed", "Engine", "InProcess", "Pool", "Warm", "dask_cluster", "results"]
+
+
+def dask_cluster(address: str, warm: Warm) -> Engine:
+    """Return the workers of the Dask scheduler at this address; UserError where Dask is not installed."""
+    try:
+        from diecut_report.study.execution.dask_cluster import Dask
+    except ModuleNotFoundError as error:
+        if error.name not in ("dask", "distributed"):
+            raise
+        words = phrase(
+            "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
+        )
+        raise UserError(Problem(words)) from error
+    return Dask(address, warm)
+
+
+# Studies that are refused before anything is calculated: those without a variant, and those that are huge by mistake.
+
 
 LARGEST = 10_000_000  # rows that are calculated without being asked for twice
 

@@ -14,21 +14,14 @@ import numpy as np
 
 from diecut_report.config.model import PRESS
 from diecut_report.config.source_hashes import plugin_faults
-from diecut_report.contract.inputs import Quantity
+from diecut_report.mechanism.inputs import Quantity
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution import worker
-from diecut_report.study.execution.dropped_variants import without_value
-from diecut_report.study.execution.engines import (
-    Engine,
-    InProcess,
-    Pool,
-    Warm,
-    dask_cluster,
-    results,
-)
-from diecut_report.study.execution.result_columns import columns_of, curve_columns
-from diecut_report.study.execution.time_limit import ChunkClock
+from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results
+from diecut_report.study.execution.refusals import dask_cluster, without_value
+from diecut_report.study.execution.variant_rows import columns_of, curve_columns
+from diecut_report.study.execution.worker import ChunkClock
 from diecut_report.study.storage.description import Description, ResultColumn, StudySource
 from diecut_report.study.storage.store import Store
 

@@ -11,16 +11,16 @@ from typing import Any
 import numpy as np
 
 from diecut_report import pipeline
-from diecut_report.config.discovery import Discovery
-from diecut_report.expressions import Array
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.study.analysis.near_equality import rounded
+from diecut_report.config.plugins import Discovery
+from diecut_report.formulas import Array
+from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import Study
-from diecut_report.study.execution.engines import Engine, InProcess, Pool, Warm, results
+from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results
 from diecut_report.study.execution.study_run import Where
-from diecut_report.study.storage.state_form import continuing
+from diecut_report.study.storage.state import continuing
 from diecut_report.study.storage.store import Store
+from diecut_report.text.phrases import Phrase, phrase
 
 FOLDER = "reports"
 FORMATS = ("html", "pdf", "json")

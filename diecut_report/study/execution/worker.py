@@ -1,9 +1,10 @@
-"""What a worker does: it loads the study once, then calculates chunks of its sample into columns."""
+"""How long a chunk may take: a plugin that never comes back costs its chunk, not the study."""
 
 from __future__ import annotations
 
 import tempfile
 import time
+import traceback
 from collections.abc import Mapping, Sequence
 from dataclasses import dataclass, field
 from multiprocessing import parent_process
@@ -12,18 +13,66 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.conditions.numpy_emitter import JudgedRows
-from diecut_report.config.discovery import Discovery
+from diecut_report.config.loader import Config
+from diecut_report.config.plugins import Discovery, said
 from diecut_report.errors import Problem, UserError
-from diecut_report.expressions import Array
-from diecut_report.languages.phrases import Phrase
-from diecut_report.study.conditions.constraints import Constraint
+from diecut_report.formulas import Array
+from diecut_report.formulas.condition_numpy import JudgedRows
+from diecut_report.study.definition.constraints import Constraint
 from diecut_report.study.definition.study_file import Study, load_study
-from diecut_report.study.execution.process_settings import settle
-from diecut_report.study.execution.time_limit import blamed
+from diecut_report.study.execution.pending import settle
 from diecut_report.study.execution.variant_rows import Given, Rows, calculate_rows
 from diecut_report.study.storage.description import code_told
+from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.time_limit import Overran, limited
+
+FIRST, EACH = 120.0, 5.0  # seconds for a chunk, and for each variant of it, before anything was measured
+TIMES = 30.0  # as long as the slowest chunk that was finished, by variant
+
+
+@dataclass
+class ChunkClock:
+    """Tell how long the next chunk may take, from those that were finished; ``fixed`` is what the user sets, 0 for no limit."""
+
+    fixed: float | None = None
+    slowest: float = 0.0  # seconds for each variant
+
+    def measure(self, variants: int, seconds: float) -> None:
+        """Note how long a chunk took."""
+        self.slowest = max(self.slowest, seconds / max(variants, 1))
+
+    def limit(self, variants: int) -> float | None:
+        """Return the seconds that a chunk of so many variants may take; None for any time."""
+        if self.fixed is not None:
+            return self.fixed or None
+        return FIRST + variants * (TIMES * self.slowest or EACH)
+
+
+def blamed(overran: Overran, config: Config, seconds: float, variants: int) -> tuple[str, str]:
+    """Return the kind in whose plugin a chunk was interrupted, and in words how long it took and where it was."""
+    place = said(overran).removeprefix(Overran.__name__).lstrip(": ")
+    words = Phrase("it took longer than {seconds} s for {variants} variants, and was ended {place}", seconds=f"{seconds:.3g}",
+        variants=variants, place=place) + phrase("; --chunk-limit sets how long it may take")  # fmt: skip
+    return _kind(overran, config), words
+
+
+def _kind(overran: Overran, config: Config) -> str:
+    """The kind whose code ran last; that of the last mechanism where no plugin's did."""
+    homes = {
+        name: Path(each.mechanism.at.rpartition(":")[0])
+        for name, each in config.instances.items()
+        if each and each.mechanism
+    }
+    for frame in reversed(traceback.extract_tb(overran.__traceback__)):
+        for name, file in homes.items():
+            home = file.parent if file.name == "__init__.py" else file
+            if Path(frame.filename).is_relative_to(home):
+                return config.kinds[name]
+    return ", ".join(sorted({config.kinds[name] for name in homes}))
+
+
+# What a worker does: it loads the study once, then calculates chunks of its sample into columns.
+
 
 Values = Array | list[str]
 
@@ -89,7 +138,7 @@ def calculate(study: Study, chunk: Chunk) -> Done:
     kept = np.flatnonzero(judged(study, given, chunk.stop - chunk.start).holds)
     given = {path: _taken(values, kept) for path, values in given.items()}
     columns: dict[str, Array] = {"variant": chunk.start + kept}
-    columns |= {path: np.asarray(values, dtype=_kind(values)) for path, values in given.items()}
+    columns |= {path: np.asarray(values, dtype=_worker_kind(values)) for path, values in given.items()}
     inputs = {study.inputs[path]: values for path, values in given.items()}
     rows, seconds = _rows(study, inputs, len(kept), chunk.limit)
     left = _left(study, rows, given)
@@ -140,7 +189,7 @@ def _taken(values: Values, rows: Array) -> Values:
     return values[rows] if isinstance(values, np.ndarray) else [values[row] for row in rows]
 
 
-def _kind(values: Values) -> Any:
+def _worker_kind(values: Values) -> Any:
     return float if isinstance(values, np.ndarray) else object
 
 

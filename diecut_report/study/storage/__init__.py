@@ -1,1 +1,1 @@
-"""The folder of a study's results."""
+"""The folder in which a study keeps its results."""

@@ -11,7 +11,7 @@ from typing import Any, Literal
 
 from diecut_report import __version__
 from diecut_report.errors import Problem
-from diecut_report.languages.phrases import Phrase, joined, phrase
+from diecut_report.text.phrases import Phrase, joined, phrase
 
 SCHEMA_VERSION = 1
 CHUNK = 8192  # variants a part file

@@ -11,8 +11,8 @@ from typing import TYPE_CHECKING, Any
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.files import replaced, room
-from diecut_report.languages.phrases import Phrase, named
 from diecut_report.study.storage.store import PARTS, Store
+from diecut_report.text.phrases import Phrase, named
 
 if TYPE_CHECKING:
     from openpyxl.worksheet._write_only import WriteOnlyWorksheet
@@ -86,8 +86,7 @@ def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
     from openpyxl import Workbook
     from openpyxl.writer.excel import ExcelWriter
 
-    from diecut_report.report.office.archive import UndatedArchive
-    from diecut_report.report.office.workbook import closed
+    from diecut_report.report.office.workbook import UndatedArchive, closed
 
     names = heads(store)
     if len(names) > SHEET_COLUMNS:
@@ -111,8 +110,7 @@ def workbook(tables: Mapping[str, list[list[Any]]]) -> bytes:
     from openpyxl import Workbook
     from openpyxl.writer.excel import ExcelWriter
 
-    from diecut_report.report.office.archive import UndatedArchive
-    from diecut_report.report.office.workbook import closed
+    from diecut_report.report.office.workbook import UndatedArchive, closed
 
     book, content = Workbook(write_only=True), BytesIO()
     book.properties.creator = PROGRAM

@@ -22,14 +22,21 @@ import pyarrow.parquet as pq
 from filelock import FileLock
 
 from diecut_report.errors import Problem, UserError
-from diecut_report.files import in_words, remove_stale, write
-from diecut_report.given_files import refuse_special, refuse_unreadable_name
-from diecut_report.languages.phrases import Phrase, phrase
+from diecut_report.files import in_words, refuse_special, refuse_unreadable_name, remove_stale, write
 from diecut_report.study.storage import state
 from diecut_report.study.storage.description import VARIANT, Description, as_data
-from diecut_report.study.storage.part_checks import Judged, PartChecks
-from diecut_report.study.storage.part_files import MISSING, Values, part_content, readable, schema_of, table_of
-from diecut_report.study.storage.state_form import part_name
+from diecut_report.study.storage.parts import (
+    MISSING,
+    Judged,
+    PartChecks,
+    Values,
+    part_content,
+    readable,
+    schema_of,
+    table_of,
+)
+from diecut_report.study.storage.state import part_name
+from diecut_report.text.phrases import Phrase, phrase
 
 PARTS = "variants"
 FOLDERS = (PARTS, state.TABLES, "reports")

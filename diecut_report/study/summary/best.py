@@ -2,13 +2,466 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
+import math
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass
+from itertools import pairwise
+from pathlib import Path
 from typing import Any, NamedTuple
 
-from diecut_report.languages.speech import said
-from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
-from diecut_report.study.summary import matrix, pareto
-from diecut_report.study.summary.quantity_names import WORST, display, utilised, value_told
+import numpy as np
+from numpy.typing import NDArray
+
+from diecut_report.study.analysis.answers import rounded, sobol_indices
+from diecut_report.study.analysis.variants import Stored, StoredColumn
+from diecut_report.study.definition.samples import Saltelli
+from diecut_report.study.summary.data import (
+    BANDS,
+    SOUND,
+    WORST,
+    Utilisation,
+    display,
+    named,
+    number_of,
+    utilised,
+    value_told,
+)
+from diecut_report.text.translation import said, say
+
+# The variants that no other beats in all objectives.
+
+
+Array = NDArray[Any]
+BLOCK, MOST = 2_000, 20_000  # variants compared at a time; on a front
+FIRST = 10  # variants that are best by a single objective
+
+
+@dataclass(frozen=True)
+class StoredObjective:
+    """Name a quantity that is to be small or great."""
+
+    column: StoredColumn
+    is_less: bool
+
+    @property
+    def told(self) -> str:
+        """Return the objective in words."""
+        told = named(self.column)
+        return say("least {quantity}", quantity=told) if self.is_less else say("greatest {quantity}", quantity=told)
+
+
+@dataclass(frozen=True)
+class Front:
+    """Hold the best variants in the order of the first objective: their numbers, objectives (SI, a column each), and among how many.
+
+    ``is_passing`` says that only variants without a failing check were compared; ``is_cut`` that the front is longer than kept.
+    """
+
+    objectives: tuple[StoredObjective, ...]
+    variants: Array
+    values: Array
+    among: int
+    is_passing: bool
+    is_cut: bool
+
+
+def objectives(stored: Stored) -> tuple[StoredObjective, ...]:
+    """Return the study's objectives, as far as numbers are stored for them."""
+    found = []
+    for given in stored.study.get("objectives") or ():
+        for direction, name in given.items():
+            column = stored.columns.get(name)
+            if column is not None and column.is_number:
+                found.append(StoredObjective(column, direction == "minimise"))
+    return tuple(found)
+
+
+def front(stored: Stored, wanted: tuple[StoredObjective, ...], passing: int) -> Front | None:
+    """Return the front of the variants that do not fail; of all calculated ones where all fail. None without objectives or variants.
+
+    By a single objective it is the first ten.
+    """
+    if not wanted:
+        return None
+    states = "('pass', 'warn')" if passing else "('fail')"
+    names = ", ".join(f"CAST({objective.column.sql} AS DOUBLE)" for objective in wanted)
+    there = " AND ".join(f"{objective.column.sql} IS NOT NULL" for objective in wanted)
+    found = stored.connection.execute(
+        f"SELECT variant, {names} FROM v WHERE status IN {states} AND {there}"
+    ).fetchnumpy()
+    columns = [np.asarray(column) for column in found.values()]
+    variants, values = columns[0], np.column_stack([column.astype(float) for column in columns[1:]])
+    if not len(variants):
+        return None
+    costs = rounded(values) * np.array([1.0 if objective.is_less else -1.0 for objective in wanted])
+    kept = pareto_best(costs) if len(wanted) > 1 else np.lexsort((variants, costs[:, 0]))[:FIRST]
+    order = kept[np.lexsort((variants[kept], costs[kept, 0]))]
+    return Front(wanted, variants[order], values[order], len(variants), bool(passing), len(kept) >= MOST)
+
+
+def pareto_best(costs: Array) -> Array:
+    """Return the indices of the rows of which no other row is nowhere greater and somewhere less; equal rows stay together."""
+    order = np.lexsort(costs.T[::-1])
+    kept = np.zeros(0, dtype=int)
+    for start in range(0, len(order), BLOCK):
+        block = order[start : start + BLOCK]
+        block = block[~_beaten(costs[block], costs[kept])]
+        block = block[~_beaten(costs[block], costs[block])]
+        kept = np.concatenate([kept, block])
+        if len(kept) >= MOST:
+            return kept[:MOST]
+    return kept
+
+
+def _beaten(rows: Array, others: Array) -> Array:
+    """Which rows some other row dominates."""
+    found = np.zeros(len(rows), dtype=bool)
+    for start in range(0, len(others), BLOCK):
+        part = others[start : start + BLOCK]
+        nowhere = np.ones((len(rows), len(part)), dtype=bool)
+        somewhere = np.zeros_like(nowhere)
+        for mine, theirs in zip(rows.T, part.T, strict=True):
+            nowhere &= theirs <= mine[:, None]
+            somewhere |= theirs < mine[:, None]
+        found |= (nowhere & somewhere).any(axis=1)
+    return found
+
+
+# How much each varied input moves a quantity: Sobol indices where the sample is made for them, else partial rank correlation.
+
+
+RANKED = 100_000  # variants that a rank correlation looks at
+FEWEST = 8  # variants (or points of a Saltelli sample) from which a number says anything
+DRAWS, REDRAWN = 50, 20_000  # of the points for the intervals, and of how many
+UNSURE = 0.3  # half the width of an interval from which an index says nothing
+COMPLETE = 0.99  # share of a Saltelli sample that must have results
+WEAK = 0.05  # size of a number up to which it is not reported
+ALIKE = 0.999  # correlation of ranks from which two inputs are one
+SURE = 1.96  # standard errors to each side of an interval of 95 %
+
+
+class Share(NamedTuple):
+    """Hold an input's influence: by itself (or its correlation) and in all; half the width of the 95 % interval of each."""
+
+    column: StoredColumn
+    first: float
+    total: float | None = None
+    first_error: float | None = None
+    total_error: float | None = None
+
+    @property
+    def is_certain(self) -> bool:
+        """Return whether the sample is large enough to tell it."""
+        return max(self.first_error or 0.0, self.total_error or 0.0) <= UNSURE
+
+    @property
+    def is_telling(self) -> bool:
+        """Return whether it is more than next to nothing."""
+        return max(abs(self.first), self.total or 0.0) >= WEAK
+
+
+@dataclass(frozen=True)
+class Influence:
+    """Hold the inputs by their influence on a quantity, the greatest first, and from how many variants that is known."""
+
+    target: StoredColumn
+    is_sobol: bool
+    shares: tuple[Share, ...]
+    variants: int
+
+    @property
+    def is_certain(self) -> bool:
+        """Return whether the sample is large enough to tell it."""
+        return all(share.is_certain for share in self.shares)
+
+    @property
+    def telling(self) -> tuple[Share, ...]:
+        """Return the inputs whose influence is more than next to nothing."""
+        return tuple(share for share in self.shares if share.is_telling)
+
+
+def is_saltelli(stored: Stored) -> bool:
+    """Return whether the sample has the rows that Sobol indices are made from, and (nearly) all of them could be calculated.
+
+    Where variants that cannot exist or constraints cut into it, its inputs are no longer independent: indices would sum
+    to more than 1.
+    """
+    if stored.study.get("design") != "saltelli" or (points := int(stored.study.get("n") or 0)) < 2:
+        return False
+    whole = points * (len(stored.varied) + 2)
+    return bool(stored.rows("SELECT count(*) FROM v WHERE status <> 'error'")[0][0] >= COMPLETE * whole)
+
+
+def influences(stored: Stored, targets: Sequence[StoredColumn]) -> list[Influence]:
+    """Return the influence of the varied inputs on each target that can be judged."""
+    judge = _sobol if is_saltelli(stored) else _ranks
+    found = [judge(stored, target) for target in targets if stored.varied]
+    return [each for each in found if each is not None]
+
+
+# --- Sobol indices ---------------------------------------------------------------------------------------------------
+
+
+def _sobol(stored: Stored, target: StoredColumn) -> Influence | None:
+    """From the points that lie one after the other in the sample; those of which any variant is missing are left out."""
+    inputs = stored.varied
+    order = Saltelli(int(stored.study["n"]), tuple(column.name for column in inputs))
+    size = order.points * order.size
+    found = stored.connection.execute(
+        f"SELECT variant, CAST({target.sql} AS DOUBLE) AS f FROM w WHERE {target.sql} IS NOT NULL AND variant < {size}"
+    ).fetchnumpy()
+    rows, values = np.asarray(found["variant"]), np.full((order.points, order.size), np.nan)
+    values[order.point(rows), order.place(rows)] = np.asarray(found["f"])
+    values = values[np.isfinite(values).all(axis=1)]
+    indices = sobol_indices(values) if len(values) >= FEWEST else None
+    if indices is None:
+        return None
+    errors = _half_widths(values)
+    columns = zip(inputs, indices.first.tolist(), indices.total.tolist(), *errors.tolist(), strict=True)
+    shares = [Share(*each) for each in columns]
+    return Influence(target, True, tuple(sorted(shares, key=lambda s: -(s.total or 0.0))), values.size)
+
+
+def _half_widths(values: Array) -> Array:
+    """Half the widths of the 95 % intervals, of first and total indices, by drawing the points again (bootstrap)."""
+    draw = np.random.default_rng(0)
+    some = values[:REDRAWN]
+    again = [sobol_indices(some[draw.integers(0, len(some), len(some))]) for _ in range(DRAWS)]
+    spread = np.array([(each.first, each.total) for each in again if each is not None]).std(axis=0)
+    widths: Array = SURE * spread * math.sqrt(len(some) / len(values))
+    return widths
+
+
+# --- partial rank correlation ----------------------------------------------------------------------------------------
+
+
+def _ranks(stored: Stored, target: StoredColumn) -> Influence | None:
+    """The correlation of the ranks of a quantity and of each input, both without what the other inputs explain."""
+    goal, columns = _read(stored, target)
+    columns = {column: values for column, values in columns.items() if np.isfinite(values).any()}
+    there = (
+        np.all([np.isfinite(values) for values in columns.values()], axis=0) if columns else np.zeros(len(goal), bool)
+    )
+    goal = goal[there]
+    columns = {column: values[there] for column, values in columns.items()}
+    columns = {column: values for column, values in columns.items() if len(values) and np.ptp(values) > 0}
+    if len(goal) < FEWEST or not columns or not np.ptp(goal) > 0:
+        return None
+    found = partial([_terms(column, values) for column, values in columns.items()], ranks(goal))
+    known = [(column, value) for column, value in zip(columns, found, strict=True) if value is not None]
+    judged = [Share(column, abs(value) if column.kind == "text" else value) for column, value in known]
+    shares = sorted(judged, key=lambda share: -abs(share.first))
+    return Influence(target, False, tuple(shares), len(goal)) if shares else None
+
+
+def _read(stored: Stored, target: StoredColumn) -> tuple[Array, dict[StoredColumn, Array]]:
+    """A quantity and the inputs of the variants that have it, of many a part."""
+    asked = ", ".join(f"{number_of(stored, column)} AS i{index}" for index, column in enumerate(stored.varied))
+    count = stored.rows(f"SELECT count({target.sql}) FROM w")[0][0]
+    every = max(1, math.ceil(count / RANKED))
+    drawn = "" if every == 1 else f" AND hash(variant) % {every} = 0"
+    sql = f"SELECT CAST({target.sql} AS DOUBLE) AS f, {asked} FROM w WHERE {target.sql} IS NOT NULL{drawn}"
+    found = stored.connection.execute(sql).fetchnumpy()
+    columns: list[Array] = [np.ma.filled(np.ma.asarray(column, dtype=float), np.nan) for column in found.values()]
+    return columns[0], dict(zip(stored.varied, columns[1:], strict=True))
+
+
+def _terms(column: StoredColumn, values: Array) -> Array:
+    """What stands for an input in the regression: its ranks; for words a column for each but the first."""
+    if column.kind != "text":
+        return ranks(values)[:, None]
+    known = np.unique(values)[1:]
+    found: Array = (values[:, None] == known).astype(float)
+    return found
+
+
+def partial(inputs: Sequence[Array], goal: Array) -> list[float | None]:
+    """Return the partial correlation of the goal with each input, the others regressed out; for several columns that of their best sum.
+
+    An input that goes with another one shares its influence. None where too few variants are there, or nothing is left of an input.
+    """
+    wide = [each.shape[1] for each in inputs]
+    if len(goal) < 2 * (sum(wide) + 1) + 2:
+        return [None] * len(inputs)
+    every = np.column_stack([*inputs, goal])
+    every = (every - every.mean(axis=0)) / every.std(axis=0)
+    triangle: Array = np.asarray(np.linalg.qr(every, mode="r"))  # keeps all sums of products
+    ends = np.cumsum([0, *wide])
+    parts = [triangle[:, start:end] for start, end in pairwise(ends)]
+    return [_partial(parts, index, triangle[:, -1]) for index in range(len(parts))]
+
+
+def _partial(parts: Sequence[Array], index: int, goal: Array) -> float | None:
+    mine = parts[index]
+    others = [each for place, each in enumerate(parts) if place != index and not _alike(mine, each)]
+    other = np.column_stack(others) if others else np.zeros((len(goal), 0))
+    own, left = _without(other, mine), _without(other, goal[:, None])[:, 0]
+    size = float(left @ left)
+    if (own**2).sum() < 1e-6 * (mine**2).sum() or size < 1e-12 * float(goal @ goal):
+        return None
+    rest = _without(own, left[:, None])[:, 0]
+    share = math.sqrt(max(0.0, 1.0 - float(rest @ rest) / size))
+    return math.copysign(share, float(own[:, 0] @ left)) if mine.shape[1] == 1 else share
+
+
+def _alike(one: Array, two: Array) -> bool:
+    """Whether two inputs go up and down together."""
+    if one.shape[1] > 1 or two.shape[1] > 1:
+        return False
+    size = math.sqrt(float((one**2).sum() * (two**2).sum()))
+    return abs(float((one * two).sum())) > ALIKE * size
+
+
+def _without(others: Array, values: Array) -> Array:
+    """What a linear regression on the others leaves."""
+    left: Array = values - others @ np.linalg.lstsq(others, values, rcond=None)[0] if others.shape[1] else values
+    return left
+
+
+def ranks(values: Array) -> Array:
+    """Return ranks from 1; equal values share the mean of theirs."""
+    from scipy.stats import rankdata  # slow to import, and not needed for Sobol indices
+
+    found: Array = rankdata(values)
+    return found
+
+
+# The utilisation matrix: chosen variants against all checks, each with the way to its full report.
+
+
+ALL, REPORTED, BEST, WORST_ONES = 80, 15, 15, 10  # rows: up to which all variants stand, else of each sort
+ACROSS = 14  # checks in a table
+LISTED = 200  # links to full reports
+IDLE = 0.1  # utilisation that a check of the matrix reaches in some variant
+
+
+class MatrixCell(NamedTuple):
+    """Hold a utilisation as text, and its class: u0 … u4 by size, ``none`` without one; ``is_failing`` by the check's status."""
+
+    text: str
+    sort: str
+    is_failing: bool
+
+
+class MatrixRow(NamedTuple):
+    """Hold a variant: its number, the file of its full report (or nothing), its status, and its cells."""
+
+    variant: int
+    href: str
+    status: str
+    cells: list[MatrixCell]
+
+
+class Group(NamedTuple):
+    """Hold variants that stand together in the matrix, under a title that says why."""
+
+    title: str
+    variants: list[int]
+
+
+class Matrix(NamedTuple):
+    """Hold part of the matrix: numbers and names of its checks, and its rows in groups."""
+
+    checks: list[tuple[int, str]]
+    groups: list[tuple[str, list[MatrixRow]]]
+
+    @property
+    def rows(self) -> list[MatrixRow]:
+        """Return the rows of all groups."""
+        return [row for _, rows in self.groups for row in rows]
+
+
+def report_of(folder: Path, variant: int) -> str:
+    """Return the full report of a variant, from the summary's place, if there is one."""
+    for ending in ("html", "pdf"):
+        if (folder / "reports" / f"{variant}.{ending}").is_file():
+            return f"reports/{variant}.{ending}"
+    return ""
+
+
+def reported(folder: Path) -> list[int]:
+    """Return the variants that have a full report."""
+    files = (folder / "reports").glob("*.*") if (folder / "reports").is_dir() else []
+    return sorted({int(file.stem) for file in files if file.stem.isdecimal() and file.suffix in (".html", ".pdf")})
+
+
+def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[Group]:
+    """Return the best first, then those with reports, then the most overloaded; of a small study all variants. Each stands once."""
+    reports = reported(stored.folder)
+    first = say("Best: first by the objective") if len(_goals(stored)) == 1 else say("Best: on the Pareto front")
+    groups = [Group(_cut(first, len(best), BEST), list(best[:BEST]))]
+    if total <= ALL:
+        groups += [
+            Group(say("Others that pass, with most margin first"), _numbers(stored, SOUND, "NULLS LAST")),
+            Group(
+                say("Those that fail, the least overloaded first"), _numbers(stored, "status = 'fail'", "NULLS LAST")
+            ),
+            Group(say("Those that cannot exist"), _numbers(stored, "status = 'error'", "")),
+        ]
+    else:
+        groups += [
+            Group(_cut(say("Others with a full report"), len(reports), REPORTED), reports[:REPORTED]),
+            Group(
+                say("Fail: the {n} most overloaded variants", n=WORST_ONES),
+                _numbers(stored, "status = 'fail'", f"DESC NULLS FIRST, variant LIMIT {WORST_ONES}"),
+            ),
+        ]
+    return list(_once(groups))
+
+
+def _goals(stored: Stored) -> Sequence[object]:
+    return stored.study.get("objectives") or ()
+
+
+def _cut(title: str, count: int, most: int) -> str:
+    return say("{title} (the first {most} of {n})", title=title, most=most, n=count) if count > most else title
+
+
+def _numbers(stored: Stored, where: str, order: str) -> list[int]:
+    order = order if "variant" in order else f"{order}, variant"
+    return [row[0] for row in stored.rows(f"SELECT variant FROM w WHERE {where} ORDER BY {WORST.sql} {order}")]
+
+
+def _once(groups: Iterable[Group]) -> Iterator[Group]:
+    known: set[int] = set()
+    for title, variants in groups:
+        new = [int(variant) for variant in variants if variant not in known]
+        known |= set(new)
+        if new:
+            yield Group(title, new)
+
+
+def telling(used: Sequence[Utilisation]) -> list[Utilisation]:
+    """Return the checks that stand in the matrix: those that do not always pass with ease."""
+    return [row for row in used if row.failing or row.warning or (row.greatest or 0.0) > IDLE]
+
+
+def matrices(stored: Stored, groups: Sequence[Group], checks: Sequence[str]) -> Iterator[Matrix]:
+    """Yield the matrix in parts that fit on paper."""
+    for start in range(0, len(checks), ACROSS):
+        part = list(checks[start : start + ACROSS])
+        numbers = [(start + index + 1, said(stored.check_told(name))) for index, name in enumerate(part)]
+        rows = _rows(stored, [variant for group in groups for variant in group.variants], part)
+        found = [(group.title, [rows[one] for one in group.variants if one in rows]) for group in groups]
+        yield Matrix(numbers, [(title, some) for title, some in found if some])
+
+
+def _rows(stored: Stored, variants: Sequence[int], checks: Sequence[str]) -> dict[int, MatrixRow]:
+    asked = ", ".join(column.sql for check in checks for column in stored.checks[check])
+    listed = ", ".join(str(variant) for variant in variants) or "NULL"
+    found = {}
+    for variant, status, *values in stored.rows(f"SELECT variant, status, {asked} FROM v WHERE variant IN ({listed})"):
+        cells = [_cell(value, made) for value, made in zip(values[::2], values[1::2], strict=True)]
+        found[variant] = MatrixRow(variant, report_of(stored.folder, variant), status, cells)
+    return found
+
+
+def _cell(value: float | None, made: str | None) -> MatrixCell:
+    failing = made == "fail"
+    if value is None:
+        return MatrixCell("✗" if failing else "–" if made is None else "✓", "u4" if failing else "none", failing)
+    return MatrixCell(utilised(value), f"u{sum(value > limit for limit in BANDS)}", failing)
+
 
 INPUTS = 6  # columns of inputs
 
@@ -32,7 +485,7 @@ class ListedReport(NamedTuple):
     status: str
 
 
-def columns(stored: Stored, goals: Sequence[pareto.StoredObjective]) -> list[StoredColumn]:
+def columns(stored: Stored, goals: Sequence[StoredObjective]) -> list[StoredColumn]:
     """Return objectives and inputs that the table of the best shows."""
     return list(dict.fromkeys([*(goal.column for goal in goals), *stored.varied[:INPUTS]]))
 
@@ -50,7 +503,7 @@ def _row(stored: Stored, variant: int, row: Sequence[Any], shown: Sequence[Store
     status, worst, governing, *values = row
     return Best(
         variant,
-        matrix.report_of(stored.folder, variant),
+        report_of(stored.folder, variant),
         status,
         "–" if worst is None else utilised(worst),
         said(stored.check_told(governing)) if governing else "",
@@ -67,7 +520,7 @@ def _told(value: Any, column: StoredColumn) -> str:
 def reports(stored: Stored, variants: Sequence[int]) -> list[ListedReport]:
     """Return the full reports of these variants."""
     states = dict(stored.rows(f"SELECT variant, status FROM v WHERE variant IN ({_list(variants)})"))
-    return [ListedReport(one, matrix.report_of(stored.folder, one), states[one]) for one in variants if one in states]
+    return [ListedReport(one, report_of(stored.folder, one), states[one]) for one in variants if one in states]
 
 
 def _list(variants: Sequence[int]) -> str:

@@ -2,23 +2,38 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Mapping, Sequence
 from functools import partial
 from typing import Any, NamedTuple
 
 import numpy as np
 from matplotlib.axes import Axes
+from matplotlib.colors import LinearSegmentedColormap
 from matplotlib.figure import Figure
-from matplotlib.ticker import FuncFormatter
+from matplotlib.patches import Rectangle
+from matplotlib.ticker import FuncFormatter, MaxNLocator
+from numpy.typing import NDArray
 
-from diecut_report.languages.speech import decimal_sign, localised, said
 from diecut_report.report.figures.diagram import WIDTH
-from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, text_size
-from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import STATUSES, StoredColumn
-from diecut_report.study.summary.data import Histogram
-from diecut_report.study.summary.influence import Influence, Share
-from diecut_report.study.summary.quantity_names import WORDS, factor, is_utilisation, named, titled, wrapped
+from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, plain, text_size
+from diecut_report.report.text import number
+from diecut_report.study.analysis.variants import STATUSES, StoredColumn
+from diecut_report.study.summary.best import Front, Influence, Share
+from diecut_report.study.summary.data import (
+    WORDS,
+    Density,
+    Histogram,
+    SampledVariants,
+    display,
+    factor,
+    is_utilisation,
+    named,
+    reach,
+    titled,
+    value_told,
+    wrapped,
+)
+from diecut_report.text.translation import decimal_sign, localised, said, say
 
 COLOURS = {"pass": "#6f9fc0", "warn": "#d9a13a", "fail": "#a3161a", "error": "#9aa4ae"}
 ORDER = ("pass", "warn", "fail")  # from the back to the front
@@ -193,3 +208,306 @@ def _bars(axes: Axes, each: Histogram) -> None:
 def _title(axes: Axes, column: StoredColumn, wide: float) -> None:
     """The quantity above a diagram, on two lines where it is long."""
     axes.set_title(wrapped(titled(column), wide - 12, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
+
+
+# Charts of single variants: points over two quantities, lines over many.
+
+
+SHADES = LinearSegmentedColormap.from_list("shares", [COLOURS["fail"], "#c9c2c0", "#2f6f9e"])
+LEGEND = 16.0  # points of a legend below a chart
+MARKERS = {"pass": "o", "warn": "^", "fail": "x"}
+
+
+def scatter(
+    drawn_from: SampledVariants,
+    pairs: Sequence[tuple[StoredColumn, StoredColumn]],
+    told: str,
+    key: str,
+    front: Front | None = None,
+) -> Svg:
+    """Return two quantities of each variant, by status; one pair large, several in rows of three."""
+    return chart(partial(_scatter, drawn_from, pairs, front), told, key)
+
+
+def _scatter(
+    drawn_from: SampledVariants, pairs: Sequence[tuple[StoredColumn, StoredColumn]], front: Front | None
+) -> Figure:
+    across = 1 if len(pairs) == 1 else 3
+    wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3 - 4, 96.0)
+    under = LEGEND if across == 1 else 0.0
+    rows, pitch = -(-len(pairs) // across), high + 46 + HEAD + under
+    sheet = canvas(WIDTH, rows * pitch)
+    for index, (x, y) in enumerate(pairs):
+        row, column = divmod(index, across)
+        axes = panel(sheet, 44 + column * (wide + 44), (rows - row - 1) * pitch + 40 + under, wide, high)
+        _points(
+            axes,
+            drawn_from,
+            x,
+            y,
+            float(np.clip((9000 if across == 1 else 2500) / len(drawn_from.status), 3 if across > 1 else 7, 24)),
+        )
+        _front(axes, front, x, y)
+        _named(axes, drawn_from, x, y, wide)
+    if across == 1:
+        _legend(sheet, axes)
+    return sheet
+
+
+def _points(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredColumn, size: float) -> None:
+    for status in reversed(ORDER):
+        here = drawn_from.status == STATUSES.index(status)
+        if here.any():
+            across, up = (_spread(drawn_from, column, here) * factor(column) for column in (x, y))
+            width = 0.8 if status == "fail" else 0
+            axes.scatter(
+                across,
+                up,
+                s=size,
+                c=COLOURS[status],
+                marker=MARKERS[status],
+                linewidths=width,
+                label=said(WORDS[status]),
+                alpha=0.75,
+            )
+
+
+def cells(found: Density, told: str, key: str, front: Front | None = None) -> Svg:
+    """Return where all variants of a large study lie over two quantities: a square for each cell that has some."""
+    return chart(partial(_cells, found, front), told, key)
+
+
+def _cells(found: Density, front: Front | None) -> Figure:
+    wide, high, foot = WIDTH - 60, 230.0, 40.0 + LEGEND
+    sheet = canvas(WIDTH, high + foot + HEAD)
+    axes = panel(sheet, 44, foot, wide, high)
+    j, i = np.nonzero(found.counts)
+    counts, share = found.counts[j, i], found.sound[j, i] / found.counts[j, i]
+    x, y = (
+        (edges[:-1] + edges[1:]) / 2 * factor(each)
+        for edges, each in ((found.x_edges, found.x), (found.y_edges, found.y))
+    )
+    most = min(wide / len(x), high / len(y)) - 0.6
+    side = most * (0.3 + 0.7 * np.log1p(counts) / np.log1p(counts.max()))
+    order = np.argsort(share, kind="stable")
+    axes.scatter(
+        x[i][order], y[j][order], s=side[order] ** 2, c=[shade(each) for each in share[order]], marker="s", linewidths=0
+    )
+    _front(axes, front, found.x, found.y)
+    _titles(axes, found.x, found.y, wide)
+    for told, part in ((say("none passes"), 0.0), (say("half pass"), 0.5), (say("all pass"), 1.0)):
+        axes.plot([], [], "s", color=shade(part), markersize=5, label=told)
+    _legend(sheet, axes)
+    return sheet
+
+
+def _legend(sheet: Figure, axes: Axes) -> None:
+    """The legend below the chart, where no point lies."""
+    handles, names = axes.get_legend_handles_labels()
+    left = axes.get_position().x0
+    sheet.legend(handles, names, loc="lower left", bbox_to_anchor=(left, 0), ncols=len(names), borderaxespad=0)
+
+
+def shade(share: float) -> Any:
+    """Return a colour from red, where no variant passes, over grey to blue, where all do."""
+    return SHADES(share)
+
+
+def near(values: NDArray[Any]) -> NDArray[Any]:
+    """Return values of which a few lie far above the others, with these at the edge."""
+    there = values[np.isfinite(values)]
+    if not len(there):
+        return values
+    found: NDArray[Any] = np.minimum(values, reach(there.min(), np.quantile(there, 0.95), there.max()))
+    return found
+
+
+def _spread(drawn_from: SampledVariants, column: StoredColumn, here: NDArray[Any]) -> NDArray[Any]:
+    """Values of some variants; words a little to both sides of their place, so that points do not cover each other."""
+    values: NDArray[Any] = near(drawn_from.values[column.name])
+    if column.name in drawn_from.words:
+        values = values + 0.5 * (np.arange(len(values)) * 0.618 % 1 - 0.5)
+    found: NDArray[Any] = values[here]
+    return found
+
+
+def _front(axes: Axes, front: Front | None, x: StoredColumn, y: StoredColumn) -> None:
+    names = [objective.column.name for objective in front.objectives] if front else []
+    if front is None or x.name not in names or y.name not in names:
+        return
+    values = front.values[:, [names.index(x.name), names.index(y.name)]] * (factor(x), factor(y))
+    values = values[np.argsort(values[:, 0])]
+    step = (
+        "steps-post" if front.objectives[names.index(x.name)].is_less else "steps-pre"
+    )  # round what the front betters
+    line = "-" if len(names) == 2 else "none"
+    axes.plot(
+        *values.T,
+        linestyle=line,
+        drawstyle=step,
+        marker="D",
+        color=INK,
+        markersize=3.4 if len(values) < 60 else 1.2,
+        linewidth=0.9,
+        label=say("Pareto front"),
+    )
+
+
+def _named(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredColumn, wide: float) -> None:
+    _titles(axes, x, y, wide)
+    for column, axis, limits in ((x, axes.xaxis, axes.set_xlim), (y, axes.yaxis, axes.set_ylim)):
+        words = drawn_from.words.get(column.name)
+        if words:
+            axis.set_ticks(range(len(words)), [plain(word) for word in words], size=7)
+            limits(-0.6, len(words) - 0.4)
+        else:
+            axis.set_major_locator(MaxNLocator(4))
+
+
+def _titles(axes: Axes, x: StoredColumn, y: StoredColumn, wide: float) -> None:
+    axes.set_title(wrapped(titled(y), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
+    axes.set_xlabel(wrapped(titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
+
+
+# The chart of parallel coordinates: each variant a line from its inputs to its results, and where on each axis variants pass.
+
+
+Array = NDArray[Any]
+Ends = tuple[float, float, bool]  # of an axis, and whether greater values stand at its upper end
+MOST = 120  # lines of those that do not fail, and of those that fail
+MOST_WORDS = 16  # on an upright axis
+FIELDS, FIELD = 12, 7.0  # of an axis, and how many points they are wide
+SPREAD = 0.5  # of the distance between words, over which their lines are spread
+HIGH, SIDE = 190.0, 38.0  # points of the axes, and beside the outermost ones
+SMALL, LEAST = 6.5, 5.0  # points of letters
+LOOKS: dict[str, dict[str, Any]] = {  # dark before pale, also in grey
+    "fail": {"color": "#dca09d", "linewidth": 0.4, "alpha": 0.8, "zorder": 2.0},
+    "warn": {"color": "#a8741a", "linewidth": 0.8, "alpha": 0.9, "zorder": 2.1, "linestyle": (0, (4, 1.5))},
+    "pass": {"color": "#123f66", "linewidth": 0.8, "alpha": 0.75, "zorder": 2.2},
+}
+DARK = "#123f66"
+
+
+class DrawnLines(NamedTuple):
+    """Hold the variants that are drawn as lines, by their place in the sample, and of how many they were taken."""
+
+    sound: Array
+    failing: Array
+    all_sound: int
+    all_failing: int
+
+    @property
+    def is_whole(self) -> bool:
+        """Return whether none is left out."""
+        return len(self.sound) == self.all_sound and len(self.failing) == self.all_failing
+
+
+def drawn_lines(sample: SampledVariants) -> DrawnLines:
+    """Return which variants are drawn: of those that do not fail and of those that fail at most so many, evenly taken from the sample."""
+    sound = np.flatnonzero(sample.status < STATUSES.index("fail"))
+    failing = np.flatnonzero(sample.status == STATUSES.index("fail"))
+    return DrawnLines(_evenly(sound), _evenly(failing), len(sound), len(failing))
+
+
+def _evenly(places: Array) -> Array:
+    """At most so many places of many, at equal distances."""
+    if len(places) <= MOST:
+        return places
+    found: Array = places[np.linspace(0, len(places) - 1, MOST).round().astype(int)]
+    return found
+
+
+def parallel(
+    sample: SampledVariants, lines: DrawnLines, columns: Sequence[StoredColumn], ends: Mapping[str, Ends], told: str
+) -> Svg:
+    """Return the variants as lines over upright axes, passing ones in front; the darker a field of an axis, the more of it passes."""
+    return chart(partial(_parallel, sample, lines, columns, ends), told, "parallel")
+
+
+def _parallel(
+    sample: SampledVariants, lines: DrawnLines, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]
+) -> Figure:
+    pitch = (WIDTH - 2 * SIDE) / (len(columns) - 1)
+    names = [wrapped(titled(column), min(pitch, 100) - 6, SMALL, 6) for column in columns]
+    foot = 18 + 8.8 * max(name.count("\n") + 1 for name in names)
+    sheet = canvas(WIDTH, HIGH + 14 + foot)
+    axes = panel(sheet, SIDE, foot, WIDTH - 2 * SIDE, HIGH)
+    scaled = _scaled(sample, columns, ends)
+    _lines(axes, sample, lines, scaled)
+    room = min(pitch, 2 * SIDE) - 4
+    for place, column in enumerate(columns):
+        _fields(axes, place, scaled[:, place], sample.status, FIELD / pitch)
+        axes.axvline(place, color=INK, linewidth=0.6, zorder=3)
+        _scale(axes, place, column, ends[column.name], sample.words.get(column.name), room)
+        _text(axes, names[place], (place, 0), -13, SMALL)
+    axes.set_ylim(-0.01, 1.01)
+    axes.set_xlim(0, len(columns) - 1)
+    axes.set_axis_off()
+    return sheet
+
+
+def _scaled(sample: SampledVariants, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]) -> Array:
+    """The heights of all variants on all axes, from 0 to 1; words a little to both sides of their place."""
+    found = []
+    for column in columns:
+        values, (low, top, _) = sample.values[column.name], ends[column.name]
+        if column.name in sample.words:
+            low, top = low - SPREAD, top + SPREAD
+            values = values + SPREAD * (np.arange(len(values)) * 0.618 % 1 - 0.5)
+        found.append((np.minimum(values, top) - low) / ((top - low) or 1.0))
+    made: Array = np.column_stack(found)
+    return made
+
+
+def _lines(axes: Axes, sample: SampledVariants, lines: DrawnLines, scaled: Array) -> None:
+    across = np.arange(scaled.shape[1])
+    kept = np.concatenate([lines.failing, lines.sound])
+    for status, look in LOOKS.items():
+        here = kept[sample.status[kept] == STATUSES.index(status)]
+        axes.plot(across, scaled[here].T, **{"linestyle": "-", "solid_joinstyle": "round", **look})
+
+
+def _fields(axes: Axes, place: int, heights: Array, status: Array, wide: float) -> None:
+    """Fields along an axis, the darker the larger the share of its variants that do not fail."""
+    there = np.isfinite(heights) & (status != STATUSES.index("error"))
+    edges = np.linspace(0, 1, FIELDS + 1)
+    every, sound = (
+        np.histogram(heights[chosen], edges)[0] for chosen in (there, there & (status < STATUSES.index("fail")))
+    )
+    for low, high, count, good in zip(edges, edges[1:], every, sound, strict=False):
+        if count:
+            share = good / count
+            look: dict[str, Any] = {"facecolor": "white", "edgecolor": "#9aa4ae", "linewidth": 0.4, "zorder": 2.6}
+            axes.add_patch(Rectangle((place - wide / 2, low), wide, high - low, clip_on=False, **look))
+            dark: dict[str, Any] = {"facecolor": DARK, "alpha": float(share), "linewidth": 0, "zorder": 2.7}
+            axes.add_patch(Rectangle((place - wide / 2, low), wide, high - low, clip_on=False, **dark))
+
+
+def _scale(axes: Axes, place: int, column: StoredColumn, ends: Ends, words: list[str] | None, room: float) -> None:
+    """The ends of an upright axis; of words each at its place."""
+    low, top, is_cut = ends
+    if words is None:
+        _fitted(axes, display(low, column), (place, 0), -3, room)
+        _fitted(axes, f"{'≥ ' if is_cut else ''}{display(top, column)}", (place, 1), 3, room)
+        return
+    box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6}
+    for index, word in list(enumerate(words))[:: -(-len(words) // MOST_WORDS)]:
+        height = (index + SPREAD) / (top - low + 2 * SPREAD)
+        said = wrapped(value_told(word), room, 6.0, 2)
+        axes.annotate(said, (place, height), ha="center", va="center", size=6.0, bbox=box, zorder=4, linespacing=1.0)
+
+
+def _fitted(axes: Axes, text: str, place: tuple[float, float], above: float, room: float) -> None:
+    """A text in letters that are small enough to leave its neighbours their room."""
+    size = 7.0
+    while size > LEAST and text_size(text, size)[0] > room:
+        size -= 0.5
+    _text(axes, text, place, above, size)
+
+
+def _text(axes: Axes, text: str, place: tuple[float, float], above: float, size: float) -> None:
+    """A text above or below a place, some points away."""
+    side = "bottom" if above > 0 else "top"
+    axes.annotate(
+        text, place, (0, above), textcoords="offset points", ha="center", va=side, size=size, linespacing=1.05
+    )

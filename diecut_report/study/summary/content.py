@@ -2,23 +2,210 @@
 
 from __future__ import annotations
 
+import base64
+import json
+import math
+import re
+from collections.abc import Mapping
 from dataclasses import dataclass
-from typing import Any
+from functools import partial
+from typing import Any, NamedTuple
 
-from diecut_report.config import yaml_tree
-from diecut_report.config.basis import ASSUMED
-from diecut_report.config.discovery import Discovery
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.languages.speech import localised, said, say, say_counted
-from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import Stored, StoredColumn
-from diecut_report.study.conditions.constraints import why_dropped
-from diecut_report.study.summary import best, data, influence, matrix, pareto, passing_values, questions, verdict_counts
-from diecut_report.study.summary.data import Reason, Spread, Utilisation
-from diecut_report.study.summary.figures import Figures, SummaryFigure
-from diecut_report.study.summary.influence_table import Ranked, ranked
-from diecut_report.study.summary.quantity_names import WORST, titled, utilised, variants
-from diecut_report.study.summary.verdict_counts import Failure
+from markupsafe import Markup
+
+from diecut_report import __version__
+from diecut_report.config import yaml
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.validation import ASSUMED
+from diecut_report.files import room
+from diecut_report.quantities.units import pretty, unit
+from diecut_report.report.pages import html, pdf
+from diecut_report.report.pages.page_engine import HTML, URLFetcher
+from diecut_report.report.text import Catalogue, number
+from diecut_report.study.analysis.variants import MECHANISMS, Stored, StoredColumn
+from diecut_report.study.definition.constraints import why_dropped
+from diecut_report.study.summary import best, data
+from diecut_report.study.summary import data as passing_values
+from diecut_report.study.summary import data as verdict_counts
+from diecut_report.study.summary.data import (
+    WORDS,
+    WORST,
+    Failure,
+    Reason,
+    Spread,
+    Utilisation,
+    display,
+    named,
+    percent,
+    titled,
+    utilised,
+    value_told,
+    variants,
+)
+from diecut_report.study.summary.figures import Figures, Ranked, SummaryFigure, ranked
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted, spoken_language
+
+# What the study asks, as its file says it.
+
+
+METHODS = {
+    "grid": phrase("grid: each value with each"),
+    "zip": phrase("zip: the first values together, the second together, and so on"),
+    "latin_hypercube": phrase("Latin hypercube"),
+    "sobol": phrase("Sobol sequence"),
+    "table": phrase("rows of a table"),
+}
+Path = tuple[str | int, ...]
+NAME = re.compile(r"[A-Za-z_][\w.]*")
+
+
+class AskedInput(NamedTuple):
+    """Hold a varied input: what people call it, its symbol, its path, and its values as written, a choice in words too."""
+
+    told: str
+    symbol: str
+    path: str
+    values: str
+
+
+class AskedText(NamedTuple):
+    """Hold an objective or a constraint: in words, and as the study file has it."""
+
+    told: str
+    typed: str
+
+
+class Asked(NamedTuple):
+    """Hold what was studied: facts, varied inputs, objectives, constraints, and what ``reports`` asks for."""
+
+    facts: list[tuple[str, str]]
+    inputs: list[AskedInput]
+    objectives: list[AskedText]
+    constraints: list[AskedText]
+    reports: str
+
+
+def asked_questions(stored: Stored) -> Asked | None:
+    """Return what the kept copy of the study file says; None where the copy is gone or changed."""
+    content = stored.description.study.content
+    if content is None:
+        return None
+    tree = yaml.parse(content.decode("utf-8-sig"), stored.description.study.file)
+    data: Mapping[str, Any] = tree.data
+    return Asked(
+        list(_questions_facts(stored, tree, data)),
+        [_input(stored, tree, path) for path in stored.study.get("varied") or ()],
+        [_objective(stored, way, str(name)) for each in data.get("objectives") or () for way, name in each.items()],
+        [AskedText(_quantities(stored, str(each)), str(each)) for each in data.get("constraints") or ()],
+        _reports(tree, data.get("reports")),
+    )
+
+
+def outputs(stored: Stored) -> list[str]:
+    """Return the outputs that the study file asks for by their names; none where it keeps all, or its copy is gone."""
+    content = stored.description.study.content
+    if content is None:
+        return []
+    data: Mapping[str, Any] = yaml.parse(content.decode("utf-8-sig"), stored.description.study.file).data
+    return [str(name) for name in data.get("outputs") or ()]
+
+
+def _questions_facts(stored: Stored, tree: yaml.Tree, data: Mapping[str, Any]) -> list[tuple[str, str]]:
+    sample, counts = data.get("sample") or {}, stored.study.get("counts") or {}
+    method = str(sample.get("method", ""))
+    facts = [(say("Base"), str(data.get("base", stored.description.base.file)))]
+    facts.append(
+        (say("Sample"), said(METHODS.get(method, method)) + (f": {sample['file']}" if "file" in sample else ""))
+    )
+    facts += [(name, written(tree, ("sample", key))) for key, name in (("count", say("Count")),) if key in sample]
+    if method in ("latin_hypercube", "sobol"):
+        facts.append((say("Seed"), written(tree, ("sample", "seed")) if "seed" in sample else say("0 (none is given)")))
+    if sample.get("indices"):
+        facts.append((say("Sobol indices"), say("yes: each of the points above is a group of variants")))
+    if "sample" in counts and counts["sample"] != sample.get("count"):
+        facts.append((say("Variants of the sample"), variants(int(counts["sample"]))))
+    if data.get("constraints"):
+        facts.append(
+            (say("Dropped by the constraints"), variants(int(counts.get("dropped") or 0)) + said(why_dropped(counts)))
+        )
+    return facts
+
+
+def _objective(stored: Stored, way: str, name: str) -> AskedText:
+    column, typed = _column_of(stored, name), f"{way}: {name}"
+    words = "least {quantity}" if way == "minimise" else "greatest {quantity}"
+    return AskedText(say(words, quantity=named(column)) if column else typed, typed if column else "")
+
+
+def _quantities(stored: Stored, expression: str) -> str:
+    """What the names in an expression are called."""
+    columns = [_column_of(stored, name) for name in dict.fromkeys(NAME.findall(expression))]
+    return ", ".join(_with_symbol(column) for column in columns if column)
+
+
+def _with_symbol(column: StoredColumn) -> str:
+    return named(column) + (f" {column.symbol}" if column.symbol else "")
+
+
+def _column_of(stored: Stored, name: str) -> StoredColumn | None:
+    """The column that a study means by a name, with ``mechanisms.`` or without."""
+    return stored.columns.get(name) or stored.columns.get(f"{MECHANISMS}{name}")
+
+
+def _input(stored: Stored, tree: yaml.Tree, path: str) -> AskedInput:
+    column = stored.columns.get(path)
+    given = path in (tree.data.get("vary") or {})
+    values = _values(tree, ("vary", path)) if given else _column(tree)
+    return AskedInput(named(column) if column else path, column.symbol if column else "", path, values)
+
+
+def _values(tree: yaml.Tree, place: Path) -> str:
+    """Values as they are written; choices in words, with what is typed behind them."""
+    value = tree.data
+    for step in place:
+        value = value[step]
+    if not isinstance(value, list) or not any(isinstance(each, str) and value_told(each) != each for each in value):
+        return written(tree, place)
+    told = [(value_told(each), written(tree, (*place, index))) for index, each in enumerate(value)]
+    return ", ".join(typed if words == typed else f"{words} ({typed})" for words, typed in told)
+
+
+def _column(tree: yaml.Tree) -> str:
+    return say("a column of {table}", table=tree.typed(("sample", "file")) or phrase("the table"))
+
+
+def written(tree: yaml.Tree, path: Path) -> str:
+    """Return a value as the file says it: lists with commas, a range as ``from A to B``, other keys with their names."""
+    value = tree.data
+    for step in path:
+        value = value[step]
+    if isinstance(value, list):
+        return ", ".join(written(tree, (*path, index)) for index in range(len(value)))
+    if not isinstance(value, dict):
+        return tree.typed(path) or ""
+    parts = {str(key): written(tree, (*path, key)) for key in value}
+    head = (
+        [say("from {least} to {most}", least=parts.pop("from"), most=parts.pop("to"))]
+        if {"from", "to"} <= parts.keys()
+        else []
+    )
+    kind = parts.pop("distribution", "")
+    head += [kind] if kind else []
+    if "table" in parts:
+        table = parts.pop("table")
+        column = parts.pop("column", "")
+        head.append(
+            say("column {column} of the table {table}", column=column, table=table)
+            if column
+            else say("the table {table}", table=table)
+        )
+    return ", ".join([*head, *(f"{key} {text}" for key, text in parts.items())])
+
+
+def _reports(tree: yaml.Tree, given: Any) -> str:
+    return say("none") if given is None else written(tree, ("reports",))
+
 
 SAMPLED = 1_500  # variants in the charts of points
 NUMBERS, FEWEST = 200_000, 400  # that the page carries for the chart of any two quantities; variants of them at least
@@ -43,7 +230,7 @@ class Summary:
     total: int
     statuses: dict[str, int]
     facts: list[tuple[str, str]]
-    asked: questions.Asked | None
+    asked: Asked | None
     failures: list[Failure]
     governing: list[verdict_counts.Governing]
     passing: list[passing_values.PassingValues]
@@ -52,14 +239,14 @@ class Summary:
     unchecked: int
     assumed: int
     idle: int
-    matrices: list[matrix.Matrix]
+    matrices: list[best.Matrix]
     is_whole: bool
     spreads: list[Spread]
     more_spreads: int
     reasons: list[Reason]
     reports: list[best.ListedReport]
     more_reports: int
-    front: pareto.Front | None
+    front: best.Front | None
     best_head: list[str]
     best: list[best.Best]
     is_sobol: bool
@@ -107,13 +294,13 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     states = data.statuses(stored)
     total = sum(states.values())
     spreads = _spreads(stored, total)
-    goals = pareto.objectives(stored)
-    front = pareto.front(stored, goals, states["pass"] + states["warn"])
+    goals = best.objectives(stored)
+    front = best.front(stored, goals, states["pass"] + states["warn"])
     varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
     used = data.utilisations(stored)
-    asked = [column for column in varying if column.name in questions.outputs(stored)]
+    asked = [column for column in varying if column.name in outputs(stored)]
     main = _main(stored, goals, varying, asked, [row.check for row in used if row.failing or row.warning])
-    found = influence.influences(stored, main[: min(TARGETS + len(asked), MOST_TARGETS)])
+    found = best.influences(stored, main[: min(TARGETS + len(asked), MOST_TARGETS)])
     choices = _choices(stored, varying, main)
     sample = data.sample(stored, choices[:POINTS], SAMPLED)
     drawn = min(SAMPLED, max(FEWEST, NUMBERS // max(1, len(choices))))
@@ -127,26 +314,26 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
         },
     )
     figures = Figures(stored, states, sample, front, main, spreads)
-    first, reports = [int(variant) for variant in front.variants] if front else [], matrix.reported(stored.folder)
+    first, reports = [int(variant) for variant in front.variants] if front else [], best.reported(stored.folder)
     ranges = [spreads[c.name] for c in (*stored.varied, *main) if c in varying and ".checks." not in c.name]
     panels = _panels(stored, goals, [*(row.check for row in failures), *(row.check for row in governing)], varying)
-    groups = matrix.chosen(stored, total, first)
+    groups = best.chosen(stored, total, first)
     shown = best.columns(stored, goals)
     return Summary(
         title=_title(stored), folder=stored.folder.resolve().name, study=stored.study, files=_files(stored),
         checks={check: said(stored.check_told(check)) for check in stored.checks},
-        total=total, statuses=states, facts=_facts(stored, total), asked=questions.asked(stored),
+        total=total, statuses=states, facts=_facts(stored, total), asked=asked_questions(stored),
         failures=failures, governing=governing, passing=passing_values.values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
         unchecked=len(verdict_counts.unchecked(stored)), assumed=_assumed(_base(stored)),
-        idle=len(made) - len(matrix.telling(made)),
-        matrices=list(matrix.matrices(stored, groups, [row.check for row in matrix.telling(made)])),
-        is_whole=total <= matrix.ALL,
+        idle=len(made) - len(best.telling(made)),
+        matrices=list(best.matrices(stored, groups, [row.check for row in best.telling(made)])),
+        is_whole=total <= best.ALL,
         spreads=ranges[:RANGES], more_spreads=max(0, len(ranges) - RANGES),
         reasons=data.reasons(stored, discovery) if states["error"] else [],
-        reports=best.reports(stored, reports[: matrix.LISTED]), more_reports=max(0, len(reports) - matrix.LISTED),
-        front=front, best_head=[titled(column) for column in shown], best=best.best(stored, first[: matrix.BEST], shown),
-        is_sobol=influence.is_saltelli(stored), ranked=ranked(found, figures) if found else None,
+        reports=best.reports(stored, reports[: best.LISTED]), more_reports=max(0, len(reports) - best.LISTED),
+        front=front, best_head=[titled(column) for column in shown], best=best.best(stored, first[: best.BEST], shown),
+        is_sobol=best.is_saltelli(stored), ranked=ranked(found, figures) if found else None,
         slow=dict(stored.study.get("slow") or {}), doubtful=list(stored.study.get("doubtful") or ()),
         figures=figures.all(failures, [spreads[column.name] for column in panels][:PANELS], found),
         any_two=data.sample(stored, choices, drawn), varied=stored.varied, choices=choices,
@@ -154,7 +341,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
 
 
 def _panels(
-    stored: Stored, goals: tuple[pareto.StoredObjective, ...], checks: list[str], varying: list[StoredColumn]
+    stored: Stored, goals: tuple[best.StoredObjective, ...], checks: list[str], varying: list[StoredColumn]
 ) -> list[StoredColumn]:
     """The quantities of histograms: objectives, utilisations of failing and governing checks, inputs, then the others."""
     limits = [stored.checks[check][0] for check in dict.fromkeys(checks) if check in stored.checks]
@@ -164,12 +351,12 @@ def _panels(
 
 def _is_telling(spread: Spread) -> bool:
     """Whether a quantity varies; a utilisation that is next to nothing tells nothing."""
-    return spread.varies and (".checks." not in spread.column.name or spread.values[-1] > matrix.IDLE)
+    return spread.varies and (".checks." not in spread.column.name or spread.values[-1] > best.IDLE)
 
 
 def _spreads(stored: Stored, total: int) -> dict[str, Spread]:
     """The ranges of inputs and outputs, and of the greatest utilisation."""
-    goals = [goal.column for goal in pareto.objectives(stored)]
+    goals = [goal.column for goal in best.objectives(stored)]
     used = [value for value, _ in stored.checks.values()]
     columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *goals, *used]
     return data.spreads(stored, list(dict.fromkeys(columns)), total)
@@ -177,7 +364,7 @@ def _spreads(stored: Stored, total: int) -> dict[str, Spread]:
 
 def _main(
     stored: Stored,
-    goals: tuple[pareto.StoredObjective, ...],
+    goals: tuple[best.StoredObjective, ...],
     varying: list[StoredColumn],
     asked: list[StoredColumn],
     failing: list[str],
@@ -222,7 +409,7 @@ def _title(stored: Stored) -> str:
 def _base(stored: Stored) -> Any:
     """What stands in the base; nothing where its copy is not as it was."""
     content = stored.description.base.content
-    return yaml_tree.parse(content.decode(), "base").data if content else {}
+    return yaml.parse(content.decode(), "base").data if content else {}
 
 
 def _assumed(data: Any) -> int:
@@ -255,3 +442,101 @@ def _code(name: str) -> Phrase:
     """What a part of the code is called: ``plugin cylinder_drive``."""
     kind = name.removeprefix("plugin ")
     return phrase(name) if kind == name else Phrase("plugin {kind}", kind=kind)
+
+
+# The summary as HTML (one file, no network) and as PDF.
+
+
+DIGITS = 4  # of the numbers that a browser draws
+
+
+def page(summary: Summary) -> str:
+    """Return the summary as one self-contained HTML page."""
+    return _filled(summary, "screen")
+
+
+def sheets(summary: Summary) -> bytes:
+    """Return the summary as PDF (A4, PDF/UA-1)."""
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
+    source = _filled(summary, "print")
+    with room(), pdf._without_collection():
+        content: bytes = HTML(string=source, url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
+    return content
+
+
+def _filled(summary: Summary, kind: str) -> str:
+    style = "\n".join(
+        [
+            html._font_faces(tuple(html.FACES.items())),
+            *(
+                html._read(f"{name}.css")
+                for name in ("report", kind, *(["strip"] if kind == "print" else []), "summary")
+            ),
+        ]
+    )
+    return html._environment().get_template("summary.html.j2").render(
+        s=summary, t=Catalogue(spoken_language()), language=spoken_language(), kind=kind, policy=html.policy(_script()),
+        style=Markup(style), version=__version__, figure=partial(_figure, summary, kind),
+        points=Markup(_points(summary)) if kind == "screen" else "", named=named, titled=titled, display=display,
+        counted=_counted, variants=variants, percent=percent, utilised=utilised, number=number, pretty=pretty, say=say, localised=localised,
+    )  # fmt: skip
+
+
+def _counted(one: str, many: str, count: int, **named: object) -> str:
+    """What a template says of a number of things."""
+    return say_counted(count, one, many, n=number(str(count)), **named)
+
+
+def _script() -> str:
+    """The page's own script, to the letter: it is no template, and all that it tells of a study is data beside it."""
+    found = re.search(r"<script>(.*?)</script>", html._read("summary_scatter.html.j2"), re.DOTALL)
+    assert found is not None
+    return found[1]
+
+
+def _figure(summary: Summary, kind: str, key: str | Any) -> Markup:
+    """A chart inline on the screen, as an image with its alternative on paper."""
+    figure = summary.figures[key] if isinstance(key, str) else key
+    if kind == "screen":
+        return Markup(figure.svg.text)  # matplotlib escapes the texts within the drawing
+    content = base64.b64encode(figure.svg.text.encode()).decode()
+    return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(content, figure.alternative)
+
+
+def _points(summary: Summary) -> str:
+    """The sample for the page's own chart of any two quantities, in display units, as JSON that cannot end a script."""
+    sample = summary.any_two
+    columns = [
+        {
+            "title": titled(column),
+            "words": sample.words.get(column.name),
+            "values": [_short(v, column) for v in sample.values[column.name]],
+        }
+        for column in summary.choices
+    ]
+    upwards = next(
+        (index for index, column in enumerate(summary.choices) if column not in summary.varied), len(columns) - 1
+    )
+    data = {
+        "words": {
+            "decimal": decimal_sign(),
+            "states": [said(WORDS[status]) for status in ("pass", "warn", "fail")],
+            "point": say("variant {n}, {status}"),
+            "over": say("{y} over {x}"),
+            "told": say(
+                "{y} over {x}: {n} of {total} variants are drawn; dots pass, triangles have a warning, crosses fail. "
+                "A point names its variant."
+            ),
+        },
+        "upwards": upwards,
+        "total": summary.total,
+        "variants": sample.variants.tolist(),
+        "status": sample.status.tolist(),
+        "columns": columns,
+    }
+    text = json.dumps(data, ensure_ascii=False, allow_nan=False)
+    return text.replace("<", "\\u003c")
+
+
+def _short(value: float, column: StoredColumn) -> float | None:
+    return float(f"{value / unit(column.display).factor:.{DIGITS}g}") if math.isfinite(value) else None

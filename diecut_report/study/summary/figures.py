@@ -2,25 +2,32 @@
 
 from __future__ import annotations
 
+import re
 from collections.abc import Sequence
 from dataclasses import dataclass
 from typing import NamedTuple
 
 import numpy as np
 
-from diecut_report.languages.phrases import Phrase, phrase
-from diecut_report.languages.speech import localised, said, say, say_counted
 from diecut_report.report.figures.style import Svg
-from diecut_report.report.number_format import number
-from diecut_report.study.analysis.stored_variants import STATUSES, Stored, StoredColumn
-from diecut_report.study.summary import charts, data, point_charts
-from diecut_report.study.summary.data import Histogram, SampledVariants, Spread
-from diecut_report.study.summary.influence import Influence, Share
-from diecut_report.study.summary.parallel_chart import DrawnLines, Ends, drawn_lines, parallel
-from diecut_report.study.summary.pareto import Front
-from diecut_report.study.summary.point_charts import near
-from diecut_report.study.summary.quantity_names import WORDS, named, percent, quantity, variants
-from diecut_report.study.summary.verdict_counts import Failure
+from diecut_report.report.text import number
+from diecut_report.study.analysis.variants import STATUSES, Stored, StoredColumn
+from diecut_report.study.summary import charts, data
+from diecut_report.study.summary.best import Front, Influence, Share
+from diecut_report.study.summary.charts import DrawnLines, Ends, drawn_lines, near, parallel
+from diecut_report.study.summary.data import (
+    WORDS,
+    Failure,
+    Histogram,
+    SampledVariants,
+    Spread,
+    named,
+    percent,
+    quantity,
+    variants,
+)
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import localised, said, say, say_counted
 
 DENSE = 5_000  # variants from which a chart counts them in cells
 AXES, GOVERNING, LINES = 8, 15, 400  # upright axes, bars of governing checks, lines between the axes
@@ -203,7 +210,7 @@ class Figures:
             return self._cells(x, y, front, caption, told)
         caption = f"{caption} {self._drawn(self.sample, pair)}"
         return SummaryFigure(
-            point_charts.scatter(self.sample, [pair], say("Scatter of {told}.", told=told), "pair", front),
+            charts.scatter(self.sample, [pair], say("Scatter of {told}.", told=told), "pair", front),
             caption,
             told,
         )
@@ -213,7 +220,7 @@ class Figures:
         words = "Counted in cells are {variants}: the larger a square, the more variants; its colour is the share that does not fail."
         caption = f"{caption} {say(words, variants=variants(int(found.counts.sum())))}"
         title = say("Density of {told}.", told=told)
-        return SummaryFigure(point_charts.cells(found, title, "pair", front), caption, told)
+        return SummaryFigure(charts.cells(found, title, "pair", front), caption, told)
 
     def _goals(self) -> tuple[StoredColumn, StoredColumn] | None:
         known = [column for column in self.main if column.name in self.sample.values]
@@ -230,7 +237,7 @@ class Figures:
         drawn = self._drawn(some, [column for pair in pairs for column in pair])
         caption = f"{say('Each quantity over the inputs that move it most.')} {drawn}"
         title = say("Scatter: {told}.", told=told)
-        return SummaryFigure(point_charts.scatter(some, pairs, title, "grid"), caption, told)
+        return SummaryFigure(charts.scatter(some, pairs, title, "grid"), caption, told)
 
     def _over(self, x: StoredColumn, y: StoredColumn) -> str:
         return say("{y} over {x}, {told}", y=named(y), x=named(x), told=self._correlated(x, y))
@@ -277,3 +284,37 @@ def _thinned(sample: SampledVariants, most: int) -> SampledVariants:
     step = max(1, -(-len(sample.variants) // most))
     values = {name: column[::step] for name, column in sample.values.items()}
     return SampledVariants(sample.variants[::step], sample.status[::step], values, sample.words)
+
+
+# The influence of the inputs as a table with charts.
+
+
+CHARTED = 3  # quantities that influence is drawn for
+
+
+class Ranked(NamedTuple):
+    """Hold the influence of the inputs: quantities and, for each input, a text for each of them; charts of the first quantities."""
+
+    targets: list[str]
+    rows: list[tuple[str, list[str]]]
+    figures: list[SummaryFigure]
+    variants: str
+
+
+def ranked(found: list[Influence], figures: Figures) -> Ranked:
+    """Return one table for all quantities, its inputs in the order of the first of them."""
+    by_target = [{share.column: share for share in each.shares} for each in found]
+    inputs = list(dict.fromkeys(column for shares in by_target for column in shares))
+    rows = [(named(column), [_share(shares.get(column)) for shares in by_target]) for column in inputs]
+    drawn = [figures.influence(each) for each in found if each.is_certain and each.telling][:CHARTED]
+    return Ranked([named(each.target) for each in found], rows, drawn, variants(max(each.variants for each in found)))
+
+
+def _share(share: Share | None) -> str:
+    if share is None or not share.is_certain or not share.is_telling:
+        return "–"
+    if share.total is not None:
+        text = f"{share.first:.2f} ± {share.first_error or 0:.2f} / {share.total:.2f} ± {share.total_error or 0:.2f}"
+    else:
+        text = f"{share.first:.2f}" if share.column.kind == "text" else f"{share.first:+.2f}"
+    return localised(re.sub(r"[-+](?=0\.00)", "", text).replace("-", "−"))

@@ -1,1 +1,1 @@
-"""Tables of variants: files, headers, cells."""
+"""Tables of variants in CSV, Parquet and XLSX."""

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 from tests.mechanics.timing.legendre_pieces import NODES, Function
 
 _SHARES = (np.concatenate([[-1.0], NODES, [1.0]]) + 1) / 2

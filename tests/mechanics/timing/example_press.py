@@ -7,16 +7,15 @@ from functools import cache
 
 import numpy as np
 
-from diecut_report.config import yaml_tree
-from diecut_report.config.discovery import Discovery
+from diecut_report.config import yaml
 from diecut_report.config.loader import load_config
-from diecut_report.engine import Calculation, CurveHandle
-from diecut_report.expressions import Array
+from diecut_report.config.plugins import Discovery
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, CurveHandle
 from diecut_report.mechanics import four_bar
 from diecut_report.mechanics.timing.clearance import Station
 from diecut_report.mechanics.timing.engagement import inertia_at_crank
-from diecut_report.mechanics.timing.intervals import Intervals, complement
-from diecut_report.mechanics.timing.lines import DrivenLine
+from diecut_report.mechanics.timing.intervals import DrivenLine, Intervals, complement
 from diecut_report.results.press_run import compute
 from tests.configs import MECHANISMS
 from tests.machines import number
@@ -60,7 +59,7 @@ def in_degrees(intervals: Intervals) -> list[tuple[float, float]]:
 @cache
 def calculations() -> dict[str, Calculation]:
     """All mechanisms of the example press, the wheel of the Geneva drive with the inertia that the printed numbers were calculated with."""
-    made = yaml_tree.load(MECHANISMS)
+    made = yaml.load(MECHANISMS)
     made.data["mechanisms"]["cross"]["driven_inertia"] = "3.57 kg*m**2"
     return compute(load_config(made, Discovery([])), lambda _: None).calculations
 

@@ -9,7 +9,7 @@ from functools import cached_property
 import numpy as np
 from numpy.polynomial import legendre
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 
 COUNT = 20  # Gauss–Legendre places in a piece
 NODES, WEIGHTS = legendre.leggauss(COUNT)

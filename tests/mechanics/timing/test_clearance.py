@@ -9,7 +9,7 @@ import pytest
 from hypothesis import example, given
 from hypothesis import strategies as st
 
-from diecut_report.expressions import Array
+from diecut_report.formulas import Array
 from diecut_report.mechanics.timing import clearance
 from tests.examples import examples
 from tests.mechanics.timing.example_press import PERIOD, displacement, rotation, station

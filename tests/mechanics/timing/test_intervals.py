@@ -9,8 +9,7 @@ from hypothesis import given
 from hypothesis import strategies as st
 
 from diecut_report.mechanics.timing import intervals
-from diecut_report.mechanics.timing.intervals import Intervals, composed
-from diecut_report.mechanics.timing.lines import DrivenLine, common_period, exact_turns
+from diecut_report.mechanics.timing.intervals import DrivenLine, Intervals, common_period, composed, exact_turns
 from tests.examples import examples
 from tests.mechanics.timing.example_press import COMMON, in_degrees, phase
 

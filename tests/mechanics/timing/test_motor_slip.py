@@ -8,9 +8,9 @@ import numpy as np
 import pytest
 from scipy.integrate import solve_ivp
 
-from diecut_report.expressions import Array
-from diecut_report.mechanics.timing import motor_slip
-from diecut_report.mechanics.timing.piece_rows import PieceRows
+from diecut_report.formulas import Array
+from diecut_report.mechanics.timing import engagement
+from diecut_report.mechanics.timing.shaft_curves import PieceRows
 from tests.mechanics.timing import torque_sum
 from tests.mechanics.timing.example_press import COMMON
 from tests.mechanics.timing.legendre_pieces import LegendrePieces, split
@@ -21,8 +21,8 @@ RATED = 1100 / RATED_SPEED
 BELT, BELT_EFFICIENCY, GEAR, GEAR_EFFICIENCY = 3.0, 0.95, 98 / 20, 0.97
 INERTIA = 1.150435
 FLYWHEEL_SPEED = RATED_SPEED / BELT
-STIFFNESS = motor_slip.stiffness_at_flywheel(
-    motor_slip.slip_stiffness(RATED, motor_slip.next_synchronous_speed(RATED_SPEED), RATED_SPEED), BELT, BELT_EFFICIENCY
+STIFFNESS = engagement.stiffness_at_flywheel(
+    engagement.slip_stiffness(RATED, engagement.next_synchronous_speed(RATED_SPEED), RATED_SPEED), BELT, BELT_EFFICIENCY
 )
 
 
@@ -43,7 +43,7 @@ class Response:
             return load.at(share * self.period, np.broadcast_to(middle, share.shape) * self.period)
 
         rows = PieceRows.of(of, shares, 1)
-        self.rows = motor_slip.motor_response(rows, np.array([self.period]), np.array([tau]))
+        self.rows = engagement.motor_response(rows, np.array([self.period]), np.array([tau]))
         self.largest, self.least, self.mean, self.rms = (
             float(each[0]) for each in (self.rows.largest, self.rows.least, self.rows.mean, self.rows.rms)
         )
@@ -70,7 +70,7 @@ ROWS = [
 def test_the_motor_of_the_example_press_is_loaded_as_printed(
     makers: list[Any], times: float, rms: float, largest: float | None, least: float | None, fluctuation: float
 ) -> None:
-    tau = motor_slip.time_constant(times * INERTIA, STIFFNESS)
+    tau = engagement.time_constant(times * INERTIA, STIFFNESS)
     assert tau == pytest.approx(0.09725 * times, abs=1e-5 * times)
     found = Response(load(makers), tau)
     at_motor = 1 / (BELT * BELT_EFFICIENCY)
@@ -84,7 +84,7 @@ def test_the_motor_of_the_example_press_is_loaded_as_printed(
 
 def test_the_periodic_torque_is_that_of_an_integration_in_time() -> None:
     torque = load([cylinder, cam])
-    tau = motor_slip.time_constant(INERTIA, STIFFNESS)
+    tau = engagement.time_constant(INERTIA, STIFFNESS)
     found = Response(torque, tau)
     period = torque.edges[-1]
 
@@ -141,13 +141,13 @@ def test_without_inertia_the_motor_follows_the_load() -> None:
     "rated, synchronous", [(1450, 1500), (2900, 3000), (960, 1000), (1500, 3000), (1499, 1500), (20, 20.134)]
 )
 def test_the_synchronous_speed_is_the_next_one_above(rated: float, synchronous: float) -> None:
-    found = motor_slip.next_synchronous_speed(rated * np.pi / 30)
+    found = engagement.next_synchronous_speed(rated * np.pi / 30)
     assert found * 30 / np.pi == pytest.approx(synchronous, abs=1e-3)
 
 
 def test_no_motor_at_the_mains_turns_faster_than_one_pair_of_poles() -> None:
     with pytest.raises(ValueError, match="no synchronous speed at 50 Hz is above"):
-        motor_slip.next_synchronous_speed(3000 * np.pi / 30)
+        engagement.next_synchronous_speed(3000 * np.pi / 30)
 
 
 def test_many_motors_at_once_are_each_alone() -> None:
@@ -157,10 +157,10 @@ def test_many_motors_at_once_are_each_alone() -> None:
         return np.cos(2 * np.pi * share) * (1 + machine[:, None])
 
     load, period = PieceRows.of(of, jumps, 4), np.array([0.6, 0.7, 0.8])
-    found = motor_slip.motor_response(load, period, taus)
+    found = engagement.motor_response(load, period, taus)
     for index in range(3):
         one = PieceRows.of(lambda share, _, __, k=index: np.cos(2 * np.pi * share) * (1 + k), jumps[[index]], 4)
-        alone = motor_slip.motor_response(one, period[[index]], taus[[index]])
+        alone = engagement.motor_response(one, period[[index]], taus[[index]])
         assert [found.rms[index], found.largest[index], found.least[index]] == pytest.approx(
             [alone.rms[0], alone.largest[0], alone.least[0]], rel=1e-12
         )
@@ -169,12 +169,12 @@ def test_many_motors_at_once_are_each_alone() -> None:
 def test_pieces_joined_by_doubling_are_those_gone_through_one_by_one() -> None:
     random = np.random.default_rng(1)
     gain, left = random.normal(size=(3, 1001)), random.uniform(size=(3, 1001))
-    added, kept = motor_slip._run_through(gain, left)
+    added, kept = engagement._run_through(gain, left)
     torque = start = random.normal(size=3)
     for piece in range(1001):
         torque = gain[:, piece] + left[:, piece] * torque
         assert added[:, piece] + kept[:, piece] * start == pytest.approx(torque, rel=1e-12, abs=1e-12)
-    alone = motor_slip._run_through(gain[:1, :77], left[:1, :77])
+    alone = engagement._run_through(gain[:1, :77], left[:1, :77])
     assert np.array_equal(alone[0], added[:1, :77])  # a machine is the same among others, which may have more pieces
 
 
@@ -182,5 +182,5 @@ def test_behind_a_lag_without_end_the_motor_bears_the_mean() -> None:
     edges = np.array([[0.25, 0.5]])
     load = PieceRows.of(lambda share, _, __: 300 + 200 * np.sin(2 * np.pi * share), edges, 8)
     for lag in (1e6, 1e12, 1e18):
-        found = motor_slip.motor_response(load, np.array([1.0]), np.array([lag]))
+        found = engagement.motor_response(load, np.array([1.0]), np.array([lag]))
         assert found.values == pytest.approx(300, rel=1e-5)

@@ -9,7 +9,7 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report.mechanics.timing import intervals, margins, offsets
+from diecut_report.mechanics.timing import intervals
 from diecut_report.mechanics.timing.intervals import Intervals
 from diecut_report.mechanics.timing.productivity import (
     Interlock,
@@ -53,7 +53,7 @@ ROWS = [
 def test_the_best_offsets_of_the_example_press_are_the_printed_ones(
     transport: str, names: str, offset: float, slack: float, feasible: tuple[float, float] | None
 ) -> None:
-    found = offsets.best_offset(tents_of(interlocks(transport, names), PERIOD, 1.0), TURN)
+    found = intervals.best_offset(tents_of(interlocks(transport, names), PERIOD, 1.0), TURN)
     assert np.degrees(found.shift) == pytest.approx(offset, abs=2e-4)
     assert np.degrees(found.slack) == pytest.approx(slack, abs=2e-4)
     assert in_degrees(found.feasible) == ([pytest.approx(feasible, abs=2e-4)] if feasible else [])
@@ -66,7 +66,7 @@ def test_no_offset_of_a_grid_is_better_and_the_margins_there_are_the_slack(
     def at(degrees: float) -> float:
         return min(least(each.inner, each.outer, PERIOD) for each in interlocks(transport, names, degrees))
 
-    found = offsets.best_offset(tents_of(interlocks(transport, names), PERIOD, 1.0), TURN)
+    found = intervals.best_offset(tents_of(interlocks(transport, names), PERIOD, 1.0), TURN)
     assert at(float(np.degrees(found.shift))) == pytest.approx(found.slack, abs=1e-9)
     grid = np.array([at(degrees) for degrees in np.arange(0, 360, 0.5)])
     assert grid.max() <= found.slack + 1e-9
@@ -80,7 +80,7 @@ def test_no_offset_of_a_grid_is_better_and_the_margins_there_are_the_slack(
 
 def least(inner: Intervals, outer: Intervals, period: float) -> float:
     """The least margin of all."""
-    pair = margins.worst(margins.margins_within(inner, outer, period))
+    pair = intervals.worst(intervals.margins_within(inner, outer, period))
     return inf if pair is None else pair.least
 
 
@@ -97,7 +97,7 @@ def test_the_margins_of_each_interval_are_the_printed_ones(
     transport: str, offset: float, name: str, expected: list[tuple[float, float]]
 ) -> None:
     (lock,) = interlocks(transport, name, offset)
-    found = margins.margins_within(lock.inner, lock.outer, PERIOD)
+    found = intervals.margins_within(lock.inner, lock.outer, PERIOD)
     degrees = sorted((float(np.degrees(pair.start)), float(np.degrees(pair.end))) for pair in found)
     assert degrees == [pytest.approx(pair, abs=3e-4) for pair in sorted(expected)]
 
@@ -105,7 +105,7 @@ def test_the_margins_of_each_interval_are_the_printed_ones(
 @pytest.mark.parametrize("name, expected", [("cutting", 207.6618), ("contact", 217.8062)])
 def test_the_needed_dwell_covers_both_strokes_laid_over_one_another(name: str, expected: float) -> None:
     (lock,) = interlocks("cam", name)
-    found = offsets.needed_length(np.radians(160), tents_of([lock], PERIOD, 0.0), TURN)
+    found = intervals.needed_length(np.radians(160), tents_of([lock], PERIOD, 0.0), TURN)
     assert np.degrees(found) == pytest.approx(expected, abs=2e-4)
     both = intervals.merged(phase(name), TURN)
     assert intervals.total_length(both) == pytest.approx(found, abs=1e-9)
@@ -133,7 +133,7 @@ def test_at_the_largest_productivity_an_offset_just_remains() -> None:
     locks = interlocks("geneva", "cutting passing", 0.0, 15, 5)
     limit = productivity_limit(locks, PERIOD, TURN).value
     assert limit is not None
-    slack = [offsets.best_offset(tents_of(locks, PERIOD, limit * by), TURN).slack for by in (1 - 1e-6, 1 + 1e-6)]
+    slack = [intervals.best_offset(tents_of(locks, PERIOD, limit * by), TURN).slack for by in (1 - 1e-6, 1 + 1e-6)]
     assert slack[0] > 0 > slack[1]
     assert max(map(abs, slack)) < 1e-5
 
@@ -160,14 +160,14 @@ def test_nothing_lies_within_an_empty_set_and_everything_within_the_circle() -> 
     assert least(one, (), 5.0) == -inf
     assert least(one, ((0.0, 5.0),), 5.0) == inf
     assert least(((0.0, 5.0),), one, 5.0) == -inf
-    assert offsets.best_offset(offsets.tents(one, (), 5.0, "inner"), 5.0).slack == -inf
-    assert offsets.best_offset(offsets.tents(((0.0, 5.0),), one, 5.0, "inner"), 5.0) == offsets.BestOffset(
+    assert intervals.best_offset(intervals.tents(one, (), 5.0, "inner"), 5.0).slack == -inf
+    assert intervals.best_offset(intervals.tents(((0.0, 5.0),), one, 5.0, "inner"), 5.0) == intervals.BestOffset(
         0.0, -inf, ()
     )
-    assert offsets.best_offset(offsets.tents(one, ((0.0, 5.0),), 5.0, "inner"), 5.0) == offsets.BestOffset(
+    assert intervals.best_offset(intervals.tents(one, ((0.0, 5.0),), 5.0, "inner"), 5.0) == intervals.BestOffset(
         0.0, inf, ((0.0, 5.0),)
     )
-    assert margins.worst(()) is None
+    assert intervals.worst(()) is None
 
 
 WHOLE = 24  # places on the circle of the random sets; edges at whole and margins at half places are met exactly
@@ -179,7 +179,7 @@ sets = st.lists(st.tuples(st.integers(0, WHOLE - 1), st.integers(1, 10)), min_si
 @given(one=sets, other=sets)
 @examples(200)
 def test_a_margin_is_what_an_interval_can_grow_within_the_other_set(one: Intervals, other: Intervals) -> None:
-    for pair in margins.margins_within(one, other, WHOLE):
+    for pair in intervals.margins_within(one, other, WHOLE):
         start, end = pair.inner
         grown = [k / 2 for k in range(-2 * WHOLE, 2 * WHOLE) if end - start + k > 0]
         holds = [by for by in grown if _is_inside((start - by, end + by), other)]
@@ -187,8 +187,8 @@ def test_a_margin_is_what_an_interval_can_grow_within_the_other_set(one: Interva
             assert max(holds) == pytest.approx(pair.least)
         elif pair.least == -inf:
             assert not other or intervals.is_whole(one, WHOLE)
-    apart = margins.margins_apart(one, other, WHOLE)
-    assert apart == margins.margins_within(one, intervals.complement(other, WHOLE), WHOLE)
+    apart = intervals.margins_apart(one, other, WHOLE)
+    assert apart == intervals.margins_within(one, intervals.complement(other, WHOLE), WHOLE)
 
 
 def _is_inside(pair: tuple[float, float], other: Intervals) -> bool:
@@ -199,11 +199,11 @@ def _is_inside(pair: tuple[float, float], other: Intervals) -> bool:
 @given(inner=sets, outer=sets, second=sets, moved=st.sampled_from(["inner", "outer"]), margin=st.integers(0, 2))
 @examples(200)
 def test_the_best_shift_is_that_of_brute_force(
-    inner: Intervals, outer: Intervals, second: Intervals, moved: offsets.Moved, margin: int
+    inner: Intervals, outer: Intervals, second: Intervals, moved: intervals.Moved, margin: int
 ) -> None:
     rows = (
-        *offsets.tents(inner, outer, WHOLE, moved, margin),
-        *offsets.tents(second, outer, WHOLE, "inner" if moved == "inner" else "outer", 0),
+        *intervals.tents(inner, outer, WHOLE, moved, margin),
+        *intervals.tents(second, outer, WHOLE, "inner" if moved == "inner" else "outer", 0),
     )
 
     def at(shift: float) -> float:
@@ -213,7 +213,7 @@ def test_the_best_shift_is_that_of_brute_force(
             least(of_inner(inner), of_outer(outer), WHOLE) - margin, least(of_inner(second), of_outer(outer), WHOLE)
         )
 
-    found = offsets.best_offset(rows, WHOLE)
+    found = intervals.best_offset(rows, WHOLE)
     quarters = [at(k / 4) for k in range(4 * WHOLE)]
     assert found.slack == pytest.approx(max(quarters))
     if np.isfinite(found.slack):

@@ -5,8 +5,8 @@ from __future__ import annotations
 import numpy as np
 import pytest
 
-from diecut_report.expressions import Array
-from diecut_report.mechanics.timing.piece_rows import PieceRows, vertices
+from diecut_report.formulas import Array
+from diecut_report.mechanics.timing.shaft_curves import PieceRows, vertices
 
 
 def test_a_machine_without_values_leaves_those_behind_it_alone() -> None:

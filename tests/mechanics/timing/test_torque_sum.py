@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 from scipy.integrate import cumulative_trapezoid
 
-from diecut_report.expressions import Array
-from diecut_report.mechanics.timing.lines import DrivenLine
+from diecut_report.formulas import Array
+from diecut_report.mechanics.timing.intervals import DrivenLine
 from tests.mechanics.timing import torque_sum
 from tests.mechanics.timing.example_press import COMMON, CRANK, PERIOD, SHAFT, SPEED, TURN, line_curve, of
 from tests.mechanics.timing.torque_sum import Consumer, LineCurve

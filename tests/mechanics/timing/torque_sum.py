@@ -13,8 +13,8 @@ from math import ceil
 
 import numpy as np
 
-from diecut_report.expressions import Array
-from diecut_report.mechanics.timing.lines import DrivenLine
+from diecut_report.formulas import Array
+from diecut_report.mechanics.timing.intervals import DrivenLine
 from tests.mechanics.timing.bracketed import sign_changes
 from tests.mechanics.timing.legendre_pieces import LegendrePieces, split, unique_edges
 

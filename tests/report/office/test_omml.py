@@ -8,9 +8,9 @@ from xml.etree import ElementTree
 
 import pytest
 
-from diecut_report.report import Rendering
-from diecut_report.report.expression_printer import WORDS
-from diecut_report.report.office.omml import SPACE, OfficeMath, office_math
+from diecut_report.report.mathematics import WORDS
+from diecut_report.report.office.wordml import SPACE, OfficeMath, office_math
+from diecut_report.report.rendering import Rendering
 
 M = f"{{{SPACE}}}"
 Element = ElementTree.Element

@@ -15,7 +15,7 @@ from zipfile import ZipFile
 import docx
 import pytest
 
-from diecut_report.report import Rendering
+from diecut_report.report.rendering import Rendering
 from tests.report.made_results import sample
 
 Data = dict[str, Any]

@@ -10,7 +10,7 @@ import docx
 import pytest
 
 from diecut_report.pictures import natural_size
-from diecut_report.report import Rendering
+from diecut_report.report.rendering import Rendering
 from tests.report.office.test_word_file import part, without_figures
 from tests.test_pictures import png, svg
 

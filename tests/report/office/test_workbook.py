@@ -12,8 +12,8 @@ from zipfile import ZipFile
 import openpyxl
 import pytest
 
-from diecut_report.report import Rendering
-from diecut_report.report.office.sheet import defined_name, form_of, sheet_names
+from diecut_report.report.office.sheets import defined_name, form_of, sheet_names
+from diecut_report.report.rendering import Rendering
 
 Data = dict[str, Any]
 HOSTILE = '=HYPERLINK("http://example.com";"x")'

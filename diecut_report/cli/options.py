@@ -1,0 +1,163 @@
+"""The option ``--format`` of all commands: a list of formats, of which a command knows some."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Callable, Sequence
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import click
+
+from diecut_report.cli.output import tell
+from diecut_report.config.loader import SHOWN, load_standard_input
+from diecut_report.config.yaml import Tree
+from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import say
+
+if TYPE_CHECKING:
+    from diecut_report.config.plugins import Discovery
+    from diecut_report.pipeline import Source
+
+
+Taken = Callable[[click.Context, click.Parameter, str], list[str]]
+
+
+def formats_of(known_formats: Callable[[], Sequence[str]], *, may_be_none: bool = False) -> Taken:
+    """Return what takes the option: a list of formats, small letters, each once; BadParameter for another one, and for none.
+
+    The known ones are asked for when the option is read, since what knows them may take long to import.
+    """
+
+    def taken(_: click.Context, __: click.Parameter, given: str) -> list[str]:
+        asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
+        known = known_formats()
+        unknown = [part for part in asked if part not in known]
+        if unknown or not (asked or may_be_none):
+            named = {"given": repr(unknown[0]), "nearest": nearest(unknown[0], known)} if unknown else {}
+            words = Phrase("{given} is not a format{nearest}", named) if unknown else phrase("no format is named")
+            raise click.BadParameter(say("{words}; known: {known}.", words=words, known=", ".join(known)))
+        return asked
+
+    return taken
+
+
+# What a command is given to read: a configuration, a variant of a study, or what standard input holds.
+
+
+RESULTS = "study.json"  # what makes a folder one of a study's results
+READ = "diecut_report.standard_input"
+DASH = Path("-")
+
+
+class OutputFile(click.Path):
+    """A file that is written; ``-`` is standard output, as where none is named."""
+
+    def convert(self, value: Any, param: click.Parameter | None, ctx: click.Context | None) -> Any:
+        found = super().convert(value, param, ctx)
+        return None if found == DASH else found
+
+
+output_file = OutputFile(path_type=Path)
+
+
+def source(config: Path, discovery: Discovery) -> Source:
+    """Return the configuration that a command names: its file, standard input for ``-``, or for DIR#ID that of a stored variant."""
+    if config == DASH:
+        return from_standard_input()
+    folder, _, number = str(config).rpartition("#")
+    if not folder or not number.isdigit() or os.path.exists(config) or not os.path.exists(Path(folder) / RESULTS):
+        return config
+    from diecut_report.study.analysis.variant_config import variant_config
+
+    name = f"{Path(folder).resolve().name}-{number}.yaml"
+    return variant_config(
+        Path(folder),
+        int(number),
+        discovery,
+        name,
+        lambda words: tell([Phrase("warning: {words}", words=phrase(words))]),
+    )
+
+
+def changeable_source(config: Path, discovery: Discovery) -> Source:
+    """Return the same where values are written into its text: that of a stored variant has its own places."""
+    from diecut_report.config.yaml import in_its_own_text
+
+    found = source(config, discovery)
+    return in_its_own_text(found) if isinstance(found, Tree) and config != DASH else found
+
+
+def from_standard_input() -> Tree:
+    """Return what standard input holds; UserError where the command has read it already."""
+    meta = click.get_current_context().meta
+    if meta.get(READ):
+        words = phrase("Standard input has been read already; give - once, and files beside it.")
+        raise UserError(Problem(words, SHOWN))
+    meta[READ] = True
+    return load_standard_input()
+
+
+def results_folder(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
+    """Return the folder of a study's results; UsageError where it cannot be told."""
+    if resume is not None and folder is not None:
+        raise click.UsageError(say("--resume names the folder; leave -o out."))
+    if study is None and resume is None:
+        raise click.UsageError(say("Name a study file, or a folder to continue with --resume DIR."))
+    if study == DASH:
+        raise click.UsageError(say("A study is read from a file, so that its run can be continued. Save it to one."))
+    return resume or folder or Path(Path(str(study)).stem)
+
+
+# What the options of a report take: formats, detail, mechanisms.
+
+
+def report_formats() -> tuple[str, ...]:
+    """Return the formats of a report."""
+    from diecut_report.pipeline import FORMATS
+
+    return FORMATS
+
+
+def detail_given(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
+    """Return the detail that is asked for; BadParameter where there is no such one."""
+    from diecut_report.config.model import DETAILS
+
+    if given is None or given in DETAILS:
+        return given
+    raise click.BadParameter(
+        say(
+            "{given} is not a detail{nearest}; known: {known}.",
+            given=repr(given),
+            nearest=nearest(given, DETAILS),
+            known=", ".join(DETAILS),
+        )
+    )
+
+
+def only_given(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
+    """Return the mechanisms that are asked for; BadParameter where none is named."""
+    names = tuple(dict.fromkeys(part.strip() for part in (given or "").split(",") if part.strip()))
+    if given is not None and not names:
+        raise click.BadParameter(
+            say("no mechanism is named; give names of the configuration, with commas: drive,clutch.")
+        )
+    return names
+
+
+# The schemas of what is not a configuration, by the name that the command ``schema`` knows them by.
+
+
+OF_FILES = ("study", "results")
+
+
+def schema_of_file(name: str) -> dict[str, Any]:
+    """Return the schema of a study, or of the results file."""
+    if name == "study":
+        from diecut_report.study.definition.schema import study_schema
+
+        return study_schema()
+    from diecut_report.results.form import results_schema
+
+    return results_schema()

@@ -1,0 +1,360 @@
+"""Blocks of keys as lines: first the keys that have a value, then those that may be turned on."""
+
+from __future__ import annotations
+
+import json
+from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass
+from textwrap import wrap
+from typing import Any, Literal, get_args, get_origin
+
+from diecut_report.config.validation import ASSUMED, ModelKey, keys_of
+from diecut_report.config.yaml import resolved
+from diecut_report.mechanism.curve_inputs import CurveInput, PhaseInput
+from diecut_report.mechanism.inputs import Block, Quantity
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import Text
+from diecut_report.quantities.units import pretty
+from diecut_report.text.translation import localised, said, say
+
+# Values for what a kind must have and its example does not give: of plugins without an example, to be replaced by one's own.
+
+
+SIZES = (10, 100, 1, 0.5, 0.1, 20, 50, 1000, 0.01)  # in the key's display unit, which is one of handy numbers
+WAVE = [0, 1, 0, -1]  # of a curve over one period
+
+
+def completed(model: type[Block], data: Mapping[str, Any]) -> dict[str, Any]:
+    """Return the values of a block with guesses for the keys that it lacks; what cannot be guessed is left out."""
+    wanted = [*_required(model), *_chosen(model, data)]
+    guesses = {key: guess for key in wanted if key not in data and (guess := guessed(keys_of(model)[key])) is not None}
+    return {**data, **guesses}
+
+
+def unguessed(model: type[Block], data: Mapping[str, Any]) -> list[str]:
+    """Return the keys that a block must have and that no value is known of."""
+    return [key for key in _required(model) if key not in data]
+
+
+def guessed(known: ModelKey) -> Any:
+    """Return a value that a key may have by its declaration alone; None where it must be a reference."""
+    if known.block:
+        block = completed(known.block, {})
+        return [block] if known.is_list else block
+    match known.meta:
+        case Quantity() as meta:
+            return next((_guesses_with_unit(size, meta) for size in SIZES if _is_allowed(meta, size)), None)
+        case CurveInput(referred=False):
+            return list(WAVE)
+        case Text() as meta:
+            return next(iter(meta.options), None) or first_option(known)
+    return None
+
+
+def options(known: ModelKey) -> Collection[str]:
+    """Return the texts that a key may have; nothing where it takes any."""
+    if isinstance(known.meta, Text) and known.meta.options:
+        return known.meta.options
+    return [option for part in _parts(known.field.annotation) for option in get_args(part) if option is not None]
+
+
+def first_option(known: ModelKey) -> Any:
+    """Return the first of the texts that are allowed, "no" of yes and no, else a text that says that it is one's own."""
+    found = options(known)
+    if found:
+        return next(iter(found))
+    return False if bool in _parts(known.field.annotation) else "A"
+
+
+def _parts(annotation: Any) -> list[Any]:
+    """The types that an annotation allows."""
+    if get_origin(annotation) is Literal or not get_args(annotation):
+        return [annotation]
+    return [each for part in get_args(annotation) for each in _parts(part)]
+
+
+def _required(model: type[Block]) -> list[str]:
+    return [name for name, known in keys_of(model).items() if known.field.is_required()]
+
+
+def _chosen(model: type[Block], data: Mapping[str, Any]) -> list[str]:
+    """The keys of the first alternative of each rule of which a block has no key."""
+    texts = {name: data.get(name, known.field.default) for name, known in keys_of(model).items()}
+    rules = [rule for rule in model.one_of if not rule.optional and rule.is_asked(texts)]
+    return [
+        key for rule in rules if not any(data.keys() & set(group) for group in rule.groups) for key in rule.groups[0]
+    ]
+
+
+def _guesses_with_unit(size: float, meta: Quantity) -> float | str:
+    return size if meta.unit == "1" else f"{size} {meta.unit}"
+
+
+def _is_allowed(meta: Quantity, size: float) -> bool:
+    try:
+        meta.validate(size)
+    except ValueError:
+        return False
+    return True
+
+
+# Lines of a configuration with a comment beside each, in two columns.
+
+
+UNBROKEN = "\N{NO-BREAK SPACE}"  # where a line is not to end; a plain space in the file
+WIDTH, WIDEST, LEAST = 150, 66, 60  # letters of a line, of its code at most, of a comment at least
+
+
+@dataclass(frozen=True)
+class DraftLine:
+    """Hold a line of a configuration and what is said of it; one that is ``off`` is a comment itself, to be turned on."""
+
+    indent: int
+    code: str
+    comment: str = ""
+    off: bool = False
+
+    @property
+    def text(self) -> str:
+        """Return the line without its comment."""
+        return " " * self.indent + ("# " if self.off else "") + self.code
+
+
+def laid_out(lines: Sequence[DraftLine]) -> Iterator[str]:
+    """Yield the lines of a block, their comments below each other; a long comment goes on in the next lines."""
+    lengths = [len(line.text) for line in lines if line.comment and len(line.text) <= WIDEST]
+    column = max(lengths, default=0) + 2
+    for line in lines:
+        yield from _with_comment(line, column)
+
+
+def remarks(text: str, indent: int = 0) -> Iterator[str]:
+    """Yield a text as lines of comment."""
+    for paragraph in text.split("\n"):
+        head = " " * indent + "# "
+        yield from (f"{head}{part}" for part in wrap(paragraph, WIDTH - len(head), break_long_words=False) or [""])
+
+
+def _with_comment(line: DraftLine, column: int) -> Iterator[str]:
+    if not line.comment:
+        yield line.text
+        return
+    start = max(column, len(line.text) + 2)
+    parts = wrap(line.comment, max(LEAST, WIDTH - start - 2), break_long_words=False, break_on_hyphens=False)
+    heads = (line.text.ljust(start), *(" " * start for _ in parts[1:]))
+    yield from (f"{head}# {part}".replace(UNBROKEN, " ") for head, part in zip(heads, parts, strict=True))
+
+
+def shifted(lines: Iterable[DraftLine], by: int, *, off: bool = False) -> Iterator[DraftLine]:
+    """Yield lines of a block within another one; ``off`` turns them into comments, whose indents stay behind the mark."""
+    for line in lines:
+        if off:
+            yield DraftLine(by, " " * line.indent + line.code, line.comment, off=True)
+        else:
+            yield DraftLine(line.indent + by, line.code, line.comment, line.off)
+
+
+# Single values as they are typed in YAML.
+
+
+IN_BRACES = ",[]{}"
+AT_START = "!&*-?:|>%@`\"'#[]{}, "
+
+
+def typed(value: Any, *, in_braces: bool = False) -> str:
+    """Return a value as YAML: texts in quotes where they would be read as something else, lists and blocks in one line."""
+    match value:
+        case bool():
+            return str(value).lower()
+        case str():
+            return _text(value, in_braces)
+        case Mapping():
+            return "{" + ", ".join(f"{key}: {typed(part, in_braces=True)}" for key, part in value.items()) + "}"
+        case Sequence():
+            return "[" + ", ".join(typed(part, in_braces=True) for part in value) + "]"
+    return f"{value:g}" if isinstance(value, float) else str(value)
+
+
+def with_basis(meta: Any, value: Any) -> Any:
+    """Return a number of an example as a block that says that it is assumed; what refers to something else, or is a word, as it stands."""
+    if not isinstance(meta, Quantity) or isinstance(value, bool | list):
+        return value
+    if isinstance(value, Mapping):
+        return {**value, "basis": value.get("basis", ASSUMED)} if "value" in value else value
+    if isinstance(value, str) and ("${" in value or value in meta.words):
+        return value
+    return {"value": value, "basis": ASSUMED}
+
+
+def _text(text: str, in_braces: bool) -> str:
+    is_plain = (
+        text != ""
+        and text == text.strip()
+        and text[0] not in AT_START
+        and isinstance(resolved(text), str)
+        and not any(mark in text for mark in (": ", " #", "\n"))
+        and not text.endswith(":")
+    )
+    if not is_plain or (in_braces and any(letter in text for letter in IN_BRACES)):
+        return json.dumps(text, ensure_ascii=False)
+    return text
+
+
+# What is said of a key beside it: symbol, meaning, what is allowed, its default, and what is not checked without it.
+
+
+OPEN = "…"  # stands for a value that is one's own to give
+
+
+@dataclass(frozen=True)
+class Explained:
+    """Explains the keys of one kind, in the language that is spoken; without a mechanism those of the press."""
+
+    kind: str = ""
+    mechanism: Mechanism | None = None
+
+    def words(self, model: type[Block], name: str, given: Collection[str], path: str = "") -> str:
+        """Return what is said of a key of a block; ``given`` are the keys that the block has."""
+        known = keys_of(model)[name]
+        return "; ".join(filter(None, (self._meaning(known), *self._more(model, known, name, given, path))))
+
+    def _meaning(self, known: ModelKey) -> str:
+        meta = known.meta
+        described, symbol = getattr(meta, "description", ""), getattr(meta, "symbol", "")
+        return ": ".join(filter(None, (symbol, said(described, self.kind))))
+
+    def _more(self, model: type[Block], known: ModelKey, name: str, given: Collection[str], path: str) -> Iterator[str]:
+        meta = known.meta
+        if isinstance(meta, Quantity) and meta.allowed:
+            in_typed_units = meta.allowed.replace(pretty(meta.unit) or "\0", meta.unit)
+            yield localised(in_typed_units).replace(" ", UNBROKEN)
+        if allowed := options(known):
+            yield say("one of {options}", options=", ".join(map(str, allowed)))
+        if name in given or known.field.is_required():
+            return
+        if others := _others(model, name, given):
+            yield say("instead of {keys}", keys=", ".join(others))
+        if default(known) not in (None, []):
+            yield say("default")
+        elif isinstance(meta, Quantity) and meta.press is not None:
+            yield say("default: from {path}", path=meta.press.path)
+        elif titles := self._checks(f"{path}{name}"):
+            yield say("without it not checked: {titles}", titles=", ".join(titles))
+
+    def _checks(self, key: str) -> list[str]:
+        """The titles of the checks that a key alone makes possible: it is their limit, or one of their needs."""
+        if self.mechanism is None:
+            return []
+        checks = [check for check in self.mechanism.checks if key == check.limit or key in check.needs]
+        return list(dict.fromkeys(said(check.title, self.kind) for check in checks))
+
+
+def default(known: ModelKey) -> Any:
+    """Return the default of a key; None where it has none."""
+    return None if known.field.is_required() else known.field.get_default(call_default_factory=True)
+
+
+def sample(known: ModelKey) -> str:
+    """Return what stands behind a key that is not given: its default with its unit, else a place to fill."""
+    found, meta = default(known), known.meta
+    if isinstance(meta, Quantity):
+        if found is None and meta.press is not None and meta.press.formula is None:
+            return f"${{{meta.press.path}}}"
+        return _with_unit(OPEN if found is None else found, meta)
+    if found not in (None, "", []):
+        return typed(found)
+    if isinstance(meta, CurveInput):
+        return "${" + OPEN + "}"
+    return "${" + OPEN + ".phases." + OPEN + "}" if isinstance(meta, PhaseInput) else OPEN
+
+
+def _with_unit(value: Any, meta: Quantity) -> str:
+    if isinstance(value, str) and value in meta.words:
+        return value
+    shown = typed(value if isinstance(value, str) else float(value))
+    return shown if meta.unit == "1" else f"{shown} {meta.unit}"
+
+
+def _others(model: type[Block], name: str, given: Collection[str]) -> list[str]:
+    """The given keys of another alternative, beside which a key has no use."""
+    for rule in model.one_of:
+        own = [group for group in rule.groups if name in group]
+        if own and name not in rule.shared and not any(set(group) <= set(given) for group in own):
+            found = [key for group in rule.groups if group not in own and set(group) <= set(given) for key in group]
+            if found := [key for key in found if key not in rule.shared]:
+                return found
+    return []
+
+
+STEP = 2
+
+
+@dataclass(frozen=True)
+class BlockWriter:
+    """Writes the keys of blocks of one kind."""
+
+    explained: Explained
+
+    def lines(self, model: type[Block], data: Mapping[str, Any], path: str = "") -> Iterator[DraftLine]:
+        """Yield the lines of a block: its values, then the keys that it does not have, turned off."""
+        yield from self.given(model, data, path)
+        yield from self.off(model, data, path)
+
+    def given(
+        self, model: type[Block], data: Mapping[str, Any], path: str = "", *, is_told: bool = True
+    ) -> Iterator[DraftLine]:
+        """Yield the keys that have a value, in the order in which they are declared."""
+        for name, known in keys_of(model).items():
+            if name not in data:
+                continue
+            words = self.explained.words(model, name, data, path) if is_told else ""
+            if known.block is None:
+                yield DraftLine(0, f"{name}: {typed(with_basis(known.meta, data[name]))}", words)
+                continue
+            yield DraftLine(0, f"{name}:", words)
+            own = f"{path}{name}."
+            if known.is_list:
+                yield from shifted(self._parts(known.block, data[name], own, is_told), STEP)
+            else:
+                inner = self.lines if is_told else self._bare
+                yield from shifted(inner(known.block, data[name], own), STEP)
+
+    def off(self, model: type[Block], data: Mapping[str, Any], path: str = "") -> Iterator[DraftLine]:
+        """Yield the keys that a block does not have, as comments to be turned on."""
+        for name, known in keys_of(model).items():
+            if name not in data:
+                yield from shifted(self._off(model, name, known, data, path), 0, off=True)
+
+    def _off(
+        self, model: type[Block], name: str, known: ModelKey, data: Mapping[str, Any], path: str
+    ) -> Iterator[DraftLine]:
+        words = self.explained.words(model, name, data, path)
+        if known.block is None:
+            yield DraftLine(0, f"{name}: {sample(known)}", words)
+            return
+        yield DraftLine(0, f"{name}:", words)
+        own = f"{path}{name}."
+        inner = [
+            line for key, each in keys_of(known.block).items() for line in self._off(known.block, key, each, {}, own)
+        ]
+        yield from shifted(_as_part(inner) if known.is_list else inner, STEP)
+
+    def _bare(self, model: type[Block], data: Mapping[str, Any], path: str) -> Iterator[DraftLine]:
+        return self.given(model, data, path, is_told=False)
+
+    def _parts(
+        self, model: type[Block], parts: Sequence[Mapping[str, Any]], path: str, is_told: bool
+    ) -> Iterator[DraftLine]:
+        """The parts of a list; the keys of the first alone are explained."""
+        for number, part in enumerate(parts):
+            inner = self.lines if is_told and number == 0 else self._bare
+            yield from _as_part(list(inner(model, part, path)))
+
+
+def _as_part(lines: Sequence[DraftLine]) -> Iterator[DraftLine]:
+    """The lines of a part of a list, the first behind a dash."""
+    for number, line in enumerate(lines):
+        if number == 0:
+            yield DraftLine(line.indent, f"- {line.code}", line.comment, line.off)
+        else:
+            yield DraftLine(line.indent + STEP, line.code, line.comment, line.off)

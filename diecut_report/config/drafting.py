@@ -1,0 +1,340 @@
+"""A configuration that begins with chosen kinds: which mechanisms it has, their values, and its text."""
+
+from __future__ import annotations
+
+from collections import ChainMap
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from itertools import count
+from typing import Any
+
+from diecut_report.config.draft_layout import (
+    BlockWriter,
+    DraftLine,
+    Explained,
+    completed,
+    laid_out,
+    remarks,
+    shifted,
+    typed,
+    unguessed,
+)
+from diecut_report.config.loader import NAME, RESERVED
+from diecut_report.config.model import Press, Project
+from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
+from diecut_report.config.validation import keys_of
+from diecut_report.errors import MAX_MECHANISMS, PluginError, Problem, UserError
+from diecut_report.mechanism.inputs import Block
+from diecut_report.mechanism.mechanism import KIND, ForEach, Mechanism, Wired, kinds_named
+from diecut_report.text.catalogues import SOURCE_LANGUAGE
+from diecut_report.text.phrases import Phrase
+from diecut_report.text.translation import said, say, spoken_language
+
+# What a configuration is to begin with: mechanisms of chosen kinds, each with a name of its own.
+
+
+@dataclass(frozen=True)
+class Drafted:
+    """Hold a mechanism that is to be written: its name, its kind, and what its plugin declares."""
+
+    name: str
+    kind: str
+    mechanism: Mechanism
+
+
+def chosen(given: Sequence[str], discovery: Discovery) -> list[Drafted]:
+    """Return the mechanisms of texts such as ``clutch`` or ``clutch:main``; UserError with all that is wrong with them."""
+    parts = [text.partition(":") for text in given]
+    found, problems = [], list(_wrong_names([name for _, colon, name in parts if colon]))
+    if len(given) > MAX_MECHANISMS:
+        words = "{count} mechanisms are asked for; a configuration has at most {most}."
+        problems.append(Problem(Phrase(words, count=len(given), most=MAX_MECHANISMS)))
+    names = {name for _, _, name in parts if name}
+    for kind, _, name in parts:
+        try:
+            mechanism = discovery.mechanism(kind)
+        except (UnknownKind, DuplicateKind) as fault:
+            problems.append(Problem(str(fault)))
+            continue
+        own = name or free_name(mechanism, names)
+        names.add(own)
+        found.append(Drafted(own, kind, mechanism))
+    if problems:
+        raise UserError(dict.fromkeys(problems))
+    return found
+
+
+def free_name(mechanism: Mechanism, names: Iterable[str]) -> str:
+    """Return a name that no other mechanism has: that of its example, else its kind, numbered from the second on."""
+    first = mechanism.example.name if mechanism.example else mechanism.kind
+    taken = {*names, *RESERVED}
+    return next(name for number in count(1) if (name := first if number == 1 else f"{first}_{number}") not in taken)
+
+
+def by_kind(mechanisms: Iterable[Drafted]) -> Mapping[str, Sequence[str]]:
+    """Return the names of the mechanisms of each kind."""
+    found: dict[str, list[str]] = {}
+    for each in mechanisms:
+        found.setdefault(each.kind, []).append(each.name)
+    return found
+
+
+def _wrong_names(names: Sequence[str]) -> Iterable[Problem]:
+    for name in dict.fromkeys(names):
+        if not NAME.fullmatch(name):
+            words = "{name} is not a name: a letter, then letters, digits, _ and - are allowed."
+            yield Problem(Phrase(words, name=repr(name)))
+        elif name in RESERVED:
+            yield Problem(Phrase("the name {name} is reserved. Choose another one.", name=repr(name)))
+        elif names.count(name) > 1:
+            yield Problem(
+                Phrase("the name {name} is given to several mechanisms. Choose another one.", name=repr(name))
+            )
+
+
+# Fills an example with what the other mechanisms of a draft give: names in the place of kinds, other values where a kind is absent.
+
+
+@dataclass(frozen=True)
+class LeftOut:
+    """Stand for a value that is left out; a mechanism of ``kind`` would give it, where that is told."""
+
+    kind: str = ""
+
+
+class NeedsKind(LookupError):
+    """Report that a mechanism cannot be without one of another ``kind``."""
+
+    def __init__(self, chosen: Drafted, kind: str) -> None:
+        super().__init__(f"{chosen.name} needs {kind}")
+        self.kind = kind
+
+
+@dataclass(frozen=True)
+class Wiring:
+    """Knows the names of the mechanisms of each kind, and which of them the example is of."""
+
+    names: Mapping[str, Sequence[str]]
+    own: Drafted
+
+    def inputs(self, data: Mapping[str, Any]) -> dict[str, Any]:
+        """Return the values of a mechanism's keys; NeedsKind where one that is needed comes from a kind that is not there."""
+        model, found = self.own.mechanism.inputs, {}
+        for key, value in data.items():
+            known = keys_of(model).get(key)
+            made = self.value(value, known.block if known else None)
+            if not isinstance(made, LeftOut):
+                found[key] = made
+            elif known and known.field.is_required() and made.kind:
+                raise NeedsKind(self.own, made.kind)
+        return found
+
+    def value(self, value: Any, model: type[Block] | None) -> Any:
+        """Return what stands for a declared value, ``LeftOut`` where nothing does."""
+        match value:
+            case Wired():
+                return self._wired(value, model)
+            case str():
+                return self._text(value)
+            case dict():
+                return self._block(value, model)
+            case list() | tuple():
+                return self._list(value, model)
+        return value
+
+    def _text(self, text: str) -> str | LeftOut:
+        if missing := self._missing(kinds_named(text)):
+            return LeftOut(missing)
+        return KIND.sub(lambda found: self._name(found[1]), text)
+
+    def _wired(self, wired: Wired, model: type[Block] | None) -> Any:
+        missing = self._missing(wired.kinds)
+        if wired.value is None and not missing:
+            return LeftOut()
+        made = LeftOut(missing) if missing else self.value(wired.value, model)
+        if not isinstance(made, LeftOut) or wired.otherwise is None:
+            return made
+        other = self.value(wired.otherwise, model)
+        return made if isinstance(other, LeftOut) else other
+
+    def _block(self, data: Mapping[str, Any], model: type[Block] | None) -> Any:
+        known = keys_of(model) if model else {}
+        found: dict[str, Any] = {}
+        for key, value in data.items():
+            made = self.value(value, known[key].block if key in known else None)
+            if not isinstance(made, LeftOut):
+                found[key] = made
+            elif key not in known or known[key].field.is_required():
+                return made
+        return found
+
+    def _list(self, parts: Sequence[Any], model: type[Block] | None) -> Any:
+        made = [each for part in parts for each in self._parts(part, model)]
+        found = [part for part in made if not isinstance(part, LeftOut)]
+        absent = [part for part in made if isinstance(part, LeftOut)]
+        return absent[0] if absent and not found else found
+
+    def _parts(self, part: Any, model: type[Block] | None) -> list[Any]:
+        if not isinstance(part, ForEach):
+            return [self.value(part, model)]
+        names = self.names.get(part.kind, ())
+        one_by_one = [replace(self, names={**self.names, part.kind: (name,)}) for name in names]
+        return [wiring.value(part.part, model) for wiring in one_by_one] or [LeftOut(part.kind)]
+
+    def _missing(self, kinds: Iterable[str]) -> str:
+        """The first of these kinds that is not there."""
+        return next((kind for kind in kinds if kind != self.own.kind and not self.names.get(kind)), "")
+
+    def _name(self, kind: str) -> str:
+        """The mechanism of a kind: the first belongs to the first, the second to the second; of the own kind the own one."""
+        if kind == self.own.kind:
+            return self.own.name
+        names = self.names[kind]
+        own = self.names[self.own.kind]
+        place = own.index(self.own.name) if self.own.name in own else 0
+        return names[min(place, len(names) - 1)]
+
+
+PRESS: Mapping[str, Any] = {
+    "productivity": "6000 1/h",
+    "sheet": {"length": "700 mm", "width": "470.7 mm", "thickness": "0.6 mm"},
+}
+"""The press of source 000; an example may be made for another one."""
+
+
+@dataclass(frozen=True)
+class Draft:
+    """Hold the text of a configuration, and what is to be told of it.
+
+    ``added`` are mechanisms that others cannot be without, each with the one that asks for it; ``guessed`` the keys whose values no
+    example gives, ``open`` those that have no value.
+    """
+
+    text: str
+    mechanisms: tuple[Drafted, ...]
+    added: tuple[tuple[Drafted, Drafted], ...]
+    guessed: tuple[str, ...]
+    open: tuple[str, ...]
+
+
+@dataclass
+class _Drafting:
+    """Brings the mechanisms together that a draft has, and the values of their keys."""
+
+    discovery: Discovery
+    mechanisms: list[Drafted]
+    added: list[tuple[Drafted, Drafted]] = field(default_factory=list)
+    values: dict[str, dict[str, Any]] = field(default_factory=dict)
+
+    def wire(self) -> None:
+        """Find the values of all mechanisms, with those of other kinds that they cannot be without."""
+        while (lacking := self._wired()) is not None:
+            self.mechanisms.append(lacking)
+
+    def _wired(self) -> Drafted | None:
+        """Wire all mechanisms; return one that is to be added before, None where nothing is missing."""
+        names = by_kind(self.mechanisms)
+        for each in self.mechanisms:
+            example = each.mechanism.example
+            try:
+                self.values[each.name] = Wiring(names, each).inputs(example.inputs) if example else {}
+            except NeedsKind as need:
+                mechanism = self._mechanism(need.kind, each)
+                new = Drafted(free_name(mechanism, [m.name for m in self.mechanisms]), need.kind, mechanism)
+                self.added.append((new, each))
+                return new
+        return None
+
+    def _mechanism(self, kind: str, asking: Drafted) -> Mechanism:
+        try:
+            return self.discovery.mechanism(kind)
+        except (UnknownKind, DuplicateKind) as fault:
+            words = Phrase("its example cannot be without another mechanism: {fault}", fault=str(fault))
+            raise PluginError(words, asking.kind, asking.name) from fault
+
+
+def draft(given: Sequence[str], discovery: Discovery, file: str = "my_press.yaml") -> Draft:
+    """Return a configuration of mechanisms such as ``clutch`` and ``clutch:main``, in the language that is spoken.
+
+    ``file`` is what it is to be called.
+    """
+    made = _Drafting(discovery, chosen(given, discovery))
+    made.wire()
+    values = {each.name: completed(each.mechanism.inputs, made.values[each.name]) for each in made.mechanisms}
+    guessed = [f"{name}.{key}" for name, found in values.items() for key in found if key not in made.values[name]]
+    lacking = [
+        f"{each.name}.{key}" for each in made.mechanisms for key in unguessed(each.mechanism.inputs, values[each.name])
+    ]
+    text = "\n".join([*_head(made.mechanisms, file), *_mechanisms(made.mechanisms, values)]) + "\n"
+    return Draft(text, tuple(made.mechanisms), tuple(made.added), tuple(guessed), tuple(lacking))
+
+
+# --- text ------------------------------------------------------------------------------------------------------------
+
+
+def _head(mechanisms: Sequence[Drafted], file: str) -> Iterator[str]:
+    titles = [said(each.mechanism.title, each.kind) for each in mechanisms]
+    yield from remarks("\n".join(dict.fromkeys(titles)))
+    yield "#"
+    yield f"#   diecut-report report {file} -o build"
+    yield "#"
+    yield from remarks(say(
+        "Each line has a key, its value, and its symbol, meaning and range. A quantity carries its unit (40 mm, 0.07 m, 21 kN); a bare "
+        "number is in the unit that stands here. {reference} takes a number or a curve of another mechanism or of the press. Values with "
+        "`basis: assumed` are those of an example: put in your own, without the braces, and the report no longer counts them as assumed. "
+        "Lines behind # are optional: remove the first # of such a line, and put in a value where … stands.",
+        reference="${NAME.QUANTITY}",
+    ))  # fmt: skip
+    yield ""
+    yield "schema_version: 1"
+    yield ""
+    yield from _block("project", say("what the title block of every sheet says"), Project, _project())
+    yield ""
+    yield from _block("press", say("what all mechanisms share"), Press, _press(mechanisms))
+
+
+def _project() -> dict[str, Any]:
+    language = spoken_language()
+    return {"title": say("New press")} | ({"language": language} if language != SOURCE_LANGUAGE else {})
+
+
+def _press(mechanisms: Sequence[Drafted]) -> dict[str, Any]:
+    """The values of the press: those that the examples are made for, the first first, where none of them is of the usual press."""
+    found: dict[str, Any] = {"name": say("My press"), **PRESS, "sheet": dict(PRESS["sheet"])}
+    own = [
+        each.mechanism.example.press for each in mechanisms if each.mechanism.example and each.mechanism.example.press
+    ]
+    for path, value in ChainMap(*map(dict, own)).items() if len(own) == len(mechanisms) else ():
+        home, _, key = path.rpartition(".")
+        (found[home] if home else found)[key] = value
+    return found
+
+
+def _block(name: str, words: str, model: type[Block], data: Mapping[str, Any]) -> Iterator[str]:
+    written = BlockWriter(Explained()).lines(model, data)
+    if model is Project:  # whose list of revisions stands in one line
+        written = _project_lines(data)
+    yield f"{name}: # {words}"
+    yield from laid_out(list(shifted(written, 2)))
+
+
+def _project_lines(data: Mapping[str, Any]) -> Iterator[DraftLine]:
+    writer = BlockWriter(Explained())
+    yield from writer.given(Project, data)
+    single = [name for name, known in keys_of(Project).items() if known.block is None]
+    off = [line for line in writer.off(Project, data) if line.code.partition(":")[0] in single]
+    yield from off
+
+
+def _mechanisms(mechanisms: Sequence[Drafted], values: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
+    yield ""
+    yield "mechanisms:"
+    for number, each in enumerate(mechanisms):
+        if number:
+            yield ""
+        yield from remarks(f"{said(each.mechanism.title, each.kind)}. {said(each.mechanism.summary, each.kind)}", 2)
+        yield f"  {each.name}:"
+        writer = BlockWriter(Explained(each.kind, each.mechanism))
+        kind = DraftLine(0, f"kind: {typed(each.kind)}")
+        body = [kind, *writer.lines(each.mechanism.inputs, values[each.name])]
+        yield from laid_out(list(shifted(body, 4)))

@@ -1,0 +1,458 @@
+"""Finds the kinds of mechanisms and loads a kind when it is asked for, so that a broken plugin hurts only its users.
+
+Kinds come from three places: the program's own folder of plugins, the entry points (group "diecut_report.plugins",
+the name is the kind) of installed packages, and local folders. A folder of plugins may hold a list ``kinds.yaml``
+(``KIND: FILE.py`` or ``KIND: FILE.py:ATTRIBUTE``); without it each ``NAME.py`` and each folder ``NAME`` with an
+``__init__.py`` is the kind NAME; the project of a package (pyproject.toml) gives the kinds that it announces. The attribute that
+holds the mechanism is MECHANISM unless it is named.
+
+A file ``extend_NAME.py`` of a local folder, or an entry point of the group "diecut_report.extensions", is not a kind: it is run
+before a configuration is read, to add to a registry (such as the motion laws).
+"""
+
+from __future__ import annotations
+
+import hashlib
+import re
+import sys
+import tomllib
+import traceback
+from collections.abc import Callable, Iterable, Iterator, Mapping
+from dataclasses import dataclass
+from functools import cached_property, partial
+from importlib import import_module, util
+from importlib.metadata import entry_points
+from pathlib import Path
+from types import ModuleType
+from typing import Any
+
+from diecut_report import __version__
+from diecut_report.config import yaml
+from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin
+from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.formulas.formula import FormulaError
+from diecut_report.mechanism.mechanism import CONTRACT, Mechanism
+from diecut_report.mechanism.names import Misdeclared
+from diecut_report.text.phrases import Phrase, joined, phrase
+from diecut_report.time_limit import in_time
+
+# Modules of plugins that are not installed: those of single files and folders, and those of a package in its project.
+
+
+OF_PROJECTS: dict[str, Path] = {}
+"""The packages that were loaded of projects, by their names, each with its first file."""
+
+
+def module_of_file(file: Path) -> ModuleType:
+    """Return the module of a local file; it stands in sys.modules while it runs, or postponed annotations would not resolve."""
+    digest = hashlib.sha256(str(file.resolve()).encode()).hexdigest()[:16]
+    name = f"diecut_report_local_{digest}_{re.sub(r'[^A-Za-z0-9]', '_', file.stem)}"
+    return sys.modules[name] if name in sys.modules else _local_modules_loaded(name, file)
+
+
+def module_of_project(file: Path, source: Path) -> ModuleType:
+    """Return a module of a package that stands in a folder of its project, under its own name, by which its modules import each other.
+
+    A module that is not in a package stands for itself. ImportError in words where another package of this name is loaded already.
+    """
+    place = file.parent if file.name == "__init__.py" else file.with_suffix("")
+    package, *inner = place.relative_to(source).parts
+    whole = source.resolve() / package / "__init__.py"
+    if not whole.is_file():
+        return module_of_file(file)
+    if OF_PROJECTS.get(package) != whole:
+        _begin(package, whole)
+    return import_module(".".join([package, *inner]))
+
+
+def _begin(package: str, file: Path) -> None:
+    """Load a package, in the place of one of the same name that another project gave."""
+    if OF_PROJECTS.pop(package, None):
+        _forget(package)
+    if package in sys.modules:
+        words = "another package {name} is loaded already, {place}; uninstall it, or give this one another name"
+        raise ImportError(Phrase(words, name=package, place=getattr(sys.modules[package], "__file__", None)))
+    try:
+        _local_modules_loaded(package, file)
+    except BaseException:
+        _forget(package)
+        raise
+    OF_PROJECTS[package] = file
+
+
+def _forget(package: str) -> None:
+    for name in [each for each in sys.modules if each == package or each.startswith(f"{package}.")]:
+        del sys.modules[name]
+
+
+def _local_modules_loaded(name: str, file: Path) -> ModuleType:
+    if file.exists() and not file.is_file():
+        raise OSError(phrase("it is not a regular file"))  # a pipe would be waited for
+    folder = [str(file.parent)] if file.name == "__init__.py" else None
+    spec = util.spec_from_file_location(name, file, submodule_search_locations=folder)
+    assert spec is not None and spec.loader is not None, file
+    module = sys.modules[name] = util.module_from_spec(spec)
+    try:
+        spec.loader.exec_module(module)
+    except BaseException:
+        sys.modules.pop(name, None)
+        raise
+    return module
+
+
+def attribute_of(module: ModuleType, name: str) -> Any:
+    """Return what stands under a name in a module; AttributeError in words where there is none."""
+    if not hasattr(module, name):
+        raise AttributeError(Phrase("there is no {name} in it", name=name))
+    return getattr(module, name)
+
+
+# What is told of a plugin of one file that imports another file of its folder, which it cannot.
+
+
+RELATIVE = re.compile("relative import")
+
+
+def beside(file: Path, cause: BaseException) -> str:
+    """Return in words what to do where the cause is such an import; empty for other causes."""
+    if not isinstance(cause, ImportError) or file.name == "__init__.py":
+        return ""
+    asked = RELATIVE.search(str(cause.msg)) is not None
+    if not asked and not (cause.name and file.with_name(f"{cause.name.partition('.')[0]}.py").is_file()):
+        return ""
+    words = (
+        "; a plugin of one file cannot import what lies beside it: make a folder {name}/ of it, with {file} as its __init__.py, "
+        "and import from there, as in from ._helpers import …"
+    )
+    return Phrase(words, name=file.stem, file=file.name)
+
+
+# The kinds that a package announces in its project file, as they lie in its sources.
+
+
+PROJECT = "pyproject.toml"
+SOURCES = "src"
+
+
+def announced(folder: Path, group: str) -> dict[str, tuple[str, str]]:
+    """Return the kinds that the project of a package announces, each with its module's place and the attribute that is named.
+
+    It need not be installed. There are none where the folder is no such project.
+    """
+    project = folder / PROJECT
+    if not project.is_file():
+        return {}
+    try:
+        told = tomllib.loads(project.read_text("utf-8", "replace")).get("project", {})
+        found = told.get("entry-points", {}).get(group, {})
+        places = {kind: str(place).partition(":") for kind, place in found.items()}
+    except (tomllib.TOMLDecodeError, AttributeError) as error:
+        raise UserError(
+            Problem(Phrase("This project of a package cannot be read: {error}", error=error), str(project))
+        ) from None
+    return {kind: (_source(folder, module), attribute) for kind, (module, _, attribute) in places.items()}
+
+
+def source_of(folder: Path, place: str) -> Path:
+    """Return the folder of a project in which its packages stand, of a kind's place in it."""
+    return folder / SOURCES if place.startswith(f"{SOURCES}/") else folder
+
+
+def _source(folder: Path, module: str) -> str:
+    """Where a module of a package stands in its project."""
+    name = module.replace(".", "/")
+    found = folder / SOURCES / name
+    return f"{SOURCES}/{name}" if found.exists() or found.with_name(f"{found.name}.py").exists() else name
+
+
+# Plugins that are written for another version of what the program offers to them.
+
+
+API = "diecut_report.api"
+NEEDED = re.compile(r"^CONTRACT\s*(?::\s*\w+\s*)?=\s*(\d+)", re.MULTILINE)
+NAME = re.compile(r"cannot import name '(\w+)'")
+
+
+class OtherContract(ImportError):
+    """Report a plugin that says that it is written for another contract."""
+
+
+def refuse_other_contract(file: Callable[[], Path]) -> None:
+    """Refuse a plugin that names another contract than this program has, before its code is run: it may not even load."""
+    try:
+        found = NEEDED.search(file().read_text("utf-8", "replace")) if file().is_file() else None
+    except (
+        KeyError,
+        OSError,
+    ):  # of an installed package, which tells its needs to the installer; or a file that loading will tell of
+        return
+    if found and int(found[1]) != CONTRACT:
+        words = "it is written for contract {needed}, this program ({version}) has contract {own}; "
+        newer = phrase("install a newer version of diecut-report")
+        older = phrase("take a newer version of the plugin")
+        told = Phrase(words, needed=found[1], version=__version__, own=str(CONTRACT))
+        raise OtherContract(told + (newer if int(found[1]) > CONTRACT else older))
+
+
+def other_program(cause: BaseException) -> str:
+    """Return in words that a plugin takes a name of the program that this version does not have; empty for other causes."""
+    if not isinstance(cause, ImportError) or cause.name != API:
+        return ""
+    found = NAME.search(str(cause))
+    words = "{api} of this version ({version}) has no {name}; the plugin is written for another version"
+    return Phrase(words, api=API, version=__version__, name=repr(found[1])) if found else ""
+
+
+GROUP = "diecut_report.plugins"
+EXTENSIONS = "diecut_report.extensions"
+EXTENSION = "extend_"
+ATTRIBUTE = "MECHANISM"
+LIST = "kinds.yaml"
+
+
+class UnknownKind(LookupError):
+    """No plugin gives this kind; the text says so, with the nearest known kind."""
+
+
+class DuplicateKind(LookupError):
+    """Two plugins give one kind; the text names both origins."""
+
+
+@dataclass(frozen=True)
+class Origin:
+    """Where a kind comes from, in words, and how its mechanism is loaded from there."""
+
+    kind: str
+    told: str
+    load: Callable[[], Any]
+    file: Callable[[], Path]  # of the module, when it is loaded
+    is_own: bool = False  # of the program itself, whose declarations its tests check
+
+
+class Discovery:
+    """The kinds that are known here: built in, installed, and in the given folders."""
+
+    def __init__(self, folders: Iterable[Path] = ()) -> None:
+        self._folders = tuple({folder.resolve(): folder for folder in folders}.values())
+        self._loaded: dict[str, Mechanism | PluginError] = {}
+        self.extended: dict[str, str] = {}  # the extensions that were run, with the hashes of their code
+
+    @cached_property
+    def origins(self) -> dict[str, list[Origin]]:
+        """Each kind with all places that give it; more than one is a fault that shows when the kind is used."""
+        found: dict[str, list[Origin]] = {}
+        for origin in [*_built_in(), *_installed(), *(o for folder in self._folders for o in in_folder(folder))]:
+            found.setdefault(origin.kind, []).append(origin)
+        return dict(sorted(found.items()))
+
+    @cached_property
+    def _extensions(self) -> list[Origin]:
+        return [*_installed_extensions(), *(origin for folder in self._folders for origin in _extensions(folder))]
+
+    def extend(self) -> None:
+        """Run what adds to the registries, once; UserError where it cannot be run."""
+        while self._extensions:
+            origin = self._extensions.pop()
+            try:
+                with in_time():
+                    origin.load()
+                self.extended[origin.kind] = module_hash(origin.file())
+            except (Exception, SystemExit) as cause:
+                raise UserError(
+                    Problem(Phrase("This extension cannot be loaded: {said}.", said=said(cause)), origin.told)
+                ) from cause
+
+    def mechanism(self, kind: str) -> Mechanism:
+        """The mechanism of a kind.
+
+        Raises UnknownKind or DuplicateKind with the words for the user, PluginError where the plugin is broken.
+        """
+        origin = self._only_origin(kind)
+        if kind not in self._loaded:
+            self._loaded[kind] = _loaded(origin)
+        found = self._loaded[kind]
+        if isinstance(found, PluginError):
+            raise found
+        return found
+
+    def _only_origin(self, kind: str) -> Origin:
+        origins = self.origins.get(kind)
+        if not origins:
+            near = nearest(kind, self.origins)
+            words = "{kind} is not a known kind{nearest}. Known: {known}."
+            raise UnknownKind(Phrase(words, kind=repr(kind), nearest=near, known=", ".join(self.origins)))
+        if len(origins) > 1:
+            places = joined((origin.told for origin in origins), " and from ")
+            words = "The kind {kind} comes from {places}. Remove or rename one of them."
+            raise DuplicateKind(Phrase(words, kind=repr(kind), places=places))
+        return origins[0]
+
+
+def _loaded(origin: Origin) -> Mechanism | PluginError:
+    try:
+        refuse_other_contract(origin.file)
+        with in_time():
+            found = origin.load()
+        digest = module_hash(origin.file())
+    except (Exception, SystemExit) as cause:
+        words = "it cannot be loaded from {told}: {said}"
+        error = PluginError(
+            Phrase(words, told=origin.told, said=said(cause)) + beside(origin.file(), cause), origin.kind
+        )
+        error.__cause__ = cause
+        return error
+    if not isinstance(found, Mechanism):
+        words = "{told} gives a {name}, where a Mechanism is needed"
+        return PluginError(Phrase(words, told=origin.told, name=type(found).__name__), origin.kind)
+    if found.kind != origin.kind:
+        words = "{told} gives the kind {kind}; name it {wanted} there"
+        named = {"told": origin.told, "kind": repr(found.kind), "wanted": repr(origin.kind)}
+        return PluginError(Phrase(words, named), origin.kind)
+    note_plugin(found, digest, None if origin.is_own else origin.file())
+    return found if origin.is_own else _sound(origin, found)
+
+
+def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
+    """A mechanism of which nothing that it declares is wrong."""
+    from diecut_report.config import model as press_defaults
+    from diecut_report.declaration import faults_at_load
+    from diecut_report.declaration.formula_checks import faults_of_formulas
+
+    try:
+        found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
+    except Exception as cause:
+        words = "what {told} declares cannot be read: {said}"
+        error = PluginError(Phrase(words, told=origin.told, said=said(cause)), origin.kind)
+        error.__cause__ = cause
+        return error
+    if not found:
+        for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
+            note_check(each, faults_of_formulas(each))
+        return mechanism
+    head = Phrase("{told} declares what cannot be", told=origin.told)
+    return PluginError(
+        joined([head, found[0]], ": ") if len(found) == 1 else joined([head + ":", *found], "\n  "), origin.kind
+    )
+
+
+def said(cause: BaseException) -> str:
+    """An exception of a plugin in one line: its type, its text, and the last file and line of the plugin that led to it."""
+    if isinstance(cause, Misdeclared):  # tells its own place
+        return str(cause)
+    frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
+    own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
+    tells_place = isinstance(cause, SyntaxError | FormulaError) or getattr(cause, "tells_place", False)
+    declared = Path(getattr(cause, "at", "")).name  # of what is not proved, which the engine tells
+    place = f" ({declared or f'{Path(own[-1].filename).name}:{own[-1].lineno}'})" if own and not tells_place else ""
+    return f"{type(cause).__name__}: {other_program(cause) or ' '.join(str(cause).split())}{place}"
+
+
+PROGRAM = Path(__file__).parents[1]
+LIBRARIES = ("numpy", "scipy", "pydantic", "pint")
+STANDARD = Path(traceback.__file__).parent
+
+
+def _is_foreign(file: Path) -> bool:
+    """Whether a file is not a plugin's: of the program, of the standard library, of a library that plugins use."""
+    of_program = file.is_relative_to(PROGRAM) and not file.is_relative_to(PROGRAM / GROUP.rpartition(".")[2])
+    of_library = "site-packages" in file.parts and any(name in file.parts for name in LIBRARIES)
+    return of_program or of_library or file.parent == STANDARD
+
+
+# --- the three places ------------------------------------------------------------------------------------------------
+
+
+def _built_in() -> Iterator[Origin]:
+    package = import_module(GROUP)
+    for kind in _names_in(Path(package.__path__[0])):
+        name = f"{GROUP}.{kind}"
+        yield Origin(
+            kind, phrase("the program itself"), partial(_of_module, name), partial(_file_of_module, name), is_own=True
+        )
+
+
+def _installed() -> Iterator[Origin]:
+    for entry in entry_points(group=GROUP):
+        package = (
+            Phrase("the package {name} {version}", name=entry.dist.name, version=entry.dist.version)
+            if entry.dist
+            else phrase("an installed package")
+        )
+        load = entry.load if entry.attr else partial(_of_module, entry.module)
+        yield Origin(entry.name, package, load, partial(file_of, entry.module))
+
+
+def _installed_extensions() -> Iterator[Origin]:
+    for entry in entry_points(group=EXTENSIONS):
+        told = Phrase("{name} of an installed package", name=entry.name)
+        yield Origin(entry.name, told, entry.load, partial(file_of, entry.module))
+
+
+def _extensions(folder: Path) -> Iterator[Origin]:
+    for file in sorted(folder.glob(f"{EXTENSION}*.py")):
+        yield Origin(file.stem, str(file), partial(module_of_file, file), partial(Path, file))
+
+
+def in_folder(folder: Path) -> Iterator[Origin]:
+    """Yield the kinds of a folder of plugins, or of the project of a package; UserError where there is no such folder."""
+    if not folder.is_dir():
+        raise UserError(
+            Problem(phrase("There is no such folder of plugins. Check the name given with --plugins."), str(folder))
+        )
+    if (folder / LIST).is_file():
+        yield from _in_files(folder, _listed(folder))
+    elif kinds := announced(folder, GROUP):
+        yield from (_in_project(folder, kind, *place) for kind, place in kinds.items())
+    else:
+        yield from _in_files(folder, {name: (name, ATTRIBUTE) for name in _names_in(folder)})
+
+
+def _in_files(folder: Path, listed: Mapping[str, tuple[str, str]]) -> Iterator[Origin]:
+    for kind, (name, attribute) in listed.items():
+        file = _file_of(folder, name)
+        yield Origin(kind, str(file), partial(_of_file, file, attribute), partial(Path, file))
+
+
+def _in_project(folder: Path, kind: str, name: str, attribute: str) -> Origin:
+    """A kind of the project of a package, whose modules import each other by its name, as where it is installed."""
+    file, source = _file_of(folder, name), source_of(folder, name)
+    return Origin(kind, str(file), partial(_of_project, file, source, attribute or ATTRIBUTE), partial(Path, file))
+
+
+def _names_in(folder: Path) -> list[str]:
+    files = [path for path in folder.iterdir() if (path if path.suffix == ".py" else path / "__init__.py").is_file()]
+    return sorted(path.stem for path in files if not path.name.startswith(("_", ".", EXTENSION)))
+
+
+def _listed(folder: Path) -> dict[str, tuple[str, str]]:
+    tree = yaml.load(folder / LIST)
+    if not isinstance(tree.data, dict) or not all(isinstance(value, str) for value in tree.data.values()):
+        raise UserError(
+            Problem(phrase("A list of kinds is needed, each as KIND: FILE.py or KIND: FILE.py:ATTRIBUTE."), tree.file)
+        )
+    found = {}
+    for kind, place in tree.data.items():
+        name, _, attribute = place.partition(":")
+        found[kind] = name.removesuffix(".py"), attribute or ATTRIBUTE
+    return found
+
+
+def _file_of(folder: Path, name: str) -> Path:
+    package = folder / name / "__init__.py"
+    return package if package.is_file() else folder / f"{name}.py"
+
+
+def _of_module(name: str) -> Any:
+    return attribute_of(import_module(name), ATTRIBUTE)
+
+
+def _file_of_module(name: str) -> Path:
+    return Path(str(sys.modules[name].__file__))
+
+
+def _of_file(file: Path, attribute: str) -> Any:
+    return attribute_of(module_of_file(file), attribute)
+
+
+def _of_project(file: Path, source: Path, attribute: str) -> Any:
+    return attribute_of(module_of_project(file, source), attribute)

@@ -1,1 +1,0 @@
-"""What a mechanism plugin declares: inputs, steps of the calculation, checks, figures."""

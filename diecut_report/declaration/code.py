@@ -1,0 +1,499 @@
+"""Imports of what is not a plugin's: all of the program but its api and its mechanics may change from one version to the next."""
+
+from __future__ import annotations
+
+import ast
+import builtins
+import hashlib
+import os
+import re
+import sys
+from collections import ChainMap
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from functools import partial
+from inspect import getclosurevars
+from pathlib import Path
+from types import FunctionType, ModuleType
+from typing import Any
+
+from diecut_report import __version__, api
+from diecut_report.declaration.names import DeclaredNames, Fault, world
+from diecut_report.declaration.texts import DeclaredText, own_files, parsed
+from diecut_report.files import cache_folder, code_of
+from diecut_report.mechanism.figures import Chart, Drawing
+from diecut_report.mechanism.inputs import fields
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import Binding, ByText, bound
+from diecut_report.mechanism.steps import Step
+from diecut_report.standards.tables import StandardSeries, StandardTable
+from diecut_report.text.phrases import Phrase, named, phrase
+
+PROGRAM = "diecut_report"
+ALLOWED = (f"{PROGRAM}.api", f"{PROGRAM}.mechanics")
+
+
+def import_faults(mechanism: Mechanism) -> Iterator[Fault]:
+    """Yield the imports of other modules of the program by a plugin's own files."""
+    for file in own_files(mechanism):
+        for line, module, names in _imports(parsed(file)):
+            if module.split(".")[0] == PROGRAM and not any(f"{module}.".startswith(f"{each}.") for each in ALLOWED):
+                public = [name for name in names if name in api.__all__]
+                instead = (
+                    Phrase("import {public} from {allowed}", public=", ".join(public), allowed=ALLOWED[0])
+                    if public
+                    else phrase("do without it")
+                )
+                text = Phrase(
+                    "a plugin may import {allowed} of the program, nothing else; {instead}",
+                    allowed=named(ALLOWED, " and "),
+                    instead=instead,
+                )
+                yield Fault(f"{file}:{line}", Phrase("import of {module}", module=module), text)
+
+
+def _imports(tree: ast.AST) -> Iterator[tuple[int, str, list[str]]]:
+    """Each import of a file, but those for type checkers: its line, the module, and the names that are taken from it."""
+    for node in ast.iter_child_nodes(tree):
+        match node:
+            case ast.Import(names=names):
+                yield from ((node.lineno, alias.name, []) for alias in names)
+            case ast.ImportFrom(module=module, names=names, level=0) if module == PROGRAM:
+                yield from ((node.lineno, f"{PROGRAM}.{alias.name}", []) for alias in names)
+            case ast.ImportFrom(module=str() as module, names=names, level=0):
+                yield node.lineno, module, [alias.name for alias in names]
+            case ast.If(test=test, orelse=other) if "TYPE_CHECKING" in ast.unparse(test):
+                yield from (found for each in other for found in _imports(ast.Module([each], [])))
+            case _:
+                yield from _imports(node)
+
+
+# Plain code that takes more than it is given, the clock, chance, a file or the surroundings: equal inputs would give unlike results.
+
+
+CLOCK, CHANCE = phrase("the clock"), phrase("chance")
+FILE, AROUND = phrase("a file"), phrase("what is around the program")
+END, ENDS = "end", {"_exit", "abort", "execv", "execve", "kill"}  # what ends the program, of the module os
+OF_MODULE = {"time": CLOCK, "random": CHANCE, "secrets": CHANCE, "uuid": CHANCE, "numpy.random": CHANCE,
+             "io": FILE, "_io": FILE, "tempfile": FILE, "glob": FILE, "shutil": FILE,
+             "platform": AROUND, "socket": AROUND,
+             "urllib.request": AROUND, "locale": AROUND}  # fmt: skip
+NOW = {"now", "today", "utcnow"}  # of a date
+READERS = {"read_text", "read_bytes"}  # of a path, which is known by its name alone
+TABLES = {"load", "loadtxt", "genfromtxt", "fromfile", "memmap"}  # of NumPy
+SEEDED = {"default_rng", "Random", "RandomState"}  # with a number to begin with they give the same each time
+OF_SYSTEM = {
+    "getenv",
+    "getcwd",
+    "listdir",
+    "scandir",
+    "walk",
+    "stat",
+    "getpid",
+    "times",
+    "urandom",
+    "cpu_count",
+    "getlogin",
+    "uname",
+}
+FUNCTIONS = ("function", "joints", "lines")
+Scope = ChainMap[str, Any]
+Used = tuple[ast.expr, str]  # where something is asked for, and what it is
+
+
+def impure_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
+    """Yield what the functions of steps and drawings ask for beside what they take, and the files themselves when they are loaded."""
+    files = {str(file): file for file in own_files(mechanism)}
+    for function in _functions(mechanism, set(files)):
+        file, code = files[function.__code__.co_filename], function.__code__
+        for node in _definitions(parsed(file), code.co_firstlineno):
+            for where, what in _used(node, _scope(function)):
+                yield _fault(file, where, what, code.co_name)
+            for where in _of_loops(parsed(file), node):
+                words = "takes {name} of the loop around it, which is the last one when it is called; write functools.partial(function, {name})"
+                subject = Phrase("function {name}", name=code.co_name)
+                yield Fault(f"{file}:{where.lineno}", subject, Phrase(words, name=where.id))
+    for file in files.values():
+        module = next((each for each in [*sys.modules.values()] if getattr(each, "__file__", "") == str(file)), None)
+        for where, what in _used_at_load(parsed(file), vars(module) if module else {}):
+            yield _fault(file, where, what, phrase("the module"))
+
+
+def _of_loops(tree: ast.Module, node: ast.AST) -> Iterator[ast.Name]:
+    """The names in a function that a loop around it gives: all that it makes would take the last of them."""
+    own = {each.arg for each in ast.walk(node) if isinstance(each, ast.arg)}
+    own |= {each.id for each in ast.walk(node) if isinstance(each, ast.Name) and not isinstance(each.ctx, ast.Load)}
+    given = {
+        each.id
+        for loop in ast.walk(tree)
+        if isinstance(loop, ast.For) and any(each is node for each in ast.walk(loop))
+        for each in ast.walk(loop.target)
+        if isinstance(each, ast.Name)
+    } - own
+    body = getattr(node, "body", node)
+    for part in body if isinstance(body, list) else [body]:
+        yield from (each for each in ast.walk(part) if isinstance(each, ast.Name) and each.id in given)
+
+
+def _fault(file: Path, where: ast.expr, what: str, name: str) -> Fault:
+    if what == END:
+        text = Phrase(
+            "ends the whole program ({code}), without a word to who uses it; raise Refusal(…), or an exception",
+            code=ast.unparse(where),
+        )
+        return Fault(f"{file}:{where.lineno}", Phrase("function {name}", name=name), text)
+    text = Phrase(
+        "asks {what} ({code}), so that equal inputs give unlike results; take it as an input, or read a table when the module is loaded",
+        what=what,
+        code=ast.unparse(where),
+    )
+    return Fault(f"{file}:{where.lineno}", Phrase("function {name}", name=name), text)
+
+
+def _functions(mechanism: Mechanism, files: set[str]) -> Iterator[FunctionType]:
+    """The plugin's own functions that steps and drawings call, and those that these name."""
+    given = [getattr(step, name, None) for _, step in mechanism.steps for name in FUNCTIONS]
+    given += [figure.build for figure in mechanism.figures if isinstance(figure, Drawing | Chart)]
+    waiting, known = [each for each in _whole(given) if isinstance(each, FunctionType)], set()
+    while waiting:
+        function = waiting.pop()
+        if function in known or function.__code__.co_filename not in files:
+            continue
+        known.add(function)
+        yield function
+        named = (_scope(function).get(name) for name in function.__code__.co_names)
+        waiting += [each for each in named if isinstance(each, FunctionType)]
+
+
+def _whole(given: list[Any]) -> Iterator[Any]:
+    """Functions, and what those are made of that have some of their parameters already."""
+    yield from (each.func if isinstance(each, partial) else each for each in given)
+
+
+def _definitions(tree: ast.Module, line: int) -> Iterator[ast.AST]:
+    """What is defined in a line: a function, from its decorator on, or the lambdas in it."""
+    for node in ast.walk(tree):
+        if isinstance(node, ast.FunctionDef | ast.Lambda):
+            decorators = getattr(node, "decorator_list", [])
+            if min([node.lineno, *(each.lineno for each in decorators)]) == line:
+                yield node
+
+
+def _scope(function: FunctionType) -> Scope:
+    """What the names in a function stand for, as far as it does not give them itself."""
+    try:
+        closed = dict(getclosurevars(function).nonlocals)
+    except ValueError:  # a variable that is not there yet
+        closed = {}
+    own = dict.fromkeys(function.__code__.co_varnames)
+    return ChainMap({**own, **closed}, function.__globals__, vars(builtins))
+
+
+def _used(node: ast.AST, scope: Scope) -> Iterator[Used]:
+    """What a function asks for; modules that it imports itself are known in it."""
+    own: dict[str, Any] = {}
+    for each in ast.walk(node):
+        match each:
+            case ast.Import(names=aliases):
+                own |= {
+                    a.asname or a.name.partition(".")[0]: sys.modules.get(a.name.partition(".")[0]) for a in aliases
+                }
+            case ast.ImportFrom(module=str() as module, names=aliases):
+                home = sys.modules.get(module)
+                own |= {a.asname or a.name: getattr(home, a.name, None) for a in aliases}
+    yield from _asked(node, scope.new_child(own))
+
+
+def _used_at_load(tree: ast.Module, scope: dict[str, Any]) -> Iterator[Used]:
+    """What a file asks for when it is loaded; a table that it reads then is the same for all."""
+    for statement in tree.body:
+        if not isinstance(statement, ast.FunctionDef | ast.ClassDef | ast.Import | ast.ImportFrom):
+            yield from (
+                found
+                for found in _asked(statement, ChainMap(scope, vars(builtins)))
+                if found[1] in (CLOCK, CHANCE, END)
+            )
+
+
+def _asked(node: ast.AST, scope: Scope) -> Iterator[Used]:
+    """Of each name, with what is asked of it, what it stands for; chance that begins with a number of its own is none."""
+    match node:
+        case ast.FunctionDef() | ast.Lambda():
+            pass
+        case ast.Call(func=ast.Attribute(attr=attr)) if attr in READERS:
+            yield node.func, FILE
+        case ast.Call(func=func, args=[_, *_]) if getattr(_value(func, scope), "__name__", "") in SEEDED:
+            return
+        case ast.Attribute() | ast.Name() if found := _of(_value(node, scope)):
+            yield node, found
+            return
+    for child in ast.iter_child_nodes(node):
+        yield from _asked(child, scope)
+
+
+def _value(node: ast.expr, scope: Scope) -> Any:
+    match node:
+        case ast.Name(id=name):
+            return scope.get(name)
+        case ast.Attribute(value=of, attr=attr):
+            home = _value(of, scope)
+            return getattr(home, attr, None) if isinstance(home, ModuleType | type) else None
+    return None
+
+
+def _of(value: Any) -> str:
+    """What something gives that is no module itself; empty where it gives nothing of its own."""
+    if value is None or isinstance(value, ModuleType | str | int | float | tuple):
+        return ""
+    name, owner = getattr(value, "__name__", ""), getattr(value, "__self__", None)
+    if name == "sleep":  # it tells nothing
+        return ""
+    if isinstance(owner, type) and name in NOW:
+        return CLOCK
+    if name in TABLES and getattr(value, "__module__", "") in ("numpy", "numpy.lib._npyio_impl", "numpy.lib.npyio"):
+        return FILE
+    if name in ENDS and getattr(value, "__module__", "") in ("os", "posix", "nt"):
+        return END
+    if value is os.environ or (name in OF_SYSTEM and getattr(value, "__module__", "") in ("os", "posix", "nt")):
+        return AROUND
+    homes = {str(getattr(each, "__module__", None)) for each in (value, type(value), type(owner))}
+    homes |= {owner.__name__} if isinstance(owner, ModuleType) else set()
+    found = (what for home, what in OF_MODULE.items() if any(f"{each}.".startswith(f"{home}.") for each in homes))
+    return next(found, "")
+
+
+# Texts that a plugin's code makes: string constants inside functions, those of phrases among them, found in the syntax tree.
+
+
+WORDS = re.compile(r"(?<![\w{.])[A-Za-z][a-z'’-]+(?![\w}(])")
+NAMES = re.compile(r"[\w.{}\[\],:+/*-]*")
+JOINING = re.compile(r"[\s,;]*(?:and|or)[\s,;]*")
+LABELS = {"label": 1, "mark": 2, "level": 1, "vertical": 1, "line": 2, "fill": 2, "point": 2, "arrow": 3, "dimension": 3, "phrase": 0,
+          "radius_dimension": 3, "box": 3}  # fmt: skip
+"""Functions that draw, each with the place of its words; and that which marks a text."""
+SILENT_CALLS = {"Source", "ValueError", "TypeError", "KeyError", "AssertionError", "RuntimeError"}
+SILENT_KEYWORDS = {"source", "sources", "needs", "lacks", "id", "symbol", "unit", "role", "anchor"}
+
+
+def code_texts(folder: Path) -> Iterator[DeclaredText]:
+    """Yield each text of the Python files of a plugin (a folder, or one file) once."""
+    seen = set()
+    for file, finder in _searched(folder):
+        for text in finder.found:
+            if text not in seen:
+                seen.add(text)
+                yield DeclaredText(text, file.name)
+
+
+def fixed_texts(folder: Path) -> Iterator[DeclaredText]:
+    """Yield the templates of f-strings in functions: what is not declared, but made for one machine, cannot be translated so."""
+    for file, finder in _searched(folder):
+        yield from (DeclaredText(text, file.name) for text in finder.made)
+
+
+def _searched(folder: Path) -> Iterator[tuple[Path, _Finder]]:
+    for file in sorted(folder.rglob("*.py")) if folder.is_dir() else [folder]:
+        finder = _Finder()
+        finder.visit(ast.parse(file.read_text("utf-8"), str(file)))
+        yield file, finder
+
+
+class _Finder(ast.NodeVisitor):
+    """Collect the texts of functions."""
+
+    def __init__(self) -> None:
+        self.depth = 0
+        self.found: list[str] = []
+        self.made: list[str] = []
+
+    def visit_FunctionDef(self, node: ast.FunctionDef) -> None:
+        self.depth += 1
+        for part in node.body[1:] if ast.get_docstring(node, clean=False) else node.body:
+            self.visit(part)
+        self.depth -= 1
+
+    def visit_Call(self, node: ast.Call) -> None:
+        if isinstance(node.func, ast.Name) and node.func.id in SILENT_CALLS:
+            return
+        self._note_label(node)
+        if (
+            not self.depth and isinstance(node.func, ast.Name) and node.func.id == "Phrase"
+        ):  # of a lambda in a declaration
+            self.found += [text for each in node.args[:1] for text in _spoken(each) if WORDS.search(text)]
+        self.visit(node.func)
+        for argument in node.args:
+            self.visit(argument)
+        for keyword in node.keywords:
+            if keyword.arg not in SILENT_KEYWORDS:
+                self.visit(keyword.value)
+
+    def _note_label(self, node: ast.Call) -> None:
+        """Note the words beside what is drawn, which may be a single one."""
+        name = node.func.id if isinstance(node.func, ast.Name) else ""
+        if (self.depth or name == "phrase") and name in LABELS:
+            said = [
+                *node.args[LABELS[name] :][:1],
+                *(each.value for each in node.keywords if each.arg in ("label", "text", "lines")),
+            ]
+            self.found += [text for each in said for text in _spoken(each) if WORDS.fullmatch(text) or name == "phrase"]
+
+    def visit_Subscript(self, node: ast.Subscript) -> None:
+        self.visit(node.value)
+
+    def visit_JoinedStr(self, node: ast.JoinedStr) -> None:
+        self._note(template(node), self.made)
+        for part in node.values:
+            if isinstance(part, ast.FormattedValue):
+                self.visit(part.value)
+
+    def visit_Constant(self, node: ast.Constant) -> None:
+        if isinstance(node.value, str):
+            self._note(node.value, self.found)
+
+    def _note(self, text: str, kept: list[str]) -> None:
+        if self.depth and WORDS.search(text) and not JOINING.fullmatch(text) and not _is_name(text):
+            kept.append(text)
+
+
+def _spoken(part: ast.expr) -> Iterator[str]:
+    """The constant texts of which a label is one, or is put together."""
+    match part:
+        case ast.Constant(value=str() as text):
+            yield text
+        case ast.IfExp(body=first, orelse=other) | ast.BinOp(left=first, right=other):
+            yield from (*_spoken(first), *_spoken(other))
+        case ast.List(elts=parts) | ast.Tuple(elts=parts):
+            yield from (text for each in parts for text in _spoken(each))
+
+
+def _is_name(text: str) -> bool:
+    """Whether a text is a key, an id or a unit."""
+    return NAMES.fullmatch(text) is not None and not text[:1].isupper()
+
+
+def template(node: ast.JoinedStr) -> str:
+    """Return an f-string with a name for each of its parts."""
+    names: dict[str, str] = {}
+    text = ""
+    for part in node.values:
+        if isinstance(part, ast.FormattedValue):
+            text += f"{{{_placeholder(part.value, names)}}}"
+        elif isinstance(part, ast.Constant):
+            text += str(part.value)
+    return text
+
+
+def _placeholder(value: ast.expr, names: dict[str, str]) -> str:
+    """The name of a part: equal parts share one."""
+    written = ast.unparse(value)
+    if written not in names:
+        name = _name(value)
+        taken = sum(re.fullmatch(rf"{name}(_\d+)?", other) is not None for other in names.values())
+        names[written] = f"{name}_{taken + 1}" if taken else name
+    return names[written]
+
+
+def _name(value: ast.expr) -> str:
+    match value:
+        case ast.Name(id=name):
+            return name.lstrip("_").lower()
+        case ast.Attribute(attr=name):
+            return name.lstrip("_").lower()
+        case ast.Subscript(slice=ast.Constant(value=str() as name)):
+            return name
+        case ast.Subscript(value=inner) | ast.Starred(value=inner) | ast.FormattedValue(value=inner):
+            return _name(inner)
+        case ast.Call(args=[ast.Constant(value=str() as name), *_]) if name.isidentifier():
+            return name
+        case ast.Call(func=ast.Attribute(attr="join"), args=[inner, *_]):
+            return _name(inner)
+        case ast.Call(func=ast.Name(id="told" | "below" | "sum" | "max" | "min"), args=[inner, *_]):
+            return _name(inner)
+        case ast.Call(func=function):
+            return _name(function)
+        case ast.BinOp(left=ast.Constant(), right=inner) | ast.BinOp(left=inner) | ast.UnaryOp(operand=inner):
+            return _name(inner)
+        case ast.IfExp(body=inner) if not isinstance(inner, ast.Constant):
+            return _name(inner)
+        case ast.IfExp(orelse=inner) if not isinstance(inner, ast.Constant):
+            return _name(inner)
+        case ast.JoinedStr(values=parts):
+            return next((_name(part.value) for part in parts if isinstance(part, ast.FormattedValue)), "text")
+    return "text"
+
+
+# Which plugins were found sound: by the content of their files, in the user's folder for what can be made again.
+
+
+OWN = Path(__file__).parents[1]
+FOLDER = "declarations"
+
+
+def content(mechanism: Mechanism) -> str:
+    """Return the SHA-256 of all that the check of a plugin follows from: its files, its allowed texts, and the check itself."""
+    found = hashlib.sha256(__version__.encode())
+    texts = [(key.path, key.texts) for key in world(mechanism.inputs).keys.values()]
+    found.update(repr((mechanism.kind, texts)).encode())
+    check = (
+        file
+        for part in ("declaration", "contract", "expressions", "formula_checks")
+        for file in (OWN / part).glob("*.py")
+    )
+    for file in sorted({*files(mechanism), *check}):
+        found.update(str(file).encode() + hashlib.sha256(file.read_bytes()).digest())
+    return found.hexdigest()
+
+
+def is_sound(key: str) -> bool:
+    """Return whether a plugin of this content was found sound before."""
+    folder = cache_folder(FOLDER)
+    return folder is not None and (folder / key).is_file()
+
+
+def remember(key: str) -> None:
+    """Note that a plugin of this content is sound; where it cannot be noted it is judged again the next time."""
+    folder = cache_folder(FOLDER)
+    if folder is not None:
+        with suppress(OSError):
+            folder.mkdir(parents=True, exist_ok=True)
+            (folder / key).touch()
+
+
+def files(mechanism: Mechanism) -> Iterator[Path]:
+    """Give the files in which anything of a mechanism is declared, and all others of their code."""
+    for file in {Path(place.rpartition(":")[0]) for place in _places(mechanism)}:
+        if not file.is_file():
+            continue
+        yield file
+        if file.suffix == ".py" and not file.is_relative_to(OWN):
+            package = file.with_name("__init__.py")
+            yield from (Path(path) for _, path in code_of(package if package.is_file() else file))
+
+
+def _places(mechanism: Mechanism) -> Iterator[str]:
+    declared: Iterable[tuple[object, ...]] = (
+        (mechanism,), mechanism.chapters, mechanism.checks, mechanism.figures, mechanism.exports, mechanism.sources,
+        mechanism.errata, mechanism.comparisons, mechanism.spectra, tuple(meta for _, meta in fields(mechanism.inputs)),
+    )  # fmt: skip
+    for parts in declared:
+        yield from (str(getattr(part, "at", "")) for part in parts)
+    for _, step in mechanism.steps:
+        yield step.at
+        yield from _tables(step)
+        yield from _formulas(step)
+    for comparison in mechanism.comparisons:
+        yield from _places(comparison.mechanism)
+
+
+def _tables(step: Step) -> Iterator[str]:
+    """The files that a step's tables were read from."""
+    taken = getattr(step, "table", None), getattr(step, "series", None)
+    yield from (f"{each.file}:" for each in taken if isinstance(each, StandardTable | StandardSeries) and each.file)
+
+
+def _formulas(step: Step) -> Iterator[str]:
+    """The places of a step's formulas."""
+    cases = [part for case in getattr(step, "cases", ()) for part in (case.value, case.condition)]
+    for part in (*vars(step).values(), *cases):
+        options = part.options() if isinstance(part, ByText) else (part,) if isinstance(part, Binding) else ()
+        yield from (f"{bound(option).formula.function.__code__.co_filename}:" for option in options)

@@ -1,0 +1,266 @@
+"""The contract test for a mechanism plugin: ``check_mechanism(MECHANISM)`` raises AssertionError with all that is wrong.
+
+It goes through every declared formula with the units of what it takes and refuses where dimensions do not balance (the angle is one), in
+each of the units that a mechanism may have, computes every printed expression against the function it was read from, and checks
+all that is declared, as loading a plugin does (``diecut_report.declaration``).
+"""
+
+from __future__ import annotations
+
+import ast
+import json
+from collections import Counter
+from collections.abc import Iterable, Iterator
+from contextlib import suppress
+from dataclasses import fields as fields_of
+from dataclasses import is_dataclass, replace
+from itertools import chain, combinations
+from pathlib import Path
+from typing import Any, cast
+
+import numpy as np
+
+from diecut_report.declaration import code, faults
+from diecut_report.declaration.dimensions import by_id, check_units, curve_units, dimensions, formulas, relations
+from diecut_report.declaration.inputs import of_input
+from diecut_report.declaration.names import short
+from diecut_report.declaration.texts import own_files, parsed
+from diecut_report.files import cache_folder
+from diecut_report.formulas.formula import evaluate
+from diecut_report.formulas.tree import Node
+from diecut_report.mechanism.chapters import Chapter, form_keys, in_form, in_unit, taken
+from diecut_report.mechanism.inputs import Block, Inputs, fields, nested
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import Text
+from diecut_report.mechanism.steps import Step, Value
+from diecut_report.quantities.formatting import NAMED
+from diecut_report.text.phrases import Phrase
+
+# Inputs that nothing takes: somebody types them, and no result changes.
+
+
+SAID = ("symbol", "unit", "description", "source", "title", "summary", "caption", "at", "kind", "version", "id")
+
+
+def idle_inputs(mechanism: Mechanism) -> Iterator[str]:
+    """Yield the numbers and curves among the inputs that nothing takes or names; a text may be there for the reader alone."""
+    used = {name.removeprefix("inputs.").partition("=")[0] for name in _used(mechanism)}
+    used |= {key for keys, singles in _spread(mechanism.inputs) if used.intersection(singles) for key in keys}
+    told = _told_in_code(own_files(mechanism))
+    for path, meta in fields(mechanism.inputs):
+        if not isinstance(meta, Text) and path not in used and path.rpartition(".")[2] not in told:
+            place = Path(of_input(mechanism.inputs, path, mechanism.at)).name
+            yield Phrase(
+                "{place}: input {path}: nothing takes it, so that it changes no result; take it in a step, or "
+                "remove it",
+                place=place,
+                path=path,
+            )
+
+
+def _used(mechanism: Mechanism) -> Iterator[str]:
+    """The names in all that is declared: of what is taken, of what switches it on, of what a message prints."""
+    for chapter, step in mechanism.steps:
+        yield from (*taken(step), *chapter.needs, *named_in(step))
+    for parts in (mechanism.checks, mechanism.figures, mechanism.exports):
+        yield from named_in(parts)
+    for comparison in mechanism.comparisons:
+        yield from (name for _, name in comparison.takes.values())
+    yield from (key for _, meta in fields(mechanism.inputs) for key, _ in getattr(meta, "units", ()))
+
+
+def named_in(declared: Any) -> Iterator[str]:
+    """Yield the texts in something declared, but those for the reader, with the ``{ids}`` in them."""
+    if isinstance(declared, str):
+        yield declared
+        yield from (found[1] for found in NAMED.finditer(declared))
+    elif isinstance(declared, tuple | list):
+        for part in declared:
+            yield from named_in(part)
+    elif is_dataclass(declared):
+        for field in fields_of(declared):
+            if field.name not in SAID and not (field.name == "cases" and isinstance(declared, Step)):
+                yield from named_in(getattr(declared, field.name))
+
+
+def _spread(model: type[Block], prefix: str = "") -> Iterator[tuple[set[str], set[str]]]:
+    """Keys that stand for others, each with those."""
+    for key, singles in model.spread.items():
+        yield {prefix + key}, {prefix + single for single in singles}
+    for name, declared in model.model_fields.items():
+        inner = nested(declared.annotation)
+        if inner:
+            yield from _spread(inner[0], f"{prefix}{name}.")
+
+
+def _told_in_code(files: Iterable[Path]) -> set[str]:
+    """The words that code may ask by, as drawings and validators do: whole texts, their parts between dots, and attributes."""
+    found: set[str] = set()
+    for file in files:
+        for node in ast.walk(parsed(file)):
+            if isinstance(node, ast.Constant) and isinstance(node.value, str):
+                found.update(node.value.split("."))
+            elif isinstance(node, ast.Attribute):
+                found.add(node.attr)
+    return found
+
+
+def check_mechanism(mechanism: Mechanism) -> None:
+    """Raise AssertionError, listing every flaw of a mechanism's declaration."""
+    problems = [str(fault) for fault in faults(mechanism)] or [
+        *idle_inputs(mechanism),
+        *(problem for form in forms(mechanism) for problem in quantities(form)),
+    ]
+    assert not problems, f"{mechanism.kind}:\n" + "\n".join(problems)
+
+
+def quantities(mechanism: Mechanism) -> Iterator[str]:
+    """Return what is wrong with the numbers of a mechanism in one of its forms."""
+    of_steps = chain(dimensions(mechanism), curve_units(mechanism), relations(mechanism), printing(mechanism))
+    return chain(of_steps, check_units(mechanism))
+
+
+def forms(mechanism: Mechanism) -> Iterator[Mechanism]:
+    """Yield the mechanism in all units that it may have, each with the steps that are made then."""
+    keys = form_keys(mechanism.inputs).union(*([key for key, _ in step.units] for _, step in mechanism.steps))
+    for count in range(len(keys) + 1):
+        for given in map(frozenset, combinations(sorted(keys), count)):
+            absent = (keys - given) | _excluded(mechanism.inputs, given)
+            chapters = tuple(replace(c, steps=_in_form(c, given, absent)) for c in mechanism.chapters)
+            checks = tuple(c for c in mechanism.checks if absent.isdisjoint((*c.needs, *c.only_with)))
+            inputs = cast(type[Inputs], in_form(mechanism.inputs, given))
+            yield replace(mechanism, inputs=inputs, chapters=chapters, checks=checks)
+
+
+def _excluded(model: type[Block], given: frozenset[str]) -> frozenset[str]:
+    """The keys that stand for what is given by other ones."""
+    rules = [rule.groups for rule in model.one_of if any(given.intersection(group) for group in rule.groups)]
+    return frozenset(key for groups in rules for group in groups if given.isdisjoint(group) for key in group)
+
+
+def _in_form(chapter: Chapter, given: frozenset[str], absent: frozenset[str]) -> tuple[Step, ...]:
+    """The steps of a chapter that may be made with some of the keys on which units depend, in their units."""
+    made = [s for s in chapter.steps if absent.isdisjoint(chapter.needs + s.needs) and given.isdisjoint(s.lacks)]
+    return tuple(in_unit(step, given) for step in made)
+
+
+def printing(mechanism: Mechanism) -> Iterator[str]:
+    """Yield formulas whose printed expression does not compute what the function computes."""
+    random = np.random.default_rng(1)
+    for step, part, link in formulas(mechanism):
+        taken = dict(zip(link.formula.parameters, random.uniform(0.1, 0.9, len(link.formula.parameters)), strict=True))
+        values = taken | link.formula.constants
+        with np.errstate(all="ignore"):
+            printed = evaluate(link.formula.tree, lambda leaf, known=values: known[leaf.args[0]])  # type: ignore[misc]
+            computed = link.formula(**taken)
+        if not np.allclose(printed, computed, rtol=1e-12, equal_nan=True):
+            yield Phrase(
+                "{id}: the {part} {formula} prints {printed}, computes {computed}",
+                id=step.id,
+                part=part,
+                formula=link.formula.__name__,
+                printed=printed,
+                computed=computed,
+            )
+
+
+# What is wrong with the formulas of a plugin, remembered by the content of its files in the user's folder for what can be made again.
+
+
+FOLDER = "formulas"
+
+
+def faults_of_formulas(mechanism: Mechanism) -> tuple[str, ...]:
+    """Return dimensions that do not balance, and formulas that print something else than they compute, each with file and line.
+
+    What was found is judged again where one of the plugin's files, or the program, has changed. The declarations are sound.
+    """
+    home = cache_folder(FOLDER)
+    file = home / code.content(mechanism) if home else None
+    if file is not None and (known := _known(file)) is not None:
+        return known
+    found = _judged(mechanism)
+    if file is not None:
+        with suppress(OSError):  # it is judged again the next time
+            file.parent.mkdir(parents=True, exist_ok=True)
+            file.write_text(json.dumps(found), "utf-8")
+    return found
+
+
+def _known(file: Path) -> tuple[str, ...] | None:
+    try:
+        found = json.loads(file.read_text("utf-8"))
+    except (OSError, ValueError):
+        return None
+    return tuple(found) if isinstance(found, list) and all(isinstance(each, str) for each in found) else None
+
+
+def _judged(mechanism: Mechanism) -> tuple[str, ...]:
+    try:
+        found = [by_id(mechanism, text) for form in forms(mechanism) for text in quantities(form)]
+    except Exception as cause:  # a formula that cannot be gone through alone
+        return (f"{type(cause).__name__}: {cause}",)
+    return tuple(dict.fromkeys(map(str, found)))
+
+
+# What an author may mean, and often does not: a unit that a formula converts by hand, a chapter that nothing depends on.
+
+
+BY_HAND = {60, 3600, 100, 1000, 1e6, 0.001, 180, 360, 57.3, 9.8, 9.81, 9.80665, 3.14, 3.142, 3.1416, 25.4}
+
+
+def doubts(mechanism: Mechanism) -> Iterator[str]:
+    """Yield what may be a mistake, each with its place."""
+    for step, _, link in formulas(mechanism):
+        for number in dict.fromkeys(_numbers(link.formula.tree)):
+            if float(number) in BY_HAND:
+                words = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
+                yield Phrase(words, place=short(step.at), id=step.id, number=number)
+    yield from _exchanged(mechanism)
+    yield from _idle_chapters(mechanism)
+
+
+def _exchanged(mechanism: Mechanism) -> Iterator[str]:
+    """Checks whose demand is an input, and whose limit a result, by the signs that an author gives to what is allowed."""
+    symbols = {path: getattr(meta, "symbol", "") for path, meta in fields(mechanism.inputs)}
+    given = {step.id for _, step in mechanism.steps}
+    for check in mechanism.checks:
+        demand, limit = (str(side).removeprefix("inputs.") for side in (check.demand, check.limit))
+        if symbols.get(demand, "").startswith("[") and limit in given:
+            words = "{place}: check {id}: its demand {demand} ({symbol}) has the symbol of what is allowed, and its limit {limit} is calculated; exchange them where the limit is what must not be too great"  # noqa: E501
+            yield Phrase(words, place=short(check.at), id=check.id, demand=demand, symbol=symbols[demand], limit=limit)
+
+
+def _numbers(node: object) -> Iterator[str]:
+    match node:
+        case Node("num", (text,)):
+            yield text
+        case Node("^", (base, _)):  # an exponent has no unit
+            yield from _numbers(base)
+        case Node(_, parts) | tuple(parts):
+            for part in parts:
+                yield from _numbers(part)
+
+
+def _idle_chapters(mechanism: Mechanism) -> Iterator[str]:
+    """Chapters of numbers alone that no check, key result, figure, file or other chapter takes, nor plain code by its name."""
+    declared = (mechanism.checks, mechanism.key_results, mechanism.figures, mechanism.exports)
+    if not any(declared):
+        return
+    asked = {name for part in declared for name in named_in(part)}
+    asked |= {name for comparison in mechanism.comparisons for _, name in comparison.takes.values()}
+    written = Counter(
+        node.value for file in own_files(mechanism) for node in ast.walk(parsed(file))
+        if isinstance(node, ast.Constant) and isinstance(node.value, str)
+    )  # fmt: skip
+    for chapter in mechanism.chapters:
+        if chapter.steps and all(isinstance(step, Value) for step in chapter.steps):
+            used = asked | _taken_elsewhere(mechanism, chapter)
+            if not any(step.id in used or written[step.id] > 1 for step in chapter.steps):
+                words = "{place}: chapter {title}: no check, key result, figure or other chapter takes what it gives; name the result that it is for in key_results, or check it"  # noqa: E501
+                yield Phrase(words, place=short(chapter.at), title=repr(chapter.title))
+
+
+def _taken_elsewhere(mechanism: Mechanism, chapter: Chapter) -> set[str]:
+    others = [step for other in mechanism.chapters if other is not chapter for step in other.steps]
+    return {name for step in others for name in (*taken(step), *named_in(step))}

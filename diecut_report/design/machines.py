@@ -1,0 +1,341 @@
+"""Many machines of one configuration, with other values of some inputs, calculated in one run: what each gives, and which checks hold."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config.instances import Instance
+from diecut_report.config.loader import Config, load_config
+from diecut_report.config.model import PRESS
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.references import as_file, written
+from diecut_report.config.yaml import KeyPath, Tree, parse
+from diecut_report.design.inputs import DesignInput
+from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.files import write_all
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.steps.soundness import is_made
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.results.checks import check_results, checks_of, is_of_machine, is_sized, judged
+from diecut_report.results.conclusion import failed_self_tests, governing
+from diecut_report.results.mechanism import SelfTestFailed
+from diecut_report.results.press_run import Run, Tell
+from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.execution.press_batch import CalculatedVariants, untold
+from diecut_report.study.execution.variant_rows import Given, Rows, calculate_rows, columns_of, output_values
+from diecut_report.study.storage.description import ResultColumn
+from diecut_report.text.phrases import Phrase
+
+CHECKS = ".checks."
+AT_LIMIT = 1e-9
+STATUS, UTILISATION, SLACK, MARGIN, SIZE = ".status", ".utilisation", ".slack", ".margin", ".size"
+NO_RESERVE = ".no_reserve"  # 1 where a check judges what was sized to its limit, or what is presumed
+
+
+@dataclass(frozen=True)
+class VariedMachines:
+    """Hold what came out of each machine, by name: ``drive.crank_torque_peak``, and by its path an input that was asked for.
+
+    ``status`` is pass, warn, fail or error, ``reasons`` why one cannot be calculated (None where it can).
+    """
+
+    rows: Rows
+
+    @property
+    def count(self) -> int:
+        return self.rows.count
+
+    @property
+    def status(self) -> Array:
+        return self.rows.status
+
+    @property
+    def reasons(self) -> Array:
+        return self.rows.errors
+
+    @cached_property
+    def exists(self) -> Array:
+        """Return which machines can be calculated."""
+        return np.asarray(self.rows.status != "error")
+
+    @cached_property
+    def checks(self) -> list[str]:
+        """Return the checks that are made of any machine, as ``drive.crank_torque``."""
+        ends = (name for name in self.rows.columns if name.endswith(SLACK))
+        return [name.removesuffix(SLACK).replace(CHECKS, ".", 1) for name in ends]
+
+    def values(self, name: str) -> Array:
+        """Return a number of each machine (SI); NaN where it has none, also where the name is not known."""
+        found = self.rows.columns.get(name)
+        return np.full(self.count, np.nan) if found is None else found.astype(float)
+
+    def check(self, name: str, what: str = STATUS) -> Array:
+        """Return of a check its status, utilisation, margin, size of the greater side, slack (margin by size), or whether it shows no reserve."""
+        home, _, own = name.partition(".")
+        found = self.rows.columns.get(f"{home}{CHECKS}{own}{what}")
+        return (
+            np.full(self.count, None if what == STATUS else np.nan, dtype=object if what == STATUS else float)
+            if found is None
+            else found
+        )
+
+    def failing(self, row: int, *, statuses: Sequence[str] = ("fail",)) -> list[str]:
+        """Return the checks of one machine that fail, or have one of other statuses."""
+        return [name for name in self.checks if self.check(name)[row] in statuses]
+
+    @cached_property
+    def least_slack(self) -> Array:
+        """Return the slack of the failing check that is furthest beyond its limit, else of the one nearest to it; NaN without machine."""
+        slack = np.full(self.count, np.inf)
+        for name in self.checks:
+            fails, own = self.check(name) == "fail", self.check(name, SLACK)
+            holds = (self.check(name) == "pass") & (
+                own > AT_LIMIT
+            )  # a warning is neither, and what is at its limit was sized to it
+            found = np.where(fails, np.minimum(own, -AT_LIMIT), own)
+            slack = np.where((fails | holds) & np.isfinite(own), np.minimum(slack, found), slack)
+        return np.where(self.exists, slack, np.nan)
+
+
+def varied(
+    config: Config, given: Given, count: int, inputs: Iterable[Input] = (), tell: Tell = untold
+) -> VariedMachines:
+    """Calculate so many machines of a configuration with other values: arrays of shape (count,), SI, or lists of texts.
+
+    ``inputs`` are those whose values are to be among the results. ``tell`` is called with the name of each mechanism before
+    it is calculated; what it raises ends the run. PluginError where a plugin breaks on every machine.
+    """
+    asked = list(inputs)
+
+    def further(made: CalculatedVariants) -> dict[str, Array]:
+        return _slack(made) | {
+            each.path: values for each in asked if (values := _input(config, made, each)) is not None
+        }
+
+    rows = calculate_rows(config, given, count, further=further, tell=tell)
+    if rows.broken and all(rows.status == "error"):
+        kind, words = next(iter(rows.broken.items()))
+        raise PluginError(words, kind)
+    wanted = {each.path for each in asked if each.unit}
+    rows.columns |= {
+        each.path: np.asarray(values, dtype=float) for each, values in given.items() if each.path in wanted
+    }
+    return VariedMachines(rows)
+
+
+def quantities(config: Config) -> dict[str, ResultColumn]:
+    """Return all numbers that a machine gives, with their units, by name."""
+    return {
+        column.name: column
+        for column in columns_of(config)
+        if column.kind in ("float", "int") and CHECKS not in column.name
+    }
+
+
+def narrowed(config: Config, names: Iterable[str]) -> Config:
+    """Return the configuration with these mechanisms alone, and those that they follow from: what else there is need not be calculated."""
+    wanted = {PRESS, *upstream(config, [PRESS, *names])}
+    instances = {name: instance for name, instance in config.instances.items() if name in wanted}
+    links = {node: target for node, target in config.links.items() if node[0] in wanted}
+    return replace(config, instances=instances, links=links, order=tuple(n for n in config.order if n[0] in wanted))
+
+
+def upstream(config: Config, names: Iterable[str]) -> set[str]:
+    """Return these mechanisms and all that they follow from, the press too where they do."""
+    found: set[str] = set()
+    left = list(names)
+    while left:
+        name = left.pop()
+        found.add(name)
+        own = (target for node, target in config.links.items() if node[0] == name)
+        left += [each.instance for target in own for each in target.single if each.instance not in found]
+    return found
+
+
+def downstream(config: Config, name: str) -> list[str]:
+    """Return the mechanism, or the press, and all mechanisms that follow from it."""
+    return [each for each in config.instances if name in upstream(config, [each])]
+
+
+def _slack(made: CalculatedVariants) -> dict[str, Array]:
+    """How far each check is from its limit: the margin as a share of the greater of demand and limit."""
+    found: dict[str, Array] = {}
+    for name, calc in made.calculations.items():
+        for check in checks_of(calc):
+            if not (is_of_machine(check) and is_made(calc, check)):
+                continue
+            sides = judged(calc, check)
+            there, demand, limit = (sides.governing(part) for part in (sides.there, sides.demand, sides.limit))
+            limit = limit * (1 + check.tolerance)
+            size = np.maximum(np.abs(demand), np.abs(limit))
+            with np.errstate(all="ignore"):
+                share = np.where(size > 0, (limit - demand) / size, 0.0)
+            shows_none = np.full(share.shape, float(is_sized(calc.given, check) or check.presumed))
+            for what, values in ((SLACK, share), (MARGIN, limit - demand), (SIZE, size), (NO_RESERVE, shows_none)):
+                column = np.where(there, values, np.nan)
+                found[f"{name}{CHECKS}{check.id}{what}"] = np.broadcast_to(column, (made.count,))
+    return found
+
+
+def _input(config: Config, made: CalculatedVariants, asked: Input) -> Array | None:
+    """An input's value in each machine, as the calculation took it; of the press as the file gives it."""
+    assert isinstance(asked.meta, Quantity)
+    if asked.instance == PRESS:
+        instance = config.instances[PRESS]
+        value = instance.value(asked.key) if instance and (PRESS, *asked.key) not in config.links else None
+        return np.full(made.count, float(value)) if isinstance(value, int | float) else None
+    calc = made.calculations.get(asked.instance)
+    name = ".".join(part for part in asked.key if isinstance(part, str))
+    row = None if calc is None else calc.inputs.get(name)
+    if not isinstance(row, np.ndarray):
+        return None
+    index = next((part for part in asked.key if isinstance(part, int)), 0)
+    return (
+        np.broadcast_to(row[:, index], (made.count,)).astype(float) if row.ndim == 2 and index < row.shape[1] else None
+    )
+
+
+# Machines with other values of the free inputs, counted: no more of them are calculated than a search may spend.
+
+
+MOST = 10_000  # machines of a search, unless the user says otherwise
+
+
+class Enough(Exception):
+    """Report that a search has calculated as many machines as it may."""
+
+
+@dataclass
+class Spent:
+    """Count the machines that were calculated; ``most`` is how many may be."""
+
+    most: float = math.inf
+    count: int = 0
+
+    def take(self, count: int) -> None:
+        """Note machines that are about to be calculated; Enough where they are too many."""
+        if self.count + count > self.most:
+            raise Enough
+        self.count += count
+
+
+@dataclass(frozen=True)
+class ChangedMachines:
+    """Calculate machines by the shares of their inputs that are changed; ``choices`` are texts and stepped numbers, as typed."""
+
+    config: Config
+    inputs: Sequence[DesignInput]
+    choices: Mapping[Input, str] = field(default_factory=dict)
+    spent: Spent = field(default_factory=Spent)
+
+    def __call__(self, shares: Array) -> VariedMachines:
+        count = len(shares)
+        self.spent.take(count)
+        today = np.array([each.today for each in self.inputs], dtype=float)
+        values = today * (1.0 + shares)
+        given: dict[Input, Any] = {each.asked: values[:, index] for index, each in enumerate(self.inputs)}
+        return varied(
+            self.config, given | {asked: _column(asked, text, count) for asked, text in self.choices.items()}, count
+        )
+
+    def with_choice(self, asked: Input, text: str) -> ChangedMachines:
+        """Return the same with one more choice."""
+        return self.with_choices({**self.choices, asked: text})
+
+    def with_choices(self, choices: Mapping[Input, str]) -> ChangedMachines:
+        """Return the same with these choices in the place of its own."""
+        return ChangedMachines(self.config, self.inputs, choices, self.spent)
+
+
+def _column(asked: Input, text: str, count: int) -> Any:
+    return np.full(count, float(asked.meta.validate(text))) if isinstance(asked.meta, Quantity) else [text] * count
+
+
+# One machine of a configuration with values written into its text, read again and calculated by itself, as its report would.
+
+
+Data = dict[str, Any]
+
+
+@dataclass(frozen=True)
+class ProvedMachine:
+    """Hold a machine that was calculated alone: the text that it was read from, its results and checks."""
+
+    tree: Tree
+    config: Config
+    calculations: Mapping[str, Calculation]
+    checked: Mapping[str, list[Data]]
+
+    @cached_property
+    def outputs(self) -> dict[str, float]:
+        """Return its numbers by name, SI."""
+        found = {n: v for name, calc in self.calculations.items() for n, v in output_values(name, calc).items()}
+        return {name: float(v[0]) for name, v in found.items() if v.dtype.kind in "fi" and v[0] == v[0]}
+
+    def checks(self, status: str) -> list[tuple[str, Data]]:
+        """Return its checks of a status, each with its name ``drive.crank_torque``."""
+        return [(f"{name}.{each['id']}", each) for name, each in self._each() if each["status"] == status]
+
+    @property
+    def status(self) -> str:
+        return next((status for status in ("fail", "warn") if self.checks(status)), "pass")
+
+    @property
+    def governing(self) -> str | None:
+        """Return the check that governs."""
+        found = governing({name: {"checks": checks} for name, checks in self.checked.items()})
+        return f"{found['mechanism']}.{found['check']}" if found else None
+
+    def _each(self) -> Iterator[tuple[str, Data]]:
+        yield from ((name, each) for name, checks in self.checked.items() for each in checks)
+
+
+def proved(tree: Tree, values: Mapping[KeyPath, str], discovery: Discovery) -> ProvedMachine:
+    """Write values into the text of a configuration, by their places, and calculate what it then says.
+
+    UserError where a value cannot be written or the machine cannot exist; PluginError where a plugin breaks.
+    """
+    text = written(tree, values) if values else tree.text
+    changed = parse(text, tree.file)
+    again = Tree(changed.root, tree.file, text, changed.sha256, tree.name)
+    config = load_config(again, discovery)
+    run = _CheckedRun(config, lambda _: None)
+    if run.problems:
+        raise UserError(run.problems)
+    for error in run.errors.values():
+        raise error
+    return ProvedMachine(again, config, run.calculations, run.checked)
+
+
+def write_config(tree: Tree, machine: ProvedMachine, target: Path) -> None:
+    """Write the machine's text as a file: whole, or not at all. UserError where it could not be read there as it is here."""
+    home = Path(tree.file).resolve().parent
+    if machine.config.files and target.resolve().parent != home:
+        words = "The configuration names files beside it ({files}), which would not be found there. Write it into the folder {folder}."
+        raise UserError(Problem(Phrase(words, files=", ".join(machine.config.files), folder=home), str(target)))
+    write_all({target: as_file(tree, machine.tree.text)}, keep=Path(tree.file), through=True)
+
+
+class _CheckedRun(Run):
+    """One way through the graph that judges each mechanism and prints nothing."""
+
+    def __init__(self, config: Config, tell: Any) -> None:
+        self.checked: dict[str, list[Data]] = {}
+        super().__init__(config, tell)
+
+    def _comparisons(self) -> None:
+        """Mechanisms that are compared have no checks."""
+
+    def _printed(self, instance: Instance, calculation: Calculation) -> None:
+        checks = check_results(calculation)
+        if failed := failed_self_tests(checks):
+            raise SelfTestFailed(failed)
+        self.checked[instance.name] = [each for each in checks if each["class"] != "numerical"]

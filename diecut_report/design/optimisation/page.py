@@ -1,0 +1,511 @@
+"""An optimisation as HTML (one file, no network, no scripts) and as PDF, in the look of a study's summary."""
+
+from __future__ import annotations
+
+import base64
+import math
+from collections.abc import Callable, Iterator, Sequence
+from dataclasses import dataclass
+from functools import partial
+from itertools import combinations
+from typing import Any
+
+import numpy as np
+from markupsafe import Markup
+from matplotlib.axes import Axes
+from matplotlib.figure import Figure
+from matplotlib.ticker import MaxNLocator
+
+from diecut_report import __version__
+from diecut_report.config import yaml
+from diecut_report.design.optimisation.result import (
+    Conflict,
+    FoundFront,
+    InputPlace,
+    OptimisationResult,
+    SearchProgress,
+    TriedMachines,
+    columns_shown,
+)
+from diecut_report.design.optimisation.run import Recheck, asked_of
+from diecut_report.files import room
+from diecut_report.formulas import Array
+from diecut_report.quantities.formatting import number_text, with_unit
+from diecut_report.quantities.units import unit
+from diecut_report.report.figures.diagram import WIDTH
+from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, text_size
+from diecut_report.report.pages import html, pdf
+from diecut_report.report.pages.page_engine import HTML, URLFetcher
+from diecut_report.report.text import Catalogue, number
+from diecut_report.study.analysis.variants import StoredColumn, table_text
+from diecut_report.study.summary import best
+from diecut_report.study.summary import content as questions
+from diecut_report.study.summary.best import StoredObjective
+from diecut_report.study.summary.charts import COLOURS, HEAD, LABEL, chart, panel
+from diecut_report.study.summary.data import display, factor, named, titled, utilised, value_told, wrapped
+from diecut_report.study.summary.data import quantity as charts_quantity
+from diecut_report.study.summary.figures import SummaryFigure
+from diecut_report.text.phrases import Counted, Phrase, capital, joined, phrase
+from diecut_report.text.translation import localised, said, say, say_counted, spoken_language
+
+# The figures of an optimisation, in the style of a study's summary: the front, how it was found, where it lies within the bounds.
+
+
+LEGEND, MOST_PAIRS, MOST_POINTS = 16.0, 6, 3000
+Pair = tuple[int, int]  # of objectives, by their places
+
+
+@dataclass(frozen=True)
+class Cloud:
+    """Hold the machines behind a front: their objectives (SI) and which of them are allowed."""
+
+    values: Array
+    allowed: Array
+
+
+def cloud(there: TriedMachines, goals: Sequence[StoredObjective]) -> Cloud:
+    """Return the calculated machines, every so-manieth of very many."""
+    signs = np.array([1.0 if goal.is_less else -1.0 for goal in goals])
+    rows = np.flatnonzero(np.isfinite(there.costs).all(axis=1))
+    rows = rows[:: max(1, -(-len(rows) // MOST_POINTS))]
+    return Cloud(there.costs[rows] * signs, there.violations[rows] == 0)
+
+
+def front(found: FoundFront, there: TriedMachines, told: str) -> Svg:
+    """Return each pair of objectives: what was tried, the front, the suggested machine and today's."""
+    pairs = list(combinations(range(len(found.objectives)), 2))[:MOST_PAIRS]
+    return chart(partial(_charts_front, found, there, pairs), told, "front")
+
+
+def _charts_front(found: FoundFront, there: TriedMachines, pairs: Sequence[Pair]) -> Figure:
+    across = 1 if len(pairs) == 1 else 3
+    wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3 - 4, 100.0)
+    pitch, rows = high + 46 + HEAD, -(-len(pairs) // across)
+    sheet = canvas(WIDTH, rows * pitch + LEGEND)
+    behind = cloud(there, found.objectives)
+    for index, pair in enumerate(pairs):
+        row, column = divmod(index, across)
+        axes = panel(sheet, 44 + column * (wide + 44), (rows - row - 1) * pitch + 40 + LEGEND, wide, high)
+        _pair(axes, found, there, behind, pair, 24.0 if across == 1 else 9.0)
+        x, y = (found.objectives[place].column for place in pair)
+        axes.set_title(wrapped(titled(y), wide, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
+        axes.set_xlabel(wrapped(titled(x), wide, 7.5, 2), labelpad=1.5, size=7.5, linespacing=1.05)
+        for axis in (axes.xaxis, axes.yaxis):
+            axis.set_major_locator(MaxNLocator(6 if across == 1 else 4))
+    handles, names = axes.get_legend_handles_labels()
+    sheet.legend(handles, names, loc="lower left", bbox_to_anchor=(44 / WIDTH, 0), ncols=len(names), borderaxespad=0)
+    return sheet
+
+
+def _pair(axes: Axes, found: FoundFront, there: TriedMachines, behind: Cloud, pair: Pair, size: float) -> None:
+    x, y = pair
+    columns = [found.objectives[place].column for place in pair]
+    scale = np.array([factor(column) for column in columns])
+    points = found.values[:, [x, y]] * scale
+    for is_allowed, colour, words in (
+        (False, "#dcc3c3", say("is not allowed")),
+        (True, COLOURS["pass"], say("is allowed")),
+    ):
+        some = behind.values[behind.allowed == is_allowed][:, [x, y]] * scale
+        axes.scatter(some[:, 0], some[:, 1], s=size / 3, c=colour, linewidths=0, alpha=0.7, label=words)
+    line = "-" if len(found.objectives) == 2 else "none"
+    step = "steps-post" if found.objectives[x].is_less else "steps-pre"  # round what the front betters
+    order = np.argsort(points[:, 0], kind="stable")
+    axes.plot(*points[order].T, linestyle=line, drawstyle=step, marker="D", color=INK, markersize=2.6, linewidth=0.8,
+              label=say("Pareto front"))  # fmt: skip
+    if found.suggested is not None:
+        axes.plot(*points[[found.suggested]].T, "o", color="none", markeredgecolor=ACCENT, markeredgewidth=1.6,
+                  markersize=9, label=say("suggestion"))  # fmt: skip
+    if found.today is not None and np.isfinite(there.costs[0]).all():
+        signs = np.array([1.0 if found.objectives[place].is_less else -1.0 for place in pair])
+        now = there.costs[0, [x, y]] * signs * scale
+        axes.plot([now[0]], [now[1]], "*", color="#b06a2c", markersize=9, label=say("today"))
+    _limits(axes, points, behind.values[behind.allowed][:, [x, y]] * scale)
+
+
+def _limits(axes: Axes, points: Array, allowed: Array) -> None:
+    """Show the front and the allowed machines near it: what lies far off would press it into a corner."""
+    low, high = points.min(axis=0), np.maximum(points.max(axis=0), np.quantile(allowed, 0.9, axis=0))
+    low = np.minimum(low, np.quantile(allowed, 0.1, axis=0))
+    room = 0.06 * np.where(high > low, high - low, np.maximum(np.abs(high), 1e-12))
+    axes.set_xlim(low[0] - room[0], high[0] + room[0])
+    axes.set_ylim(low[1] - room[1], high[1] + room[1])
+
+
+def progress(found: SearchProgress, goals: Sequence[StoredObjective], told: str) -> Svg:
+    """Return how far the search was after each generation."""
+    return chart(partial(_charts_progress, found, goals), told, "progress")
+
+
+def _charts_progress(found: SearchProgress, goals: Sequence[StoredObjective]) -> Figure:
+    wide, high = WIDTH - 60, 120.0
+    sheet = canvas(WIDTH, high + 40 + HEAD)
+    axes = panel(sheet, 44, 36, wide, high)
+    reached = np.array(found.reached)
+    if len(goals) == 1:
+        reached = reached * (1.0 if goals[0].is_less else -1.0) * factor(goals[0].column)
+        title = titled(goals[0].column)
+    else:
+        reached, title = 100 * reached, say("Volume that the front dominates, % of that at the end")
+    axes.plot(found.tried, reached, color=ACCENT, marker="o", markersize=2.4)
+    axes.set_title(wrapped(title, wide, 7.5, 1), pad=3, size=7.5)
+    axes.set_xlabel(say("machines tried"), labelpad=1.5, size=7.5)
+    axes.set_xlim(0, max(found.tried))
+    axes.yaxis.set_major_locator(MaxNLocator(5))
+    return sheet
+
+
+def bounds(found: Sequence[InputPlace], told: str) -> Svg:
+    """Return where the front's points lie within the range of each number that varies."""
+    return chart(partial(_bounds, found), told, "bounds")
+
+
+def _bounds(found: Sequence[InputPlace]) -> Figure:
+    labels = [wrapped(titled(each.column), LABEL, FONT_SIZE, 1) for each in found]
+    ends = [(_bare(each.low, each.column), _bare(each.high, each.column)) for each in found]
+    names = max(text_size(label)[0] for label in labels) + 14
+    left, right = (max(text_size(each[side], 8)[0] for each in ends) + 10 for side in (0, 1))
+    sheet = canvas(WIDTH, 20.0 * len(found) + 8)
+    axes = panel(sheet, names + left, 4, WIDTH - names - left - right, 20.0 * len(found))
+    for place, each, label, (low, high) in zip(range(len(found))[::-1], found, labels, ends, strict=True):
+        axes.plot([0, 1], [place, place], color="#c3cbd3", linewidth=5, solid_capstyle="butt")
+        for end, count in ((0, each.at_low), (1, each.at_high)):
+            if count:
+                axes.plot([end, end], [place - 0.33, place + 0.33], color=COLOURS["fail"], linewidth=2.2)
+        axes.plot(each.shares, np.full(len(each.shares), place), "D", color=INK, markersize=2.6, linestyle="none")
+        side: dict[str, Any] = {"textcoords": "offset points", "va": "center_baseline"}
+        axes.annotate(low, (0, place), (-6, 0), ha="right", size=8, color=SOFT, **side)
+        axes.annotate(high, (1, place), (6, 0), ha="left", size=8, color=SOFT, **side)
+        axes.annotate(label, (0, place), (-left - 4, 0), ha="right", size=FONT_SIZE, **side)
+    axes.set_xlim(-0.02, 1.02)
+    axes.set_ylim(-0.6, len(found) - 0.4)
+    axes.set_axis_off()
+    return sheet
+
+
+def _bare(value: float, column: StoredColumn) -> str:
+    return charts_quantity(value, column)
+
+
+# What an optimisation has found, in words: for the terminal, and for the page.
+
+
+DIGITS = 5
+TOLD = 5  # machines that differ, demands that are broken
+
+
+def quantity(value: float, column: StoredColumn) -> str:
+    """Return an SI value in the unit that people read."""
+    return localised(with_unit(number_text(unit(column.display).from_si(value), DIGITS), column.display))
+
+
+def called(column: StoredColumn) -> str:
+    """Return what a quantity is called in commands: ``knife.cut_time``, an input without ``mechanisms.``"""
+    return column.name.removeprefix("mechanisms.")
+
+
+def lines(found: OptimisationResult) -> Iterator[str]:
+    """Yield what was found, a line after the other."""
+    yield goals(found)
+    yield counts(found)
+    if found.conflict is not None:
+        yield from conflict_lines(found, found.conflict)
+        return
+    yield from (line for line in (head(found), *table(found), suggested(found), today(found)) if line)
+    for each in found.bounds:
+        if told := held(each, found.front.is_single):
+            yield told
+    yield from recheck_lines(found)
+
+
+def goals(found: OptimisationResult) -> str:
+    """Return what was searched for."""
+    told = [
+        Phrase("least {quantity}" if goal.is_less else "greatest {quantity}", quantity=called(goal.column))
+        for goal in found.front.objectives
+    ]
+    return Phrase("searched for: {goals}", goals=joined(told, ", "))
+
+
+def counts(found: OptimisationResult) -> str:
+    """Return how many machines were tried, and what became of them."""
+    tried = Counted(found.tried, "{n} machine tried", "{n} machines tried")
+    whole = tried + phrase(", all there are") if found.is_all else tried
+    parts: list[str] = [
+        whole,
+        Counted(found.front.allowed, "{n} of them allowed", "{n} of them allowed"),
+    ]
+    if found.errors:
+        parts.append(Counted(found.errors, "{n} cannot exist", "{n} cannot exist"))
+    if found.dropped:
+        words = "{n} breaks a constraint between inputs", "{n} break a constraint between inputs"
+        parts.append(Counted(found.dropped, *words))
+    return joined(parts, "; ")
+
+
+def head(found: OptimisationResult) -> str:
+    """Return how large the front is, and how much of it is listed."""
+    if found.front.is_single:
+        return phrase("the best of them:")
+    size, listed = len(found.front.variants), len(found.front.listed)
+    words = "front of {n} machine that no other betters", "front of {n} machines that no other betters"
+    of_all = Phrase(", {listed} of them listed", listed=listed) if listed < size else ""
+    return Counted(size, *words) + of_all + ":"
+
+
+def table(found: OptimisationResult) -> list[str]:
+    """Return the listed machines as lines of a table."""
+    stored, front = found.stored, found.front
+    fixed = [stored.columns[name] for name in ("variant", "status", "governing")]
+    columns = [*fixed, *columns_shown(front)]
+    text, _ = table_text(columns, [row(found, place) for place in front.listed], None)
+    return [line for line in text.splitlines() if line.strip()]
+
+
+def row(found: OptimisationResult, place: int) -> list[Any]:
+    """Return a machine of the front: number, verdict, governing check, then objectives and inputs, each once (SI)."""
+    front = found.front
+    values: dict[str, Any] = {column.name: front.inputs[column.name][place] for column in front.varied}
+    values |= {goal.column.name: front.values[place, n] for n, goal in enumerate(front.objectives)}
+    own = [int(front.variants[place]), front.status[place], front.governing[place]]
+    return [*own, *(_plain(values[column.name]) for column in columns_shown(front))]
+
+
+def _plain(value: Any) -> Any:
+    """A value as plain data."""
+    return value.item() if hasattr(value, "item") else value
+
+
+def suggested(found: OptimisationResult) -> str:
+    """Return which machine is suggested, and why."""
+    front = found.front
+    if front.is_single:
+        return ""
+    if front.suggested is None:
+        return front.why
+    number = int(front.variants[front.suggested])
+    return Phrase("a suggestion: {number} ({why})", number=number, why=phrase(front.why))
+
+
+def today(found: OptimisationResult, name: Callable[[StoredColumn], str] = called) -> str:
+    """Return what today's machine has of the objectives, each by its ``name``."""
+    if found.front.today is None:
+        return ""
+    signs = [1.0 if goal.is_less else -1.0 for goal in found.front.objectives]
+    goals_ = zip(found.front.objectives, found.known.costs[0] * signs, strict=True)
+    told = [
+        Phrase(
+            "{name} {value}",
+            name=name(goal.column),
+            value=quantity(value, goal.column) if math.isfinite(value) else "–",
+        )
+        for goal, value in goals_
+    ]
+    verdict = phrase("it is allowed") if found.known.violations[0] == 0 else phrase("it is not allowed")
+    return Phrase("today's machine is {number} ({verdict}): {told}", number=0, verdict=verdict, told=joined(told, ", "))
+
+
+def held(each: InputPlace, is_single: bool) -> str:
+    """Return in words that an end of what is searched holds the front; nothing where none does."""
+    if each.is_text or not (each.at_low or each.at_high):
+        return ""
+    parts = [
+        _end(each, count, value, may_go, is_single, is_low=is_low)
+        for count, value, may_go, is_low in (
+            (each.at_low, each.low, each.may_lower, True),
+            (each.at_high, each.high, each.may_raise, False),
+        )
+        if count
+    ]
+    return Phrase("{name}: {ends}", name=called(each.column), ends=joined(parts, "; "))
+
+
+def _end(each: InputPlace, count: int, value: float, may_go: bool, is_single: bool, *, is_low: bool) -> str:
+    end = phrase("lower") if is_low else phrase("upper")
+    told = quantity(value, each.column)
+    if is_single:
+        place = Phrase("stands at the {end} end of its range, {value}", end=end, value=told)
+    else:
+        words = (
+            "{n} of {all} stands at the {end} end of its range, {value}",
+            "{n} of {all} stand at the {end} end of its range, {value}",
+        )
+        place = Counted(count, *words, all=each.count, end=end, value=told)
+    if not may_go:
+        return place + phrase(", and the input allows no more")
+    return place + phrase(": the bound holds it; widen the range to look further")
+
+
+def recheck_lines(found: OptimisationResult) -> Iterator[str]:
+    """Yield what the listed machines are by themselves."""
+    count, differing = len(found.rechecks), found.differing
+    if not differing:
+        most = max((each.share for each in found.rechecks), default=0.0)
+        agreed = "calculated again by itself: {n} agrees{most}", "calculated again one by one: all {n} agree{most}"
+        share = Phrase(" (numbers differ by {share} at most)", share=f"{most:.1g}") if most else ""
+        yield Counted(count, *agreed, most=share)
+        return
+    words = "calculated again one by one: {n} of {all} differs", "calculated again one by one: {n} of {all} differ"
+    yield Counted(len(differing), *words, all=count)
+    yield from ("  " + phrase(difference(each)) for each in differing[:TOLD])
+
+
+def difference(each: Recheck) -> str:
+    """Return in words how a machine by itself differs from what it was among many."""
+    if each.fault:
+        return Phrase("{number}: {fault}", number=each.variant, fault=phrase(each.fault))
+    if each.status != each.alone:
+        words = "{number}: {status} among many, {alone} by itself"
+        return Phrase(words, number=each.variant, status=phrase(each.status), alone=phrase(each.alone))
+    words = "{number}: {name} differs by {share} of its size"
+    return Phrase(words, number=each.variant, name=each.name, share=f"{each.share:.2g}")
+
+
+def conflict_lines(found: OptimisationResult, why: Conflict) -> Iterator[str]:
+    """Yield why no machine is allowed, and which one comes nearest."""
+    if why.nearest is None:
+        reason = phrase(why.reason) if why.reason else phrase("the constraints between inputs drop them all")
+        yield Phrase("none of them can be calculated: {reason}", reason=reason)
+        return
+    if len(why.together) == 1:
+        yield Phrase("none of them holds this: {name}", name=why.together[0])
+    elif why.together:
+        yield Phrase("none of them holds these together: {names}", names=", ".join(why.together))
+    yield Phrase("nearest is {number}, which breaks {names}", number=why.nearest, names=", ".join(_broken(why)))
+
+
+def _broken(why: Conflict) -> Sequence[str]:
+    told = [
+        f"{name} ({localised(f'{used:.4g}')})" if math.isfinite(used) else name for name, used in why.failing[:TOLD]
+    ]
+    return [*told, "…"] if len(why.failing) > TOLD else told
+
+
+@dataclass(frozen=True)
+class PageRow:
+    """Hold a listed machine as texts: its number and report, verdict, governing check, objectives and inputs."""
+
+    variant: int
+    href: str
+    status: str
+    governing: str
+    values: list[str]
+    is_suggested: bool
+
+
+def page(found: OptimisationResult) -> str:
+    """Return the page as HTML."""
+    return _filled(found, "screen")
+
+
+def sheets(found: OptimisationResult) -> bytes:
+    """Return it as PDF (A4, PDF/UA-1)."""
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
+    with room(), pdf._without_collection():
+        content: bytes = HTML(string=_filled(found, "print"), url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
+    return content
+
+
+def _filled(found: OptimisationResult, kind: str) -> str:
+    styles = ("report", kind, *(["strip"] if kind == "print" else []), "summary", "optimisation")
+    style = "\n".join([html._font_faces(tuple(html.FACES.items())), *(html._read(f"{name}.css") for name in styles)])
+    asked = asked_of(found.study)
+    return html._environment().get_template("optimisation.html.j2").render(
+        r=found, o=asked, t=Catalogue(spoken_language()), language=spoken_language(), kind=kind, policy=html.policy(),
+        style=Markup(style), version=__version__, title=_title(found), figure=partial(_figure, kind), figures=_figures(found),
+        asked=questions.asked_questions(found.stored), heads=[titled(column) for column in columns_shown(found.front)],
+        goals=[goal.told for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
+        counts=capital(counts(found)), suggested=capital(suggested(found)), today=capital(today(found, named)),
+        held=_held(found), rechecked=[capital(line) for line in recheck_lines(found)],
+        conflict=list(conflict_lines(found, found.conflict)) if found.conflict else [],
+        words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, say=say, counted=_counted,
+        files=_files(found), localised=localised, value_told=value_told,
+        example=int(found.front.variants[found.front.suggested or 0]) if found.conflict is None else found.conflict.nearest,
+    )  # fmt: skip
+
+
+def _counted(one: str, many: str, count: int, **more: object) -> str:
+    """What a template says of a number of things."""
+    return say_counted(count, one, many, n=number(str(count)), **more)
+
+
+def _title(found: OptimisationResult) -> str:
+    """The title of the base's project, else the study's file."""
+    content = found.stored.description.base.content
+    project = yaml.parse(content.decode(), "base").data.get("project") if content else None
+    return str((project or {}).get("title") or found.stored.description.study.file)
+
+
+def _files(found: OptimisationResult) -> list[tuple[str, str]]:
+    """The files that the study was made from, with their SHA-256."""
+    made = found.stored.description
+    return [(source.file, source.sha256) for source in (made.study, made.base, *made.tables)]
+
+
+def _row(found: OptimisationResult, place: int) -> PageRow:
+    variant, status, governing, *values = row(found, place)
+    check = governing or ""
+    used = ""
+    if check in found.stored.checks:
+        ((ratio,),) = found.stored.rows(
+            f"SELECT {found.stored.checks[check][0].sql} FROM v WHERE variant = ?", [variant]
+        )
+        used = f"{utilised(ratio)} " if ratio is not None else ""
+    shown = [
+        display(value, column) if column.is_number else value_told(value)
+        for value, column in zip(values, columns_shown(found.front), strict=True)
+    ]
+    told = used + (said(found.stored.check_told(check)) if check else "–")
+    is_suggested = not found.front.is_single and place == found.front.suggested
+    return PageRow(variant, best.report_of(found.stored.folder, variant), status, told, shown, is_suggested)
+
+
+def _held(found: OptimisationResult) -> list[str]:
+    told = (held(each, found.front.is_single) for each in found.bounds)
+    return [said(line) for line in told if line]
+
+
+def _figures(found: OptimisationResult) -> dict[str, SummaryFigure]:
+    """The charts that there is something for, by their keys."""
+    if found.conflict is not None:
+        return {}
+    goals = found.front.objectives
+    listed = [each for each in found.bounds if not each.is_text]
+    parts: dict[str, Callable[[], SummaryFigure]] = {"progress": lambda: _progress(found)}
+    if len(goals) > 1:
+        parts["front"] = lambda: _front(found)
+    if listed:
+        told = "; ".join(_held(found)) or say("No point stands at an end of a range.")
+        caption = say(
+            "Where the points of the front lie between the ends of what was searched; a red bar is an end that holds some."
+        )
+        parts["bounds"] = lambda: SummaryFigure(bounds(listed, told), caption, told)
+    return {key: make() for key, make in parts.items()}
+
+
+def _front(found: OptimisationResult) -> SummaryFigure:
+    goals = " / ".join(named(goal.column) for goal in found.front.objectives)
+    words = "The front over each pair of objectives: {goals}; {n} machines on it."
+    told = say(words, goals=goals, n=len(found.front.variants))
+    caption = say(
+        "What was tried and the front: a machine on it is bettered by no other. Machines far from it lie outside."
+    )
+    return SummaryFigure(front(found.front, found.known, told), caption, told)
+
+
+def _progress(found: OptimisationResult) -> SummaryFigure:
+    gained, tried = found.progress.last_gain, found.tried
+    told = say(
+        "The last thousandth was gained after {n} of {all} machines.", n=number(str(gained)), all=number(str(tried))
+    )
+    if gained > 0.9 * tried and not found.is_all:
+        told += " " + say("The search was still gaining: more evaluations may find more.")
+    return SummaryFigure(progress(found.progress, found.front.objectives, told), told, told)
+
+
+def _figure(kind: str, fig: Any) -> Markup:
+    """A chart inline on the screen, as an image with its alternative on paper."""
+    if kind == "screen":
+        return Markup(fig.svg.text)  # matplotlib escapes the texts within the drawing
+    content = base64.b64encode(fig.svg.text.encode()).decode()
+    return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(content, fig.alternative)

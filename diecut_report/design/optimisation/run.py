@@ -1,0 +1,503 @@
+"""A run of an optimisation: generation after generation to the processes, each written as a part of a study's folder.
+
+A generation is a part file. A run that goes on is told again what is stored, asks for the same machines, and so comes to where it
+ended: nothing of the search itself is kept.
+"""
+
+from __future__ import annotations
+
+import math
+import os
+import time
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from importlib.metadata import version
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config import yaml
+from diecut_report.config.loader import Config
+from diecut_report.config.plugins import Discovery
+from diecut_report.design.machines import ProvedMachine, proved
+from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.files import refuse_unreadable_name
+from diecut_report.formulas import Array
+from diecut_report.study.analysis.variant_config import variant_of
+from diecut_report.study.analysis.variants import UTILISATION as RECHECK_UTILISATION
+from diecut_report.study.analysis.variants import Stored, opened, quoted
+from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.study_file import Optimise, Study
+from diecut_report.study.definition.variables import Values
+from diecut_report.study.definition.wanted_results import Objective
+from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results, settle
+from diecut_report.study.execution.study_run import Counts, Tell, Where, described, engine_for, facts
+from diecut_report.study.execution.variant_rows import Rows, calculate_rows
+from diecut_report.study.storage import state
+from diecut_report.study.storage.description import Description, ResultColumn
+from diecut_report.study.storage.parts import columns_of_part
+from diecut_report.study.storage.state import SEARCHED
+from diecut_report.study.storage.store import Store
+from diecut_report.text.phrases import Phrase, phrase
+
+# A generation calculated: many machines at once, what each costs, and by how much each breaks what is asked.
+
+
+VIOLATION = ResultColumn(
+    SEARCHED, "float", description="By how much limits and constraints are broken in sum; 0 where none is"
+)
+STATUS, UTILISATION = ".status", ".utilisation"
+TOGETHER = 256  # machines of a piece, whatever number of processes there is: equal pieces give equal bytes
+MOST, LEAST = 10.0, 1e-3  # that a check adds which fails by far, or by next to nothing
+NO_VALUE, NO_MACHINE, NOT_TRIED = (
+    1e3,
+    1e4,
+    2e4,
+)  # without an objective; that cannot exist; that break a constraint on inputs
+
+
+@dataclass(frozen=True)
+class GenerationPiece:
+    """Hold some machines of a generation: the number of the first, and their values by path."""
+
+    start: int
+    values: Mapping[str, Values]
+
+    def __str__(self) -> str:
+        return Phrase("machines from {start} on", start=self.start)
+
+
+@dataclass
+class Tried:
+    """Hold what came of machines: the columns of those that were calculated, and for all costs and violations.
+
+    ``costs`` are the objectives, less is better, shape (machines, objectives); ``violations`` are 0 where all holds.
+    """
+
+    columns: dict[str, Array]
+    costs: Array
+    violations: Array
+    slow: dict[str, str] = field(default_factory=dict)
+    broken: dict[str, str] = field(default_factory=dict)
+
+
+def asked_of(study: Study) -> Optimise:
+    """Return what the study searches for; its command has seen to it that it does."""
+    assert study.optimise is not None
+    return study.optimise
+
+
+def generation_pieces(start: int, values: Mapping[str, Values]) -> Iterator[GenerationPiece]:
+    """Cut a generation, whose first machine has this number, into equal pieces."""
+    count = size(values)
+    for part in np.array_split(np.arange(count), max(1, -(-count // TOGETHER))):
+        if len(part):
+            yield GenerationPiece(start + int(part[0]), rows_of(values, part))
+
+
+def size(values: Mapping[str, Values]) -> int:
+    """Return how many machines there are."""
+    return len(next(iter(values.values())))
+
+
+def rows_of(values: Mapping[str, Values], rows: Array) -> dict[str, Values]:
+    """Return some of the machines."""
+    return {
+        path: column[rows] if isinstance(column, np.ndarray) else [column[row] for row in rows]
+        for path, column in values.items()
+    }
+
+
+def broken_inputs(study: Study, values: Mapping[str, Values]) -> Array:
+    """Return for each machine by how much it breaks constraints between inputs: such a one is not calculated."""
+    early = [constraint for constraint in study.constraints if not constraint.outputs]
+    return sum((each.shortfall(values) for each in early), np.zeros(size(values)))
+
+
+def evaluate(study: Study, piece: GenerationPiece) -> Tried:
+    """Calculate the machines of a piece that the constraints between inputs leave, and judge them all."""
+    broken = broken_inputs(study, piece.values)
+    left = np.flatnonzero(broken == 0)
+    values = rows_of(piece.values, left)
+    rows = calculate_rows(study.base, {study.inputs[p]: v for p, v in values.items()}, len(left), study.curves)
+    known = {**values, **rows.columns}
+    violation = _violation(study, rows, known)
+    costs = np.zeros((len(broken), len(asked_of(study).objectives)))
+    costs[left] = costs_of(known, asked_of(study).objectives, len(left))
+    violations = np.where(broken > 0, NOT_TRIED + broken, 0.0)
+    violations[left] = violation
+    costs[violations > 0] = 0.0
+    kept = {name: column for name, column in rows.columns.items() if _is_kept(study, name)}
+    inputs = {path: np.asarray(v, dtype=float if isinstance(v, np.ndarray) else object) for path, v in values.items()}
+    found = {"variant": piece.start + left} | inputs | kept | {VIOLATION.name: violation}
+    found |= {"status": rows.status, "governing": rows.governing, "error": rows.errors}
+    return Tried(found, costs, violations, rows.slow, rows.broken)
+
+
+def costs_of(known: Mapping[str, Values], objectives: Sequence[Objective], count: int) -> Array:
+    """Return the objectives of machines, less is better; NaN where one has no value."""
+    absent = np.full(count, np.nan)
+    found = [
+        np.asarray(known.get(each.output, absent), dtype=float) * (1 if each.minimise else -1) for each in objectives
+    ]
+    return np.stack(found, axis=1)
+
+
+def _violation(study: Study, rows: Rows, known: Mapping[str, Values]) -> Array:
+    """By how much calculated machines break what is asked."""
+    found = failing(rows.columns, rows.count) if asked_of(study).is_passing else np.zeros(rows.count)
+    absent = np.full(rows.count, None, dtype=object)
+    for constraint in study.constraints:
+        if constraint.outputs:
+            named = {name: known.get(name, absent) for name in constraint.outputs}
+            found = found + constraint.shortfall({**known, **named})
+    without = ~np.isfinite(costs_of(known, asked_of(study).objectives, rows.count)).all(axis=1)
+    found = np.where(without, found + NO_VALUE, found)
+    return np.where(rows.status == "error", NO_MACHINE, found)
+
+
+def failing(known: Mapping[str, Array], count: int) -> Array:
+    """Return for each machine how far its failing checks are beyond their limits, in sum."""
+    found = np.zeros(count)
+    for name in known:
+        if ".checks." in name and name.endswith(STATUS):
+            used = np.asarray(known[name.removesuffix(STATUS) + UTILISATION], dtype=float) - 1
+            beyond = np.clip(np.nan_to_num(used, nan=MOST, posinf=MOST), LEAST, MOST)
+            found += np.where(known[name] == "fail", beyond, 0.0)
+    return found
+
+
+def _is_kept(study: Study, name: str) -> bool:
+    return study.outputs is None or ".checks." in name or name in study.outputs or name in study.curves
+
+
+def joined(tried: Sequence[Tried]) -> Tried:
+    """Return pieces as one; a column that some of them lack holds nothing there."""
+    kinds = {name: column.dtype for each in tried for name, column in each.columns.items()}
+    found = {name: np.concatenate([_column(each, name, kind) for each in tried]) for name, kind in kinds.items()}
+    return Tried(
+        found, np.concatenate([each.costs for each in tried]), np.concatenate([each.violations for each in tried]),
+        {k: v for each in tried for k, v in each.slow.items()}, {k: v for each in tried for k, v in each.broken.items()},
+    )  # fmt: skip
+
+
+def _column(each: Tried, name: str, kind: np.dtype[np.generic]) -> Array:
+    if name in each.columns:
+        return each.columns[name]
+    return np.full(len(each.columns["status"]), None if kind.kind == "O" else np.nan, dtype=kind)
+
+
+# The listed machines once more, each by itself: written into the base, read again and calculated as its report would.
+
+
+TOLERATED = 1e-6  # share of its size by which a number may differ
+FEW = 8  # machines that are calculated sooner than other processes begin
+
+
+@dataclass(frozen=True)
+class SomeMachines:
+    """Name machines that are to be calculated, each by itself."""
+
+    variants: tuple[int, ...]
+
+    def __str__(self) -> str:
+        return Phrase("machines {variants} by themselves", variants=", ".join(map(str, self.variants)))
+
+
+@dataclass(frozen=True)
+class MachinePlace:
+    """Hold where machines are stored, the plugins, and which numbers of them are compared."""
+
+    directory: Path
+    discovery: Discovery
+    names: tuple[str, ...]
+
+
+@dataclass(frozen=True)
+class Rechecked:
+    """Hold what a machine is by itself: its verdict, its numbers (SI, None for none), or why it could not be calculated."""
+
+    status: str
+    values: tuple[float | None, ...] = ()
+    fault: str = ""
+
+
+@dataclass(frozen=True)
+class Recheck:
+    """Hold a machine as it was among many and by itself: verdicts, and the number that differs most, with its share."""
+
+    variant: int
+    status: str
+    alone: str
+    name: str = ""
+    share: float = 0.0
+    fault: str = ""
+
+    @property
+    def is_same(self) -> bool:
+        return not self.fault and self.status == self.alone and self.share <= TOLERATED
+
+
+def rechecked(store: Store, stored: Stored, variants: Sequence[int], where: Where) -> list[Recheck]:
+    """Return each of the machines as it was among many and by itself, in their order."""
+    goals = [name for each in stored.study.get("objectives") or () for name in each.values()]
+    used = [column.name for column, _ in stored.checks.values()]
+    names = tuple(name for name in dict.fromkeys([*goals, *used]) if not name.startswith(("mechanisms.", "press.")))
+    jobs = min(where.jobs or os.cpu_count() or 1, len(variants)) if len(variants) > FEW else 1
+    some = [SomeMachines(tuple(variants[start::jobs])) for start in range(jobs)]
+    with _engine(store, where, names, jobs) as engine:
+        alone = {variant: each for _, found in results(engine, _alone, some) for variant, each in found.items()}
+    return [_compared(stored, variant, names, alone[variant]) for variant in variants]
+
+
+def _engine(store: Store, where: Where, names: tuple[str, ...], jobs: int) -> Engine:
+    plugins = tuple(where.plugins)
+    warm = Warm("\n".join(["alone", str(store.directory), *plugins]), _loaded, (store.directory, plugins, names))
+    return Pool(jobs, warm) if jobs > 1 else InProcess(warm)
+
+
+def _loaded(directory: Path, plugins: tuple[str, ...], names: tuple[str, ...]) -> MachinePlace:
+    settle()
+    return MachinePlace(directory, Discovery([Path(plugin) for plugin in plugins]), names)
+
+
+def _alone(place: MachinePlace, some: SomeMachines) -> dict[int, Rechecked]:
+    """Calculate machines, each by itself."""
+    with opened(place.directory) as stored:
+        return {variant: _of_one(place, stored, variant) for variant in some.variants}
+
+
+def _of_one(place: MachinePlace, stored: Stored, variant: int) -> Rechecked:
+    try:
+        machine = proved(variant_of(stored, variant, place.discovery, f"{variant}.yaml"), {}, place.discovery)
+    except (UserError, PluginError) as error:
+        return Rechecked("error", fault=str(error).splitlines()[0])
+    known = _numbers(machine)
+    return Rechecked(machine.status, tuple(known.get(name) for name in place.names))
+
+
+def _numbers(machine: ProvedMachine) -> dict[str, float]:
+    """The outputs of a machine, and the utilisations of its checks."""
+    found = dict(machine.outputs)
+    for name, checks in machine.checked.items():
+        for each in checks:
+            column, used = f"{name}.checks.{each['id']}{RECHECK_UTILISATION}", each.get("utilisation")
+            if used is not None:  # of repeated parts the one that is used most governs
+                found[column] = max(float(used), found.get(column, -math.inf))
+    return found
+
+
+def _compared(stored: Stored, variant: int, names: Sequence[str], alone: Rechecked) -> Recheck:
+    listed = ", ".join(map(quoted, names)) or "NULL"
+    ((status, *values),) = stored.rows(f"SELECT status, {listed} FROM v WHERE variant = ?", [variant])
+    if alone.fault:
+        return Recheck(variant, status, alone.status, fault=alone.fault)
+    apart = [(_share(one, other), name) for name, one, other in zip(names, values, alone.values, strict=False)]
+    share, name = max(apart, default=(0.0, ""))
+    return Recheck(variant, status, alone.status, name if share else "", share)
+
+
+def _share(one: Any, other: float | None) -> float:
+    """By which share of its size a number differs; a utilisation of next to nothing by its size itself."""
+    if one is None or other is None or not math.isfinite(other):
+        return 0.0 if one is None and (other is None or not math.isfinite(other)) else math.inf
+    return abs(float(one) - other) / max(abs(float(one)), abs(other), 1e-9)
+
+
+# Today's machine among those that are searched: the values that the base has for what varies.
+
+
+def todays_values(study: Study) -> dict[str, Any]:
+    """Return what the base gives for each varied path (SI, texts); what it does not give, or calculates, is left out."""
+    found = {path: _value(study.base, asked) for path, asked in study.inputs.items()}
+    return {path: value for path, value in found.items() if value is not None}
+
+
+def _value(base: Config, asked: Input) -> float | str | None:
+    instance = base.instances[asked.instance]
+    if instance is None or (asked.instance, *asked.key) in base.links:
+        return None
+    value = instance.value(asked.key)
+    if isinstance(value, bool):
+        return str(value).lower()
+    return float(value) if isinstance(value, int | float) else value if isinstance(value, str) else None
+
+
+PYMOO = "pymoo"
+STILL, ENOUGH = 1e-12, 10  # share of its size by which an objective differs by rounding alone; machines that show it
+
+
+@dataclass
+class SearchOutcome:
+    """Hold what a run left in its folder; ``slow`` and ``broken`` name plugins, and why."""
+
+    store: Store
+    slow: dict[str, str] = field(default_factory=dict)
+    broken: dict[str, str] = field(default_factory=dict)
+
+
+def description(study: Study) -> Description:
+    """Return the study as the folder of its optimisation keeps it: a part for each generation, and what each machine breaks."""
+    asked, found = asked_of(study), described(study)
+    count = min(asked.evaluations, asked.combinations or asked.evaluations)
+    return replace(found, rows=count, chunk=min(asked.population, count), columns=(*found.columns, VIOLATION))
+
+
+def run_search(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> SearchOutcome:
+    """Try as many machines as the study says, but for those that the folder holds; each part file is whole or absent."""
+    wanted = description(study)
+    store = Store.open(directory, wanted) if resume else None
+    if store is None:
+        _refuse_used(directory)
+    with engine_for(study, where, wanted.parts * wanted.chunk // TOGETHER, wanted.rows) as engine:
+        run = _Run(study, engine, wanted.rows, tell)
+        first = None if store else run.first(wanted.chunk)
+        store = store or Store.create(directory, wanted)
+        with store.lock():
+            return run.through(store, first)
+
+
+def _refuse_used(directory: Path) -> None:
+    """Refuse a folder that holds anything, before anything is calculated."""
+    refuse_unreadable_name(directory)
+    if directory.is_dir():
+        state.refuse_used(directory)
+
+
+class _Run:
+    """One run: what is stored is told to the search, what is not is calculated."""
+
+    def __init__(self, study: Study, engine: Engine, rows: int, tell: Tell) -> None:
+        from diecut_report.design.optimisation.search import search  # with pymoo, which takes half a second
+
+        self.study, self.engine, self.tell = study, engine, tell
+        self.search = search(asked_of(study), todays_values(study))
+        self.counts = Counts(rows)
+        self.slow: dict[str, str] = {}
+        self.broken: dict[str, str] = {}
+
+    def first(self, count: int) -> Tried:
+        """Calculate the first generation; UserError where an objective is the same in all of its machines."""
+        self.tell(self.counts)
+        tried = self._calculated(0, rows_of(self.search.ask(), np.arange(count)))
+        self._refuse_still(tried)
+        return tried
+
+    def through(self, store: Store, first: Tried | None) -> SearchOutcome:
+        """Go through all generations, and mark the folder as complete."""
+        self._started(store)
+        began, before = time.monotonic(), float(store.state.get("seconds") or 0)
+        there, is_new = store.done_parts(), False
+        try:
+            for part in range(store.description.parts):
+                is_new |= part not in there
+                self._generation(store, part, part in there, first if part == 0 else None)
+        finally:
+            if is_new:
+                store.note({"slow": self.slow, "seconds": before + time.monotonic() - began} | self._faults())
+        store.finish({})
+        return SearchOutcome(store, self.slow, self.broken)
+
+    def _faults(self) -> dict[str, dict[str, str]]:
+        return {"broken": self.broken} if self.broken else {}
+
+    def _started(self, store: Store) -> None:
+        store.start(facts(replace(self.study, objectives=asked_of(self.study).objectives)))
+        known = store.state
+        versions = dict.fromkeys([*known["libraries"].get(PYMOO, ()), version(PYMOO)])
+        store.note({"libraries": known["libraries"] | {PYMOO: list(versions)}})
+        self.slow, self.broken = dict(known.get("slow") or {}), dict(known.get("broken") or {}) | self.broken
+        there = store.done_parts()
+        for path in (path for index, path in store.parts().items() if index not in there):
+            path.unlink(missing_ok=True)  # a damaged part is calculated again
+
+    def _generation(self, store: Store, part: int, is_there: bool, tried: Tried | None) -> None:
+        """One generation: from its part file, else calculated and written; then told to the search."""
+        rows = store.rows(part)
+        if tried is None:
+            values = rows_of(self.search.ask(), np.arange(len(rows)))
+            tried = self._stored(store, part, values) if is_there else self._calculated(rows.start, values)
+        if not is_there:
+            store.write_part(part, tried.columns)
+        self._count(tried, len(rows), is_there)
+        if len(rows) == store.description.chunk and rows.stop < store.description.rows:
+            self.search.tell(tried.costs, tried.violations)
+
+    def _calculated(self, start: int, values: Mapping[str, Values]) -> Tried:
+        """Calculate a generation, its pieces side by side."""
+        pieces = results(self.engine, evaluate, generation_pieces(start, values))
+        tried = joined([found for _, found in sorted(pieces, key=lambda each: int(each[0].start))])
+        self.slow |= tried.slow
+        self.broken |= tried.broken
+        return tried
+
+    def _stored(self, store: Store, part: int, values: Mapping[str, Values]) -> Tried:
+        """Return a generation as it is stored; UserError where it holds other machines than those that are asked for now."""
+        broken = broken_inputs(self.study, values)
+        left = np.flatnonzero(broken == 0)
+        objectives = asked_of(self.study).objectives
+        names = ["variant", "status", VIOLATION.name, *values, *(each.output for each in objectives)]
+        table = columns_of_part(store.part(part), store.schema, list(dict.fromkeys(names)))
+        known = (
+            {name: table.column(name).to_numpy(zero_copy_only=False) for name in table.column_names} if table else {}
+        )
+        if not _is_same(known, rows_of(values, left), store.rows(part).start + left):
+            raise UserError(_other_machines(store))
+        violations = np.where(broken > 0, NOT_TRIED + broken, 0.0)
+        violations[left] = known[VIOLATION.name]
+        costs = np.zeros((len(broken), len(objectives)))
+        costs[left] = costs_of(known, objectives, len(left))
+        costs[violations > 0] = 0.0
+        return Tried(known, costs, violations)
+
+    def _count(self, tried: Tried, rows: int, is_there: bool) -> None:
+        status = tried.columns["status"]
+        self.counts.done += 0 if is_there else rows
+        self.counts.before += rows if is_there else 0
+        self.counts.variants += len(status)
+        self.counts.failed += int(np.sum(status == "fail"))
+        self.counts.errors += int(np.sum(status == "error"))
+        self.tell(self.counts)
+
+    def _refuse_still(self, tried: Tried) -> None:
+        """Refuse an objective that is the same in all machines of a generation, or has a value in none."""
+        exists = tried.columns["status"] != "error"
+        if exists.sum() < ENOUGH:
+            return
+        objectives = asked_of(self.study).objectives
+        costs = costs_of(tried.columns, objectives, len(exists))[exists]
+        for index, (objective, values) in enumerate(zip(objectives, np.abs(costs.T), strict=True)):
+            there = values[np.isfinite(values)]
+            if not len(there) or np.ptp(there) <= STILL * there.max():
+                words = "has no value" if not len(there) else "is the same"
+                what = Phrase(
+                    "{name} {words} in all {n} machines that were tried first: it does not follow from what varies. Name "
+                    "another objective, or vary what it follows from.",
+                    name=objective.output, words=phrase(words), n=len(values),
+                )  # fmt: skip
+                raise UserError(_of_objective(self.study, index, what))
+
+
+def _of_objective(study: Study, index: int, words: str) -> Problem:
+    """A problem of an objective, with its place in the study."""
+    home = ("optimise",) if "objectives" in study.data["optimise"] else ()
+    key = (*home, "objectives", index)
+    line, column = yaml.parse(study.text, str(study.file)).position(key)
+    return Problem(words, str(study.file), line, column, ".".join(map(str, key)))
+
+
+def _is_same(known: Mapping[str, Array], values: Mapping[str, Values], numbers: Array) -> bool:
+    """Whether a part holds these machines, to the last digit."""
+    if not known or not np.array_equal(known["variant"], numbers):
+        return False
+    return all(np.array_equal(known[path], np.asarray(given, known[path].dtype)) for path, given in values.items())
+
+
+def _other_machines(store: Store) -> Problem:
+    used = "; ".join(f"{name} {', '.join(store.state['libraries'].get(name, ['?']))}" for name in ("numpy", PYMOO))
+    words = (
+        "These results hold other machines than the search asks for now, so that it cannot go on where it ended. They were begun "
+        "with {used}: continue with those versions, or begin anew in another folder with -o."
+    )
+    return Problem(Phrase(words, used=used), str(store.directory))

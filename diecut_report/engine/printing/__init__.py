@@ -1,1 +1,0 @@
-"""The calculation as it is printed: formulas with numbers in, tables, items."""

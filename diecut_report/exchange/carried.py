@@ -1,0 +1,356 @@
+"""The results that a file carries: a report as PDF or HTML, or a results file. What the file is, its content tells, not its name."""
+
+from __future__ import annotations
+
+import base64
+import binascii
+import io
+import os
+import re
+import zlib
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass
+from functools import cache
+from pathlib import Path
+from typing import Any, Literal
+
+import pikepdf
+from pikepdf import settings
+
+from diecut_report.config.own_tables import logo_fault, name_fault
+from diecut_report.errors import Problem, UserError
+from diecut_report.exchange.results_form import results_of
+from diecut_report.files import content, write_all
+from diecut_report.results.results_file import config_content, logo_content, table_contents
+from diecut_report.text.phrases import Phrase, phrase
+
+# Reads the results that an HTML report carries, from the one link that the program writes; nothing of the page is run or fetched.
+
+
+LINK = re.compile(rb'download="results\.json\.gz" href="data:application/gzip;base64,([A-Za-z0-9+/]*={0,2})"')
+GZIP = 16 + zlib.MAX_WBITS
+
+
+def linked_results(content: bytes, most: int, file: str) -> bytes | None:
+    """Return the results file in a page, None where it carries none; UserError where it carries two, or a damaged or too large one."""
+    found = LINK.findall(content)
+    if not found:
+        return None
+    if len(found) > 1:
+        words = Phrase(
+            "The page carries {count} results files, and a report has one. Give the file as the program wrote it.",
+            count=len(found),
+        )
+        raise UserError(Problem(words, file))
+    return _unpacked(found[0], most, file)
+
+
+def _unpacked(text: bytes, most: int, file: str) -> bytes:
+    unpacking = zlib.decompressobj(GZIP)
+    try:
+        content = unpacking.decompress(base64.b64decode(text, validate=True), most + 1)
+    except (binascii.Error, zlib.error) as error:
+        raise UserError(Problem(_damaged(), file)) from error
+    if len(content) > most:
+        words = Phrase(
+            "What the page carries is too large: it unpacks to more than {most} MB.", most=format(most / 1000000.0, "g")
+        )
+        raise UserError(Problem(words, file))
+    if not unpacking.eof or unpacking.unused_data:
+        raise UserError(Problem(_damaged(), file))
+    return content
+
+
+def _damaged() -> str:
+    return phrase("The results that the page carries are damaged. Give the file as the program wrote it.")
+
+
+MOST = 200_000_000  # bytes of a report
+MOST_RESULTS = 100_000_000  # bytes of the results in it
+LONGEST_NAME = 255  # of a file, in bytes
+BLANK = b" \t\r\n"
+BOM = b"\xef\xbb\xbf"
+Form = Literal["pdf", "html", "json"]
+
+
+@dataclass(frozen=True)
+class CarriedResults:
+    """Hold the results of a file, the bytes of their own file, and those of the configuration; ``content`` is the whole file.
+
+    ``tables`` are the user's own that the configuration names, and its logo, by these names, which lead nowhere but beside it and below;
+    ``former_tables`` those of the former revision, since which the report shows changes.
+    """
+
+    path: Path
+    form: Form
+    content: bytes
+    results: dict[str, Any]
+    results_content: bytes
+    config_content: bytes
+    tables: dict[str, bytes]
+    former_tables: dict[str, bytes]
+
+
+def carried_results(path: Path) -> CarriedResults:
+    """Return what a report or a results file carries; UserError where it is neither, or cannot be read."""
+    whole = content(path, MOST, phrase("a report (PDF, HTML) or a results file (JSON)"))
+    form = form_of(whole)
+    if form is None:
+        words = phrase(
+            "This is neither a report (PDF, HTML) nor a results file (JSON). Give a file that "
+            "`diecut-report report` wrote."
+        )
+        raise UserError(Problem(words, str(path)))
+    found = _results_content(whole, form, str(path))
+    results = results_of(found, str(path))
+    config, tables = _config(whole, form, results, str(path)), _tables(results, str(path))
+    former = _tables({"config": results["former"]}, str(path)) if results.get("former") else {}
+    return CarriedResults(path, form, whole, results, found, config, tables, former)
+
+
+def form_of(whole: bytes) -> Form | None:
+    """Return what a file is by its first letters; None where it is neither a report nor JSON."""
+    start = whole[:1024].removeprefix(BOM).lstrip(BLANK)
+    forms: dict[bytes, Form] = {b"%PDF-": "pdf", b"<": "html", b"{": "json"}
+    return next((form for letters, form in forms.items() if start.startswith(letters)), None)
+
+
+def _results_content(whole: bytes, form: Form, file: str) -> bytes:
+    if form == "json":
+        found: bytes | None = whole
+        if len(whole) > MOST_RESULTS:
+            words = Phrase(
+                "The file is too large: {count} MB; results have at most {most_results} MB.",
+                count=format(len(whole) / 1000000.0, ".1f"),
+                most_results=format(MOST_RESULTS / 1000000.0, "g"),
+            )
+            raise UserError(Problem(words, file))
+    elif form == "html":
+        found = linked_results(whole, MOST_RESULTS, file)
+    else:
+        found = _attached(whole, "results.json", file)
+    if found is None:
+        words = phrase(
+            "This file carries no results: another program made it, or an earlier version of diecut-report, "
+            "or it was printed anew."
+        )
+        raise UserError(Problem(words, file))
+    return found
+
+
+def _attached(whole: bytes, name: str, file: str) -> bytes | None:
+    pass  # REMOVE  # with the library, which others do not need
+
+    return attachment(whole, name, MOST_RESULTS, file)
+
+
+def _config(whole: bytes, form: Form, results: dict[str, Any], file: str) -> bytes:
+    """The configuration in the results; that of the PDF, which is attached for a reader's convenience, must be the same."""
+    found = config_content(results)
+    if form == "pdf" and _attached(whole, "config.yaml", file) not in (None, found):
+        words = phrase(
+            "The configuration that is attached is not the one in the attached results. Somebody has "
+            "exchanged one of the two."
+        )
+        raise UserError(Problem(words, file))
+    return found
+
+
+def _tables(results: dict[str, Any], file: str) -> dict[str, bytes]:
+    found, logo = table_contents(results), logo_content(results)
+    faults = [
+        Problem(Phrase("The name of a table {fault}.", fault=fault), file)
+        for name in found
+        if (fault := name_fault(name))
+    ]
+    faults += [
+        Problem(Phrase("The name of the logo {fault}.", fault=fault), file)
+        for name in logo
+        if (fault := logo_fault(name))
+    ]
+    found |= logo
+    long = [name for name in found if max(len(part.encode()) for part in Path(name).parts) > LONGEST_NAME]
+    faults += [
+        Problem(
+            Phrase(
+                "The name of a file is longer than {longest_name} bytes: {name}….",
+                longest_name=LONGEST_NAME,
+                name=name[:80],
+            ),
+            file,
+        )
+        for name in long
+    ]
+    if faults:
+        raise UserError(faults)
+    return found
+
+
+# What libraries raise for a PDF that is not as the standard has it: it was damaged, or made to harm.
+
+
+PDF_FAULTS = (
+    ValueError, TypeError, LookupError, AttributeError, NameError, ArithmeticError, RuntimeError, AssertionError, OSError, MemoryError,
+    zlib.error,
+)  # fmt: skip
+"""RuntimeError with recursion and what is not implemented, ArithmeticError with decimals, NameError with a variable that was never set."""
+
+
+# Reads a file that is attached to a PDF, whoever made it: bounded, and without repairing what is damaged.
+
+
+MOST_ITEMS = 1_000_000  # of an array or a dictionary
+MOST_WARNINGS = 100
+DEEPEST = 100
+MOST_REVISIONS = 100
+NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
+END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
+FAULTS = (pikepdf.PdfError, *PDF_FAULTS)
+"""What the library raises for a file that is not as the standard has it."""
+
+
+def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
+    """Return the attachment of a name, None where the PDF has none; UserError where it cannot be read, or is larger than ``most``."""
+    bounded(most)
+    try:
+        with _opened(content) as pdf:
+            found = _found(pdf, name, most, file)
+        _refuse_former(content, found, name, most, file)
+        return found
+    except pikepdf.PasswordError as error:
+        words = phrase("The PDF is encrypted, and opens only with a password. Give one without.")
+        raise UserError(Problem(words, file)) from error
+    except FAULTS as error:
+        words = Phrase(
+            "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it.",
+            most=format(most / 1000000.0, "g"),
+        )
+        raise UserError(Problem(words, file)) from error
+
+
+def _opened(content: bytes) -> pikepdf.Pdf:
+    return pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True)
+
+
+@cache
+def bounded(most: int) -> None:
+    """Let the library unpack no more than so much of any stream, be it one that only tells where the objects stand."""
+    settings.set_qpdf_limits(
+        doc_max_warnings=MOST_WARNINGS, parser_max_nesting=DEEPEST, parser_max_container_size=MOST_ITEMS,
+        flate_max_memory=most, png_max_memory=most, run_length_max_memory=most, tiff_max_memory=most, dct_max_memory=most,
+    )  # fmt: skip
+
+
+def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
+    # the names only tell which attachment it is; nothing is written under them
+    found = list(_named(pdf, name))
+    if not found:
+        return None
+    if len(found) > 1:
+        raise UserError(Problem(_several(len(found), name), file))
+    content = found[0].read_bytes()
+    if len(content) > most:
+        words = Phrase(
+            "What is attached is too large: {count} MB; at most {most} MB are taken.",
+            count=format(len(content) / 1000000.0, ".1f"),
+            most=format(most / 1000000.0, "g"),
+        )
+        raise UserError(Problem(words, file))
+    return bytes(content)
+
+
+def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, file: str) -> None:
+    """UserError where the file held another attachment of this name before something was added to it: readers of PDF may show either."""
+    ends = [end.end() for end in END.finditer(content)][:-1]
+    if len(ends) > MOST_REVISIONS:
+        raise UserError(
+            Problem(
+                Phrase("The PDF was added to {count} times. Give the file as the program wrote it.", count=len(ends)),
+                file,
+            )
+        )
+    for end in ends:
+        try:
+            with _opened(content[:end]) as pdf:
+                former = _found(pdf, name, most, file)
+        except FAULTS:  # no end of a PDF: the letters stand in a stream
+            continue
+        if former is not None and former != found:
+            raise UserError(Problem(_several(2, name), file))
+
+
+def _several(count: int, name: str) -> str:
+    words = "The PDF carries {count} files named {name}, and a report has one. Give the file as the program wrote it."
+    return Phrase(words, count=count, name=name)
+
+
+def _named(pdf: pikepdf.Pdf, name: str) -> Iterator[pikepdf.Stream]:
+    """The attachments of a name, wherever the PDF has them: among its attachments, at an annotation, or as an associated file."""
+    names = pdf.Root.get("/Names", pikepdf.Dictionary())
+    tree = pikepdf.NameTree(names["/EmbeddedFiles"]).items() if "/EmbeddedFiles" in names else ()
+    specs = [spec for label, spec in tree if _alike(label, name)]
+    told = (part for each in pdf.objects if b"/EF" in each.unparse(resolved=True) for part in _dictionaries(each, 0))
+    specs += [part for part in told if "/EF" in part and any(_alike(part.get(key, ""), name) for key in NAMES)]
+    seen = set[tuple[int, int]]()
+    for spec in specs:
+        for stream in spec["/EF"].as_dict().values():
+            if isinstance(stream, pikepdf.Stream) and stream.objgen not in seen:
+                seen.add(stream.objgen)
+                yield stream
+
+
+def _alike(label: object, name: str) -> bool:
+    return str(label).strip().casefold() == name
+
+
+def _dictionaries(part: Any, depth: int) -> Iterator[pikepdf.Dictionary | pikepdf.Stream]:
+    """The dictionaries that stand in an object itself."""
+    if depth and part.is_indirect if isinstance(part, pikepdf.Object) else True:
+        return
+    if isinstance(part, pikepdf.Dictionary | pikepdf.Stream):
+        yield part
+        inner = [part[key] for key in part.keys()]  # noqa: SIM118 a stream has no other way
+    else:
+        inner = list(part) if isinstance(part, pikepdf.Array) else []
+    for each in inner if depth < DEEPEST else ():
+        yield from _dictionaries(each, depth + 1)
+
+
+# The configuration and the results of a report as files again. Their names are the report's own, whatever stands in it.
+
+
+def extract(report: Path, folder: Path) -> list[Path]:
+    """Write ``STEM.yaml`` and ``STEM.json`` of a report into a folder, and the tables and the logo that the configuration names; the files.
+
+    One that is there already stays as it is. UserError where it has another content, or where the report carries nothing that can
+    be read.
+    """
+    found = carried_results(report)
+    contents = {f"{report.stem}.yaml": found.config_content, f"{report.stem}.json": found.results_content}
+    if doubled := sorted(contents.keys() & found.tables.keys()):
+        words = Phrase(
+            "The configuration names a file {doubled}, and would be called so itself. Rename the report.",
+            doubled=doubled[0],
+        )
+        raise UserError(Problem(words, str(report)))
+    files = {folder / name: each for name, each in (contents | found.tables).items()}
+    if problems := list(_refused(files, folder)):
+        raise UserError(problems)
+    write_all({path: each for path, each in files.items() if not os.path.lexists(path)}, keep=report)
+    return list(files)
+
+
+def _refused(files: Mapping[Path, bytes], folder: Path) -> Iterator[Problem]:
+    for path, wanted in files.items():
+        if os.path.lexists(path) and not _is_same(path, wanted):
+            words = phrase("There is another file of this name. It is not written over: choose another folder with -o.")
+            yield Problem(words, str(path))
+        elif not Path(os.path.realpath(path.parent)).is_relative_to(os.path.realpath(folder)):
+            words = phrase("A link leads out of the folder here, and is not followed: choose another folder with -o.")
+            yield Problem(words, str(path))
+
+
+def _is_same(path: Path, wanted: bytes) -> bool:
+    return (
+        path.is_file() and path.stat().st_size == len(wanted) and content(path, len(wanted), phrase("a file")) == wanted
+    )

@@ -1,1 +1,0 @@
-"""Tests what a plugin author writes and checks plugins with."""

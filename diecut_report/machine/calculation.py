@@ -1,0 +1,484 @@
+"""The state of one calculation: numbers, curves and their pieces, for one machine or an array of variants."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field, replace
+from math import isfinite
+from typing import Any, NamedTuple, cast
+from weakref import WeakKeyDictionary, proxy
+
+import numpy as np
+
+from diecut_report.errors import nearest
+from diecut_report.formulas import Array
+from diecut_report.machine.curve_samples import CurveSampler, CurveStep, SampledCurve
+from diecut_report.machine.numerics.curves import MANY, Curves, several
+from diecut_report.machine.numerics.domain import Domain, Inside, RecentPlaces, SharedPlaces
+from diecut_report.machine.numerics.jumps import PieceSeries
+from diecut_report.machine.numerics.samples import SampleCache
+from diecut_report.mechanism.chapters import in_form, taken
+from diecut_report.mechanism.inputs import Extremes, Meta, Quantity, fields, texts_given
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import Binding, Misdeclared, bound
+from diecut_report.mechanism.steps import (
+    Accumulated,
+    Choice,
+    Derivative,
+    FromCurve,
+    Reduction,
+    ResultName,
+    Step,
+    Value,
+    named,
+    names_ahead,
+    numbered_symbol,
+)
+from diecut_report.quantities.formatting import author_digits, easy_unit, shown
+from diecut_report.quantities.units import unit
+from diecut_report.text.phrases import Phrase
+
+# Inputs as the engine holds them: those of repeated parts, and single ones.
+
+
+def row(value: tuple[Any, ...], variants: int) -> Any:
+    """Return the inputs of repeated parts as an array (variants, parts); as they are where some part has no number."""
+    if not all(isinstance(v, int | float | np.ndarray | np.number) and not isinstance(v, bool) for v in value):
+        return value  # texts, curves, what some parts leave out
+    return np.stack([np.broadcast_to(np.asarray(v, dtype=float), (variants,)) for v in value], axis=1)
+
+
+def alone(value: Any, variants: int) -> Any:
+    """Return a single input as an array (variants, 1), of which only extremes are known as these."""
+    return value if isinstance(value, Extremes) else np.full((variants, 1), value, dtype=float)
+
+
+def column(value: Any, variants: int) -> Any:
+    """Return an input as an array (variants, 1) or (variants, parts); texts, flags, curves and whole mechanisms stay as they are."""
+    match value:
+        case bool() | str():
+            return value
+        case tuple():
+            return row(value, variants)
+        case np.ndarray():
+            return np.ascontiguousarray(value, dtype=float).reshape(variants, -1)
+        case int() | float() | np.number():
+            return alone(value, variants)
+    return value
+
+
+# The units that a report chose for its quantities.
+
+
+@dataclass(frozen=True)
+class ChosenUnits:
+    """Hold the units that a report chose: for all quantities of an SI unit (``m``), and for single quantities by their ids."""
+
+    by_si: Mapping[str, str] = field(default_factory=dict)
+    by_id: Mapping[str, str] = field(default_factory=dict)
+
+    def of(self, name: str, declared: str) -> str | None:
+        """Return the unit chosen for a quantity that is declared in a unit; None where none is."""
+        return self.by_id.get(name) or self.by_si.get(unit(declared).si)
+
+
+NONE_CHOSEN = ChosenUnits()
+
+
+# The unit in which a quantity is shown: the one that the report chose for it, else one in which its values are easy to read.
+
+
+FEW = 20  # values up to which they are looked through one by one
+
+
+def declared_unit(calc: Calculation, name: str, declared: str) -> str:
+    """Return the chosen unit of a quantity, else the declared one."""
+    return calc.chosen_units.of(name, declared) or declared
+
+
+def unit_for(calc: Calculation, name: str, declared: str, values: Array | Iterable[float]) -> str:
+    """Return the one unit in which values of a quantity are shown: the greatest of them is easy to read."""
+    if chosen := calc.chosen_units.of(name, declared):
+        return chosen
+    if isinstance(values, np.ndarray) and values.size > FEW:
+        sizes = np.abs(values.astype(float)).ravel()
+        sizes = sizes[np.isfinite(sizes)]
+        return easy_unit(float(sizes.max()), declared) if len(sizes) else declared
+    few = np.ravel(values).tolist() if isinstance(values, np.ndarray) else map(float, values)
+    return easy_unit(max(known), declared) if (known := [abs(size) for size in few if isfinite(size)]) else declared
+
+
+def axis_unit(declared: str, heights: Iterable[float]) -> str:
+    """Return the unit of what a diagram shows: of forces that in which the greatest of them is told, of anything else the declared one."""
+    known = [abs(height) for height in heights if isfinite(height)] if unit(declared).si == "N" else []
+    return easy_unit(max(known), declared) if known else declared
+
+
+def _unit_of(calc: Calculation, name: str, declared: str, value: float) -> str:
+    """The same of one number."""
+    return calc.chosen_units.of(name, declared) or easy_unit(value, declared)
+
+
+def step_shown(calc: Calculation, step: Step, value: float) -> dict[str, str]:
+    """Return a number that a step gives as text, in its unit."""
+    display = _unit_of(calc, step.id, step.unit, value)
+    return shown(value, display, author_digits(value, display, step.digits))
+
+
+def number_unit(calc: Calculation, name: str, declared: Step | Quantity, value: float) -> str:
+    """Return the unit of a number inside of a formula: what is typed stands as it was typed."""
+    is_typed = name not in calc.values and name not in calc.curves
+    return declared_unit(calc, name, declared.unit) if is_typed else _unit_of(calc, name, declared.unit, value)
+
+
+# What declares a quantity of a calculation: the step that gives it, or the input; of one crossing or part and their number what follows from it.
+
+
+class NamedQuantities:
+    """Remember what the names of a calculation's quantities mean, as long as its steps are the same."""
+
+    def __init__(self) -> None:
+        self._steps: Mapping[str, Step] = {}
+        self._numbered: tuple[Step, ...] = ()
+        self._names: dict[str, ResultName | None] = {}
+        self._declared: dict[str, Step | Quantity] = {}
+
+    def result(self, name: str, steps: Mapping[str, Step]) -> ResultName | None:
+        """Return which step gives a name, and what it is of it; None where none does."""
+        if steps is not self._steps:
+            self._steps, self._numbered = steps, tuple(step for step in steps.values() if step.numbered)
+            self._names, self._declared = {}, {}
+        if name not in self._names:
+            self._names[name] = named(name, steps, self._numbered)
+        return self._names[name]
+
+    def declared(
+        self, name: str, steps: Mapping[str, Step], axis: Mapping[str, str], inputs: Mapping[str, Meta], at: str
+    ) -> Step | Quantity:
+        """Return the step or input with a quantity's symbol, unit and description.
+
+        ``axis`` is the abscissa of each curve, ``at`` the mechanism's place. Misdeclared where there is nothing of this name.
+        """
+        if name in steps:
+            return steps[name]
+        found = self.result(name, steps)
+        if name not in self._declared:
+            self._declared[name] = _declared(name, found, steps, axis, inputs, at)
+        return self._declared[name]
+
+
+def _declared(
+    name: str,
+    found: ResultName | None,
+    steps: Mapping[str, Step],
+    axis: Mapping[str, str],
+    inputs: Mapping[str, Meta],
+    at: str,
+) -> Step | Quantity:
+    if found is not None:
+        return _of_step(found, steps, axis)
+    path = name.removeprefix("inputs.")
+    if path not in inputs:
+        given = [each.name for step in steps.values() for each in names_ahead(step)]
+        near = nearest(path, [*given, *inputs])
+        raise Misdeclared(
+            Phrase(
+                "{name} is not a quantity of this machine{near}; name a step or an input", name=repr(name), near=near
+            ),
+            at,
+        )
+    return cast(Quantity, inputs[path])
+
+
+def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, str]) -> Step:
+    step = steps[found.id]
+    match found.role:
+        case "place":
+            return steps[axis[cast(Reduction, step).of]]
+        case "count":
+            many = Phrase("{description}: how many", description=step.description)
+            return replace(
+                step, id=found.name, symbol=f"n_{step.symbol.replace('_', ',')}", unit="1", units=(), description=many
+            )
+        case "crossing" | "part":
+            return replace(step, id=found.name, symbol=numbered_symbol(step, found.number))
+    return step
+
+
+Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
+
+
+class Impossible(Exception):
+    """Report that the machine cannot exist: the keys to change, each with the reason in words."""
+
+    def __init__(self, reasons: Sequence[tuple[str, str]]) -> None:
+        super().__init__("; ".join(message for _, message in reasons))
+        self.reasons = tuple(reasons)
+        self.key, self.message = self.reasons[0]
+
+
+class ImpossibleTogether(Impossible):
+    """Report that plain code refuses many machines at once, which does not say whether each of them cannot exist."""
+
+
+class Unproven(Exception):
+    """Report that a result did not meet the equation or check that proves it; nothing is printed then. ``at`` is where it is declared."""
+
+    def __init__(self, words: str, at: str = "") -> None:
+        super().__init__(words)
+        self.at = at
+
+
+@dataclass(frozen=True)
+class CurveHandle:
+    """Hand a curve of one mechanism to the input of another: function, breakpoints and period travel together."""
+
+    calculation: Calculation
+    curve_id: str
+
+    @property
+    def domain(self) -> Domain:
+        """Return the abscissa that the curve runs over."""
+        return self.calculation.domains[self.calculation.axis[self.curve_id]]
+
+    @property
+    def abscissa(self) -> Step:
+        """Return what the curve runs over, as it is declared."""
+        return self.calculation.steps[self.calculation.axis[self.curve_id]]
+
+    @property
+    def cycle(self) -> str:
+        """Return the id of what the curve runs over: of two curves over one cycle it is the same."""
+        return self.abscissa.id
+
+    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
+        """Return values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
+
+        ``rows`` are variants (default all).
+        """
+        calc, domain, axis = self.calculation, self.domain, self.calculation.axis[self.curve_id]
+        if calc.count > 1:
+            places = share, middle, rows
+            return calc.shared.at(
+                self.curve_id, axis, places, lambda names: several(calc, axis, names, *domain.placed(*places), rows)
+            )
+        x, mid, inside = domain.placed(share, middle, rows)
+        return calc.sampler_of(axis, x, mid, None, inside).over(self.curve_id)
+
+    def gain(self, rows: Array | None) -> Array:
+        """Return what the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
+        shares = np.tile([0.0, 1.0], (len(self.domain.edges), 1))
+        ends = self.values(shares, shares, None)
+        found: Array = ends[:, 1:] - ends[:, :1]
+        return found if rows is None or len(found) == 1 else found[rows]
+
+    @property
+    def breakpoints(self) -> Array:
+        """Return the inner edges of the curve's smooth pieces, as shares of the period, shape (variants, places)."""
+        return self.domain.edges[:, 1:-1] / self.domain.period
+
+    @property
+    def joints(self) -> Array:
+        """Return those of them where the curve jumps or has a corner."""
+        return self.domain.joints[:, 1:-1] / self.domain.period
+
+
+class Side(NamedTuple):
+    """Hold what a check on a curve compares, each of shape (variants, 1), SI: where on the abscissa it is furthest beyond."""
+
+    demand: Array
+    limit: Array
+    axis: str
+    place: Array
+
+
+class Calculation:
+    """Hold all that is known of a mechanism's machines; filled by ``engine.run``."""
+
+    def __init__(self, mechanism: Mechanism, inputs: Mapping[str, Any], variants: int) -> None:
+        self.mechanism = mechanism
+        self.count = variants
+        self.is_partial = False  # whether only some steps are run: messages may lack their numbers
+        self.given = frozenset(inputs) | texts_given(inputs) | mechanism.facts
+        self.meta: dict[str, Meta] = dict(fields(in_form(mechanism.inputs, self.given)))
+        self.inputs: dict[str, Any] = {name: column(value, variants) for name, value in inputs.items()}
+        self.steps: dict[str, Step] = mechanism.steps_by_id(self.given)
+        self.axis = mechanism.axes(self.given)
+        self.names, self.values = NamedQuantities(), dict[str, Array]()
+        self.curves, self.domains = dict[str, CurveStep](), dict[str, Domain]()
+        self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
+        self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
+        self.series, self.branch = dict[str, PieceSeries](), dict[str, Array]()  # the latter: for each choice its case
+        self.middle: dict[str, Array] = {}  # for each place of an extreme, the middle of its smooth piece
+        self.proof: dict[str, float] = {}  # for each result that is not a closed formula, its greatest residual
+        self._kept: dict[tuple[str, str], tuple[Array, CurveSampler]] = {}  # curves already known at often used places
+        self.ahead: dict[str, tuple[str, ...]] = {}  # for each abscissa the curves that coming steps ask for
+        self.searches: dict[str, Any] = {}  # for each abscissa, of jumps in its pieces (switches)
+        self.recent, self.shared = RecentPlaces[CurveSampler](32), SharedPlaces()  # of a single machine; of many
+        self._tables: dict[str, SampleCache] = {}
+        self.extremes: dict[tuple[str, float], tuple[Array, Found]] = {}  # with the pieces they are of
+        self.judged: dict[tuple[str, int], Side] = {}  # for each check on a curve and its sides, where it governs
+        self.flaws: dict[int, tuple[str, str]] = {}  # for each impossible variant the key and the message
+        self.unfounded: frozenset[str] = frozenset()  # inputs that checks ask a basis of, and that have none
+        self.chosen_units = NONE_CHOSEN  # what a report chose to show quantities in
+        self.withheld: dict[str, Array] = {}  # for each fact, which variants do not meet it
+
+    def __getitem__(self, name: str) -> Array:
+        """A number of all variants, shape (variants, 1) or (variants, parts)."""
+        found: Array = self.values[name] if name in self.values else self.inputs[name.removeprefix("inputs.")]
+        return found
+
+    def apply(self, part: Binding) -> Array:
+        """Return what a formula of numbers (or rows over repeated parts) gives, for all variants."""
+        link = bound(part)
+        result: Array = link.formula.function(*[self[n] if isinstance(n, str) else n for n in link.takes])
+        if np.ndim(result) == 2 and len(result) == self.count:
+            return result
+        return np.broadcast_to(result, (self.count, *np.shape(result)[1:]) if np.ndim(result) == 2 else (self.count, 1))
+
+    def existing(self, step: Step, values: Array) -> Array:
+        """Return a quantity's numbers, NaN for the machines that do not have it."""
+        return values if step.exists is None else np.where(self.apply(step.exists), values, np.nan)
+
+    def sample(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> Array:
+        """Return a curve at x (rows, points), each x being in the smooth piece whose middle is given; rows are variants (default all)."""
+        if self.count >= MANY and rows is not None and middle.shape == (len(x), 1):
+            return Curves(self, self.axis[curve], [curve], middle[:, 0], rows).at(x)[0]
+        return self.sampler(curve, x, middle, rows).over(curve)
+
+    def sampler(self, curve: str, x: Array, middle: Array, rows: Array | None = None) -> CurveSampler:
+        """Return all curves over the abscissa of this one, at x as in ``sample``: a mapping from id to values."""
+        return CurveSampler(self, self.axis[curve], x, middle, rows)
+
+    def sampler_of(
+        self, axis: str, x: Array, middle: Array, rows: Array | None, inside: Inside | None = None
+    ) -> CurveSampler:
+        """Return all curves over an abscissa at x (rows, points), in pieces of these middles (rows, points) or (rows, 1)."""
+        if self.count > 1:
+            return CurveSampler(self, axis, x, middle, rows, inside)
+        places = x, middle, None
+        return self.recent.at(axis, places, lambda: CurveSampler(proxy(self), axis, x, middle, None, inside))
+
+    def kept(
+        self, use: str, axis: str, places: Callable[[Domain], tuple[Array, Array]], rows: Array | None = None
+    ) -> CurveSampler:
+        """Return a sampler that is used again (for the search grid, the samples, the shown place) until the pieces change."""
+        domain = self.domains[axis]
+        edges, sampler = self._kept.get((use, axis), (None, None))
+        if sampler is None or edges is not domain.edges:
+            sampler = CurveSampler(proxy(self), axis, *places(domain), rows)
+            self._kept[use, axis] = domain.edges, sampler
+        return sampler
+
+    def of_pieces(self, axis: str) -> CurveSampler:
+        """Return all curves over an abscissa at the middles of its pieces."""
+        return self.kept("middles", axis, lambda domain: (domain.middles, domain.middles))
+
+    def curve_samples(self, curve: str) -> Array:
+        """Return a curve at the samples of its abscissa, shape (variants, points)."""
+        sampler = self.kept(
+            "samples", self.axis[curve], lambda domain: (domain.samples, domain.middle_of(domain.samples))
+        )
+        with np.errstate(all="ignore"):  # among variants some may be impossible
+            return np.broadcast_to(sampler[curve], sampler.x.shape)
+
+    def table(self, axis: str) -> SampleCache:
+        """Return what is known of the curves over an abscissa, piece by piece."""
+        if axis not in self._tables:
+            self._tables[axis] = SampleCache(self, axis)
+        return self._tables[axis]
+
+    def release(self) -> None:
+        """Forget the curves at all places: they hold this calculation, and no reference count would ever free them."""
+        self._tables.clear()
+        self.searches.clear()
+        self._kept.clear()
+        self.recent.forget()
+        self.shared.forget()
+
+    def on_search_grid(self, curve: str) -> Array:
+        """Return a curve on the search grid of its smooth pieces, shape (variants, pieces, points); zero in pieces without a width."""
+        table = self.table(self.axis[curve])
+        return table.pieces().spread(table.on_grid([curve])[0])
+
+    def step_or_input(self, name: str) -> Step | Quantity:
+        """Return what declares a quantity: its symbol, unit and description."""
+        own = self.row_of.get(name, name)
+        return self.names.declared(own, self.steps, self.axis, self.meta, self.mechanism.at)
+
+
+__all__ = ["Calculation", "CurveHandle", "CurveSampler", "Impossible", "SampledCurve", "Side", "Unproven"]
+
+
+# Whether a curve of a mechanism that was calculated twice is the same to the last bit: all that it follows from is then.
+
+
+DOMAIN = ("period", "samples", "edges", "joints")
+
+
+def same_curve(one: CurveHandle, other: CurveHandle) -> bool:
+    """Return whether two curves give the same values everywhere, to the last bit; False also where that cannot be told."""
+    if one.curve_id != other.curve_id:
+        return False
+    if one.calculation is other.calculation:
+        return True
+    pairs = _KNOWN.setdefault(one.calculation, WeakKeyDictionary())
+    if other.calculation not in pairs:
+        pairs[other.calculation] = {}
+    return _Pair(one.calculation, other.calculation, pairs[other.calculation]).holds(one.curve_id)
+
+
+_KNOWN: WeakKeyDictionary[Calculation, WeakKeyDictionary[Calculation, dict[str, bool]]] = WeakKeyDictionary()
+"""Of two calculations which quantities are the same, as several mechanisms take curves of one."""
+
+
+class _Pair:
+    """Hold two calculations of one mechanism, of one machine each."""
+
+    def __init__(self, one: Calculation, other: Calculation, known: dict[str, bool]) -> None:
+        self.one, self.other, self.known = one, other, known
+
+    def holds(self, name: str) -> bool:
+        """Return whether a quantity is the same in both."""
+        if name not in self.known:
+            self.known[name] = self._compared(name)
+        return self.known[name]
+
+    def _compared(self, name: str) -> bool:
+        one, other = self.one, self.other
+        if name in one.domains:
+            return one.steps[name] is other.steps.get(name) and self._domain(name)
+        if name not in one.curves:
+            return self._given(name)
+        if one.curves[name] is not other.curves.get(name) or not self.holds(one.axis[name]):
+            return False
+        match one.curves[name]:
+            case Accumulated() | Derivative():
+                series = one.series[name], other.series[name]
+                return all(_same(*(getattr(each, part) for each in series)) for part in ("edges", "series"))
+            case FromCurve() as step:
+                beside = filter(None, (step.start, step.lasts))
+                return self._given(step.given or step.id) and all(map(self.holds, beside))
+            case Value() | Choice() as step:
+                return all(map(self.holds, taken(step)))
+        return False  # what plain code gives is not looked into
+
+    def _domain(self, name: str) -> bool:
+        one, other = self.one.domains[name], self.other.domains[name]
+        return one.intervals == other.intervals and all(_same(getattr(one, n), getattr(other, n)) for n in DOMAIN)
+
+    def _given(self, name: str) -> bool:
+        """Whether a number, or what was given, is the same."""
+        try:
+            one, other = self.one[name], self.other[name]
+        except KeyError:
+            return False
+        return _same(one, other)
+
+
+def _same(one: Any, other: Any) -> bool:
+    if isinstance(one, CurveHandle) and isinstance(other, CurveHandle):
+        return same_curve(one, other)
+    if not isinstance(one, np.ndarray) or not isinstance(other, np.ndarray) or one.dtype == object:
+        return one is other
+    return (one.dtype, one.shape, one.tobytes()) == (other.dtype, other.shape, other.tobytes())

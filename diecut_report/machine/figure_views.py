@@ -1,0 +1,554 @@
+"""Figures as plain data: ids replaced by values, drawings built from the calculated machine."""
+
+from __future__ import annotations
+
+import json
+import math
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from functools import partial
+from math import cos, isfinite, sin
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config.plugins import said
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, axis_unit
+from diecut_report.machine.curve_samples import CurveSampler
+from diecut_report.machine.numerics.domain import Domain
+from diecut_report.machine.printing.substitution import printed
+from diecut_report.machine.steps.run import varied, varied_curves
+from diecut_report.mechanism.figures import (
+    BarGroup,
+    Bars,
+    Chart,
+    Drawing,
+    Figure,
+    Mark,
+    Panel,
+    Plot,
+    Polar,
+    Range,
+    Shape,
+    View,
+    circle,
+    plain,
+    point,
+    polyline,
+)
+from diecut_report.mechanism.steps import Reduction, place_name
+from diecut_report.quantities.formatting import told
+from diecut_report.quantities.units import unit
+from diecut_report.text.phrases import Phrase, phrase
+
+# What figures and exports may name, and what a fault in one of them costs: that one alone.
+
+
+Data = dict[str, Any]
+FLOATS = {float, np.float64}
+
+
+class Undrawable(ValueError):
+    """Report that a figure or export asks for what is not there, in words."""
+
+
+def guarded(make: Callable[[], Data], lost: Data, place: str) -> Data:
+    """Return what ``make`` makes, or ``lost`` with what went wrong and where in the plugin."""
+    place = Path(place).name
+    try:
+        made = make()
+        _plain(made)
+        return made
+    except Undrawable as fault:
+        return lost | {"error": f"{fault} ({place})"}
+    except Exception as cause:
+        return lost | {"error": Phrase("{said}, asked for at {place}", said=said(cause), place=place)}
+
+
+def _plain(made: Data) -> None:
+    """Check that it can stand in a results file."""
+    if _is_plain(made):
+        return
+    try:
+        json.dumps(made, allow_nan=False)
+    except (TypeError, ValueError) as fault:
+        raise Undrawable(
+            Phrase(
+                "it gives something that is not a finite number, text or list of these ({fault}); an absent "
+                "number in a line is None",
+                fault=fault,
+            )
+        ) from None
+
+
+def _is_plain(part: Any) -> bool:
+    """Whether a part is seen at once to be text, finite numbers, or lists of these; others are asked of the writer itself."""
+    kind = type(part)
+    if kind is dict:
+        return all(type(key) is str for key in part) and all(map(_is_plain, part.values()))
+    if kind is list or kind is tuple:
+        return isfinite(sum(part)) if part and set(map(type, part)) <= FLOATS else all(map(_is_plain, part))
+    return isfinite(part) if kind in FLOATS else part is None or isinstance(part, str) or kind in (bool, int)
+
+
+def curve_named(calc: Calculation, name: str, abscissa: str | None = None) -> str:
+    """Return a curve's abscissa; refused where the results have no such curve, or not over this abscissa."""
+    found = _abscissas(calc).get(name)
+    if found is None:
+        raise Undrawable(
+            Phrase("{name} is {what}; it takes a curve that the results hold", name=repr(name), what=_what(calc, name))
+        )
+    if abscissa is not None and found != abscissa:
+        raise Undrawable(
+            Phrase(
+                "{name} runs over {found}, not over {abscissa}; both must have one abscissa",
+                name=repr(name),
+                found=repr(found),
+                abscissa=repr(abscissa),
+            )
+        )
+    return found
+
+
+def _abscissas(calc: Calculation) -> Mapping[str, str]:
+    """The abscissa of each curve of the results; an abscissa is its own."""
+    own = {name: name for name in calc.domains} | {n: calc.axis[n] for n, step in calc.curves.items() if step.output}
+    for spectrum in calc.mechanism.spectra:
+        own |= {spectrum.id: spectrum.id} | {line.id: spectrum.id for line in spectrum.lines()}
+    return own
+
+
+def _what(calc: Calculation, name: str) -> str:
+    if name in calc.curves:
+        return phrase("a curve that is not an output")
+    if name in calc.values or name in calc.inputs:
+        return phrase("a number or a text, not a curve")
+    return phrase("not a quantity of this machine")
+
+
+# What moves in a drawing: each shape once, with the numbers that it has at each place of the abscissa.
+
+
+FRAMES = 72  # places of a turn, beside the ends of its pieces; a screen draws straight on between them
+BEFORE = 1e-9  # of the abscissa: so far before the end of a piece its curves are still those of the piece
+MOVABLE = ("polyline", "circle", "point")
+STANDING = ("label",)  # what may stand beside them
+
+
+def frame_places(domain: Domain) -> tuple[float, ...]:
+    """Return the places at which a drawing is made: evenly over the abscissa, and on both sides of where its curves jump or have a corner."""
+    period, joints = float(domain.period[0, 0]), domain.joints[0]
+    found = np.concatenate([np.linspace(0.0, period, FRAMES + 1), joints, joints[1:-1] - BEFORE * period])
+    return tuple(float(place) for place in np.unique(found))
+
+
+def moving_shapes(title: str, frames: Sequence[Sequence[Shape]]) -> list[Shape]:
+    """Return the shapes of all frames once: as it is what stands still, others with their numbers in each frame (``moves``)."""
+    forms = [[_form(shape) for shape in frame] for frame in frames]
+    if any(form != forms[0] for form in forms) or not all(_is_movable(shape) for shape in frames[0]):
+        raise Undrawable(
+            Phrase(
+                "what moves in {title} must be the same {movable} at each place",
+                title=repr(title),
+                movable=f"{', '.join(MOVABLE)}, rigid",
+            )
+        )
+    return [_moved(shapes) for shapes in zip(*frames, strict=True)]
+
+
+def laid_out(shapes: Sequence[Shape]) -> list[Shape]:
+    """Return shapes with what is rigid where it stands: plain shapes alone."""
+    return [own for shape in shapes for own in (_placed(shape) if shape.get("shape") == "rigid" else [shape])]
+
+
+def _form(shape: Shape) -> tuple[Any, ...]:
+    """What must not change from place to place."""
+    if shape["shape"] == "rigid":
+        return "rigid", shape["shapes"]
+    if shape["shape"] in STANDING:
+        return shape["shape"], shape["text"], shape["anchor"], *shape["at"]
+    return shape["shape"], shape.get("role"), shape.get("closed"), len(shape.get("points", ()))
+
+
+def _is_movable(shape: Shape) -> bool:
+    if shape["shape"] == "rigid":
+        return all(own["shape"] in MOVABLE for own in shape["shapes"])
+    return shape["shape"] in (*MOVABLE, *STANDING)
+
+
+def _moved(shapes: Sequence[Shape]) -> Shape:
+    """A shape with its numbers at each place; an angle goes on where it would begin anew."""
+    rows = np.array([_numbers(shape) for shape in shapes])
+    if (rows == rows[0]).all():
+        return shapes[0]
+    if shapes[0]["shape"] == "rigid":
+        rows[:, 2] = np.unwrap(rows[:, 2])
+    kept = {key: value for key, value in shapes[0].items() if key in ("shape", "role", "closed", "shapes")}
+    return kept | {"moves": rows.tolist()}
+
+
+def _numbers(shape: Shape) -> list[float]:
+    match shape["shape"]:
+        case "polyline":
+            return [number for each in shape["points"] for number in each]
+        case "circle":
+            return [*shape["center"], shape["radius"]]
+        case "rigid":
+            return [*shape["at"], shape["turned"]]
+    return list(shape["at"])
+
+
+def _placed(rigid: Shape) -> list[Shape]:
+    """What is rigid, turned and shifted."""
+    (x, y), c, s = rigid["at"], cos(rigid["turned"]), sin(rigid["turned"])
+
+    def of(at: Sequence[float]) -> tuple[float, float]:
+        return x + c * at[0] - s * at[1], y + s * at[0] + c * at[1]
+
+    placed = []
+    for shape in rigid["shapes"]:
+        match shape["shape"]:
+            case "polyline":
+                placed.append(polyline([of(each) for each in shape["points"]], shape["role"], closed=shape["closed"]))
+            case "circle":
+                placed.append(circle(of(shape["center"]), shape["radius"], shape["role"]))
+            case "point":
+                placed.append(point(of(shape["at"]), shape["role"], shape.get("label", "")))
+            case kind:
+                words = "{kind} cannot be part of what is rigid; it takes {movable}"
+                raise Undrawable(Phrase(words, kind=repr(kind), movable=", ".join(MOVABLE)))
+    return placed
+
+
+# The range of a diagram's axis as it is declared: its ends, and that what is drawn lies between them.
+
+
+Lines = Sequence[tuple[str, Sequence[float]]]  # how each is called, and its heights
+SAME = 1e-12  # of the range: beyond its ends by no more is rounding
+
+
+def declared(made: Data, limits: Range | None, view: View, lines: Lines) -> Data:
+    """Return a panel (or a group, or a polar diagram) with the range that is declared for it, its ends in SI."""
+    if limits is None:
+        return made
+    factor = unit(made["unit"]).factor
+    ends = [view[end] if isinstance(end, str) else None if end is None else float(end) * factor for end in limits]
+    return checked(made | {"range": ends}, lines)
+
+
+def of_lines(panel: Data) -> Data:
+    """Return a chart's panel; Undrawable where its lines leave the range that it declares."""
+    if "range" not in panel:
+        return panel
+    lines = [(each["label"], [y for y in each["y"] if y is not None]) for each in (*panel["lines"], *panel["fills"])]
+    return checked(panel, lines)
+
+
+def checked(panel: Data, lines: Lines) -> Data:
+    """Return a panel with its range; Undrawable where that is empty, or where something drawn lies outside of it."""
+    low, high = panel["range"]
+    name = panel.get("title") or panel["label"]
+    if low is not None and high is not None and not low < high:
+        raise Undrawable(
+            Phrase(
+                "the range of {name} goes from {low} to {high}, which is none",
+                name=repr(name),
+                low=_told(low, panel),
+                high=_told(high, panel),
+            )
+        )
+    room = SAME * max(abs(end) for end in (low, high, 0.0) if end is not None)
+    for label, value in _heights(panel, lines):
+        if (low is not None and value < low - room) or (high is not None and value > high + room):
+            limits = f"{'…' if low is None else _told(low, panel)} to {'…' if high is None else _told(high, panel)}"
+            raise Undrawable(
+                Phrase(
+                    "{label} reaches {value}, outside of the range of {name}, {limits}; widen it",
+                    label=label,
+                    value=_told(value, panel),
+                    name=repr(name),
+                    limits=limits,
+                )
+            )
+    return panel
+
+
+def _heights(panel: Data, lines: Lines) -> Iterator[tuple[str, float]]:
+    """What is drawn, with how it is called."""
+    for label, values in lines:
+        if values:
+            yield from ((label, min(values)), (label, max(values)))
+    yield from ((mark["label"], mark["y"]) for mark in panel.get("marks", ()))
+    yield from ((level["label"], level["value"]) for level in panel.get("levels", ()))
+
+
+def _told(value: float, panel: Data) -> str:
+    return told(value, panel["unit"])
+
+
+class MachineView:
+    """Give a drawing what it may ask of the calculated machine (the first variant), and keep what was asked for.
+
+    ``places`` are those of the abscissa at which curves will be asked for: they are taken at all of them at once.
+    """
+
+    def __init__(self, calc: Calculation, places: tuple[float, ...] = ()) -> None:
+        self.calc = calc
+        self.asked: dict[str, None] = {}
+        self._places = dict.fromkeys(places)
+        self._last: CurveSampler | None = None  # the places that were asked for last, mostly by several curves
+        self._heights: dict[str, dict[float, float]] = {}
+        self._made: dict[Callable[[Any], Any], Any] = {}
+
+    def __getitem__(self, name: str) -> float:
+        """A number by its id, SI."""
+        if name not in self:
+            raise Undrawable(Phrase("there is no number {name} in this machine", name=repr(name)))
+        self.asked[name] = None
+        return float(self.calc[name][0, 0])
+
+    def __contains__(self, name: str) -> bool:
+        """Whether there is a number of this id."""
+        return name in self.calc.values or name in self.calc.inputs
+
+    def get(self, name: str, default: float) -> float:
+        """Return a number by its id, or the default where there is none."""
+        known = name in self
+        return self[name] if known else default
+
+    def at(self, curve: str, place: float) -> float:
+        """Return a curve's value at a place of its abscissa, SI."""
+        self.asked[curve] = None
+        known = self._heights.setdefault(curve, {})
+        if place not in known:
+            places = list(self._places) if place in self._places else [place]
+            known |= zip(places, self._sampler(self.calc.axis[curve], places).over(curve)[0].tolist(), strict=True)
+        return known[place]
+
+    def _sampler(self, axis: str, places: list[float]) -> CurveSampler:
+        if self._last is None or self._last.axis != axis or self._last.x[0].tolist() != places:
+            x, rows = np.array([places]), np.zeros(1, dtype=int)
+            self._last = self.calc.sampler_of(axis, x, self.calc.domains[axis].middle_of(x, rows), rows)
+        return self._last
+
+    def once(self, make: Callable[[Any], Any]) -> Any:
+        """Return what a function of the view makes, made once."""
+        if make not in self._made:
+            self._made[make] = make(self)
+        return self._made[make]
+
+    def text(self, name: str) -> str:
+        """Return a quantity as it is printed: ``h = 40 mm``."""
+        self.asked[name] = None
+        return f"{self.calc.step_or_input(name).symbol} = {printed(self.calc, name)}"
+
+    def word(self, name: str) -> str:
+        """Return a text by its id: an input, or what a choice gave."""
+        return printed(self.calc, name)
+
+    def row(self, name: str) -> list[float]:
+        """Return the values of all repeated parts, SI."""
+        self.asked[name] = None
+        return [float(value) for value in self.calc[name][0]]
+
+    def words(self, name: str) -> list[str]:
+        """Return a text input of all repeated parts."""
+        return [str(text) for text in self.calc.part_names.get(name) or self.calc.inputs[name]]
+
+    def curve(self, name: str) -> list[float]:
+        """Return a curve (or an abscissa) at the samples of the results, SI."""
+        self.asked[name] = None
+        samples = self.calc.domains[name].samples if name in self.calc.domains else self.calc.curve_samples(name)
+        return [float(value) for value in samples[0]]
+
+    def prepared(self, name: str) -> Any:
+        """Return what plain code prepared, by its id."""
+        return self.calc.inputs[name]
+
+    def heights(self, name: str, abscissa: str) -> list[float]:
+        """Return a curve of a plot at the places that are drawn, SI; of a spectrum the values of its line."""
+        spectrum = next((each for each in self.calc.mechanism.spectra if each.id == abscissa), None)
+        if spectrum is None:
+            return self.curve(name)
+        return next([float(v) for v in line.values] for line in spectrum.lines() if line.id == name)
+
+    def varied(self, inputs: Mapping[str, Any], *names: str) -> dict[str, Array]:
+        """Return numbers of the machine calculated again with other inputs; NaN where it is then impossible."""
+        self.asked |= dict.fromkeys(names)
+        return varied(self.calc, inputs, names)
+
+    def varied_curves(
+        self, inputs: Mapping[str, Any], *names: str, points: int = 361
+    ) -> tuple[Array, dict[str, Array]]:
+        """Return the abscissa and the values of curves of the machine calculated again with other inputs."""
+        self.asked |= dict.fromkeys(names)
+        return varied_curves(self.calc, inputs, names, points)
+
+
+def figures(calc: Calculation) -> list[dict[str, Any]]:
+    """Return the figures whose needs are given; one that fails is kept with what went wrong (``error``).
+
+    A chart to which this machine gives no panel is left out.
+    """
+    found = [_guarded(calc, figure) for figure in shown_figures(calc)]
+    return [made for made in found if made["type"] != "chart" or made["panels"]]
+
+
+def shown_figures(calc: Calculation) -> list[Figure]:
+    """Return the declarations of the figures whose needs are given; nothing is drawn for it."""
+    return [figure for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
+
+
+def _guarded(calc: Calculation, figure: Figure) -> dict[str, Any]:
+    head = {"id": figure.id, "title": figure.title, "caption": figure.caption}
+    return guarded(lambda: _figure(calc, figure, head), head | {"type": "failed"}, figure.at)
+
+
+def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str, Any]:
+    """Return a figure as data, with the quantities that it shows: of a plot its curves, of others what was asked for."""
+    view = MachineView(calc)
+    made = _made(calc, figure, head, view)
+    return made | {"shows": _curves(figure)[1:] or list(view.asked)}
+
+
+def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: MachineView) -> dict[str, Any]:
+    for curve in _curves(figure):
+        curve_named(calc, curve, figure.abscissa)  # type: ignore[attr-defined]
+    match figure:
+        case Plot(abscissa=abscissa, panels=panels):
+            made = [_panel(panel, view, abscissa) for panel in panels]
+            return head | {"type": "plot", "abscissa": abscissa, "panels": made}
+        case Polar():
+            return _polar(figure, view, head)
+        case Bars(groups=groups):
+            return head | {"type": "bars", "groups": [_group(g, view) for g in groups]}
+        case Drawing(build=build, unit=unit, scaled_by=scale, schematic=schematic):
+            relative = schematic or (scale and scale not in calc.given)
+            drawn = {"type": "drawing", "unit": "1" if relative else unit, "shapes": laid_out(_listed(build, view))}
+            return head | drawn | ({"schematic": True} if schematic else {}) | _moving(calc, figure)
+        case Chart(build=build):
+            own = [of_lines(_of_its_size(panel)) for panel in _listed(build, view)]
+            for over in (panel["over"] for panel in own if "over" in panel):
+                curve_named(calc, over, over)
+            return head | {"type": "chart", "panels": own}
+    raise TypeError(Phrase("{id} is not a known figure", id=figure.id))
+
+
+def _of_its_size(panel: dict[str, Any]) -> dict[str, Any]:
+    """A chart's panel in the unit of its size."""
+    heights = (height for line in panel["lines"] for height in line["y"] if height is not None)
+    return panel | {"unit": axis_unit(panel["unit"], heights)}
+
+
+def _moving(calc: Calculation, drawing: Drawing) -> dict[str, Any]:
+    """What moves in a drawing at places of its abscissa; what it asks for is told by the drawing itself."""
+    if drawing.moving is None:
+        return {}
+    if drawing.over not in calc.domains and any(step.id == drawing.over for _, step in calc.mechanism.steps):
+        return {}  # this machine is without what it moves over
+    curve_named(calc, drawing.over, drawing.over)
+    places = frame_places(calc.domains[drawing.over])
+    view = MachineView(calc, places)
+    frames = [_listed(partial(_at_place, drawing.moving, place), view) for place in places]
+    return {"moving": {"over": drawing.over, "places": list(places), "shapes": moving_shapes(drawing.title, frames)}}
+
+
+def _at_place(moving: Callable[[MachineView, float], Any], place: float, view: MachineView) -> Any:
+    return moving(view, place)
+
+
+def _listed(build: Callable[[MachineView], Any], view: MachineView) -> Any:
+    """What an author's function draws, which must be a list of shapes; a function without a return gives none."""
+    drawn = build(view)
+    if not isinstance(drawn, list) or not all(isinstance(shape, dict) for shape in drawn):
+        name = getattr(build, "__name__", phrase("its function"))
+        given = (
+            "nothing"
+            if drawn is None
+            else f"a {type(drawn).__name__}"
+            if not isinstance(drawn, list)
+            else phrase("other things in its list")
+        )
+        raise Undrawable(
+            Phrase(
+                "{name} gives {given}; return a list of what circle, polyline, chart_panel and the like give",
+                name=name,
+                given=given,
+            )
+        )
+    return drawn
+
+
+def _curves(figure: Figure) -> list[str]:
+    """The curves that a figure names."""
+    match figure:
+        case Plot(panels=panels):
+            return [figure.abscissa, *(series.curve for panel in panels for series in panel.series)]
+        case Polar(series=several):
+            return [figure.abscissa, *(series.curve for series in several)]
+    return []
+
+
+def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
+    named: dict[str, tuple[Any, ...]] = {"levels": panel.levels, "marks": panel.marks, "spans": panel.spans}
+    made: dict[str, Any] = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
+        key: [plain(part, view) for part in parts] for key, parts in named.items()
+    }
+    made["marks"] = [
+        _on_curve(mark, shown, panel, view) for mark, shown in zip(panel.marks, made["marks"], strict=True)
+    ]
+    curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series if panel.range]
+    heights = (height for one in panel.series for height in view.heights(one.curve, abscissa))
+    return _in_chosen_unit(view, declared(made, panel.range, view, curves), heights)
+
+
+def _on_curve(mark: Mark, shown: dict[str, Any], panel: Panel, view: MachineView) -> dict[str, Any]:
+    """A mark with the sign of the curve: the greatest size of a curve says nothing of the side on which it stands."""
+    step = view.calc.step_or_input(mark.y)
+    if not isinstance(step, Reduction) or step.operation != "abs_max" or mark.x != place_name(step.id):
+        return shown
+    if step.of not in [one.curve for one in panel.series]:
+        return shown
+    return shown | {"y": math.copysign(shown["y"], _height(step.id, step.of, view))}
+
+
+def _height(size: str, curve: str, view: MachineView) -> float:
+    """The value of a curve where its size is greatest; at a jump on the side that was found there."""
+    calc, place = view.calc, place_name(size)
+    x, rows = calc[place][:1], np.zeros(1, dtype=int)
+    return float(calc.sampler_of(calc.axis[curve], x, calc.middle[place][:1], rows).over(curve)[0, 0])
+
+
+def _in_chosen_unit(view: MachineView, made: dict[str, Any], heights: Iterable[float]) -> dict[str, Any]:
+    """A panel, all of whose values are in SI, in the unit that the report chose for its first curve or its dimension."""
+    first = made["series"][0]["curve"] if made["series"] else ""
+    return made | {"unit": view.calc.chosen_units.of(first, made["unit"]) or axis_unit(made["unit"], heights)}
+
+
+def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, Any]:
+    made = {
+        "type": "polar",
+        "abscissa": figure.abscissa,
+        "unit": figure.unit,
+        "series": [vars(s) for s in figure.series],
+    }
+    distances = [
+        (one.label, [abs(float(value)) for value in view.curve(one.curve)]) for one in figure.series if figure.range
+    ]
+    ranged = declared(head | made, figure.range, view, distances)
+    if (ranged.get("range", [None])[0] or 0) < 0:
+        raise Undrawable(
+            Phrase(
+                "the range of {title} begins below zero, where no distance from the pole is", title=repr(figure.title)
+            )
+        )
+    return ranged
+
+
+def _group(group: BarGroup, view: MachineView) -> dict[str, Any]:
+    values = [(label, -view[name[1:]] if name[0] == "-" else view[name]) for label, name in group.bars]
+    bars = [{"label": label, "value": value} for label, value in values]
+    shown = axis_unit(group.unit, (value for _, value in values))
+    made = {"label": group.label, "unit": shown, "bars": bars}
+    return declared(made, group.range, view, [(label, [value]) for label, value in values])

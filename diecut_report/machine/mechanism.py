@@ -1,0 +1,316 @@
+"""A calculated mechanism as a whole, as the input of another one takes it by its name."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Mapping
+from dataclasses import dataclass, replace
+from functools import cached_property, lru_cache
+from types import MappingProxyType
+from typing import Any
+
+import numpy as np
+
+from diecut_report.formulas import Array
+from diecut_report.machine.calculation import Calculation, CurveHandle
+from diecut_report.mechanics.timing.intervals import TOUCHING, Interval, Intervals, complement, merged
+from diecut_report.mechanism.curve_inputs import TakenWhole
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import Misdeclared
+from diecut_report.mechanism.part_steps import Cell, ListedColumn, Listing
+from diecut_report.mechanism.steps import PREFIX, Abscissa, Phase
+from diecut_report.quantities.formatting import listed_text, number_text
+from diecut_report.quantities.units import unit
+from diecut_report.text.phrases import Phrase, phrase
+
+# The phases of a calculated mechanism: their intervals for one machine, and the handle by which others refer to them.
+
+
+@dataclass(frozen=True)
+class PhaseHandle(TakenWhole):
+    """Hand a phase of one mechanism to the input of another; ``row`` counts the variants, of which a single one stands for all.
+
+    ``text`` is how a config refers to it, ``row`` the variant that is meant where none is named.
+    """
+
+    calculation: Calculation
+    name: str
+    text: str = ""
+    row: int = 0
+
+    def __str__(self) -> str:
+        """Return how a config refers to it."""
+        return self.text
+
+    @property
+    def declared(self) -> Phase:
+        """Return the phase as it is declared."""
+        return phases_of(self.calculation)[self.name]
+
+    @property
+    def role(self) -> str:
+        """Return what it is: working, rest, moving or window."""
+        return self.declared.role
+
+    @property
+    def description(self) -> str:
+        """Return what it is called in words."""
+        return phrase(self.declared.description)
+
+    @property
+    def phase_unit(self) -> str:
+        """Return the SI unit of its abscissa."""
+        return unit(self.calculation.steps[self.declared.abscissa].unit).si
+
+    def of_machine(self, row: int) -> PhaseHandle:
+        """Return the phase of one of the variants."""
+        return replace(self, row=row)
+
+    def period(self, row: int | None = None) -> float:
+        """Return the period of its abscissa, SI."""
+        return period_of(self.calculation, self.declared, self.row if row is None else row)
+
+    def intervals(self, row: int | None = None) -> Intervals:
+        """Return its intervals, SI; none where the machine does not have it."""
+        return self._own if row is None or row == self.row else intervals(self.calculation, self.name, row)
+
+    @cached_property
+    def _own(self) -> Intervals:
+        return intervals(self.calculation, self.name, self.row)
+
+
+def phases_of(calc: Calculation) -> Mapping[str, Phase]:
+    """Return the phases that take part in a calculation, by their names."""
+    return _declared(calc.mechanism, calc.given)
+
+
+@lru_cache(maxsize=256)
+def _declared(mechanism: Mechanism, given: frozenset[str]) -> Mapping[str, Phase]:
+    """The same of all calculations with these inputs: among many machines they are asked for many times."""
+    found = (step for _, step in mechanism.active(given) if isinstance(step, Phase))
+    return MappingProxyType({step.id.removeprefix(PREFIX): step for step in found})
+
+
+def intervals(calc: Calculation, name: str, row: int = 0) -> Intervals:
+    """Return the intervals of a phase for one variant, SI: each begins within the period; none where the machine does not have it."""
+    return _intervals(calc, phases_of(calc), name, row)
+
+
+def _intervals(calc: Calculation, known: Mapping[str, Phase], name: str, row: int) -> Intervals:
+    step = known[name]
+    period = period_of(calc, step, row)
+    held = [each for other in (*step.union, *step.rest_of) for each in _intervals(calc, known, other, row)]
+    if step.rest_of:
+        return complement(merged(held, period), period) if held else ()
+    spans = [(_place(calc, start, row), _place(calc, end, row)) for start, end in step.spans]
+    return merged([*held, *(_counted_on(span, period) for span in spans if not np.isnan(span).any())], period)
+
+
+def _counted_on(span: Interval, period: float) -> Interval:
+    """A span whose end, where it lies before the start, is meant a period later; one without a length has none."""
+    start, end = span
+    if abs(end - start) <= TOUCHING * period:
+        return start, start
+    return (start, end) if end > start else (start, end + period)
+
+
+def period_of(calc: Calculation, step: Phase, row: int = 0) -> float:
+    """Return after which length of its abscissa a phase comes again, SI."""
+    return _of_row(calc[step.period] if step.period else calc.domains[step.abscissa].period, row)
+
+
+def _place(calc: Calculation, place: str | float, row: int) -> float:
+    return float(_of_row(calc[place], row)) if isinstance(place, str) else float(place)
+
+
+def _of_row(column: np.ndarray[tuple[int, ...], np.dtype[np.float64]], row: int) -> float:
+    """The number of a variant; one that holds for all has a single row."""
+    return float(column[row if len(column) > 1 else 0, 0])
+
+
+def speed_of(calc: Calculation, abscissa: str, row: int = 0) -> float | None:
+    """Return how fast an abscissa is run through, SI; 1 for one of time, None where nothing tells it."""
+    step = calc.steps[abscissa]
+    assert isinstance(step, Abscissa)
+    if step.speed:
+        return _of_row(calc[step.speed], row)
+    return 1.0 if unit(step.unit).kind == unit("s").kind else None
+
+
+# Tables that plain code makes: their rows, checked, as numbers and as they are printed.
+
+
+Data = dict[str, Any]
+SAME = 1e-9  # relative difference within which a number is that of a row
+TAKEN, MARK = phrase("taken"), "→"
+
+
+def rows(calc: Calculation, step: Listing) -> list[list[Cell]]:
+    """Return the rows of a listing, SI; Misdeclared where they are none."""
+    known = {name: calc[name] for name in step.holds if name in calc.values or name in calc.inputs}
+    found = [[_plain(cell) for cell in row] for row in step.function(known)]
+    for row in found:
+        if len(row) != len(step.heads) or any(isinstance(cell, float) and not math.isfinite(cell) for cell in row):
+            words = Phrase(
+                "step {id}: its function gives the row {row}; {count} texts and finite numbers are wanted",
+                id=step.id,
+                row=row,
+                count=len(step.heads),
+            )
+            raise Misdeclared(words, step.at)
+    return found
+
+
+def _plain(cell: Any) -> Cell:
+    return cell if cell is None or isinstance(cell, str) else float(cell)
+
+
+def results(calc: Calculation) -> Data:
+    """Return all listings of a machine by id, as the results hold them; nothing where there is none."""
+    found: Data = {}
+    for step in calc.steps.values():
+        if isinstance(step, Listing):
+            columns = [
+                {"id": each.id, "description": each.description, "unit": unit(each.unit).si} for each in step.heads
+            ]
+            lines = rows(calc, step)
+            marked = {"taken": taken} if (taken := _taken(calc, step, lines)) else {}
+            found[step.id] = {"description": step.description, "columns": columns, "rows": lines} | marked
+    return {"listings": found} if found else {}
+
+
+def _taken(calc: Calculation, step: Listing, lines: list[list[Cell]]) -> list[int]:
+    """The rows that begin with what was taken."""
+    name = step.taken.removeprefix("inputs.")
+    if not name or (name not in calc.values and name not in calc.inputs):
+        return []
+    own: Any = calc[name]
+    value = own[0, 0] if isinstance(own, np.ndarray) else own
+    return [number for number, row in enumerate(lines) if _is_same(row[0], value)]
+
+
+def _is_same(cell: Cell, value: Any) -> bool:
+    if isinstance(cell, float) and not isinstance(value, str):
+        return math.isclose(cell, value, rel_tol=SAME)
+    return bool(cell == value)
+
+
+def printed(calc: Calculation, step: Listing) -> list[Data]:
+    """Return a listing as a table of the calculation, the rows that were taken marked in a column of their own; none where it has no rows."""
+    columns = [
+        {"title": each.description, "symbol": each.symbol, "unit": each.unit} for each in step.heads if each.printed
+    ]
+    found = rows(calc, step)
+    lines = [[_text(cell, head) for cell, head in zip(row, step.heads, strict=True) if head.printed] for row in found]
+    if taken := _taken(calc, step, found):
+        columns = [{"title": TAKEN, "symbol": "", "unit": "1"}, *columns]
+        lines = [[MARK if number in taken else "", *line] for number, line in enumerate(lines)]
+    return [{"type": "table", "title": step.description, "columns": columns, "rows": lines}] if lines else []
+
+
+def _text(cell: Cell, head: ListedColumn) -> str:
+    if cell is None:
+        return "–"
+    if isinstance(cell, str):
+        return cell
+    return number_text(cell / unit(head.unit).factor, head.digits) if head.digits else listed_text(cell, head.unit)
+
+
+@dataclass(frozen=True)
+class MechanismHandle(TakenWhole):
+    """Hand a whole mechanism to the input of another: its phases, numbers, curves, and how its abscissa is run through.
+
+    Of many variants it is that of one, ``row``; ``numbers`` and ``curve`` are those of all.
+    """
+
+    calculation: Calculation
+    name: str
+    is_mechanism: bool = True
+    row: int = 0
+
+    def __str__(self) -> str:
+        """Return its name, by which a config refers to it."""
+        return self.name
+
+    @property
+    def kind(self) -> str:
+        """Return its kind."""
+        return self.calculation.mechanism.kind
+
+    @property
+    def count(self) -> int:
+        """Return how many variants it stands for."""
+        return self.calculation.count
+
+    @cached_property
+    def phases(self) -> dict[str, PhaseHandle]:
+        """Return the phases that it has, by their names."""
+        calc = self.calculation
+        found = (PhaseHandle(calc, name, f"{self.name}.{PREFIX}{name}", self.row) for name in phases_of(calc))
+        return {handle.name: handle for handle in found if handle.intervals()}
+
+    def of_machine(self, row: int) -> MechanismHandle:
+        """Return the mechanism of one of the variants."""
+        return replace(self, row=row)
+
+    def missing_keys(self, phase: str) -> tuple[str, ...] | None:
+        """Return the keys without which it has not a phase that its kind may have; None where the kind has none of this name."""
+        calc = self.calculation
+        declared = [
+            each for each in calc.mechanism.steps if each[1].id == f"{PREFIX}{phase}" and isinstance(each[1], Phase)
+        ]
+        if not declared:
+            return None
+        chapter, step = declared[0]
+        return tuple(key for key in (*chapter.needs, *step.needs) if key not in calc.given)
+
+    def number(self, name: str) -> float | None:
+        """Return a number (an output, a value or an input) by its id, SI; None where there is none."""
+        found = self.numbers(name)
+        own = np.nan if found is None else float(self._own(found)[0])
+        return None if np.isnan(own) else own
+
+    def numbers(self, name: str) -> Array | None:
+        """Return a number of all variants by its id, SI, shape (variants, 1), NaN where it is absent; None where there is none."""
+        calc = self.calculation
+        found = calc.values.get(name, calc.inputs.get(name))
+        return found if isinstance(found, np.ndarray) and found.dtype != object else None
+
+    def parts(self, name: str) -> tuple[float, ...]:
+        """Return a row over repeated parts by its id, SI; nothing where there is none."""
+        found = self.calculation.values.get(name)
+        return () if found is None else tuple(float(value) for value in self._own(found))
+
+    def _own(self, values: Array) -> Array:
+        """The values of the variant; those that hold for all have a single row."""
+        found: Array = values[self.row if len(values) > 1 else 0]
+        return found
+
+    def texts(self, name: str) -> tuple[str, ...]:
+        """Return a text input of all repeated parts, mechanisms by their names; nothing where there is none."""
+        return tuple(str(text) for text in self.calculation.inputs.get(name, ()))
+
+    def listing(self, name: str) -> list[list[Cell]]:
+        """Return the rows of a table that it lists, by its id, SI; nothing where there is none."""
+        step = self.calculation.steps.get(name)
+        return rows(self.calculation, step) if isinstance(step, Listing) else []
+
+    def curve(self, name: str) -> CurveHandle | None:
+        """Return a curve by its id, over shares of its period; None where there is none."""
+        return CurveHandle(self.calculation, name) if name in self.calculation.curves else None
+
+    def period(self, abscissa: str = "") -> float:
+        """Return the period of an abscissa, SI; by default of the first one that is declared."""
+        return float(self._own(self.calculation.domains[abscissa or self._first()].period)[0])
+
+    def speed(self, abscissa: str = "") -> float | None:
+        """Return how fast that abscissa is run through, SI; None where that is not known."""
+        return speed_of(self.calculation, abscissa or self._first(), self.row)
+
+    @property
+    def has_period(self) -> bool:
+        """Return whether it runs over something that comes again."""
+        return bool(self.calculation.domains)
+
+    def _first(self) -> str:
+        return next(iter(self.calculation.domains))

@@ -1,0 +1,1 @@
+"""Roots, extremes, integrals and jumps of piecewise smooth curves."""

@@ -1,0 +1,584 @@
+"""Extremes of curves on arrays of variants: every local extreme that may be the greatest is refined by a bounded search."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Sequence
+from functools import cache, lru_cache
+from typing import NamedTuple
+
+import numpy as np
+
+from diecut_report.formulas import Array
+from diecut_report.formulas.tree import Node, symbols
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.numerics.curves import MANY, Curves
+from diecut_report.machine.numerics.domain import SMALLEST
+from diecut_report.machine.numerics.jumps import nonzero, parts
+from diecut_report.machine.numerics.samples import CachedPieces
+
+# Where a condition may hold in a window that its difference does not show between the points of the search grid.
+#
+# A difference such as ``exp(-((φ - φ_0)/w)²) - 1/2`` is the same at all points but for a place between two of them: nothing dips. What
+# goes into such functions does show the place. So each of their arguments is followed to where it comes nearest to zero
+# and to where it turns, and there the condition is asked. What curves do that a condition takes is not looked into.
+
+
+FLATTENING = {"exp", "tanh", "arctan", "minimum", "maximum", "clip", "/", "^"}  # what levels off, or has a corner
+ROUNDS, PARTS = (
+    17,
+    16,
+)  # how often a place is looked for in so many parts of what is left: down to the rounding of a place
+
+Value = Callable[[Node, Array, Array], Array]  # of a part of a condition, at places (rows, points) of some rows
+Cells = tuple[Array, Array, Array]  # rows, and the two places (rows,) between which something is sought
+
+
+@lru_cache(maxsize=4096)
+def arguments(node: Node, varying: frozenset[str]) -> tuple[Node, ...]:
+    """Return what goes into the functions of a condition where one of them levels off in what varies; nothing for all other conditions."""
+    inner = [(_name(part), each) for side in parts(node) for part in _walk(side) for each in _taken(part)]
+    found = [(name, each) for name, each in inner if varying.intersection(symbols(each))]
+    return tuple(dict.fromkeys(each for _, each in found)) if FLATTENING.intersection(name for name, _ in found) else ()
+
+
+def _walk(node: Node) -> Iterator[Node]:
+    yield node
+    for part in parts(node):
+        yield from _walk(part)
+
+
+def _name(node: Node) -> str:
+    return str(node.args[0]) if node.op == "call" else node.op
+
+
+def _taken(node: Node) -> Iterator[Node]:
+    """What a function takes, or by how much two of its arguments differ: where they are equal is a corner."""
+    match node:
+        case Node("call", ("minimum" | "maximum" | "clip", first, *others)):
+            yield from (Node("-", (first, other)) for other in others)
+        case Node("call", (_, *taken)):
+            yield from taken
+        case Node("/", (_, below)):
+            yield below
+        case Node("^", (base, _)):
+            yield base
+
+
+def places(of: tuple[Node, ...], x: Array, value: Value) -> Iterator[Cells]:
+    """Give, of each row with places ``x`` (rows, points), where one of these parts is least, greatest or nearest to zero, and the points beside."""
+    every = np.arange(len(x))
+    for argument in of:
+        with np.errstate(all="ignore"):
+            on_grid = value(argument, x, every)
+            for size in (np.abs, np.positive, np.negative):
+                row, k = _lowest(size(on_grid))
+                low, high = x[row, np.maximum(k - 1, 0)], x[row, np.minimum(k + 1, x.shape[1] - 1)]
+                place = _least(lambda at, own, part=argument, by=size: by(value(part, at, own)), row, low, high)  # type: ignore[misc]
+                yield row, k, place
+
+
+def _lowest(values: Array) -> tuple[Array, Array]:
+    """Points of the grid, by row and number, that are no higher than those beside them, and lower than one of them."""
+    falls, rises = values[:, 1:] <= values[:, :-1], values[:, :-1] <= values[:, 1:]
+    is_low = np.concatenate([rises[:, :1], falls[:, :-1] & rises[:, 1:], falls[:, -1:]], axis=1)
+    is_flat = np.concatenate([falls[:, :1], rises[:, :-1] & falls[:, 1:], rises[:, -1:]], axis=1)
+    return nonzero(is_low & ~is_flat)
+
+
+def _least(size: Callable[[Array, Array], Array], row: Array, low: Array, high: Array) -> Array:
+    """Where a size is least between two places."""
+    each = np.arange(len(row))
+    for _ in range(ROUNDS):
+        at = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, PARTS + 1)
+        least = size(at, row).argmin(axis=1)
+        low, high = at[each, np.maximum(least - 1, 0)], at[each, np.minimum(least + 1, PARTS)]
+    found: Array = (low + high) / 2
+    return found
+
+
+# Least values in many brackets at once, by few evaluations (Brent).
+
+
+GOLDEN = (3 - 5**0.5) / 2
+COARSE = (
+    0.02  # share of a bracket to which the least value of a smooth function is searched before a polynomial tells it
+)
+BRACKETING_FOLLOWS = (
+    1e-12  # share of a function's size by which it may be off the polynomial that tells its least value
+)
+MOST = 100  # evaluations in one bracket
+
+Function = Callable[[Array, Array], Array]  # of places and the rows of their brackets
+
+
+def smooth_minimum(
+    function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float
+) -> tuple[Array, Array]:
+    """Find the minimum as ``minimum`` does; where the function is smooth, the place is far more exact than its values could tell by themselves."""
+    place, depth = minimum(function, low, centre, high, depths, COARSE)
+    place, depth, is_smooth = _at_vertex(function, low, place, high, depth)
+    rest = np.flatnonzero(~is_smooth)
+    if len(rest):
+        place[rest], depth[rest] = minimum(
+            lambda x, row: function(x, rest[row]), low[rest], centre[rest], high[rest], depths[:, rest], share
+        )
+    return place, depth
+
+
+def _at_vertex(function: Function, low: Array, place: Array, high: Array, depth: Array) -> tuple[Array, Array, Array]:
+    """Place and value at the vertex of the polynomial through five places about each, and whether the function follows it."""
+    step = np.minimum((high - low) / 32, np.minimum(place - low, high - place) / 2)
+    around = place + step * np.array([[-2.0], [-1.0], [1.0], [2.0]])
+    row = np.arange(len(place))
+    values = function(around.ravel(), np.tile(row, 4)).reshape(4, -1) - depth
+    even, odd = values[:2] + values[:1:-1], values[:1:-1] - values[:2]  # of the outer and of the inner places
+    first, third = (8 * odd[1] - odd[0]) / 12, (odd[0] - 2 * odd[1]) / 12
+    second, fourth = (16 * even[1] - even[0]) / 24, (even[0] - 4 * even[1]) / 24
+    s = -first / (2 * second)
+    for _ in range(3):
+        s = s - (first + s * (2 * second + s * (3 * third + s * 4 * fourth))) / (
+            2 * second + s * (6 * third + s * 12 * fourth)
+        )
+    expected = s * (first + s * (second + s * (third + s * fourth)))
+    s = np.where(np.abs(s) <= 2, s, 0)
+    vertex = place + s * step
+    found = function(vertex, row)
+    size = np.abs(depth) + np.abs(values).max(axis=0)
+    follows: Array = (
+        (np.abs(found - depth - expected) <= BRACKETING_FOLLOWS * size)
+        & (found <= depth + BRACKETING_FOLLOWS * size)
+        & (step > 0)
+    )
+    return np.where(follows, vertex, place), np.where(follows, found, depth), follows
+
+
+def minimum(
+    function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float
+) -> tuple[Array, Array]:
+    """Return the place and the value of the least value in brackets low < centre < high, to a share of each.
+
+    ``depths`` are the known values at the three, of shape (3, brackets), the middle one not above the others.
+    """
+    best, value = centre.copy(), depths[1].copy()
+    row = np.arange(len(centre))
+    nearer = depths[0] <= depths[2]
+    second, third = np.where(nearer, low, high), np.where(nearer, high, low)
+    state = np.stack([low, high, centre, second, third, depths[1], *np.where(nearer, depths[::2], depths[::-2]),
+                      high - low, high - low, share * (high - low)])  # fmt: skip
+    for _ in range(MOST):
+        a, b, x, w, v, fx, fw, fv, last, before, least = state
+        going = np.abs(x - (a + b) / 2) > 2 * least - (b - a) / 2
+        if not going.all():
+            best[row[~going]], value[row[~going]] = x[~going], fx[~going]
+            state, row = state[:, going], row[going]
+            if not len(row):
+                break
+            a, b, x, w, v, fx, fw, fv, last, before, least = state
+        step, earlier = _step(a, b, x, w, v, fx, fw, fv, last, before, least)
+        place = x + step
+        state = _bracketing_taken(state, place, function(place, row), step, earlier)
+    best[row], value[row] = state[2], state[5]
+    return best, value
+
+
+def _step(a: Array, b: Array, x: Array, w: Array, v: Array, fx: Array, fw: Array, fv: Array,
+          last: Array, before: Array, least: Array) -> tuple[Array, Array]:  # fmt: skip
+    """The next step from x, to the top of the parabola through the three best places or into the longer part."""
+    r, q = (x - w) * (fx - fv), (x - v) * (fx - fw)
+    p, q = (x - v) * q - (x - w) * r, 2 * (q - r)
+    p, q = np.where(q > 0, -p, p), np.abs(q)
+    longer = np.where(x >= (a + b) / 2, a - x, b - x)
+    fits = (np.abs(p) < np.abs(q * before / 2)) & (p > q * (a - x)) & (p < q * (b - x))
+    step = np.where(fits, p / np.where(q == 0, 1, q), GOLDEN * longer)
+    at_end = fits & ((x + step - a < 2 * least) | (b - x - step < 2 * least))
+    step = np.where(at_end, np.copysign(least, (a + b) / 2 - x), step)
+    return np.where(np.abs(step) < least, np.copysign(least, step), step), np.where(fits, last, longer)
+
+
+def _bracketing_taken(state: Array, u: Array, fu: Array, step: Array, earlier: Array) -> Array:
+    """The brackets with one more place."""
+    a, b, x, w, v, fx, fw, fv, _, _, least = state
+    better = fu <= fx
+    second = ~better & ((fu <= fw) | (w == x))
+    third = ~better & ~second & ((fu <= fv) | (v == x) | (v == w))
+    inner = np.where(better, x, u)  # the place that becomes an end
+    left = np.where(better, u >= x, u < x)
+    return np.stack([
+        np.where(left, inner, a), np.where(left, b, inner), np.where(better, u, x),
+        np.where(better, x, np.where(second, u, w)),
+        np.where(better | second, w, np.where(third, u, v)),
+        np.where(better, fu, fx), np.where(better, fx, np.where(second, fu, fw)),
+        np.where(better | second, fw, np.where(third, fu, fv)),
+        step, earlier, least,
+    ])  # fmt: skip
+
+
+# Extremes of smooth curves by the polynomial through the points of the search grid about each, proved by the curve itself.
+
+
+REACH = 4  # points of the grid to each side of a candidate that the polynomial goes through
+OFFSETS = np.arange(-REACH, REACH + 1)
+POWERS = np.linalg.inv(
+    np.vander(OFFSETS, increasing=True)
+)  # gives the polynomial's coefficients by these points' heights
+APART = 0.01  # intervals of the grid between the places where the curve is compared with the polynomial
+BESIDE, BESIDE_APART = 0.5, 0.25  # intervals from the end of a piece to the middle of these places, and between them
+SHIFT = 0.02  # most intervals by which the curve's own slope may move the polynomial's vertex
+FOLLOWS = 1e-5  # share of the heights' spread by which the curve may be off the polynomial
+ROUNDING = 1e-14  # share of the height by which it may be off besides
+ALIKE = 1e-12  # share of the height by which rounding may lift a place beside the vertex above it
+
+
+class Spots(NamedTuple):
+    """Hold points of the search grid, one each: their number in the piece, the heights around them, left end and width of the piece."""
+
+    k: Array
+    around: Array
+    left: Array
+    width: Array
+    intervals: int
+
+    def place(self, share: Array) -> Array:
+        """Return places so many intervals of the grid beside the points, as the grid is spaced there; back from the end at an end."""
+        square = np.tan((self.k + share) * (np.pi / 2 / self.intervals)) ** 2  # NumPy's sine is many times slower
+        found: Array = self.left + self.width * (square / (1 + square))
+        return found
+
+
+def around(values: Array, piece: Array, k: Array) -> Array:
+    """Return values of pieces (rows, points) at points of the grid and their neighbours, shape (spots, 2·REACH + 1).
+
+    The grid's points lie as the cosines of equal angles; over that angle a smooth curve goes on past the ends as in a mirror.
+    """
+    last = values.shape[1] - 1
+    beside = last - np.abs(last - np.abs(k[:, None] + OFFSETS))
+    found: Array = values.ravel().take(beside + piece[:, None] * (last + 1))
+    return found
+
+
+def vertices(height_of: Function, spots: Spots) -> tuple[Array, Array, Array]:
+    """Return the place and the height of the greatest height about each spot, and whether they hold; at the end of a piece it is the end itself.
+
+    They hold where the curve follows the polynomial at three places, and falls from the end of a piece. Between these places the
+    polynomial tells bend and third derivative alone: the slope, so the vertex, is the curve's own.
+    """
+    powers, centre = POWERS @ spots.around.T, spots.around[:, REACH]
+    inward = (spots.k == 0) * 1.0 - (spots.k == spots.intervals)
+    at_end = (inward != 0) & (_rise(powers) <= ROUNDING * np.abs(centre))
+    near = np.where(at_end, BESIDE * inward, _top(powers, inward))
+    apart = np.where(at_end, BESIDE_APART, APART)
+    shares = near + apart * np.array([[-1.0], [0.0], [1.0]])
+    found = height_of(spots.place(shares).ravel(), np.tile(np.arange(len(near)), 3)).reshape(3, -1)
+    bend, third = (_value(_derived(powers, order), near) for order in (2, 3))
+    slope = (found[2] - found[0]) / (2 * apart) - apart**2 / 6 * third
+    share = -slope / bend
+    is_top = at_end | ((bend < 0) & (np.abs(share) < SHIFT) & (np.abs(near + share) <= 1))
+    place, top = spots.place(np.where(at_end, 0, near + share)), centre.copy()
+    inner = np.flatnonzero(is_top & ~at_end)
+    top[inner] = height_of(place[inner], inner)
+    is_highest = (found <= top + ALIKE * np.abs(top)).all(axis=0)
+    return place, top, _follows(spots, powers, shares, found) & is_top & is_highest
+
+
+def _rise(powers: Array) -> Array:
+    """How far the polynomial, which is even at the end of a piece, rises from there."""
+    _, _, second, _, fourth, *_ = powers
+    turns = (second > 0) & (fourth < 0)
+    found: Array = np.where(turns, -(second**2) / np.where(turns, 4 * fourth, 1), second)
+    return found
+
+
+def _follows(spots: Spots, powers: Array, shares: Array, found: Array) -> Array:
+    """Whether the heights found are the polynomial's at all places of a spot."""
+    centre = spots.around[:, REACH]
+    allowed = FOLLOWS * np.abs(spots.around - centre[:, None]).max(axis=1) + ROUNDING * np.abs(centre)
+    apart: Array = np.abs(found - _value(powers, shares)) - allowed
+    follows: Array = apart.max(axis=0) <= 0
+    return follows
+
+
+def _top(powers: Array, inward: Array) -> Array:
+    """The polynomial's vertex within an interval of the middle, by Newton's method from that of the parabola.
+
+    At the end of a piece, where the polynomial is even, from that of the parabola over the square.
+    """
+    slope, bend = _derived(powers, 1), _derived(powers, 2)
+    start = np.where(inward == 0, -powers[1] / (2 * powers[2]), inward * np.sqrt(np.abs(powers[2] / (2 * powers[4]))))
+    share: Array = np.clip(start, -1, 1)
+    for _ in range(3):
+        step = _value(slope, share) / _value(bend, share)
+        share = np.clip(share - step, -1, 1)
+    return share
+
+
+def _derived(powers: Array, order: int) -> Array:
+    """The coefficients of polynomials' derivatives; NumPy's own ways take several times as long for a few polynomials."""
+    for _ in range(order):
+        powers = powers[1:] * np.arange(1.0, len(powers))[:, None]
+    return powers
+
+
+def _value(powers: Array, x: Array) -> Array:
+    """The polynomials' values by Horner's rule."""
+    found: Array = powers[-1]
+    for coefficient in powers[-2::-1]:
+        found = coefficient + found * x
+    return found
+
+
+PLACE_TOLERANCE = 1e-6  # of an extreme's place, as a share of its bracket; its value errs by the square of it
+SAME_HEIGHT = 1e-9  # share of an extreme within which two places reach the same, as far as rounding lets tell
+FEW = 2048  # places up to which all curves are evaluated together
+PLATEAU = 1e-11  # share of an extreme within which neighbouring points of the grid lie on a plateau
+APPROACH = 12  # steps by which an end of a piece is approached, each a quarter of the one before
+
+
+Wanted = tuple[str, float]  # a curve, and 1 for its greatest or -1 for its least value
+Found = tuple[Array, Array, Array]  # value, place, middle of the smooth piece; each of shape (variants, 1)
+
+
+class Candidates(NamedTuple):
+    """Hold points of the grid that may be an extreme, one row each: which one, piece (its row), number in it, place, height there.
+
+    Also their bracket, whether they lie on a plateau, and the heights around them.
+    """
+
+    which: Array
+    piece: Array
+    k: Array
+    place: Array
+    height: Array
+    left: Array
+    right: Array
+    flat: Array
+    around: Array
+
+
+def extreme(calc: Calculation, curve: str, sign: float) -> Found:
+    """Return the greatest (sign 1) or least (sign -1) value over the period, one-sided limits included."""
+    search(calc, [(curve, sign)])
+    return calc.extremes[curve, sign][1]
+
+
+def search(calc: Calculation, wanted: Sequence[Wanted]) -> None:
+    """Find several extremes over one abscissa at once; those that are known for the present pieces are kept."""
+    axis = calc.axis[wanted[0][0]]
+    domain = calc.domains[axis]
+    known = {w for w in wanted if w in calc.extremes and calc.extremes[w][0] is domain.edges}
+    curves = list(dict.fromkeys(curve for curve, _ in wanted))
+    open_ones = sorted((w for w in dict.fromkeys(wanted) if w not in known), key=lambda w: curves.index(w[0]))
+    if not open_ones:
+        return
+    table = calc.table(axis)
+    curves = list(dict.fromkeys(curve for curve, _ in open_ones))
+    values = dict(zip(curves, table.on_grid(curves), strict=True))
+    pieces = table.pieces()
+    broken = {curve for curve, found in values.items() if np.isnan(np.vdot(found, found))}
+    parts = [
+        _candidates(pieces, i, _low(values[curve], sign) if curve in broken else values[curve], sign)
+        for i, (curve, sign) in enumerate(open_ones)
+    ]
+    seen = Candidates(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
+    seen = _refined(_depths(calc, axis, open_ones, seen), seen, pieces)
+    start = np.searchsorted(seen.which, np.arange(len(open_ones) + 1))
+    for i, (curve, sign) in enumerate(open_ones):
+        own = Candidates(*(column[start[i] : start[i + 1]] for column in seen))
+        best, flat = _best(pieces, own, sign)
+        calc.extremes[curve, sign] = domain.edges, _at_start(pieces, best, flat, values[curve], sign)
+
+
+def _best(pieces: CachedPieces, seen: Candidates, sign: float) -> tuple[Found, Array]:
+    """The greatest candidate of each variant, at the first of the places that reach it but for rounding; NaN where there is none.
+
+    Also which variants' are on a plateau.
+    """
+    variant = pieces.variant[seen.piece]
+    greatest = np.full(pieces.shape[0], -np.inf)
+    np.maximum.at(greatest, variant, seen.height)
+    top = greatest[variant]
+    alike = np.flatnonzero(seen.height >= top - SAME_HEIGHT * np.abs(top))
+    best = alike[np.flatnonzero(np.diff(variant[alike], prepend=-1))]
+    found = np.full((3, pieces.shape[0], 1), np.nan)
+    found[:, variant[best], 0] = sign * top[best], seen.place[best], pieces.middle[seen.piece[best]]
+    return (found[0], found[1], found[2]), np.unique(variant[alike[seen.flat[alike]]])
+
+
+def _at_start(pieces: CachedPieces, found: Found, flat: Array, values: Array, sign: float) -> Found:
+    """Extremes of which some are on a plateau: rounding must not choose the place on it, so it is the first point of the grid there."""
+    if not len(flat):
+        return found
+    value, place, middle = found
+    is_flat = np.zeros(len(value), dtype=bool)
+    is_flat[flat] = True
+    rows = np.flatnonzero(is_flat[pieces.variant])
+    variant = pieces.variant[rows]
+    least = sign * value[variant] - PLATEAU * np.abs(value[variant])
+    reached = sign * values[rows] >= least
+    own = np.flatnonzero(reached.any(axis=1))
+    own = own[np.flatnonzero(np.diff(variant[own], prepend=-1))]
+    place[variant[own], 0] = pieces.point(rows[own], reached[own].argmax(axis=1))
+    middle[variant[own], 0] = pieces.middle[rows[own]]
+    return found
+
+
+def outruns(calc: Calculation, curve: str, found: Array, sign: float) -> Array:
+    """Return how far the curve goes beyond the extreme found at other places, relative to its greatest value: the proof of it.
+
+    These are the samples of a single machine, and Gauss–Legendre points of the pieces of many: neither served the search.
+    """
+    table = calc.table(calc.axis[curve])
+    pieces = table.pieces()
+    values = calc.curve_samples(curve) if calc.count == 1 else table.at_gauss([curve], pieces.proof_order)[0]
+
+    def most(choose: np.ufunc, heights: Array) -> Array:
+        if calc.count > 1:
+            return pieces.of_variants(choose, heights)
+        whole: Array = choose.reduce(heights, axis=1, keepdims=True)
+        return whole
+
+    beyond = sign * (most(np.fmax if sign > 0 else np.fmin, values) - found)
+    share = np.where(np.isfinite(found), 0.0, np.nan)
+    if (beyond > 0).any():
+        beyond /= np.maximum(most(np.fmax, np.abs(values)), SMALLEST)
+        share = np.where(beyond > 0, beyond, share)
+    return share
+
+
+def _candidates(pieces: CachedPieces, which: int, values: Array, sign: float) -> Candidates:
+    """Points of the grid not below their neighbours, and near enough to the greatest that a search may lift them above it.
+
+    Near enough: a smooth curve rises between two points by less than what it falls to the next ones. At the end of a piece it may
+    fall to its one neighbour by next to nothing, the extreme lying half-way between them: there the second neighbour tells.
+    """
+    heights, last = values.ravel(), values.shape[1] - 1
+    flat = np.flatnonzero(_peaks(heights, last + 1, sign))
+    piece, k = np.divmod(flat, last + 1)
+    before, after = flat - np.where(k == last, 2, k > 0), flat + np.where(k == 0, 2, k < last)
+    height = sign * heights[flat]
+    fall = np.fmax(height - sign * heights[before], height - sign * heights[after])
+    greatest = np.full(pieces.shape[0], -np.inf)
+    np.maximum.at(greatest, pieces.variant[piece], height)
+    is_near = (height + np.where(np.isfinite(fall), fall, 0) >= greatest[pieces.variant[piece]]) & (height > -np.inf)
+    near = np.flatnonzero(is_near)
+    piece, k, height = piece[near], k[near], height[near]
+    place, left, right = pieces.point(piece, np.stack([k, np.maximum(k - 1, 0), np.minimum(k + 1, last)]))
+    return Candidates(
+        np.full(len(near), which), piece, k, place, height, left, right, fall[near] <= PLATEAU * np.abs(height),
+        sign * around(values, piece, k),
+    )  # fmt: skip
+
+
+def _low(values: Array, sign: float) -> Array:
+    """Values of which those that are none stand below all others."""
+    return np.where(np.isnan(values), -sign * np.inf, values)
+
+
+def _peaks(heights: Array, points: int, sign: float) -> Array:
+    """Which of the heights of pieces, so many points each, are not below their neighbours in the piece (sign -1: not above)."""
+    higher, lower = (np.greater_equal, np.less_equal) if sign > 0 else (np.less_equal, np.greater_equal)
+    before, after = np.empty((2, len(heights)), dtype=bool)
+    higher(heights[1:], heights[:-1], out=before[1:])
+    lower(heights[1:], heights[:-1], out=after[:-1])
+    before[::points] = after[points - 1 :: points] = True
+    return np.logical_and(before, after, out=before)
+
+
+def _depths(calc: Calculation, axis: str, wanted: Sequence[Wanted], seen: Candidates) -> Function:
+    """The height of each candidate's curve at other places of its piece, turned round; candidates are ordered by their curves.
+
+    A few places are evaluated on all curves together, many on their own curve alone.
+    """
+    table = calc.table(axis)
+    pieces = table.pieces()
+    curves = list(dict.fromkeys(curve for curve, _ in wanted))
+    curve_of = np.array([curves.index(curve) for curve, _ in wanted])[seen.which]
+    turned = np.array([-sign for _, sign in wanted])[seen.which]
+    starts = np.searchsorted(curve_of, np.arange(len(curves) + 1))
+
+    @cache
+    def of(curve: int | None) -> Curves:
+        if curve is None:
+            return table.curves(curves, seen.piece)
+        return table.curves([curves[curve]], seen.piece[starts[curve] : starts[curve + 1]])
+
+    def together(x: Array, rows: Array) -> Array:
+        if calc.count >= MANY or not len(rows):
+            every: Array = np.stack(of(None).at(x, rows))[curve_of[rows], np.arange(len(x)), 0]
+            return every
+        own, number = np.unique(curve_of[rows], return_inverse=True)  # what is still searched are often few curves
+        values = np.stack(table.curves([curves[i] for i in own], seen.piece).at(x, rows))
+        found: Array = values[number, np.arange(len(x)), 0]
+        return found
+
+    def depths(x: Array, rows: Array) -> Array:
+        x = pieces.inside(x[:, None], seen.piece[rows])
+        if len(rows) < FEW and len(curves) > 1:
+            values = together(x, rows)
+        else:
+            values, which = np.empty(len(rows)), curve_of[rows]
+            for curve in np.flatnonzero(np.bincount(which)):
+                own = np.flatnonzero(which == curve)
+                values[own] = of(int(curve)).at(x[own], rows[own] - starts[curve])[0][:, 0]
+        chosen: Array = turned[rows] * values
+        return chosen
+
+    return depths
+
+
+def _refined(depth_of: Function, seen: Candidates, pieces: CachedPieces) -> Candidates:
+    """The candidates at their vertices, by a polynomial or else by a search; on a plateau as they are."""
+    rising = np.flatnonzero(~seen.flat)
+    piece = seen.piece[rising]
+    spots = Spots(seen.k[rising], seen.around[rising], pieces.left[piece], pieces.width[piece], pieces.intervals)
+    place, height, holds = vertices(lambda x, row: -depth_of(x, rising[row]), spots)
+    higher = np.flatnonzero(holds & (height > seen.height[rising]))
+    seen.place[rising[higher]], seen.height[rising[higher]] = place[higher], height[higher]
+    return seen if holds.all() else _searched(depth_of, seen, rising[~holds])
+
+
+def _searched(depth_of: Function, seen: Candidates, rising: Array) -> Candidates:
+    """The candidates, of which these were searched in their brackets; at a piece's end within its first interval."""
+    low, centre, high, depths = _brackets(
+        Candidates(*(column[rising] for column in seen)), lambda x, row: depth_of(x, rising[row])
+    )
+    is_inner = (depths[1] <= depths[0]) & (depths[1] <= depths[2]) & (low < centre) & (centre < high)
+    is_inner &= ~_stands(seen, rising, depths[1])
+    low, centre, high, depths = (part[..., is_inner] for part in (low, centre, high, depths))
+    inner = rising[is_inner]
+    if not len(inner):
+        return seen
+    found, depth = smooth_minimum(lambda x, row: depth_of(x, inner[row]), low, centre, high, depths, PLACE_TOLERANCE)
+    better = -depth >= seen.height[inner]
+    place, height = seen.place.copy(), seen.height.copy()
+    place[inner] = np.where(better, found, place[inner])
+    height[inner] = np.where(better, -depth, height[inner])
+    return seen._replace(place=place, height=height)
+
+
+def _stands(seen: Candidates, rising: Array, depths: Array) -> Array:
+    """Which candidates are ends of pieces that nothing near them rises above but by rounding: what begins at rest rises from there."""
+    place, heights = seen.place[rising], seen.around[rising]
+    is_end = (place == seen.left[rising]) | (place == seen.right[rising])
+    found: Array = is_end & (-depths <= seen.height[rising] + ALIKE * np.abs(heights).max(axis=1))
+    return found
+
+
+def _brackets(seen: Candidates, depth_of: Function) -> tuple[Array, Array, Array, Array]:
+    """Three places about each candidate, its neighbours on the grid and itself, and the depths there, (3, candidates).
+
+    At a piece's end a peak may hide between the end and the next point: there the deepest of places that come nearer and
+    nearer to the end, between its neighbours among these.
+    """
+    at_end = np.flatnonzero((seen.place == seen.left) | (seen.place == seen.right))
+    left, centre, right = seen.left.copy(), seen.place.copy(), seen.right.copy()
+    if len(at_end):
+        end = seen.place[at_end, None]
+        inward = (seen.left + seen.right)[at_end, None] - 2 * end
+        places = end + inward * np.concatenate([[1.0], 4.0 ** -np.arange(1, APPROACH), [0.0]])
+        rows = np.repeat(at_end, places.shape[1])
+        best = np.argmin(depth_of(places.ravel(), rows).reshape(places.shape)[:, 1:-1], axis=1) + 1
+        row = np.arange(len(at_end))
+        around = np.stack([places[row, best + 1], places[row, best - 1]])
+        left[at_end], right[at_end], centre[at_end] = around.min(axis=0), around.max(axis=0), places[row, best]
+    every = np.arange(len(centre))
+    return left, centre, right, depth_of(np.concatenate([left, centre, right]), np.tile(every, 3)).reshape(3, -1)

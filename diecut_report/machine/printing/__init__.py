@@ -1,0 +1,1 @@
+"""How each step prints: formula, numbers put in, result."""

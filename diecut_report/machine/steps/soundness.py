@@ -1,0 +1,444 @@
+"""Refuses numbers that are none, counts that are not whole and results that are not proved, of one machine; marks such variants."""
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from functools import cache
+from math import isfinite
+from pathlib import Path
+from typing import Any
+
+import numpy as np
+
+from diecut_report.formulas import Array
+from diecut_report.formulas.formula import formula
+from diecut_report.formulas.tree import Node, substitute, written
+from diecut_report.machine.calculation import Calculation, Impossible, Side, Unproven
+from diecut_report.machine.numerics import extremes, switching
+from diecut_report.machine.numerics.decisions import Decision
+from diecut_report.machine.numerics.domain import shares
+from diecut_report.machine.numerics.switching import JumpFault
+from diecut_report.machine.printing.substitution import filled
+from diecut_report.machine.steps import plain_code
+from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.names import bind, bound
+from diecut_report.mechanism.part_steps import Fact
+from diecut_report.mechanism.steps import Choice, Clash, Crossings, Require, Step, Value, read
+from diecut_report.quantities.formatting import told
+from diecut_report.quantities.units import unit
+from diecut_report.text.phrases import Phrase, phrase
+
+# Refuses what would be reported of a curve that jumps inside a smooth piece: its extremes and integrals could be any numbers.
+
+
+def require(calc: Calculation, asking: str, curve: str) -> None:
+    """Refuse a single machine whose curve jumps elsewhere than at its breakpoints; mark such variants. ``asking`` asks for the curve."""
+    if curve not in calc.curves:
+        return
+    for variant, found in switching.faults(calc, curve):
+        words = _words(calc, found)
+        if calc.count == 1:
+            raise Unproven(words, calc.curves[curve].at)
+        calc.flaws[variant] = asking, words
+
+
+def _words(calc: Calculation, found: JumpFault) -> str:
+    curve, axis = calc.steps.get(found.curve), calc.steps[calc.axis[found.curve]]
+    assert curve is not None
+    place = f"{axis.symbol} = {told(found.place, axis.unit)}"
+    where = f"{curve.description} ({curve.id}, {Path(curve.at).name})"
+    fix = Phrase("declare that place among the breakpoints of {id}, above what asks for the curve", id=axis.id)
+    if found.decision is None:
+        return (Phrase("{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at "
+"{place}: it would be that of the middle of the piece; {fix}, or take per_piece away", where=where, place=place, fix=fix))  # fmt: skip
+    step, link = found.decision.step, found.decision.link
+    name = Phrase("the formula {name}", name=link.formula.__name__) if isinstance(step, Value) else phrase("the choice")
+    decided = written(_in_symbols(calc, found.decision))
+    of = (
+        phrase("its formula")
+        if step.id == curve.id
+        else Phrase("{name} of {id} ({place})", name=name, id=step.id, place=Path(step.at).name)
+    )
+    return Phrase(
+        "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}",
+        where=where,
+        place=place,
+        decided=decided,
+        of=of,
+        fix=fix,
+    )
+
+
+def _in_symbols(calc: Calculation, decision: Decision) -> Node:
+    """What decides, with the symbols of the quantities."""
+    names = decision.link.names
+    shown = {
+        parameter: Node("sym", (calc.step_or_input(name).symbol,)) if isinstance(name, str) else Node("num", (f"{name:g}",))
+        for parameter, name in names.items()
+    }  # fmt: skip
+    return substitute(decision.node, shown)
+
+
+# Where a curve is not smooth inside a smooth piece though no condition tells it: an angle that wraps, a pole, a corner.
+
+
+FINE = 64  # intervals of a piece in which a curve is looked at first
+ROUNDS, WITHIN = 8, 16  # how often the place is looked at closer, each time in so many intervals
+INSET, WIDE = (
+    1e-9,
+    1e-6,
+)  # shares: of a piece, that its ends are left out by; of the period, of pieces that are looked at
+STAYS, APART = 0.5, 0.05  # of a difference: a jump keeps it however near, and what is beside it changes by far less
+GROWS, STILL = 1e3, 4.0  # times the greatest size seen first, and two looks before: a pole
+LEAST = 1e-9  # of the sizes in the formula: a difference that is not rounding
+
+
+def require_whole(calc: Calculation, curve: str) -> None:
+    """Raise Unproven where a curve of a single machine jumps or has a pole inside a smooth piece: its numbers there mean nothing."""
+    with np.errstate(all="ignore"):
+        x, middles = _pieces(calc, curve)
+        values = _values(calc, curve, x, middles)
+        place = _pole(calc, curve, x, middles, values)
+        place = _torn(calc, curve, x, middles, values) if place is None else place
+    if place is None:
+        return
+    require(calc, curve, curve)  # tells the condition that jumps there, if one does
+    words = Phrase(
+        "{where} jumps or has a pole inside a smooth piece, near {place}; {instead}", _told(calc, curve, place)
+    )
+    raise Unproven(words, calc.curves[curve].at)
+
+
+def sharpest(calc: Calculation, step: Step) -> str:
+    """Return in words where the curve that a step asks for bends most; empty where it asks for none."""
+    curve = getattr(step, "of", "")
+    if calc.count > 1 or curve not in calc.curves:
+        return ""
+    found = _told(calc, curve, _sharpest(calc, curve))
+    return Phrase("; {where} bends most near {place}: if it has a corner, a jump or a pole there, {instead}", found)
+
+
+def _told(calc: Calculation, curve: str, place: float) -> dict[str, str]:
+    step, axis = calc.curves[curve], calc.steps[calc.axis[curve]]
+    where = Phrase("{description} ({id}, {place})", description=step.description, id=curve, place=Path(step.at).name)
+    instead = Phrase("declare that place among the breakpoints of {id}, above what asks for the curve, or require what keeps away from it",
+                     id=axis.id)  # fmt: skip
+    return {"where": where, "place": f"{axis.symbol} = {told(place, axis.unit)}", "instead": instead}
+
+
+def _pieces(calc: Calculation, curve: str) -> tuple[Array, Array]:
+    """Places in the pieces of an abscissa, (pieces, places), and the middle of each."""
+    domain = calc.domains[calc.axis[curve]]
+    wide = domain.widths[0] > WIDE * domain.period[0, 0]
+    starts, widths = domain.edges[0, :-1][wide], domain.widths[0][wide]
+    inner = INSET + (1 - 2 * INSET) * shares(FINE)
+    return starts[:, None] + widths[:, None] * inner, domain.middles[0][wide]
+
+
+def _values(calc: Calculation, curve: str, x: Array, middles: Array) -> Array:
+    """A curve at places (pieces, places)."""
+    middle = np.broadcast_to(middles[:, None], x.shape)
+    return np.broadcast_to(calc.sample(curve, x.reshape(1, -1), middle.reshape(1, -1)), (1, x.size)).reshape(x.shape)
+
+
+def _torn(calc: Calculation, curve: str, x: Array, middles: Array, values: Array) -> float | None:
+    """The place where a formula stays apart however near it is looked at, as an angle that wraps; None where there is none."""
+    steps = np.abs(np.diff(values))
+    first = steps.max(initial=0.0)
+    if not isinstance(calc.curves[curve], Value | Choice) or not _stands_out(steps, 1):
+        return None
+    if not first > LEAST * _scale(calc, curve, x, middles):
+        return None
+    for _ in range(ROUNDS):
+        row, k = np.unravel_index(np.nanargmax(np.abs(np.diff(values))), (len(x), x.shape[1] - 1))
+        x, middles = np.linspace(x[row, k], x[row, k + 1], WITHIN + 1)[None], middles[[row]]
+        values = _values(calc, curve, x, middles)
+    others = np.sort(np.abs(np.diff(values[0])))
+    return float(x[0, WITHIN // 2]) if others[-1] > STAYS * first and others[-2] < APART * others[-1] else None
+
+
+def _stands_out(sizes: Array, beside: int) -> bool:
+    """Whether the greatest of some sizes (pieces, places) is twice as great as the least so near to it: as nothing smooth is on this grid."""
+    row, k = np.unravel_index(np.argmax(sizes), sizes.shape)
+    near = sizes[row, max(int(k) - beside, 0) : int(k) + beside + 1]
+    return bool(sizes[row, k] > 2 * near.min(initial=np.inf))
+
+
+def _pole(calc: Calculation, curve: str, x: Array, middles: Array, values: Array) -> float | None:
+    """The place where a curve still grows however near it is looked at; None where there is none."""
+    sizes: list[float] = []
+    if np.isfinite(values).all() and not _stands_out(np.abs(values), 2):
+        return None
+    for _ in range(ROUNDS):
+        values = _values(calc, curve, x, middles) if sizes else values
+        size = np.nan_to_num(np.abs(values), posinf=np.inf)
+        if np.isinf(size).any():
+            return float(x[np.isinf(size)][0])
+        row, k = np.unravel_index(np.argmax(size), size.shape)
+        before, after = max(int(k) - 1, 0), min(int(k) + 1, x.shape[1] - 1)
+        sizes.append(float(size[row, k]))
+        if sizes[-1] * LEAST > np.delete(size[row, before : after + 1], k - before).max() > 0:  # the pole itself
+            return float(x[row, k])
+        x, middles = np.linspace(x[row, before], x[row, after], WITHIN + 1)[None], middles[[row]]
+    is_pole = sizes[-1] > GROWS * sizes[0] and sizes[-1] > STILL * sizes[-3]
+    return float(x[0, WITHIN // 2]) if is_pole else None
+
+
+def _scale(calc: Calculation, curve: str, x: Array, middles: Array) -> float:
+    """The greatest size of a formula's curve and of what it takes in its unit: a difference of those has the rounding of theirs."""
+    step = calc.curves[curve]
+    assert isinstance(step, Value | Choice)
+    own = unit(step.unit).kind
+    scale = 1.0 if own in (unit("1").kind, unit("rad").kind) else 0.0
+    for name in {curve, *(each for each in step.takes() if isinstance(each, str))}:
+        if name == curve or unit(calc.step_or_input(name).unit).kind == own:
+            values = (
+                _values(calc, name, x, middles)
+                if name in calc.curves
+                else calc[name]
+                if name not in calc.domains
+                else x
+            )
+            scale = max(scale, float(np.abs(values).max(initial=0.0)))
+    return scale
+
+
+def _sharpest(calc: Calculation, curve: str) -> float:
+    x, middles = _pieces(calc, curve)
+    x = np.linspace(x[:, 0], x[:, -1], FINE + 1, axis=1)
+    for _ in range(ROUNDS):
+        bends = np.nan_to_num(np.abs(np.diff(_values(calc, curve, x, middles), 2)), posinf=np.inf)
+        row, k = np.unravel_index(np.argmax(bends), bends.shape)
+        x, middles = np.linspace(x[row, k], x[row, k + 2], WITHIN + 1)[None], middles[[row]]
+    return float(x[0, WITHIN // 2])
+
+
+WHOLE = 1e-9  # by which a count may be off a whole number, for rounding
+
+
+def possible(calc: Calculation) -> Array:
+    """Return which variants are possible, as far as is known."""
+    found = np.ones(calc.count, dtype=bool)
+    found[list(calc.flaws)] = False
+    return found
+
+
+def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> None:
+    """Refuse a result that is not proved for a single machine; mark the variant among several."""
+    if calc.count == 1 and residual[0, 0] <= tolerance:
+        calc.proof[step.id] = max(float(residual[0, 0]), 0.0)
+        return
+    unproved = ~(residual[:, 0] <= tolerance) & possible(calc)
+    calc.proof[step.id] = float(np.max(residual[possible(calc) & ~unproved], initial=0.0))
+    if unproved.any():
+        mark(
+            calc,
+            step,
+            unproved,
+            Phrase(
+                "{description}: the proof leaves {residual}, not {tolerance}",
+                description=step.description,
+                residual=format(np.max(residual[unproved]), ".1e"),
+                tolerance=format(tolerance, ".0e"),
+            )
+            + sharpest(calc, step),
+        )
+
+
+def mark(calc: Calculation, step: Step, bad: Array, words: str) -> None:
+    """Refuse a single machine in words; mark these among several."""
+    if calc.count == 1:
+        raise Unproven(words, step.at)
+    calc.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
+
+
+def finite(calc: Calculation, step: Step) -> None:
+    """Require that no number of a possible machine is NaN or infinite, but for an absent output and the padding of crossings."""
+    values = calc.values.get(step.id)
+    if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
+        return
+    if values.size == 1 and isfinite(values.item()):
+        return
+    is_finite = np.isfinite(values)
+    if is_finite.all():
+        return
+    bad = ~is_finite.all(axis=1) & possible(calc)
+    if bad.any():
+        mark(
+            calc,
+            step,
+            bad,
+            Phrase("{description} ({id}) has no value with these inputs", description=step.description, id=step.id),
+        )
+
+
+def whole(calc: Calculation, step: Step) -> None:
+    """Require that what is marked as a count is whole: the results would round it."""
+    values = calc.values.get(step.id)
+    if not step.whole or values is None or values.dtype == object:
+        return
+    numbers = values / unit(step.unit).factor
+    bad = (np.abs(numbers - np.round(numbers)) > WHOLE * np.maximum(np.abs(numbers), 1)).any(axis=1) & possible(calc)
+    if bad.any():
+        given = f"{numbers[np.flatnonzero(bad)[0]].ravel()[0]:.6g}"
+        words = Phrase(
+            "{description} ({id}, {name}) is {given}, but is marked as a count (whole=True)",
+            description=step.description,
+            id=step.id,
+            name=Path(step.at).name,
+            given=given,
+        )
+        mark(calc, step, bad, Phrase("{words}; round it in its formula, or take whole=True away", words=words))
+
+
+# Checks on curves: the place of the abscissa where each goes furthest beyond its limit, or comes nearest to it.
+
+
+@formula
+def excess(demand: Any, limit: Any) -> Any:
+    """Return how far a demand is beyond its limit."""
+    return demand - limit
+
+
+def searched(calc: Calculation) -> Iterator[tuple[Value, Array]]:
+    """Search the checks on curves; give what stands for each, and how far it is from being proved, shape (variants, 1)."""
+    for check in calc.mechanism.checks:
+        if is_made(calc, check) and any(name in calc.curves for name in check.named):
+            for name in check.named:
+                require(calc, check.id, name)
+            for number, step in enumerate(_stand_ins(check)):
+                yield step, _search(calc, check, number, step)
+
+
+def is_made(calc: Calculation, check: Check) -> bool:
+    """Return whether a check is made: what it needs is given, and the calculation has what it compares."""
+    there = all(name in calc.values or name in calc.inputs or name in calc.curves for name in check.named)
+    return there and calc.given.issuperset((*check.needs, *check.only_with))
+
+
+@cache
+def _stand_ins(check: Check) -> tuple[Value, ...]:
+    """A curve for each pair of a check's sides: the one less the other. The same for all calculations, as programs are kept for it."""
+    factor = unit(check.unit).factor
+
+    def sides(pair: tuple[str | float, ...]) -> dict[str, str | float]:
+        in_si = (side if isinstance(side, str) else side * factor for side in pair)
+        return dict(zip(("demand", "limit"), in_si, strict=True))
+
+    return tuple(
+        Value(id=f"checks.{check.id}.{i}", description=check.title, formula=bind(excess, **sides(pair)), output=False)
+        for i, pair in enumerate(check.pairs)
+    )
+
+
+def _search(calc: Calculation, check: Check, number: int, step: Value) -> Array:
+    """Note both sides where the first is furthest beyond the second, found by the search for all extremes; give what is left of its proof."""
+    axis = next(calc.axis[name] for name in check.named if name in calc.curves)
+    axes, calc.axis, calc.curves[step.id] = calc.axis, {**calc.axis, step.id: axis}, step
+    found, place, middle = extremes.extreme(calc, step.id, 1.0)
+    residual = extremes.outruns(calc, step.id, found, 1.0)
+    demand, limit = (_there(calc, side, place, middle) for side in step.takes())
+    calc.judged[check.id, number] = Side(demand, limit, axis, place)
+    calc.axis = axes
+    del calc.curves[step.id]
+    return residual
+
+
+def _there(calc: Calculation, side: str | float, place: Array, middle: Array) -> Array:
+    """One side of a check at the place found in each machine, shape (variants, 1)."""
+    if not isinstance(side, str):
+        return np.full(place.shape, side)
+    return calc.sample(side, place, middle) if side in calc.curves else np.broadcast_to(calc[side], place.shape)
+
+
+# What must hold for a machine to be possible, and how its reasons are reported.
+
+
+def feasibility_require(calc: Calculation, step: Require) -> None:
+    """Mark each variant for which the condition does not hold (for one of its parts); a single machine is refused."""
+    held = calc.apply(step.condition).astype(bool)
+    for variant in np.flatnonzero(~held.all(axis=1)):
+        part, count = int(np.argmin(held[variant])), held.shape[1]
+        _said(calc, step, int(variant), {"part": part + 1, "next": (part + 1) % count + 1, "index": part})
+
+
+def clash(calc: Calculation, step: Clash) -> None:
+    """Mark each variant of which a part clashes with another; a single machine is refused."""
+    rows = plain_code.taken(calc, step.takes)
+    others = plain_code.partners(step, step.function(*rows), np.broadcast_shapes(*(np.shape(row) for row in rows)))
+    for variant in np.flatnonzero((others >= 0).any(axis=1)):
+        part = int(np.argmax(others[variant] >= 0))
+        _said(calc, step, int(variant), {"part": part + 1, "other": int(others[variant, part]) + 1, "index": part})
+
+
+def _said(calc: Calculation, step: Require | Clash, variant: int, places: dict[str, int]) -> None:
+    if variant in calc.flaws and calc.count > 1:  # what follows from impossible numbers says nothing more
+        return
+    message = "" if calc.is_partial else filled(calc, step.message, variant, places)
+    refuse(calc, variant, filled(calc, step.key, variant, places), message)
+
+
+def refuse(calc: Calculation, variant: int, key: str, message: str) -> None:
+    """Mark a variant as impossible, unless it is already; a single machine is refused."""
+    if variant in calc.flaws and calc.count > 1:
+        return
+    calc.flaws[variant] = key, message
+    if calc.count == 1:
+        raise Impossible([(key, message)])
+
+
+def reasons(calc: Calculation, steps: Sequence[Step]) -> Iterator[tuple[str, str]]:
+    """Yield why else a machine cannot exist, as far as it can be told from what is known already."""
+    known = {*calc.inputs, *calc.values, *(f"inputs.{name}" for name in calc.inputs)}
+    for step in steps:
+        if isinstance(step, Require) and known.issuperset(n for n in bound(step.condition).takes if isinstance(n, str)):
+            try:
+                feasibility_require(calc, step)
+            except Impossible as other:
+                yield from other.reasons
+
+
+# Facts that steps stand on: where a machine does not meet one, the steps that need it are left out.
+
+
+def judge(calc: Calculation, step: Fact) -> None:
+    """Note which variants do not meet a fact; where none does, the steps that need it take no part.
+
+    Where some do, the numbers of the others mean nothing: these variants are to be calculated by themselves.
+    """
+    missed: Array = calc.apply(step.condition)[:, 0] == 0
+    if not missed.any():
+        return
+    calc.withheld[step.id] = missed
+    if missed[possible(calc)].all():
+        calc.given -= {step.id}
+        known = dict(calc.curves)  # those of named parts too, which are not declared one by one
+        calc.steps = known | {each.id: each for _, each in calc.mechanism.active(calc.given)}
+        calc.axis = {name: calc.axis[name] for name in known} | calc.mechanism.axes(calc.given)
+
+
+def remaining(calc: Calculation, steps: Sequence[Step]) -> list[Step]:
+    """Return those of the coming steps that take part still."""
+    return [step for step in steps if step.id in calc.steps]
+
+
+def without(calc: Calculation, name: str) -> tuple[Array, str]:
+    """Return which variants do not have a result for want of a fact, and why in words."""
+    for step, missed, words in _withheld(calc):
+        if read(name, step):
+            return missed, words
+    return np.zeros(calc.count, dtype=bool), ""
+
+
+def unmet(calc: Calculation, needs: Iterable[str]) -> str:
+    """Return what is said of a fact among these needs that the machine does not meet; empty where it meets all."""
+    facts = [step for _, step in calc.mechanism.steps if isinstance(step, Fact)]
+    return next((step.words for step in facts if step.id in needs and step.id in calc.withheld), "")
+
+
+def _withheld(calc: Calculation) -> Iterator[tuple[Step, Array, str]]:
+    """The steps that need a fact which some variants do not meet, which these are, and what is said of it."""
+    for chapter, step in calc.mechanism.steps if calc.withheld else ():
+        facts = {*chapter.needs, *step.needs} & calc.withheld.keys()
+        if facts:
+            yield step, np.any([calc.withheld[each] for each in facts], axis=0), unmet(calc, facts)

@@ -1,0 +1,1 @@
+"""What a plugin declares: inputs, steps, checks, figures, phases."""

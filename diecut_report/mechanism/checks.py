@@ -1,0 +1,123 @@
+"""A check: what is demanded against what limits it, always as ``demand ≤ limit``."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Sequence
+from dataclasses import dataclass, replace
+from functools import lru_cache
+from typing import Literal
+
+import numpy as np
+
+from diecut_report.formulas import Array
+from diecut_report.mechanism.names import placed
+from diecut_report.text.phrases import Phrase, phrase
+
+CheckClass = Literal["function", "strength", "practice", "numerical"]
+UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: the declaration check tells which there are
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Check:
+    """Demand ``demand`` ≤ ``limit``, and ``at_least`` ≤ ``demand`` where that is given (ids, or plain numbers in ``unit``).
+
+    The utilisation is demand / limit, and null where the limit is not above zero; of a two-sided check it is the worse of
+    that and at_least / demand. A row over repeated parts is judged part by part, and the worst one governs; a curve where
+    it goes furthest beyond its limit. ``consequence`` may name the part of a row that governs: ``{part}``, counted from 1.
+
+    For an upper bound the demand is the machine's and the limit the allowed value; for a lower bound the demand is
+    what is required and the limit what there is, so that the utilisation is required / available.
+    ``severity`` "warn" makes a failing check a warning, beyond the utilisation ``fails_beyond`` still a failure.
+    ``consequence`` says what a failure means and what to change.
+
+    ``check_class`` must be given: "function" (the machine does not do what it is for), "strength" (a part breaks, wears,
+    slips or overheats), "practice" (a rule of experience is left) or "numerical" (a self-test of the calculation, which is
+    not among the checks of the machine; where one fails the mechanism is in error).
+
+    A check that needs an optional input which is not given is reported as not checked, with the keys that it needs. Where it does not
+    apply at all it is left out: an option of a text, a block or an alternative of its inputs was not chosen, or a key of
+    ``only_with`` is not given; a block of ``asks_for`` is missed like a key. ``sized_unless`` names the inputs in place of which
+    the program sizes what is compared to its own limit; () where it always does. Such a check shows no reserve while they are
+    not given. ``presumed`` says that it judges what the calculation presumes, such as the range of a method, or that two mechanisms are
+    calculated with the same mass: that it holds is no reserve of the machine, so that it governs only where it does not.
+
+    ``founded`` names optional inputs by which the check would hold because somebody typed them (a factor of a standard, a fact of the
+    design): where one is given without a basis that can be looked up, the check that holds is reported as not checked.
+
+    A row whose parts have names is one check for each of them with ``named_by``, the text input of their names
+    (``interlocks.name``): ``part_id`` makes the check's id of ``{id}`` and ``{name}``, and ``{part}`` is then the name.
+    """
+
+    id: str
+    title: str
+    demand: str | float
+    limit: str | float
+    unit: str
+    demand_label: str
+    limit_label: str
+    consequence: str
+    check_class: CheckClass = UNDECLARED
+    source: str = ""
+    operator: Literal["<=", "<"] = "<="
+    severity: Literal["fail", "warn"] = "fail"
+    fails_beyond: float | None = None
+    tolerance: float = 0.0
+    needs: tuple[str, ...] = ()
+    only_with: tuple[str, ...] = ()
+    asks_for: tuple[str, ...] = ()
+    sized_unless: tuple[str, ...] | None = None
+    presumed: bool = False
+    founded: tuple[str, ...] = ()
+    at_least: str | float | None = None
+    at_least_label: str = phrase("at least")
+    named_by: str = ""
+    part_id: str = "{id}_{name}"
+    part_name: str = ""
+    index: int | None = None
+    at: str = placed()
+
+    @property
+    def pairs(self) -> tuple[tuple[str | float, str | float], ...]:
+        """Return what is held against what, the first not above the second: demand and limit, then the lower bound and demand."""
+        upper = ((self.demand, self.limit),)
+        return upper if self.at_least is None else (*upper, (self.at_least, self.demand))
+
+    def is_failure(self, utilisation: Array) -> Array:
+        """Return whether the check fails where it does not hold; else that is a warning."""
+        beyond = np.inf if self.fails_beyond is None else self.fails_beyond
+        return np.full(np.shape(utilisation), True) if self.severity == "fail" else np.asarray(utilisation) > beyond
+
+    @lru_cache(maxsize=4096)  # noqa: B019  # checks are declared once; what is known of each is kept by the object that it is
+    def of_part(self, index: int, name: str) -> Check:
+        """Return the check of one part alone."""
+        own = self.part_id.format(id=self.id, name=name)
+        return replace(
+            self,
+            id=own,
+            title=Phrase("{title}: {name}", title=phrase(self.title), name=name),
+            part_name=name,
+            index=index,
+        )
+
+    @property
+    def named(self) -> tuple[str, ...]:
+        """Return the ids of the quantities that are compared, each once."""
+        return tuple(dict.fromkeys(side for pair in self.pairs for side in pair if isinstance(side, str)))
+
+
+def by_part(checks: Iterable[Check], names: Callable[[str], Sequence[str] | None]) -> Iterator[Check]:
+    """Yield checks with those of named parts one by one; ``names`` gives the names of parts, None where they are not there."""
+    for check in checks:
+        found = names(check.named_by) if check.named_by else None
+        yield from [check] if found is None else (check.of_part(index, name) for index, name in enumerate(found))
+
+
+# What plain code says of a machine that cannot be.
+
+
+class Refusal(Exception):
+    """Say, out of plain code, that a machine cannot be: the key to change (``lines.0.offset``), and why in words."""
+
+    def __init__(self, key: str, words: str) -> None:
+        super().__init__(f"{key}: {words}")
+        self.key, self.words = key, words

@@ -1,0 +1,396 @@
+"""Inputs of a mechanism: quantities with unit, bounds and description, as a pydantic model.
+
+Values are SI floats once validated. Defaults and bounds are written in the display unit, as on the method sheet.
+"""
+
+from __future__ import annotations
+
+import math
+import operator
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
+from functools import cache, cached_property
+from typing import Annotated, Any, ClassVar, get_args, get_origin
+
+import numpy as np
+from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from diecut_report.mechanism.curve_inputs import (
+    CurveInput,
+    FromTable,
+    InOtherUnit,
+    MechanismInput,
+    PhaseInput,
+    TakenWhole,
+    is_in,
+    optional,
+)
+from diecut_report.mechanism.names import SI, FromPress, OneOf, Pending, Text, placed
+from diecut_report.quantities.plausible import Plausible, plausible
+from diecut_report.quantities.units import Unit, parse_quantity, pretty, to_display, unit
+from diecut_report.text.phrases import Phrase, joined, phrase
+
+# Hard bounds of a quantity, in the unit that it is declared in.
+
+
+SAME = 1e-15  # share of a bound by which converting a unit and back may move a number
+BOUNDS = (("gt", ">"), ("ge", "≥"), ("lt", "<"), ("le", "≤"))
+HELD = (operator.gt, operator.ge, operator.lt, operator.le)
+
+
+def within(shown: Any, limits: Sequence[float | None]) -> Any:
+    """Return whether numbers keep the limits, which stand in the order of BOUNDS, each a number or None."""
+    shown = as_typed(shown, limits)
+    judged = [held(shown, limit) for limit, held in zip(limits, HELD, strict=True) if limit is not None]
+    return np.logical_and.reduce(judged or [shown == shown]) if isinstance(shown, np.ndarray) else all(judged)
+
+
+def as_typed(shown: Any, limits: Sequence[float | None]) -> Any:
+    """Return numbers that are a limit but for the rounding of a unit's factor as that limit: 7 % in SI is not quite 0.07 · 100 %."""
+    for limit in limits:
+        if limit is not None:
+            near = np.abs(shown - limit) <= SAME * abs(limit)
+            shown = np.where(near, limit, shown) if isinstance(shown, np.ndarray) else limit if near else shown
+    return shown
+
+
+@dataclass(frozen=True)
+class Quantity:
+    """Declare a number with a unit: symbol, display unit, description and bounds (in the display unit).
+
+    Put into ``Annotated[float, Quantity(...)]`` of an input model. The validated value is an SI float
+    (an int where ``integer``). ``units`` are other units, each with the key beside which it holds: (("mass", "N/m"),).
+    ``plausible`` are the least and the greatest size that a machine may have, zero aside, where they are not those of
+    the kind of quantity (``quantities.plausible``): ("1 mm", "10 m"). ``words`` are texts that may stand in place of a number,
+    and are taken as they are. ``or_unit`` is another kind of unit in which it may be given: it is then an ``InOtherUnit``.
+    ``listed`` are the only numbers that are allowed.
+    """
+
+    symbol: str
+    unit: str
+    description: str
+    gt: float | None = None
+    ge: float | None = None
+    lt: float | None = None
+    le: float | None = None
+    integer: bool = False
+    press: FromPress | None = None
+    units: tuple[tuple[str, str], ...] = ()
+    plausible: tuple[str, str] | None = None
+    words: tuple[str, ...] = ()
+    or_unit: str = ""
+    listed: tuple[float, ...] = ()
+    at: str = placed()
+
+    @cached_property
+    def parsed_unit(self) -> Unit:
+        """Return the display unit with its factor and kind."""
+        return unit(self.unit)
+
+    @property
+    def allowed(self) -> str:
+        """Return the range in words, for example ``> 0 mm, ≤ 80 mm``; empty without bounds."""
+        limits = [(sign, getattr(self, name)) for name, sign in BOUNDS]
+        shown = pretty(self.unit)
+        if self.listed:
+            return f"{', '.join(f'{value:g}' for value in self.listed)} {shown}".rstrip()
+        return ", ".join(f"{sign} {limit:g} {shown}".rstrip() for sign, limit in limits if limit is not None)
+
+    def validate(self, given: Any) -> Any:
+        """Return the SI value of what was given; ValueError in words where it is not allowed."""
+        match given:
+            case str() if given.strip() in self.words:
+                return given.strip()
+            case str() if self.or_unit and is_in(given, self.or_unit):
+                other = replace(self, unit=self.or_unit, or_unit="", plausible=None)
+                return InOtherUnit(other.validate(given), self.or_unit)
+            case None:
+                raise ValueError(
+                    Phrase("has no value; give a number in {text} or remove the key", text=pretty(self.unit) or 'plain form')
+                )  # fmt: skip
+            case Pending(unit=None):
+                raise ValueError(Phrase("${{path}} is not a number; a quantity in {unit} is needed", path=given.path, unit=self.unit))  # fmt: skip
+            case Pending(is_curve=True):
+                raise ValueError(Phrase("${{path}} is a curve; a single number is needed here", path=given.path))
+            case Pending(unit=str() as other):
+                self._same_kind(other, f"${{{given.path}}}")
+                return given
+            case SI(value=value, unit=other, told=told):
+                self._same_kind(other, told)
+                if isinstance(value, np.ndarray):  # of many machines: each is judged on its own
+                    return value
+                return self._bounded(value, Phrase("{to_display} {pretty} (from {told})", to_display=f"{to_display(value, self.unit):.6g}",
+                    pretty=pretty(self.unit), told=told))  # fmt: skip
+            case bool() | list() | dict():
+                kind = (
+                    phrase("a list")
+                    if isinstance(given, list)
+                    else phrase("a block of keys")
+                    if isinstance(given, dict)
+                    else str(given).lower()
+                )
+                raise ValueError(
+                    Phrase("is {kind}; a number or a text such as “{rstrip}” is needed", kind=kind, rstrip=f'10 {pretty(self.unit)}'.rstrip(
+                        ))
+                )  # fmt: skip
+        value = self._parsed(given)
+        return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
+
+    def _parsed(self, given: Any) -> float:
+        try:
+            return parse_quantity(given, self.unit)
+        except ValueError as fault:
+            if not self.words:
+                raise
+            raise ValueError(Phrase("{removesuffix}; or {words}.", removesuffix=str(fault).removesuffix('.'), words=', '.join(
+                self.words))) from None  # fmt: skip
+
+    def _same_kind(self, other: str, told: str) -> None:
+        if unit(other).kind != self.parsed_unit.kind:
+            raise ValueError(Phrase("{told} is in {other}; a quantity in {unit} is needed here", told=told, other=other, unit=self.unit))  # fmt: skip
+
+    def _bounded(self, value: float, told: str) -> float | int:
+        shown = value / self.parsed_unit.factor
+        if not math.isfinite(shown):
+            raise ValueError(Phrase("{strip} is not a finite number", strip=told.strip()))
+        if not self._within(shown):
+            raise ValueError(Phrase("{strip} is out of range; allowed: {allowed}", strip=told.strip(), allowed=self.allowed))  # fmt: skip
+        if not self.sizes.holds(value):
+            raise ValueError(Phrase("{strip} is not plausible; {plausible_sizes}", strip=told.strip(),
+                plausible_sizes=self.plausible_sizes))  # fmt: skip
+        if self.integer and not float(shown).is_integer():
+            raise ValueError(Phrase("{strip} is not a whole number", strip=told.strip()))
+        return int(shown) if self.integer else value + 0.0  # no minus zero
+
+    def _within(self, shown: Any) -> Any:
+        """Whether numbers in the display unit keep the bounds."""
+        held = within(shown, (self.gt, self.ge, self.lt, self.le))
+        return held & np.isin(np.round(np.clip(shown, -1e99, 1e99), 9), self.listed) if self.listed else held
+
+    @cached_property
+    def sizes(self) -> Plausible:
+        """Return the plausible sizes: those declared, else those of the kind of quantity."""
+        own = Plausible(*self.plausible) if self.plausible else None
+        return own if own and own.kind == self.parsed_unit.kind else plausible(self.unit)
+
+    @property
+    def plausible_sizes(self) -> str:
+        """Return the plausible sizes in words, with the zero where the bounds allow it."""
+        return Phrase("plausible: {told}", told=self.sizes.told) + (phrase(", or 0") if self._within(0.0) else "")
+
+    def holds(self, values: Any) -> Any:
+        """Return which numbers (an array, SI) are allowed."""
+        shown = values / self.parsed_unit.factor
+        whole = shown == np.round(shown) if self.integer else True
+        return np.isfinite(shown) & self._within(shown) & whole & self.sizes.holds(values)
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        return core_schema.no_info_plain_validator_function(optional(source, self.validate))
+
+
+class Block(BaseModel):
+    """Declare a block of inputs inside a mechanism, or one of a list of repeated parts."""
+
+    # arbitrary types are refused by the declaration check
+    model_config = ConfigDict(extra="forbid", validate_default=True, frozen=True, arbitrary_types_allowed=True)
+    one_of: ClassVar[tuple[OneOf, ...]] = ()
+    spread: ClassVar[Mapping[str, tuple[str, ...]]] = {}
+    """Keys whose value may be a list, each with the single keys that the values of the list stand for, in order."""
+    curve_keys: ClassVar[Mapping[str, str]] = {}
+    """Keys of numbers whose value may be a curve, each with the key that takes the curve; one of both is needed (``one_of``)."""
+    from_tables: ClassVar[tuple[FromTable, ...]] = ()
+    """Keys whose text may name an entry of the user's own tables, with the keys that it gives."""
+
+
+class Inputs(Block):
+    """Declare the base of a mechanism's inputs: one annotated field for each key of the config."""
+
+
+POINTS = Quantity("N", "1", phrase("Samples of each curve"), ge=36, le=100_000, integer=True)
+
+Referred = CurveInput | PhaseInput | MechanismInput
+"""What stands for something of another mechanism that is no single number."""
+
+Meta = Quantity | Text | Referred
+
+
+def meta_of(model: type[Block], name: str) -> Meta | None:
+    """Return what a field declares of itself."""
+    return next((m for m in model.model_fields[name].metadata if isinstance(m, Quantity | Text | Referred)), None)
+
+
+def nested(annotation: Any) -> tuple[type[Block], bool] | None:
+    """Return the block type behind a field's annotation, and whether the field is a list of it."""
+    if isinstance(annotation, type) and issubclass(annotation, Block):
+        return annotation, False
+    inner = [found for found in map(nested, get_args(annotation)) if found]
+    if not inner:
+        return None
+    return inner[0][0], inner[0][1] or get_origin(annotation) is list
+
+
+@cache
+def fields(model: type[Block]) -> tuple[tuple[str, Meta], ...]:
+    """Return each declared input by its path (``gears.driver_teeth`` for a field of a block or of a list's parts)."""
+    return tuple(_fields(model, ""))
+
+
+def _fields(model: type[Block], prefix: str) -> Iterator[tuple[str, Meta]]:
+    for name, field in model.model_fields.items():
+        block = nested(field.annotation)
+        meta = meta_of(model, name)
+        if block:
+            yield from _fields(block[0], f"{prefix}{name}.")
+        elif meta is not None:
+            yield prefix + name, meta
+
+
+def texts_given(values: Mapping[str, Any]) -> set[str]:
+    """Return for each text (or yes/no) input the token ``key=value``, by which steps may be chosen."""
+    return {f"{name}={str(value).lower() if isinstance(value, bool) else value}" for name, value in values.items()
+            if isinstance(value, str | bool)}  # fmt: skip
+
+
+def flatten(block: Block, prefix: str = "", within_part: bool = False) -> dict[str, Any]:
+    """Return the validated inputs by id, SI; the parts of a list as a tuple for each of their fields; absent ones left out.
+
+    A list within the parts of a list (``within_part``) stays one of blocks.
+    """
+    flat: dict[str, Any] = {}
+    for name in type(block).model_fields:
+        value = getattr(block, name)
+        match value:
+            case None | []:
+                continue
+            case Block():
+                flat |= {prefix + name: True} | flatten(value, f"{prefix}{name}.")
+            case [str(), *_]:
+                flat[prefix + name] = tuple(value)
+            case [Block(), *_] if within_part:
+                flat[prefix + name] = tuple(value)
+            case [Block(), *_]:
+                rows = [flatten(part, f"{prefix}{name}.", within_part=True) for part in value]
+                keys = dict.fromkeys(key for row in rows for key in row)
+                flat |= {prefix + name: True} | {key: tuple(row.get(key) for row in rows) for key in keys}
+            case _:
+                flat[prefix + name] = value
+    return flat
+
+
+__all__ = [
+    "POINTS",
+    "SI",
+    "Annotated",
+    "Block",
+    "CurveInput",
+    "FromPress",
+    "InOtherUnit",
+    "Inputs",
+    "MechanismInput",
+    "Meta",
+    "OneOf",
+    "Pending",
+    "PhaseInput",
+    "Quantity",
+    "Referred",
+    "TakenWhole",
+    "Text",
+    "fields",
+    "flatten",
+    "meta_of",
+    "nested",
+    "texts_given",
+]  # fmt: skip
+
+
+# Inputs that repeat: the lists of parts that a block of inputs declares.
+
+
+@cache
+def list_inputs(model: type[Block]) -> Mapping[str, str]:
+    """Return the paths of the inputs that come in rows, one for each part of a list, each with the path of its list."""
+    found: dict[str, str] = {}
+    for name, field in model.model_fields.items():
+        block = nested(field.annotation)
+        if block and block[1]:
+            found |= {f"{name}.{path}": name for path, _ in fields(block[0])}
+        elif block:
+            found |= {f"{name}.{path}": f"{name}.{home}" for path, home in list_inputs(block[0]).items()}
+    return found
+
+
+def list_titles(model: type[Block]) -> dict[str, str]:
+    """Return what each list of repeated parts is, by its path."""
+    found: dict[str, str] = {}
+    for name, field in model.model_fields.items():
+        block, meta = nested(field.annotation), meta_of(model, name)
+        if block and block[1] and meta is not None:
+            found[name] = meta.description
+        elif block:
+            found |= {f"{name}.{path}": title for path, title in list_titles(block[0]).items()}
+    return found
+
+
+# Inputs that are a number or vary over a cycle: a number, a curve by reference, or extremes alone; a list's parts may differ in it.
+
+
+@dataclass(frozen=True)
+class Extremes:
+    """Hold the least and the greatest value of what varies in a way that is not known, SI."""
+
+    low: float
+    high: float
+
+
+@dataclass(frozen=True)
+class Varying(Quantity):
+    """Declare a quantity that is a number or a curve by reference; put into ``Annotated[Any, Varying(...)]``.
+
+    The validated value is an SI float, the referred curve, with ``extremes`` also ``Extremes`` from a block ``{min, max}``, or one of
+    the texts ``words``. Only plain code takes it (``Prepared``).
+    """
+
+    extremes: bool = False
+
+    def validate(self, given: Any) -> Any:
+        """Return what the plugin's code takes; ValueError in words where it is not allowed."""
+        if isinstance(given, Pending) and given.is_curve:
+            if given.unit is None or unit(given.unit).kind != self.parsed_unit.kind:
+                raise ValueError(
+                    Phrase(
+                        "${{path}} is not a curve in {unit}, but in {own}",
+                        path=given.path,
+                        unit=pretty(self.unit),
+                        own=given.unit,
+                    )
+                )
+            return given
+        if isinstance(given, Extremes) or hasattr(given, "curve_id"):
+            return given
+        if isinstance(given, dict):
+            return self._extremes(given)
+        try:
+            return super().validate(given)
+        except ValueError as fault:
+            raise ValueError(Phrase("{fault}{ways}", fault=fault, ways=self._ways(given))) from None
+
+    def _ways(self, given: Any) -> str:
+        """What else would be allowed, where something else than a number was given."""
+        if not isinstance(given, str) or not given[:1].isalpha():
+            return ""
+        ways = [phrase("a reference to a curve"), *(f"“{word}”" for word in self.words)]
+        return Phrase("; or give {ways}", ways=joined(ways, ", or "))
+
+    def _extremes(self, given: dict[Any, Any]) -> Extremes:
+        if not self.extremes:
+            raise ValueError(phrase("is a block of keys; a number or a reference to a curve is needed"))
+        if set(given) != {"min", "max"}:
+            raise ValueError(phrase("is a block of keys; as a block it has the keys min and max, and no others"))
+        low, high = (super(Varying, self).validate(given[key]) for key in ("min", "max"))
+        if not isinstance(low, Pending) and not isinstance(high, Pending) and low > high:
+            raise ValueError(phrase("has a min above its max; exchange them"))
+        return Extremes(low, high)
+
+
+__all__ = ["Extremes", "Varying"]

@@ -1,0 +1,483 @@
+"""A mechanism: the whole of what a plugin declares."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterator, Mapping
+from dataclasses import dataclass, field, replace
+from functools import cached_property, lru_cache
+from itertools import product
+from typing import Any
+
+import numpy as np
+
+from diecut_report.formulas import Array
+from diecut_report.mechanism.chapters import Chapter, settled
+from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit
+from diecut_report.mechanism.figures import Figure, Spectrum
+from diecut_report.mechanism.inputs import Block, Inputs, fields, list_inputs, nested
+from diecut_report.mechanism.names import Curve, Misdeclared, OneOf, placed
+from diecut_report.mechanism.part_steps import ComputedCurve, Fact, Lookup, Neighbour, Running
+from diecut_report.mechanism.steps import (
+    SILENT,
+    Abscissa,
+    Accumulated,
+    Choice,
+    Computed,
+    Crossings,
+    Derivative,
+    FromCurve,
+    Phase,
+    Step,
+    Value,
+    names_ahead,
+    read,
+)
+from diecut_report.quantities.units import unit
+from diecut_report.text.phrases import Phrase, named
+
+# What plain code gets of one among many machines: the values of its inputs, the mechanisms that it names, what was made of it.
+
+
+class Machines(tuple[Any, ...]):
+    """Hold what plain code made of each of many machines; None of one that cannot be."""
+
+    __slots__ = ()
+
+
+@dataclass(frozen=True)
+class CurveOfMachine:
+    """Hold the curve of one among many machines, as the curve of a single one."""
+
+    curve: Curve
+    row: int
+
+    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
+        """Return values at shares, shape (rows, points), as ``Curve`` does."""
+        return self.curve.values(share, middle, np.full(len(share), self.row))
+
+    @property
+    def breakpoints(self) -> Array:
+        """Return the inner edges of its smooth pieces, shape (1, places)."""
+        return _row(self.curve.breakpoints, self.row)
+
+    @property
+    def joints(self) -> Array:
+        """Return those of them where the curve jumps or has a corner."""
+        return _row(self.curve.joints, self.row)
+
+    @property
+    def cycle(self) -> str:
+        """Return the id of what the curve runs over."""
+        return self.curve.cycle
+
+
+def of_machine(value: Any, row: int, count: int) -> Any:
+    """Return what a value of many machines is of one of them: arrays with one row, texts as they are."""
+    match value:
+        case Machines():
+            return value[row]
+        case InOtherUnit():
+            return replace(value, value=_of_all(value.value, row))
+        case np.ndarray() if value.shape[:1] == (count,):
+            return value[row : row + 1]
+        case tuple():
+            return tuple(of_machine(each, row, count) for each in value)
+    if hasattr(value, "of_machine"):
+        return value.of_machine(row)
+    return CurveOfMachine(value, row) if hasattr(value, "breakpoints") else value
+
+
+def _of_all(value: Any, row: int) -> Any:
+    """The number of a machine; one that holds for all has a single one."""
+    return value if np.ndim(value) == 0 or len(value) == 1 else value[row]
+
+
+def _row(places: Array, row: int) -> Array:
+    found: Array = places[row if len(places) > 1 else 0]
+    return found[None, :]
+
+
+# An example of a kind: values with which it can be calculated, and how it is wired to mechanisms of other kinds.
+#
+# A value is written as in a configuration: a number in the key's display unit, a text such as ``"40 mm"``, a list, a block of keys.
+
+
+KIND = re.compile(r"<([^<>\s]+)>")
+
+
+@dataclass(frozen=True)
+class Wired:
+    """Take a value where a press has the kinds that it names, and ``otherwise`` another one; None leaves the key or the part out.
+
+    ``value`` is written as in a configuration, with ``<KIND>`` in the place of a mechanism's name:
+    ``Wired("${<cylinder_sizing>.mass}", otherwise="80 kg")``. ``needs`` are kinds that it does not name itself.
+    """
+
+    value: Any
+    otherwise: Any = None
+    needs: tuple[str, ...] = ()
+
+    @property
+    def kinds(self) -> tuple[str, ...]:
+        """Return the kinds that must be there, in the order in which they are named."""
+        return tuple(dict.fromkeys((*self.needs, *kinds_named(self.value))))
+
+
+@dataclass(frozen=True)
+class ForEach:
+    """Declare a part of a list for each mechanism of a kind that a press has: ``ForEach("clutch", {"mechanism": "<clutch>"})``."""
+
+    kind: str
+    part: Any
+
+
+@dataclass(frozen=True, eq=False)
+class ExampleBlock:
+    """Declare the name and the inputs of an example of a kind, by which ``diecut-report new`` begins a configuration.
+
+    ``press`` are values of the press that the example is made for, by their paths: ``{"productivity": "1200 1/h"}``.
+    """
+
+    name: str
+    inputs: Mapping[str, Any]
+    press: Mapping[str, Any] = field(default_factory=dict)
+    at: str = placed()
+
+
+def kinds_named(value: Any) -> Iterator[str]:
+    """Yield the kinds that a value names, without what stands in the wired values in it."""
+    match value:
+        case str():
+            yield from KIND.findall(value)
+        case dict():
+            for part in value.values():
+                yield from kinds_named(part)
+        case list() | tuple():
+            for part in value:
+                yield from kinds_named(part)
+
+
+def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
+    """Return for each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
+    found = dict(list_inputs(inputs))
+    for step in steps:
+        match step:
+            case Abscissa():
+                found[step.id] = step.id
+            case FromCurve() | ComputedCurve():
+                found[step.id] = step.abscissa
+            case Accumulated(of=of) | Derivative(of=of) | Neighbour(of=of) | Running(of=of):
+                found[step.id] = found[of]
+            case Computed(over=over) if over:
+                found[step.id] = over
+            case Lookup(by=by) if by in found:
+                found[step.id] = found[by]
+            case Value() | Choice():
+                own = {found[n] for n in step.takes() if isinstance(n, str) and n in found}
+                if len(own) > 1:
+                    raise ValueError(Phrase("{id} mixes {axes}", id=step.id, axes=named(sorted(own), " and ")))
+                found |= {step.id: own.pop()} if own else {}
+    return found
+
+
+def is_text(step: Step) -> bool:
+    """Return whether a step gives a text."""
+    if isinstance(step, Computed):
+        return step.is_text
+    return isinstance(step, Choice) and isinstance(step.cases[0].value, str)
+
+
+@dataclass(frozen=True, eq=False)
+class Source:
+    """Declare a publication that formulas come from."""
+
+    id: str
+    citation: str
+    at: str = placed()
+
+
+@dataclass(frozen=True, eq=False)
+class Erratum:
+    """Declare a mistake found in a source, and the quantities (ids) that it touches."""
+
+    source: str
+    text: str
+    touches: tuple[str, ...] = ()
+    at: str = placed()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Profile:
+    """Declare curves over one abscissa that are written beside the report as tables and drawings: ``columns`` are x, y, and more.
+
+    ``needs`` as for steps.
+    """
+
+    id: str
+    title: str
+    columns: tuple[str, ...]
+    needs: tuple[str, ...] = ()
+    at: str = placed()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class CurveTable(Profile):
+    """Declare that all curves over an abscissa, the only one of ``columns``, are written beside the report as a table."""
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Comparison:
+    """Declare what is calculated last, from the results of mechanisms of the named kinds, where a press has one of each.
+
+    ``takes`` fills the inputs of ``mechanism`` by the kind and the id of an output, input or curve there; what is absent there
+    leaves its input without a value.
+    """
+
+    kinds: tuple[str, ...]
+    mechanism: Mechanism
+    takes: Mapping[str, tuple[str, str]]
+    at: str = placed()
+
+    def __post_init__(self) -> None:
+        foreign = [key for key, (kind, _) in self.takes.items() if kind not in self.kinds]
+        if foreign or self.mechanism.checks:
+            raise Misdeclared(
+                Phrase(
+                    "{kind}: a comparison has no checks, and takes from its own kinds only", kind=self.mechanism.kind
+                )
+            )
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Partner:
+    """Declare another mechanism that a kind takes inputs from: the one that the text input ``key`` names, else the only one of its kinds.
+
+    ``takes`` gives for inputs of this kind the id of a result or the path of an input there; what is given in the block, or is
+    absent there, is not taken.
+    """
+
+    key: str
+    kinds: tuple[str, ...]
+    takes: Mapping[str, str]
+    at: str = placed()
+
+
+@dataclass(frozen=True, kw_only=True, eq=False)
+class Mechanism:
+    """Declare a kind of mechanism: inputs, calculation, checks, figures, and what is said of it in the report.
+
+    ``key_results`` are the ids of the outputs that the report's summary shows. ``example`` are inputs with which a configuration begins.
+    """
+
+    kind: str
+    version: str
+    title: str
+    summary: str
+    inputs: type[Inputs]
+    chapters: tuple[Chapter, ...]
+    key_results: tuple[str, ...] = ()
+    checks: tuple[Check, ...] = ()
+    figures: tuple[Figure, ...] = ()
+    assumptions: tuple[str, ...] = ()
+    sources: tuple[Source, ...] = ()
+    errata: tuple[Erratum, ...] = ()
+    exports: tuple[Profile, ...] = ()
+    comparisons: tuple[Comparison, ...] = ()
+    partners: tuple[Partner, ...] = ()
+    spectra: tuple[Spectrum, ...] = ()
+    example: ExampleBlock | None = None
+    at: str = placed()
+
+    @cached_property
+    def steps(self) -> tuple[tuple[Chapter, Step], ...]:
+        """Return all steps in the order in which they are calculated, each with its chapter."""
+        return tuple((chapter, step) for chapter in self.chapters for step in chapter.steps)
+
+    def active(self, given: frozenset[str]) -> tuple[tuple[Chapter, Step], ...]:
+        """Return the steps that take part when these optional inputs (and texts, as ``key=value``) are given."""
+        if given not in self._active:
+            self._active[given] = tuple(self._settled(given))
+        return self._active[given]
+
+    def steps_by_id(self, given: frozenset[str]) -> dict[str, Step]:
+        """Return those steps by their ids, in a new dictionary."""
+        if given not in self._by_id:
+            self._by_id[given] = {step.id: step for _, step in self.active(given)}
+        return self._by_id[given].copy()
+
+    @cached_property
+    def _by_id(self) -> dict[frozenset[str], dict[str, Step]]:
+        return {}
+
+    def _settled(self, given: frozenset[str]) -> Iterator[tuple[Chapter, Step]]:
+        for chapter, step in self.steps:
+            if given.issuperset(chapter.needs + step.needs) and given.isdisjoint(step.lacks):
+                yield chapter, settled(step, given)
+
+    @cached_property
+    def _active(self) -> dict[frozenset[str], tuple[tuple[Chapter, Step], ...]]:
+        return {}
+
+    @cached_property
+    def facts(self) -> frozenset[str]:
+        """Return the facts that steps may need: each counts as given until a machine turns out not to meet it."""
+        return frozenset(step.id for _, step in self.steps if isinstance(step, Fact))
+
+    def results_of(self, given: frozenset[str]) -> Mapping[str, tuple[str | None, bool]]:
+        """Return what a reference may name, without calculating: the SI unit (None for a text), and whether it is a curve."""
+        if given not in self._results:
+            self._results[given] = self._named(given)
+        return self._results[given]
+
+    @cached_property
+    def _results(self) -> dict[frozenset[str], dict[str, tuple[str | None, bool]]]:
+        return {}
+
+    def _named(self, given: frozenset[str]) -> dict[str, tuple[str | None, bool]]:
+        found: dict[str, tuple[str | None, bool]] = {}
+        for _, step in self.active(given):
+            if isinstance(step, SILENT):
+                continue
+            si = unit(step.unit).si
+            for each in names_ahead(step):
+                of_place = self._unit_of_axis(step, given, found) if each.role == "place" else None
+                found[each.name] = {"count": "1", "place": of_place}.get(each.role, si), False
+            if not isinstance(step, Crossings):
+                text = is_text(step)
+                found[step.id] = None if text else si, self.axis_of(step.id, given) is not None
+        return found
+
+    def _unit_of_axis(
+        self, step: Step, given: frozenset[str], found: Mapping[str, tuple[str | None, bool]]
+    ) -> str | None:
+        """The unit of what a curve runs over; None with inputs of which one is missing that gives the curve, which is told of them."""
+        axis = self.axis_of(step.of, given)  # type: ignore[attr-defined]
+        return found[axis][0] if axis is not None and axis in found else None
+
+    def phases_of(self, given: frozenset[str]) -> dict[str, str]:
+        """Return the ids of the phases that take part, each with the SI unit of its abscissa."""
+        units = {step.id: unit(step.unit).si for _, step in self.active(given)}
+        return {step.id: units[step.abscissa] for _, step in self.active(given) if isinstance(step, Phase)}
+
+    def axis_of(self, name: str, given: frozenset[str]) -> str | None:
+        """Return the abscissa that a quantity runs over, or the list whose parts it has a row for; None for a single number."""
+        return self.axes(given).get(name)
+
+    def axes(self, given: frozenset[str]) -> dict[str, str]:
+        """Return for each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
+        if given not in self._axes:
+            self._axes[given] = axes(tuple(step for _, step in self.active(given)), self.inputs)
+        return self._axes[given]
+
+    @cached_property
+    def _axes(self) -> dict[frozenset[str], dict[str, str]]:
+        return {}
+
+    @cached_property
+    def curve_inputs(self) -> frozenset[str]:
+        """Return the inputs that are curves."""
+        return frozenset(name for name, meta in fields(self.inputs) if isinstance(meta, CurveInput))
+
+
+# The number of the contract between the program and its plugins: it grows when a plugin that was written before would no longer run.
+
+
+CONTRACT = 1
+
+
+# What a check still needs: the optional inputs without which it is not made, as far as the declarations tell.
+
+
+Way = tuple[
+    frozenset[str], frozenset[str]
+]  # the tokens that must hold for a quantity to be calculated, and those that must not
+
+
+@lru_cache(maxsize=4096)
+def missing_keys(mechanism: Mechanism, check: Check, given: frozenset[str]) -> tuple[str, ...] | None:
+    """Return the keys that must be given beside the given ones for a check to be made, of several ways the shortest.
+
+    None where it does not apply to this machine: a text, a block, a list or an alternative that it needs was not chosen.
+    Empty where nothing is missing. Keys stand in the order in which they are declared.
+    """
+    if not given.issuperset(check.only_with):
+        return None
+    found = [
+        _completing(mechanism, _settling(mechanism, needs - given) - given, given, check.asks_for)
+        for needs, lacks in _ways(mechanism, check)
+        if not lacks & given
+    ]
+    shortest = min((keys for keys in found if keys is not None), key=len, default=None)
+    if shortest is None:
+        return None
+    order = {path: number for number, path in enumerate(_paths(mechanism.inputs))}
+    return tuple(sorted(shortest, key=lambda key: (order.get(key, len(order)), key)))
+
+
+def _ways(mechanism: Mechanism, check: Check) -> Iterator[Way]:
+    """The ways in which a check's sides can be calculated together."""
+    for chosen in product(*(list(_givers(mechanism, name)) for name in check.named)):
+        needs = frozenset(check.needs).union(*(way[0] for way in chosen))
+        yield needs, frozenset().union(*(way[1] for way in chosen))
+
+
+def _givers(mechanism: Mechanism, name: str) -> Iterator[Way]:
+    """What must hold for an input to be there, or for each of the steps that give a quantity."""
+    if name.removeprefix("inputs.") in _paths(mechanism.inputs):
+        yield frozenset((name.removeprefix("inputs."),)), frozenset()
+    for chapter, step in mechanism.steps:
+        if read(name, step):
+            yield frozenset(chapter.needs + step.needs), frozenset(step.lacks)
+
+
+def _settling(mechanism: Mechanism, missing: frozenset[str]) -> frozenset[str]:
+    """The missing tokens; in place of a fact that does not hold the first key with which nobody asks it, and those that go with that."""
+    keys = {step.id: step.lacks[0] for _, step in mechanism.steps if isinstance(step, Fact) and step.lacks}
+    groups = {group[0]: group for _, rule in _rules(mechanism.inputs) for group in rule.groups}
+    return frozenset().union(*(groups.get(keys[each], (keys[each],)) if each in keys else (each,) for each in missing))
+
+
+def _completing(
+    mechanism: Mechanism, missing: frozenset[str], given: frozenset[str], blocks: tuple[str, ...]
+) -> frozenset[str] | None:
+    """The missing keys and ``blocks``, if they can be given beside the given ones; None where that would be another machine."""
+    paths = _paths(mechanism.inputs)
+    if any("=" in key or key not in paths or (paths[key] and key not in blocks) for key in missing):
+        return None
+    missing = frozenset(key for key in missing if key.rpartition(".")[0] not in missing)  # a block is missed as a whole
+    if any(key.rpartition(".")[0] not in given for key in missing if "." in key):  # of a block that is not there
+        return None
+    known = {key for key in given if "=" not in key}
+    rules = [each for each in _rules(mechanism.inputs) if not each[1].when or "".join((each[0], each[1].when)) in given]
+    if any(_clashes(rule, home, known, missing) for home, rule in rules):
+        return None
+    return missing
+
+
+def _clashes(rule: OneOf, home: str, known: set[str], missing: frozenset[str]) -> bool:
+    """Whether a rule of alternatives that the given keys keep refuses the missing ones beside them."""
+    own, more = ({key.removeprefix(home) for key in keys if key.startswith(home)} for keys in (known, known | missing))
+    fault = rule.fault(more)
+    return bool(fault) and rule.fault(own) != fault
+
+
+@lru_cache(maxsize=256)
+def _paths(model: type[Block], prefix: str = "") -> dict[str, bool]:
+    """The inputs by their paths, in order, each with whether it is a block or a list of them."""
+    found: dict[str, bool] = {}
+    for name, declared in model.model_fields.items():
+        block = nested(declared.annotation)
+        found[prefix + name] = block is not None
+        if block:
+            found |= _paths(block[0], f"{prefix}{name}.")
+    return found
+
+
+def _rules(model: type[Block], prefix: str = "") -> Iterator[tuple[str, OneOf]]:
+    yield from ((prefix, rule) for rule in model.one_of)
+    for name, declared in model.model_fields.items():
+        block = nested(declared.annotation)
+        if block and not block[1]:
+            yield from _rules(block[0], f"{prefix}{name}.")

@@ -1,0 +1,294 @@
+"""Where an author's file declares something: every declared thing carries it, so that what is wrong with it is reported there."""
+
+from __future__ import annotations
+
+import sys
+from collections.abc import Callable, Collection, Iterable, Mapping, Sequence
+from dataclasses import dataclass, field
+from functools import cache, cached_property
+from inspect import signature
+from types import FunctionType
+from typing import Any, Protocol
+
+from pydantic import GetCoreSchemaHandler
+from pydantic_core import CoreSchema, core_schema
+
+from diecut_report.errors import nearest
+from diecut_report.formulas import Array
+from diecut_report.formulas.formula import LAMBDA, Formula
+from diecut_report.text.phrases import Phrase
+
+OWN = "diecut_report.mechanism"
+
+
+def here() -> str:
+    """Return the place, ``file:line``, of the call outside the contract that declares what is being made."""
+    frame = sys._getframe(1)
+    while frame.f_globals.get("__name__", "").startswith(OWN) and frame.f_back is not None:
+        frame = frame.f_back
+    return f"{frame.f_code.co_filename}:{frame.f_lineno}"
+
+
+def placed() -> Any:
+    """Return a field ``at`` with the place where its owner is declared: no part of its value, kept by ``dataclasses.replace``."""
+    return field(default_factory=here, kw_only=True, repr=False, compare=False)
+
+
+class Misdeclared(TypeError):
+    """Report that what a plugin declares cannot be made; the text says so with the place that is named, or where it is declared now."""
+
+    def __init__(self, text: str, at: str = "") -> None:
+        super().__init__(f"{at or here()}: {text}")
+
+
+# Inputs that are texts.
+
+
+@dataclass(frozen=True)
+class Text:
+    """Declare an input that is a text, a choice or yes/no: its description (the annotation says what is allowed).
+
+    ``options`` are the allowed texts where these are kept in a registry.
+    """
+
+    description: str
+    symbol: str = ""
+    options: Collection[str] = ()
+    at: str = placed()
+
+    def validate(self, given: str | None) -> str | None:
+        """Return the text, if it is one of the options; ValueError with the known ones in words where it is not."""
+        if given is None or given in self.options:
+            return given
+        raise ValueError(f"is “{given}”{nearest(given, self.options)}; allowed: {', '.join(self.options)}")
+
+    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+        schema = handler(source)
+        return core_schema.no_info_after_validator_function(self.validate, schema) if self.options else schema
+
+
+# What may stand in for a typed value: a number that is known already, a reference, a default of the press, one of several.
+
+
+@dataclass(frozen=True)
+class SI:
+    """Hold a number (of many machines an array of them) that is already in SI, from a reference or a default of the press.
+
+    ``told`` says from where.
+    """
+
+    value: Any
+    unit: str
+    told: str
+
+
+@dataclass(frozen=True)
+class Pending:
+    """Stand for a reference whose value is not known yet; ``unit`` is that of what it refers to, None where it is not a number.
+
+    ``phase_unit`` is that of what a phase runs over.
+    """
+
+    path: str
+    unit: str | None
+    is_curve: bool = False
+    phase_unit: str | None = None
+    is_mechanism: bool = False
+
+
+class Curve(Protocol):
+    """Hold a curve that an input refers to, over shares of its period."""
+
+    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
+        """Return values at shares, shape (variants, points), each in the smooth piece that the share ``middle`` lies in."""
+
+    @property
+    def breakpoints(self) -> Array:
+        """Return the inner edges of the curve's smooth pieces, as shares, ascending, shape (variants, places)."""
+
+    @property
+    def joints(self) -> Array:
+        """Return those of them where the curve jumps or has a corner."""
+
+    @property
+    def cycle(self) -> str:
+        """Return the id of what the curve runs over: of two curves over one cycle it is the same."""
+
+
+@dataclass(frozen=True)
+class FromPress:
+    """Name a default that the press gives: a press field's path and, where it is not that number itself, a formula of it.
+
+    An ``optional`` one leaves the input without a value where the press does not give the field; else that is an error.
+    """
+
+    path: str
+    formula: Formula | None = None
+    optional: bool = False
+
+
+class OneOf:
+    """Name inputs of which one group is needed: ``OneOf(("torque",), ("power", "speed"))``.
+
+    One group must be given completely, and nothing of another one, but for the keys that are ``shared``: these have a use
+    beside each group. Where it is ``optional`` a default holds without any of the keys. With ``when`` it is asked only where
+    a text of the same block is chosen: ``when="use=drive"``.
+    """
+
+    def __init__(
+        self, *groups: tuple[str, ...], shared: tuple[str, ...] = (), optional: bool = False, when: str = ""
+    ) -> None:
+        self.groups, self.shared, self.optional, self.when = groups, shared, optional, when
+
+    def is_asked(self, texts: Mapping[str, Any]) -> bool:
+        """Return whether the text is chosen with which the rule holds, of the values of a block with their defaults."""
+        key, _, text = self.when.partition("=")
+        return not key or texts.get(key) == text
+
+    def fault(self, given: Iterable[str]) -> str:
+        """Return what is wrong with the keys that are given, in words; empty where nothing is."""
+        known = set(given)
+        told = ", or ".join(listed(group) for group in self.groups)
+        heads = list(dict.fromkeys(group[0] for group in self.groups if group[0] in known))
+        if len(heads) > 1:
+            return Phrase(
+                "{listed} are both given, but only one can hold; give {told}.", listed=listed(heads), told=told
+            )
+        complete = [group for group in self.groups if known.issuperset(group)]
+        idle = known & {key for group in self.groups for key in group} - {*self.shared}.union(*complete[:1])
+        if complete and not idle:
+            return ""
+        fuller = [group for group in self.groups if complete and {*complete[0], *idle} <= {*group}]
+        if complete and not fuller:
+            unused = [key for group in self.groups for key in group if key in idle]
+            without = Phrase("has no use beside {listed}; remove it", listed=listed(complete[0]))
+            return Phrase("{listed} {without}, or give {told}.", listed=listed(unused), without=without, told=told)
+        begun = fuller or [group for group in self.groups if known & set(group) - set(self.shared)]
+        if begun:
+            nearest = min(begun, key=lambda group: len(set(group) - known))
+            missing = [key for key in nearest if key not in known]
+            beside = [key for key in nearest if key in known]
+            return Phrase(
+                "{listed} is missing beside {present}; give {told}.",
+                listed=listed(missing),
+                present=listed(beside),
+                told=told,
+            )
+        chosen = Phrase(" with {key}", key=self.when.replace("=", ": ")) if self.when else ""
+        return "" if self.optional else Phrase("{told} is needed{chosen}.", told=told, chosen=chosen)
+
+
+def listed(keys: Sequence[str]) -> str:
+    """Return keys in words: ``mass, inertia and velocity``."""
+    return Phrase("{first} and {next}", first=", ".join(keys[:-1]), next=keys[-1]) if len(keys) > 1 else "".join(keys)
+
+
+# Formulas bound to the quantities of a mechanism: one formula serves many, each with its own letters.
+
+
+@dataclass(frozen=True, eq=False)
+class Bound:
+    """Bind a formula to quantities: each parameter's quantity id, or a plain number."""
+
+    formula: Formula
+    names: Mapping[str, str | float]
+
+    @cached_property
+    def takes(self) -> tuple[str | float, ...]:
+        """Return what the parameters take, in their order: ids, or plain numbers as floats."""
+        return tuple(name if isinstance(name, str) else float(name) for name in self.names.values())
+
+
+def bind(formula: Formula | Callable[..., Any], **names: str | float) -> Bound:
+    """Bind a formula (or a lambda) to quantities; a parameter that is not named takes the quantity of its own name."""
+    if not callable(formula):
+        raise Misdeclared(
+            Phrase(
+                "bind takes a formula, and {formula} is none; write a lambda, or a def with @formula above it",
+                formula=repr(formula),
+            )
+        )
+    formula = formula if isinstance(formula, Formula) else Formula(formula)
+    unknown = sorted(set(names) - set(formula.parameters))
+    if unknown:
+        known = ", ".join(formula.parameters) or "none"
+        raise Misdeclared(
+            Phrase(
+                "formula {name} has no parameter {unknown}; it has {known}",
+                name=formula.__name__,
+                unknown=", ".join(unknown),
+                known=known,
+            )
+        )
+    return Bound(formula, {p: names.get(p, p) for p in formula.parameters})
+
+
+class ByText:
+    """Choose a formula by a text input: ``formulas[text]``, bound to quantities as by ``bind(formula, **names)``.
+
+    ``formulas`` may be a live view of a registry; all its formulas have the same parameters.
+    """
+
+    def __init__(self, key: str, formulas: Mapping[str, Formula], /, **names: str | float) -> None:
+        self.key, self.formulas, self.names = key, formulas, names
+
+    def of(self, text: str) -> Bound:
+        """Return the bound formula for a value of the text input."""
+        return bind(self.formulas[text], **self.names)
+
+    def options(self) -> tuple[Bound, ...]:
+        """Return the bound formulas of all values."""
+        return tuple(map(self.of, self.formulas))
+
+    def renamed(self, rename: Callable[[str | float], str | float]) -> ByText:
+        """Return the same choice with other ids for its quantities."""
+        own = self.options()[0].names
+        return ByText(self.key, self.formulas, **{parameter: rename(name) for parameter, name in own.items()})
+
+
+Binding = Bound | Formula | ByText
+
+
+def as_binding(part: Binding | Callable[..., Any], name: str) -> Binding:
+    """Return what an author wrote as a formula of the engine; a lambda is called ``name`` in messages."""
+    if isinstance(part, Bound) and part.formula.__name__ == LAMBDA:
+        part.formula.__name__ = name
+    return part if isinstance(part, Binding) else _formula(part, name)
+
+
+def _formula(function: Any, name: str) -> Formula:
+    if not isinstance(function, FunctionType):
+        raise Misdeclared(
+            Phrase(
+                "{name} needs a formula, and {function} is none; write a lambda, or a def with @formula above it",
+                name=name,
+                function=repr(function),
+            )
+        )
+    optional = [p.name for p in signature(function).parameters.values() if p.default is not p.empty]
+    if optional:
+        raise Misdeclared(
+            Phrase(
+                "the formula of {name} has a default for {optional}, which is never used: each parameter takes "
+                "a quantity; remove it, or bind a number: bind(…, {first}=2)",
+                name=name,
+                optional=", ".join(optional),
+                first=optional[0],
+            )
+        )
+    return Formula(function, name)
+
+
+def bound(part: Binding) -> Bound:
+    """Let a formula that is not bound yet take the quantities of its parameters' own names.
+
+    A choice by a text stands here for its first formula: what it takes does not depend on the text.
+    """
+    if isinstance(part, ByText):
+        return part.options()[0]
+    return part if isinstance(part, Bound) else _by_names(part)
+
+
+@cache
+def _by_names(formula: Formula) -> Bound:
+    return bind(formula)

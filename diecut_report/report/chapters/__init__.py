@@ -1,0 +1,1 @@
+"""The contents of a report: its front, its chapters, its tables."""

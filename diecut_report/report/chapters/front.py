@@ -1,0 +1,479 @@
+"""What matters, as the report prints it: a tornado for each number, with its table, and how probable it is that the checks hold."""
+
+from __future__ import annotations
+
+import base64
+import gzip
+import re
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from datetime import datetime
+from hashlib import sha256
+from itertools import groupby
+from typing import Any, NamedTuple
+
+from markupsafe import Markup
+
+from diecut_report.quantities.formatting import number_text
+from diecut_report.report.model import CheckRow, utilisation
+from diecut_report.report.symbols import symbol
+from diecut_report.report.text import Catalogue, joined, number, quantity
+from diecut_report.results.origins import Assumed, ordered
+from diecut_report.results.results_file import config_content, encoded, results_text
+
+Data = Mapping[str, Any]
+DIGITS = 4
+NUMBER = "1.{n}"  # of a figure: those of mechanisms begin with a letter
+
+
+@dataclass(frozen=True)
+class PrintedTornado:
+    """Hold a number, its figure with the number of that, and a row for each input: its name, lowered and raised, and what comes of both."""
+
+    title: str
+    number: str
+    figure: Data
+    rows: list[tuple[str, str, str, str, str]]
+    rest: str
+
+
+@dataclass(frozen=True)
+class ChanceRow:
+    """Hold a check, how probable it is that it holds, with its interval, and in how many machines it did."""
+
+    title: str
+    probability: str
+    interval: str
+    held: str
+
+
+@dataclass(frozen=True)
+class PrintedInfluence:
+    """Hold the chapter: its words, its tornados, and what tolerances do."""
+
+    lead: str
+    tornados: list[PrintedTornado]
+    scatter: str = ""
+    chances: list[ChanceRow] = field(default_factory=list)
+    sure: str = ""
+
+    @property
+    def figures(self) -> list[tuple[str, Data]]:
+        """The figures with their numbers; none of a number that nothing moves."""
+        return [(each.number, each.figure) for each in self.tornados if each.rows]
+
+
+def printed_influence(results: Data, words: Catalogue) -> PrintedInfluence | None:
+    """Return the chapter as it is printed; None where the results hold none."""
+    found = results.get("influence")
+    if not found:
+        return None
+    lead = words.say("influence_lead", by=_percent(found["by"], words))
+    tornados = [_tornado(results, each, index, words) for index, each in enumerate(found["tornados"], 1)]
+    drawn = found.get("tolerances")
+    if not drawn:
+        return PrintedInfluence(lead, tornados)
+    unsure = [drawn["whole"], *(each for each in drawn["checks"] if each["held"] < each["count"])]
+    chances = [_chance(results, each, words) for each in unsure]
+    sure = words.say("influence_sure", n=len(drawn["checks"]) - len(unsure) + 1)
+    return PrintedInfluence(lead, tornados, _scatter(drawn, words), chances, sure)
+
+
+def _tornado(results: Data, found: Data, index: int, words: Catalogue) -> PrintedTornado:
+    title, unit = _title(results, found["name"], words), found["unit"]
+    rows = [
+        (bar["name"], _told(bar["lowered"], bar["unit"], words), _told(bar["low"], unit, words), _told(bar["raised"], bar["unit"], words),
+         _told(bar["high"], unit, words))
+        for bar in found["bars"]
+    ]  # fmt: skip
+    said = title + (f" ({_unit(unit)})" if _unit(unit) else "")
+    figure = {"type": "tornado", "title": words.say("influence_on", what=said), "today": found["today"],
+              "bars": [{"label": bar["name"], "low": bar["low"], "high": bar["high"]} for bar in found["bars"]]}  # fmt: skip
+    now = words.say("influence_today", value=_told(found["today"], unit, words))
+    return PrintedTornado(title, NUMBER.format(n=index), figure, rows, " ".join([now, *_rest(found, words)]))
+
+
+def _rest(found: Data, words: Catalogue) -> Iterator[str]:
+    if found["more"]:
+        yield words.say("influence_more", n=found["more"])
+    if found["still"]:
+        yield words.say("influence_still", n=found["still"])
+    if found.get("at_default"):
+        yield words.say("influence_at_default", n=found["at_default"])
+
+
+def _title(results: Data, name: str, words: Catalogue) -> str:
+    """What a number is called: a check's utilisation, a result, or an input, by its mechanism."""
+    home, _, own = name.partition(".")
+    data = results["mechanisms"].get(home)
+    if data is None:
+        return name
+    check = next((each for each in data["checks"] if own == f"checks.{each['id']}.utilisation"), None)
+    if check is not None:
+        return f"{data['title']} · {check['title']}: {words['influence_utilisation']}"
+    row = data["outputs"].get(own) or data["inputs"].get(own)
+    return f"{data['title']} · {row['description']}" if row else name
+
+
+def _chance(results: Data, found: Data, words: Catalogue) -> ChanceRow:
+    home, _, own = found["check"].partition(".")
+    data = results["mechanisms"].get(home)
+    check = next((each["title"] for each in data["checks"] if each["id"] == own), own) if data else ""
+    title = f"{data['title']} · {check}" if data else words["influence_all"]
+    interval = f"{_percent(found['low'], words)} … {_percent(found['high'], words)}"
+    return ChanceRow(
+        title,
+        _percent(found["probability"], words),
+        interval,
+        words.say("influence_of", n=found["held"], total=found["count"]),
+    )
+
+
+def _scatter(drawn: Data, words: Catalogue) -> str:
+    inputs = ", ".join(
+        f"{each['name']} {_told(each['value'], each['unit'], words)} ± {_told(each['tolerance'], each['unit'], words)}"
+        for each in drawn["inputs"]
+    )
+    return words.say(f"influence_{drawn['distribution']}", inputs=inputs, n=drawn["count"], seed=drawn["seed"])
+
+
+def _told(value: float | None, unit: str, words: Catalogue) -> str:
+    if value is None:
+        return words["influence_none"]
+    return quantity(number_text(value, DIGITS), unit, words["decimal"])
+
+
+def _percent(share: float, words: Catalogue) -> str:
+    return quantity(number_text(100 * share, DIGITS), "%", words["decimal"])
+
+
+def _unit(unit: str) -> str:
+    return "" if unit == "1" else quantity("", unit).strip()
+
+
+# The changes between two results documents with printed numbers, ready for a page, a report or a terminal.
+
+
+DASH = "–"
+MOST_PER_CENT = 1000
+SHORT = 12  # of a hash
+
+
+class ChangedRow(NamedTuple):
+    """An input or a result that changed."""
+
+    path: str
+    description: str
+    symbol: Markup
+    old: str
+    new: str
+    change: str
+    note: str
+
+
+class ChangedCheck(NamedTuple):
+    """A check that changed; of a side without it the status is empty."""
+
+    mechanism: str
+    title: str
+    old_status: str
+    old: str
+    new_status: str
+    new: str
+    change: str
+    message: str
+
+
+@dataclass
+class PrintedChanges:
+    """All that changed, each list the most important first; ``old`` and ``new`` name the two documents."""
+
+    old: Data
+    new: Data
+    mechanisms: list[tuple[str, str, str]] = field(default_factory=list)
+    checks: list[ChangedCheck] = field(default_factory=list)
+    inputs: list[ChangedRow] = field(default_factory=list)
+    following: list[ChangedRow] = field(default_factory=list)
+    outputs: list[ChangedRow] = field(default_factory=list)
+    code: list[tuple[str, str, str]] = field(default_factory=list)
+
+    @property
+    def names(self) -> tuple[str, str]:
+        """How the two are told apart: by their revisions, where these differ, else by their files."""
+        revisions = [str(side["revision"]) for side in (self.old, self.new)]
+        if all(revisions) and revisions[0] != revisions[1]:
+            return revisions[0], revisions[1]
+        return str(self.old["file"]), str(self.new["file"])
+
+    def __bool__(self) -> bool:
+        return bool(self.mechanisms or self.checks or self.inputs or self.following or self.outputs)
+
+
+def printed_changes(changes: Data, words: Mapping[str, str]) -> PrintedChanges:
+    """Return the changes as they are printed."""
+    inputs = [(row, _row(row, words)) for row in changes["inputs"]]
+    return PrintedChanges(
+        changes["old"],
+        changes["new"],
+        [(each["name"], each["old"] or DASH, each["new"] or DASH) for each in changes["mechanisms"]],
+        [_check(row, words) for row in changes["checks"]],
+        [made for row, made in inputs if not row["follows"]],
+        [made for row, made in inputs if row["follows"]],
+        [_row(row, words) for row in changes["outputs"]],
+        list(_code(changes["code"])),
+    )
+
+
+def _row(row: Data, words: Mapping[str, str]) -> ChangedRow:
+    note = words["follows"].format(path=row["follows"]) if row["follows"] else _bases(row, words)
+    old, new = (_value(row[side], words["decimal"]) for side in ("old", "new"))
+    change = relative(row["relative"], words["decimal"])
+    return ChangedRow(row["path"], row["description"], symbol(row["symbol"]), old, new, change, note)
+
+
+def _value(side: Data | None, decimal: str) -> str:
+    return DASH if side is None else quantity(side["display"]["text"], side["display"]["unit"], decimal) or DASH
+
+
+def relative(share: float | None, decimal: str) -> str:
+    """Return a change in per cent with its sign, or as a factor where it is beyond tenfold; nothing where there is none."""
+    if share is None or share == 0:
+        return ""
+    if 100 * share >= MOST_PER_CENT:
+        return f"× {number(_rounded(1 + share), decimal)}"
+    sign = "+" if share > 0 else ""
+    return joined(sign + number(_rounded(100 * share), decimal), "%")
+
+
+def _rounded(value: float) -> str:
+    return f"{float(f'{value:.3g}'):g}"
+
+
+def _bases(row: Data, words: Mapping[str, str]) -> str:
+    """What a value rested on and rests on, where that changed."""
+    bases = [side.get("basis", "") if side else "" for side in (row["old"], row["new"])]
+    if not all(bases) or bases[0] == bases[1]:
+        return ""
+    return f"{words[bases[0]]} → {words[bases[1]]}"
+
+
+def _check(row: Data, words: Mapping[str, str]) -> ChangedCheck:
+    sides = [_used(row[side], words["decimal"]) for side in ("old", "new")]
+    statuses = [row[side]["status"] if row[side] else "" for side in ("old", "new")]
+    message = row["new"]["message"] if row["new"] and row["new"]["status"] != "pass" else ""
+    change = words[f"checks_{row['change']}"]
+    return ChangedCheck(row["mechanism"], row["title"], statuses[0], sides[0], statuses[1], sides[1], change, message)
+
+
+def _used(side: Data | None, decimal: str) -> str:
+    return (
+        "" if side is None or side["utilisation"] is None else utilisation(side["utilisation"], side["status"], decimal)
+    )
+
+
+def _code(rows: Sequence[Data]) -> Iterator[tuple[str, str, str]]:
+    for row in rows:
+        old, new = (f"{version} ({digest[:SHORT]})" for version, digest in (row["old"], row["new"]))
+        yield row["name"], old, new
+
+
+def marked(results: Data) -> Data:
+    """Return results whose rows tell what stood there before, where the results tell what changed; else as they are."""
+    if "changes" not in results:
+        return results
+    told = Marks(results["changes"])
+    press = results["press"] | {"fields": [told.row(row["path"], row) for row in results["press"]["fields"]]}
+    mechanisms = {name: told.mechanism(name, data) for name, data in results["mechanisms"].items()}
+    return {**results, "press": press, "mechanisms": mechanisms}
+
+
+class Marks:
+    """What stood before at each place that changed, in words for a mark in the margin."""
+
+    def __init__(self, changes: Data) -> None:
+        self.quantities = {row["path"]: _before(row["old"]) for row in (*changes["inputs"], *changes["outputs"])}
+        self.checks = {(row["mechanism"], row["id"]): _status_before(row["old"]) for row in changes["checks"]}
+
+    def row(self, path: str, row: Data) -> Data:
+        """Return a row of the results, with what stood there before."""
+        return {**row, "changed": self.quantities[path]} if path in self.quantities else row
+
+    def mechanism(self, name: str, data: Data) -> Data:
+        """Return the results of a mechanism, with what stood there before."""
+        groups = {
+            group: {key: self.row(f"{name}.{key}", row) for key, row in data[group].items()}
+            for group in ("inputs", "outputs")
+        }
+        keys = {check["id"]: (name, check["id"]) for check in data["checks"]}
+        checks = [
+            {**check, "changed": self.checks[keys[check["id"]]]} if keys[check["id"]] in self.checks else check
+            for check in data["checks"]
+        ]
+        sections = [
+            {**section, "items": [self.row(f"{name}.{item.get('id', '')}", item) for item in section["items"]]}
+            for section in data["sections"]
+        ]
+        return {**data, **groups, "checks": checks, "sections": sections}
+
+
+def _before(side: Data | None) -> str:
+    return DASH if side is None else quantity(side["display"]["text"], side["display"]["unit"]) or DASH
+
+
+def _status_before(side: Data | None) -> str:
+    if side is None:
+        return DASH
+    used = _used(side, ".")
+    return f"{str(side['status']).replace('_', ' ')} {used}".rstrip()
+
+
+# The line of page 1 on what comes of the advice of all failing checks together.
+
+
+def followed_line(results: Mapping[str, Any], words: Catalogue, rows: Iterable[CheckRow] = ()) -> Iterator[str]:
+    """Yield the line, its checks called as these rows call them; nothing where that was not calculated."""
+    advice = results.get("summary", {}).get("advice")
+    if not advice:
+        return
+    changes = ", ".join(f"{each['path']} {_local(each['value'], words)}" for each in advice["changes"])
+    if advice["error"]:
+        yield words.say("advice_impossible", changes=changes)
+    elif advice["failing"]:
+        titles = {f"{row.mechanism}.{row.id}": f"{row.chapter} · {row.title}" for row in rows}
+        left = ", ".join(titles.get(check, check) for check in advice["failing"])
+        yield words.say("advice_leaves", changes=changes, checks=left)
+    else:
+        yield words.say("advice_passes", changes=changes)
+
+
+def _local(value: str, words: Catalogue) -> str:
+    """A value as it is typed, its number in the language's form."""
+    text, _, unit = value.partition(" ")
+    return " ".join(filter(None, (number(text, words["decimal"]), unit)))
+
+
+# The line of page 1 on what the calculation rests on that is assumed.
+
+
+TOLD = 3  # paths on page 1: all stand in the tables of inputs
+_TYPED = re.compile(r"(?<=\d) (?=\S+$)")  # between a number and its unit that were typed as a text
+
+
+@dataclass(frozen=True)
+class AssumedLine:
+    """Hold the words, the paths that are told (behind the last of a run what each of it moves), and how many more there are."""
+
+    head: str
+    paths: list[tuple[str, str]]
+    more: str
+
+
+@dataclass(frozen=True)
+class AssumedGroup:
+    """Hold the assumed values of the press or of a mechanism: key, value, and behind the last of a run what each of it moves."""
+
+    name: str
+    values: list[tuple[str, str, str]]
+
+
+def assumed_groups(results: Data, words: Catalogue) -> list[AssumedGroup]:
+    """Return all assumed values by what they belong to, in the file's order, those of each that move a check first."""
+    groups: dict[str, list[Assumed]] = {}
+    found = {each.path: each for each in ordered(results)}
+    for path in results.get("summary", {}).get("assumed", ()):
+        groups.setdefault(_input(results, path)[0], []).append(found[path])
+    return [AssumedGroup(name, _valued(results, words, values)) for name, values in groups.items()]
+
+
+def _valued(results: Data, words: Catalogue, values: list[Assumed]) -> list[tuple[str, str, str]]:
+    """Key and value of each, and what it moves."""
+    first = list(dict.fromkeys(each.check for each in values if each.check))
+    told = []
+    for each, moves in _runs(results, words, sorted(values, key=lambda one: [*first, ""].index(one.check))):
+        _, key, row = _input(results, each.path)
+        shown = quantity(row["display"]["text"], row["display"]["unit"], words["decimal"]) if row else ""
+        told.append((key, _TYPED.sub("\u00a0", shown), moves))
+    return told
+
+
+def _runs(results: Data, words: Catalogue, values: list[Assumed]) -> Iterator[tuple[Assumed, str]]:
+    """Each value, behind the last of those that move the same check what they move."""
+    for check, run in groupby(values, lambda each: each.check):
+        *others, last = run
+        yield from ((each, "") for each in others)
+        yield last, words.say("move_each" if others else "moves", check=_assumed_title(results, check)) if check else ""
+
+
+def _assumed_title(results: Data, check: str) -> str:
+    """How the reader knows a check."""
+    name, _, own = check.partition(".")
+    checks = results["mechanisms"].get(name, {}).get("checks", ())
+    return next((str(each["title"]) for each in checks if each["id"] == own), check)
+
+
+def _input(results: Data, path: str) -> tuple[str, str, Data | None]:
+    """Whose input a path names, its key, and its line of the results; None where these do not have it."""
+    whose, _, key = path.partition(".")
+    if whose == "mechanisms":
+        name, _, key = key.partition(".")
+        found: Data | None = results["mechanisms"][name]["inputs"].get(key)
+        return name, key, found
+    return whose, key, next((row for row in results["press"]["fields"] if row["path"] == path), None)
+
+
+def assumed_line(results: Data, words: Catalogue) -> AssumedLine | None:
+    """Return the line; None where nothing is assumed."""
+    found = ordered(results)
+    if not found:
+        return None
+    moving = [each for each in found if each.check] or found
+    paths = [(each.path, moves) for each, moves in _runs(results, words, moving[:TOLD])]
+    head = words.say("rests_on", n=len(found))
+    head += words["moving_first"] if found[0].check and len(found) > 1 else ""
+    more = words.say("more_assumed", n=len(found) - len(paths)) if len(found) > len(paths) else ""
+    return AssumedLine(head, paths, more)
+
+
+# What a report carries of its calculation: the results file and the configuration, attached to the PDF, linked in the HTML.
+
+
+RESULTS, CONFIG = "results.json", "config.yaml"
+"""What the files are called in each report, whatever theirs are called: `extract` and `verify` find them by these names."""
+DATE = datetime(1980, 1, 1)  # of the attachments, which must have one: equal inputs give equal bytes
+PACKED = ".gz"
+LEVEL = 6  # 9 takes half as long again, and saves less than a hundredth
+
+
+class CarriedFile(NamedTuple):
+    """A file that a report carries."""
+
+    name: str
+    media_type: str
+    description: str
+    content: bytes
+    relationship: str = "Data"  # to the document, as PDF/A-3 has it: "Source", "Data"
+
+    @property
+    def address(self) -> str:
+        """The file as a data address."""
+        return f"data:{self.media_type};base64,{base64.b64encode(self.content).decode()}"
+
+    @property
+    def digest(self) -> str:
+        """The SHA-256 of the file."""
+        return sha256(self.content).hexdigest()
+
+    @property
+    def packed(self) -> CarriedFile:
+        """The file packed by gzip, without a date."""
+        content = gzip.compress(self.content, LEVEL, mtime=0)
+        return CarriedFile(self.name + PACKED, "application/gzip", self.description, content)
+
+
+def carried_files(results: Mapping[str, Any], words: Mapping[str, str]) -> tuple[CarriedFile, CarriedFile]:
+    """Return the configuration and the results, in the order of their names."""
+    text = encoded(results_text(results))
+    return (
+        CarriedFile(CONFIG, "application/yaml", words["configuration"], config_content(results), "Source"),
+        CarriedFile(RESULTS, "application/json", words["carried_results"], text),
+    )

@@ -1,0 +1,325 @@
+"""What is said of a formula where it is first needed in a chapter: what its names stand for, how its units are converted."""
+
+from __future__ import annotations
+
+import json
+from collections import Counter
+from collections.abc import Collection, Iterator, Mapping, Sequence
+from dataclasses import dataclass, field
+from typing import Any, NamedTuple
+
+from diecut_report.quantities.formatting import is_nothing
+from diecut_report.report.equations import Equation, Equations
+from diecut_report.report.text import Catalogue, quantity
+
+Data = Mapping[str, Any]
+
+
+class SaidOnce:
+    """Remembers what a chapter has said already."""
+
+    def __init__(self, equations: Equations, words: Catalogue) -> None:
+        self.equations, self.words = equations, words
+        self.defined: set[str] = set()
+
+    def definitions(self, item: Data) -> Iterator[Equation]:
+        """What names in the formula stand for, where that was not said already."""
+        for equation in self.equations.definitions(item):
+            if equation.text not in self.defined:
+                self.defined.add(equation.text)
+                yield equation
+
+    def condition(self, item: Data) -> Equation | None:
+        """Return the condition of the branch taken, with its numbers, where it says something and the chapter has not shown it already."""
+        if item.get("words") and _says_nothing(item.get("condition_substituted")):
+            return None
+        equation = self.equations.condition(item)
+        told = "" if equation is None else f"{item.get('words', '')}: {equation.text}"
+        if not told or (told in self.defined and item.get("words")):
+            return None
+        self.defined.add(told)
+        return equation
+
+    def conversions(self, item: Data) -> Iterator[str]:
+        """How numbers of the formula follow from what stands elsewhere in another unit, where that was not said already."""
+        told = [self._converted(each) for each in item.get("conversions", ())]
+        new = [each for each in told if each not in self.defined]
+        self.defined.update(new)
+        if new:
+            yield f"{self.words['where']} {self.words.listed(new)}"
+
+    def _converted(self, conversion: Data) -> str:
+        """A quantity in its own unit, and in the formula's."""
+        sides = (conversion[key] for key in ("shown", "converted"))
+        texts = [quantity(side["text"], side["unit"], self.words["decimal"]) for side in sides]
+        return " = ".join((conversion["symbol"], *texts))
+
+
+def _says_nothing(condition: Any) -> bool:
+    """Whether a condition is, with its numbers, that a number equals itself: a flag that is 1."""
+    match condition:
+        case ["cmp", "==", ["qty" | "num", left, *_], ["qty" | "num", right, *_]]:
+            return bool(left == right)
+    return False
+
+
+# What a reader has been told already: formulas of this chapter, and all of an earlier chapter of the same kind. Nothing is printed twice.
+
+
+SAME = (
+    "type",
+    "symbol",
+    "equation",
+    "relation",
+    "condition",
+    "words",
+    "operation",
+    "of",
+    "method",
+    "key",
+    "column",
+    "table",
+    "by",
+    "where",
+)
+FEWEST = 5  # operations of a formula that is rather named than printed again with other letters
+MANY = 7  # formulas of one form in a section, of which a short one, too, is printed once: the ratios of drives that are compared
+MOST_LETTERS = 4  # that differ
+
+
+class Reference(NamedTuple):
+    """Where a formula stands, and which letters take the place of which there."""
+
+    number: str
+    letters: tuple[tuple[str, str], ...] = ()
+
+
+class _KnownFormula(NamedTuple):
+    number: str
+    item: Data
+    letters: tuple[str, ...]  # of its tree, each once, in their order
+
+
+@dataclass
+class ToldBefore:
+    """Remembers the formulas, texts and symbols of a chapter; ``letter`` is that of the earlier chapter of the same kind."""
+
+    letter: str = ""
+    steps: dict[str, _KnownFormula] = field(default_factory=dict)
+    named: dict[str, tuple[Data, Reference]] = field(
+        default_factory=dict
+    )  # steps that only name where their formula stands
+    texts: set[str] = field(default_factory=set)
+    shapes: dict[str, _KnownFormula] = field(default_factory=dict)
+    repeated: set[str] = field(default_factory=set)  # forms of short formulas that fill the section
+
+    def begin(self, items: Sequence[Data]) -> None:
+        """Learn which short formulas fill the section that begins."""
+        counted = Counter(_shape(item)[0] for item in items)
+        self.repeated = {shape for shape, count in counted.items() if shape and count >= MANY}
+
+    def next(self, letter: str) -> ToldBefore:
+        """What is known when another chapter of this kind begins; ``letter`` is this one's."""
+        return ToldBefore(self.letter or letter, dict(self.steps), dict(self.named), set(self.texts))
+
+    def find(self, item: Data) -> Reference | None:
+        """Where the same step of an earlier chapter stands, or the same formula of this one."""
+        name = item.get("id", "")
+        before, named = self.steps.get(name), self.named.get(name)
+        if before and _are_same(before.item, item):
+            return Reference(before.number)
+        if named and _are_same(named[0], item):
+            return named[1]
+        shape, letters = self._named_form(item)
+        known = self.shapes.get(shape) if shape else None
+        if known is None:
+            return None
+        differing = tuple(pair for pair in zip(letters, known.letters, strict=True) if pair[0] != pair[1])
+        is_plain = not {new for new, _ in differing} & {old for _, old in differing}  # no letters change places
+        return Reference(known.number, differing) if is_plain and len(differing) <= MOST_LETTERS else None
+
+    def keep(self, item: Data, number: str) -> None:
+        """Remember a step that is printed."""
+        shape, letters = self._named_form(item)
+        formula = _KnownFormula(number, item, letters)
+        if "id" in item:
+            self.steps.setdefault(item["id"], formula)
+        if shape:
+            self.shapes.setdefault(shape, formula)
+
+    def _named_form(self, item: Data) -> tuple[str, tuple[str, ...]]:
+        """The form of a formula and its letters, where it is rather named than printed again."""
+        shape, letters = _shape(item)
+        is_named = shape in self.repeated or (shape and _operations(item["equation"]) >= FEWEST)
+        return (shape, letters) if is_named else ("", ())
+
+    def keep_named(self, item: Data, reference: Reference) -> None:
+        """Remember a step of which only is said where its formula stands: the next chapter says the same."""
+        if "id" in item and item["id"] not in self.steps:
+            self.named.setdefault(item["id"], (item, reference))
+
+    def new(self, texts: Sequence[str]) -> list[str]:
+        """Those of the texts that were not told; they are now."""
+        found = [text for text in texts if text not in self.texts]
+        self.texts.update(texts)
+        return found
+
+
+def _are_same(one: Data, other: Data) -> bool:
+    return all(one.get(key) == other.get(key) for key in SAME)
+
+
+def _shape(item: Data) -> tuple[str, tuple[str, ...]]:
+    """A formula with its letters numbered, and the letters; nothing of one that stands for several."""
+    tree = item.get("equation")
+    if item["type"] != "formula" or not tree or item.get("where"):
+        return "", ()
+    letters = tuple(dict.fromkeys(_letters(tree)))
+    places = {letter: index for index, letter in enumerate(letters)}
+    return json.dumps(_numbered(tree, places), ensure_ascii=False), letters
+
+
+def _is_letter(tree: Any) -> bool:
+    return isinstance(tree, list) and len(tree) == 2 and tree[0] == "sym"
+
+
+def _letters(tree: Any) -> Iterator[str]:
+    if _is_letter(tree):
+        yield tree[1]
+    elif isinstance(tree, list):
+        for part in tree:
+            yield from _letters(part)
+
+
+def _numbered(tree: Any, places: Mapping[str, int]) -> Any:
+    if _is_letter(tree):
+        return places[tree[1]]
+    return [_numbered(part, places) for part in tree] if isinstance(tree, list) else tree
+
+
+def _operations(tree: Any) -> int:
+    """How many operations a tree holds."""
+    if not isinstance(tree, list) or _is_letter(tree) or tree[:1] in (["num"], ["qty"]):
+        return 0
+    return (isinstance(tree[0], str) if tree else 0) + sum(_operations(part) for part in tree)
+
+
+# Quantities of repeated parts (``gears.0.driver_teeth``, ``shaft_3_speed``) gathered, to be printed with a line for each part.
+
+
+REPEATED_PARTS_FEWEST = 3  # parts of results that make a table; fewer stay single lines
+FEWEST_GIVEN = 2  # parts of a list of the inputs
+
+
+@dataclass
+class Parts:
+    """A table: for each part (counted as in print) its quantities by their ids in the results; a ``listed`` family is a list."""
+
+    family: str
+    numbers: list[int]
+    listed: bool = True
+    columns: dict[str, dict[int, tuple[str, Data]]] = field(default_factory=dict)
+
+    @property
+    def heads(self) -> Iterator[tuple[str, Data]]:
+        """Each column's quantity, and a row of the results that says what it is."""
+        return ((quantity, next(iter(rows.values()))[1]) for quantity, rows in self.columns.items())
+
+    def without(self, quantities: Collection[str]) -> Parts:
+        """The table without some of its quantities."""
+        left = {quantity: rows for quantity, rows in self.columns.items() if quantity not in quantities}
+        return Parts(self.family, self.numbers, self.listed, left)
+
+    def add(self, name: str, row: Data) -> None:
+        """Put a row of the results into its place."""
+        number = number_of(row)
+        quantity = row["part"].get("quantity", row["part"]["family"])
+        self.columns.setdefault(quantity, {})[number] = (name, row)
+        self.numbers = sorted({*self.numbers, number})
+
+
+def number_of(row: Data) -> int:
+    """Return the number of a row's part in print: the one in its name, or of a list counted from 1."""
+    part = row["part"]
+    return int(part.get("number", part["index"] + 1))
+
+
+def gathered(rows: Data, fewest: int = REPEATED_PARTS_FEWEST) -> tuple[dict[str, Data], list[Parts]]:
+    """Return the lone quantities, and tables of those of at least so many repeated parts, of a single quantity of at least three."""
+    tables = [
+        table
+        for table in _tables(rows)
+        if len(table.numbers) >= (fewest if len(table.columns) > 1 else REPEATED_PARTS_FEWEST)
+    ]
+    told = {name for table in tables for column in table.columns.values() for name, _ in column.values()}
+    return {name: row for name, row in rows.items() if name not in told}, tables
+
+
+def _tables(rows: Data) -> list[Parts]:
+    """Return the quantities of each family in one table."""
+    tables: dict[tuple[str, bool], Parts] = {}
+    for name, row in rows.items():
+        if "part" not in row:
+            continue
+        family, listed = row["part"]["family"], "number" not in row["part"]
+        is_alone = listed and "quantity" not in row["part"]  # a path of its own, not in a list that could be named
+        table = tables.setdefault((family, listed), Parts("" if is_alone else family, [], listed))
+        table.add(name, row)
+    return list(tables.values())
+
+
+def counted(rows: Data) -> dict[str, int]:
+    """Return the numbers of the parts, as in print, of all quantities that share their description with another one."""
+    said = Counter(row["description"] for row in rows.values())
+    return {name: number_of(row) for name, row in rows.items() if "part" in row and said[row["description"]] > 1}
+
+
+# Diagrams in which all is zero: a sentence says that, and nothing is drawn.
+
+
+NOTED = ("levels", "marks", "verticals", "fills")  # what a diagram may tell beside its lines
+
+
+def without_zero_diagrams(mechanism: Data, words: Catalogue) -> Data:
+    """Return a mechanism whose figures draw what is not zero everywhere; what is stands as a sentence in the caption, or as a note."""
+    figures, notes = [], []
+    for figure in mechanism.get("figures", ()):
+        flat = [panel for panel in figure.get("panels", ()) if _is_flat(panel, mechanism["curves"])]
+        left = [panel for panel in figure.get("panels", ()) if panel not in flat]
+        told = words.say("zero_everywhere", names="; ".join(dict.fromkeys(panel["title"] for panel in flat)))
+        if flat and not left:
+            notes.append((figure, {"type": "note", "text": told}))
+        elif flat:
+            figures.append({**figure, "panels": left, "caption": f"{figure['caption']} {told}"})
+        else:
+            figures.append(figure)
+    return (
+        {**mechanism, "figures": figures, "sections": _noted(mechanism["sections"], notes)}
+        if figures or notes
+        else mechanism
+    )
+
+
+def _is_flat(panel: Data, curves: Data) -> bool:
+    """Whether all lines of a diagram are zero, and nothing else stands in it."""
+    if not panel["title"] or any(panel.get(kind) for kind in NOTED):
+        return False
+    rows = [curves[series["curve"]]["values"] for series in panel.get("series", ())]
+    rows += [line["y"] for line in panel.get("lines", ())]
+    return bool(rows) and all(is_nothing(value, panel["unit"]) for row in rows for value in row if value is not None)
+
+
+def _noted(sections: Sequence[Data], notes: Sequence[tuple[Data, Data]]) -> Sequence[Data]:
+    """The sections with each note behind the last step that its figure shows."""
+    found: list[Data] = [{**section, "items": list(section["items"])} for section in sections]
+    for figure, note in notes:
+        places = [
+            (section, index + 1)
+            for section in found
+            for index, item in enumerate(section["items"])
+            if item.get("id") in figure.get("shows", ())
+        ]
+        if places:
+            section, index = places[-1]
+            section["items"].insert(index, note)
+    return found

@@ -1,0 +1,412 @@
+"""The numbered tables of a chapter: those of its calculation, of its curves, of quantities of repeated parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from dataclasses import replace
+from itertools import zip_longest
+from types import MappingProxyType
+from typing import Any, Literal, NamedTuple, TypeVar
+
+import numpy as np
+from markupsafe import Markup
+from numpy.typing import NDArray
+
+from diecut_report.quantities.formatting import place_shown
+from diecut_report.quantities.units import pretty, unit
+from diecut_report.report.chapters.printed_tables import PartsTable, PrintedColumn, PrintedTable, TableCell
+from diecut_report.report.chapters.repetition import Parts
+from diecut_report.report.chapters.value_tables import MOST_PARTS, RecordTable, record_rows
+from diecut_report.report.model import QuantityRow, rests, utilisation
+from diecut_report.report.symbols import symbol
+from diecut_report.report.text import Catalogue, displayed, is_words, number, value_in_words
+
+# The tables of a section, brought together: those of the same parts in one, none that a formula has said already, and no column twice.
+
+
+Data = Mapping[str, Any]
+SectionTablesColumn = tuple[Any, ...]  # the names of its lines, its title, symbol and unit, its texts
+MOST = 8  # columns of a table that is put together, the first one among them
+LONGEST_LIST = 12  # numbers in a line
+
+
+def brought_together(section: Data, told: set[SectionTablesColumn]) -> list[Data | None]:
+    """Return the steps of a section in their places; none where a table went into a later one, or says nothing new.
+
+    ``told`` are the columns that the chapter has printed already, each with the lines that it stands beside; those that follow are put to them.
+    """
+    items: list[Data | None] = list(section["items"])
+    for place, item in enumerate(items):
+        if item is not None and item["type"] == "table":
+            items[place] = None if _is_said(item, section["items"][:place]) else _with_new_columns(item, told)
+    for place, item in enumerate(items):
+        if item is not None and item["type"] == "table":
+            _move_on(items, place, section["title"])
+    return [_listed(item) if item is not None and item["type"] == "table" else item for item in items]
+
+
+def _with_new_columns(table: Data, told: set[SectionTablesColumn]) -> Data | None:
+    """A table without the columns that stand in an earlier one beside the same lines; none where all do. One that is declared stays whole."""
+    if "id" in table:
+        return table
+    texts = [*zip(*table["rows"], strict=True)]
+    columns = [
+        (texts[0], column["title"], column["symbol"], column["unit"], text)
+        for column, text in zip(table["columns"], texts, strict=True)
+    ]
+    is_single = texts[0] == ("1",)  # what it follows from stands in the formula before it
+    new = [
+        k
+        for k, column in enumerate(columns)
+        if not k or (column not in told and (not is_single or column[1] == table["title"]))
+    ]
+    told.update(columns)
+    if len(new) == 1:
+        return None
+    rows = [[row[k] for k in new] for row in table["rows"]]
+    return {**table, "columns": [table["columns"][k] for k in new], "rows": rows}
+
+
+def _is_said(table: Data, before: Sequence[Data]) -> bool:
+    """Whether a table is of one part, whose numbers stand in the formula before it."""
+    last = next((item for item in reversed(before) if item["type"] != "table"), None)
+    return (
+        len(table["rows"]) == 1
+        and bool(last and last.get("equation"))
+        and table["title"] == (last or {})["description"]
+    )
+
+
+def _move_on(items: list[Data | None], place: int, title: str) -> None:
+    """Put a table into the next one of the same parts, where both have room in one."""
+    one = items[place]
+    assert one is not None
+    for later in range(place + 1, len(items)):
+        other = items[later]
+        if other is None or other["type"] != "table" or not _are_alike(one, other):
+            continue
+        both = _joined(one, other, title)
+        if len(both["columns"]) <= MOST:
+            items[place], items[later] = None, both
+        return
+
+
+def _are_alike(one: Data, other: Data) -> bool:
+    first = [(table["columns"][0], [row[0] for row in table["rows"]]) for table in (one, other)]
+    return first[0] == first[1] and len(set(first[0][1])) == len(first[0][1])
+
+
+def _joined(one: Data, other: Data, title: str) -> Data:
+    """Two tables side by side, each column once."""
+    known = [(column["title"], column["symbol"]) for column in one["columns"]]
+    new = [k for k, column in enumerate(other["columns"]) if (column["title"], column["symbol"]) not in known]
+    columns = [*one["columns"], *(other["columns"][k] for k in new)]
+    rows = [[*left, *(right[k] for k in new)] for left, right in zip(one["rows"], other["rows"], strict=True)]
+    return {"type": "table", "title": title, "columns": columns, "rows": rows}
+
+
+def _listed(table: Data) -> Data:
+    """A table of one quantity of parts that have numbers alone, to be set in a line."""
+    numbers = [str(number) for number in range(1, len(table["rows"]) + 1)]
+    is_plain = (
+        len(table["columns"]) == 2 and [row[0] for row in table["rows"]] == numbers and len(numbers) <= LONGEST_LIST
+    )
+    return {**table, "type": "listed"} if is_plain and table["title"] == table["columns"][1]["title"] else table
+
+
+# Inputs that a mechanism takes from others by itself: nobody typed them, and each stands in the chapter that gives it.
+
+
+class TakenGroup(NamedTuple):
+    """What is taken from one mechanism, the id there as key of each row; ``basis`` is what all of it rests on."""
+
+    home: str
+    basis: str
+    rows: list[QuantityRow]
+
+
+def is_taken(row: Data) -> bool:
+    """Return whether an input is a number or a curve of another mechanism that nobody asked for by a reference."""
+    return row["origin"] == "reference" and not row.get("text") and "." in row.get("path", "")
+
+
+def is_partner(row: Data) -> bool:
+    """Return whether an input is a mechanism that was found, not typed."""
+    is_name = isinstance(row["value"], str) and not row.get("text") and "part" not in row
+    return is_name and (row["origin"] == "given" or row.get("path") == row["value"])
+
+
+def taken_groups(rows: Iterable[tuple[str, QuantityRow]]) -> list[TakenGroup]:
+    """Return the rows, given with the paths that they are taken from, by the mechanisms that give them."""
+    found: dict[str, list[QuantityRow]] = {}
+    for path, row in rows:
+        home, _, name = path.partition(".")
+        found.setdefault(home, []).append(replace(row, key=name))
+    return [_group(home, own) for home, own in found.items()]
+
+
+def _group(home: str, rows: list[QuantityRow]) -> TakenGroup:
+    bases = {row.origin for row in rows}
+    if len(bases) > 1:
+        return TakenGroup(home, "", rows)
+    return TakenGroup(home, rows[0].origin, [replace(row, origin="") for row in rows])
+
+
+# Curves of the results as they are drawn and tabled: jumps at their true place, closed over a turn (all SI).
+
+
+Array = NDArray[Any]
+CURVE_ROWS = 18  # of a table of curves: of a turn each twentieth degree
+MOST_JUMPS = 8  # of which a table tells: with more it would grow too long
+SIDES: tuple[Literal["left", "right"], ...] = ("left", "right")
+
+CURVES_ROUNDING = 1e-5  # of a curve's greatest value; where a root is taken of rounding, it grows to about a millionth
+
+
+class CurvePlace(NamedTuple):
+    """Where a row of a table is taken: x, and the list of a curve's results and the number in it (from 0) of the value."""
+
+    x: float
+    values: Literal["values", "left", "right"]
+    number: int
+
+
+def continuous(curve: Data, over: Data, period: float | None) -> tuple[Array, Array]:
+    """Samples of a curve over its abscissa, a jump as two points at its true place, led to the end of a full period (SI)."""
+    x, y = np.asarray(over["values"], dtype=float), np.asarray(curve["values"], dtype=float)
+    places = np.asarray(curve.get("breakpoints", []), dtype=float)
+    if period:
+        x, y = np.append(x, x[0] + period), np.append(y, _end(y))
+    if not len(places):
+        return x, y
+    clear = (np.abs(x[:, None] - places) > 1e-12 * max(1.0, float(np.abs(x).max()))).all(axis=1)
+    x, y, order = x[clear], y[clear], np.full(int(clear.sum()), 0)
+    x = np.concatenate([x, places, places])
+    y = np.concatenate([y, curve["left"], curve["right"]])
+    order = np.concatenate([order, np.full(len(places), 0), np.full(len(places), 1)])
+    sorting = np.lexsort((order, x))
+    return x[sorting], y[sorting]
+
+
+def _end(y: Array) -> float:
+    """A curve's value at the end of a period: its first one, or where it leads to if it does not close (a growing angle)."""
+    ahead = 2 * y[-1] - y[-2]
+    bends = np.abs(np.diff(np.concatenate([y[:4], y[-4:]]), 2))[[0, 1, -2, -1]]
+    closes = abs(y[0] - ahead) <= max(10 * float(bends.max()), 0.02 * float(np.ptp(y)))
+    return float(y[0] if closes else ahead)
+
+
+def period_of(over: Data) -> float | None:
+    """A full turn, where the abscissa is an angle that runs over one."""
+    values = over["values"]
+    if over["unit"] != "rad" or len(values) < 3:
+        return None
+    step = values[1] - values[0]
+    return 2 * np.pi if abs(values[-1] + step - values[0] - 2 * np.pi) < 0.5 * step else None
+
+
+def through_pole(x: Array, y: Array) -> tuple[Array, Array]:
+    """A change of sign passes through the pole: a jump by a radial line, a crossing at its interpolated place."""
+    change = np.nonzero(np.sign(y[:-1]) * np.sign(y[1:]) < 0)[0]
+    places = x[change] - y[change] * (x[change + 1] - x[change]) / (y[change + 1] - y[change])
+    return np.insert(x, change + 1, places), np.insert(y, change + 1, 0.0)
+
+
+def table_places(over: Data, members: Sequence[Data]) -> list[CurvePlace]:
+    """Rows of a table of curves: at even steps of the samples; a jump adds two, before and after it.
+
+    Of curves that jump at many places, or at different ones, no jump is told.
+    """
+    x, breaks = over["values"], members[0].get("breakpoints", [])
+    if len(breaks) >= MOST_JUMPS or any(curve.get("breakpoints", []) != breaks for curve in members):
+        breaks = []
+    jumps = [index for index in range(len(breaks)) if any(_jumps(curve, index) for curve in members)]
+    sides = [CurvePlace(breaks[index], side, index) for index in jumps for side in SIDES]
+    even = [CurvePlace(float(x[number]), "values", number) for number in range(0, len(x), max(1, len(x) // CURVE_ROWS))]
+    margin = 1e-9 * float(np.ptp(x))
+    clear = [each for each in even if all(abs(each.x - breaks[index]) > margin for index in jumps)]
+    return sorted(clear + sides, key=lambda place: place.x)  # of equal ones the left side stays the first
+
+
+def _jumps(curve: Data, index: int) -> bool:
+    """Whether a curve jumps at a breakpoint by more than rounding."""
+    jump = abs(curve["right"][index] - curve["left"][index])
+    return bool(jump > CURVES_ROUNDING * max(map(abs, curve["values"])))
+
+
+Column = tuple[str, Markup, str]
+Columns = TypeVar("Columns")
+ROUNDING = 2e-6  # of a curve's greatest value: what is less is the root of rounding, and printed as zero
+NARROW, TALL = 3, 16  # columns and lines of a table that is set in two halves
+MOST_COLUMNS = 7  # beside the first one
+
+
+class Tables:
+    """Makes a chapter's tables; they count up as they are made."""
+
+    def __init__(
+        self, letter: str, words: Catalogue, lists: Mapping[str, str] = MappingProxyType({}), names: frozenset[str] = frozenset()
+    ) -> None:  # fmt: skip
+        self.letter, self.words, self.lists, self.names = letter, words, lists, names
+        self.decimal = words["decimal"]
+        self.count = 0
+
+    def of_item(self, item: Data) -> PrintedTable:
+        """A table of the calculation."""
+        columns = [(_head(c["title"]), symbol(c["symbol"]), pretty(c["unit"])) for c in item["columns"]]
+        rows = [[number(text, self.decimal) for text in row] for row in item["rows"]]
+        return PrintedTable(item["title"], *in_halves(columns, rows), self._number())
+
+    def of_curves(self, curves: Data) -> list[PrintedTable]:
+        """Some rows of all curves, by their abscissa, so many columns a table as the page holds."""
+        groups: dict[str, list[Data]] = {}
+        for curve in curves.values():
+            if "abscissa" in curve and not curve.get("is_spectrum"):
+                groups.setdefault(curve["abscissa"], []).append(curve)
+        return [
+            self._curves(curves[axis], columns) for axis, members in groups.items() for columns in shared_out(members)
+        ]
+
+    def _curves(self, axis: Data, members: list[Data]) -> PrintedTable:
+        columns = [(_head(c["description"]), symbol(c["symbol"]), pretty(c["display_unit"])) for c in (axis, *members)]
+        rows = [
+            [self._abscissa(axis, place.x), *(self._sample(curve, place) for curve in members)]
+            for place in table_places(axis, members)
+        ]
+        return PrintedTable(self.words.say("curves_over", axis=axis["description"]), columns, rows, self._number())
+
+    def of_phases(self, phases: Data) -> list[PrintedTable]:
+        """When a mechanism does what: a line for each interval, a table for each abscissa."""
+        groups: dict[str, list[Data]] = {}
+        for phase in (each for each in phases.values() if not each.get("parts")):  # what is but others together
+            groups.setdefault(phase["abscissa"], []).append(phase)
+        return [self._phases(members) for members in groups.values()]
+
+    def _phases(self, members: list[Data]) -> PrintedTable:
+        display = members[0]["display"]["unit"]
+        keys = ("from", "to", "length")
+        texts = [(self.words[key], Markup(""), "") for key in ("phase", "role")]
+        columns = texts + [(self.words[key], Markup(""), pretty(display)) for key in keys]
+        is_time = unit(display).kind == unit("ms").kind
+        timed = not is_time and any(
+            "time" in interval for phase in members for interval in phase["display"]["intervals"]
+        )
+        columns += [(self.words["time"], Markup(""), "ms")] if timed else []
+        rows = [
+            [phase["description"], self.words[f"role_{phase['role']}"]]
+            + [number(interval[key], self.decimal) for key in (*keys, *(["time"] if timed else []))]
+            for phase in members
+            for interval in phase["display"]["intervals"]
+        ]
+        return PrintedTable(self.words["phases"], columns, rows, self._number())
+
+    def _abscissa(self, axis: Data, x: float) -> str:
+        return number(place_shown(x, axis["display_unit"])["text"], self.decimal)
+
+    def _sample(self, curve: Data, place: CurvePlace) -> str:
+        value = curve[place.values][place.number]
+        scale = max(abs(v) for v in curve["values"])
+        return displayed(value if abs(value) > ROUNDING * scale else 0.0, curve["display_unit"], self.decimal)
+
+    def of_records(self, parts: Parts) -> list[PartsTable | RecordTable]:
+        """Inputs of repeated parts: of a few the parts side by side, of many a line for each."""
+        if len(parts.numbers) > MOST_PARTS or not parts.listed:
+            return [*self.of_parts(parts, given=True)]
+        heads, rows = record_rows(parts, self._cell, self._origin)
+        title = self.lists.get(parts.family, "")
+        return [RecordTable(self._number(), title, parts.family, heads, rows)] if rows else []
+
+    def of_parts(self, parts: Parts, *, given: bool) -> list[PartsTable]:
+        """Quantities of repeated parts: inputs (``given``) tell their keys and where they come from, results their sources."""
+        told = self._origin if given else lambda _: ""
+        return [self._parts(parts, columns, told, given) for columns in shared_out(list(parts.heads))]
+
+    def _parts(
+        self, parts: Parts, heads: list[tuple[str, Data]], told: Callable[[Data], str], given: bool
+    ) -> PartsTable:
+        columns = [
+            PrintedColumn(row["description"], symbol(row["symbol"]), pretty(row["display"]["unit"]),
+                   key=quantity if given else "", source=row.get("source", ""))
+            for quantity, row in heads
+        ]  # fmt: skip
+        lines = []
+        for part in parts.numbers:
+            rows = [parts.columns[quantity].get(part) for quantity, _ in heads]
+            lines.append((str(part), [self._cell(row[1], told) if row else TableCell("–") for row in rows]))
+        family = parts.family if parts.listed else f"{parts.family}_{parts.numbers[0]} … {parts.numbers[-1]}"
+        title = self.lists.get(parts.family, columns[0].title if len(columns) == 1 else "")
+        return PartsTable(self._number(), title, family, columns, lines)
+
+    def of_check(self, check: Data) -> PartsTable:
+        """A check on a row over repeated parts: how each part fares."""
+        parts = list(enumerate(check["parts"], 1))
+        columns = [self._side(check, side) for side in ("demand", "limit")]
+        columns += [PrintedColumn(self.words[key], Markup(""), "", "", "") for key in ("utilisation", "verdict")]
+        lines = [(part.get("name", str(number)), self._judged(check, part)) for number, part in parts]
+        return PartsTable(self._number(), check["title"], "", columns, lines)
+
+    def _side(self, check: Data, side: str) -> PrintedColumn:
+        """The head of a side's column: its own words where all parts share them."""
+        labels = {part[f"{side}_label"] for part in check["parts"] if part["status"]}
+        title = labels.pop() if len(labels) == 1 else self.words[side]
+        return PrintedColumn(title, Markup(""), pretty(check[f"{side}_display"]["unit"]), "", "")
+
+    def _judged(self, check: Data, part: Data) -> list[TableCell]:
+        """Both sides of a part, its utilisation and its verdict; a part that has no such quantity has none."""
+        if part["status"] is None:
+            return [TableCell("–")] * 4
+        mixed = len({other.get("demand_label") for other in check["parts"] if other["status"]}) > 1
+        sides = [
+            TableCell(number(part[f"{side}_display"]["text"], self.decimal), part[f"{side}_label"] if mixed else "")
+            for side in ("demand", "limit")
+        ]
+        share = utilisation(part["utilisation"], part["status"], self.decimal)
+        return [*sides, TableCell(share), TableCell(self.words[part["status"]], wordy=True)]
+
+    def _cell(self, row: Data, told: Callable[[Data], str]) -> TableCell:
+        text = row["display"]["text"]
+        return TableCell(number(value_in_words(row), self.decimal), told(row), is_words(text), row.get("changed", ""))
+
+    def _origin(self, row: Data) -> str:
+        """What is to be said of an input: where it comes from, and what it rests on."""
+        return "; ".join(filter(None, (self._from(row), *rests(row, self.words))))
+
+    def _from(self, row: Data) -> str:
+        """Where it comes from: that it is a default, what it refers to, how it was typed in another unit."""
+        if row["origin"] == "default":
+            return self.words.say("from_press", path=row["path"]) if row.get("path") else self.words["default"]
+        typed, shown = str(row.get("text") or row.get("path") or ""), row["display"]
+        plain = {shown["text"].replace(" ", ""), shown["text"].replace(" ", "") + shown["unit"]}
+        return "" if typed.replace(" ", "") in plain or _is_choice(row) else typed
+
+    def _number(self) -> str:
+        self.count += 1
+        return f"{self.letter}.{self.count}"
+
+
+def _is_choice(row: Data) -> bool:
+    """Whether what was typed is a word of the contract, which the shown one says in words."""
+    typed = str(row.get("text") or "")
+    return row["value"] == typed and typed.replace("_", "").isalnum() and typed.islower() and not typed.isdigit()
+
+
+def _head(description: str) -> str:
+    """A description as the head of a column: what it explains behind a semicolon stands where the quantity is given."""
+    return description.partition(";")[0]
+
+
+def in_halves(columns: list[Column], rows: list[list[str]]) -> tuple[list[Column], list[list[str]]]:
+    """A long table of few columns as two halves side by side."""
+    if len(columns) > NARROW or len(rows) < TALL:
+        return columns, rows
+    half = -(-len(rows) // 2)
+    empty = [""] * len(columns)
+    return columns * 2, [[*one, *other] for one, other in zip_longest(rows[:half], rows[half:], fillvalue=empty)]
+
+
+def shared_out(columns: Sequence[Columns]) -> Iterator[list[Columns]]:
+    """Columns for as many tables as they need, of about equal width."""
+    tables = -(-len(columns) // MOST_COLUMNS)
+    size = -(-len(columns) // max(tables, 1))
+    for start in range(0, len(columns), max(size, 1)):
+        yield list(columns[start : start + size])

@@ -1,0 +1,465 @@
+"""Expression trees as LaTeX (the only place where LaTeX stands) and as linear text for search and alternative texts."""
+
+from __future__ import annotations
+
+import re
+import unicodedata
+from collections.abc import Mapping
+from typing import Any, NamedTuple
+
+from fontTools.pens.basePen import BasePen
+
+from diecut_report.quantities.units import pretty
+from diecut_report.report.text import MINUS, grouped, parts, quantity
+
+# The order of operations in print: which part of an expression stands in brackets, and what stands between factors.
+#
+# A tree is the nested lists of the results: ``["+", a, b]``, ``["sym", "R_b"]``, ``["qty", "40", "mm"]`` … Both printed forms
+# (``formulas.Latex``, ``formulas.Linear``) put brackets by these rules; they differ in how a fraction or a root looks.
+
+
+Tree = list[Any]
+OR, AND, COMPARE, SUM, PRODUCT, CALL, POWER, ATOM = range(8)  # how tightly a piece holds together
+WORDS: Mapping[str, str] = {"if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not"}
+NAMES = {
+    "log": "ln", "log10": "lg", "arcsinh": "arsinh", "arccosh": "arcosh", "arctanh": "artanh", "sign": "sgn", "minimum": "min", "maximum": "max",
+    "ceil": "ceil", "floor": "floor", "round": "round", "arctan2": "arctan2",
+}  # fmt: skip
+SIGNS = {"<": "<", "<=": "≤", ">": ">", ">=": "≥", "==": "=", "!=": "≠"}
+OPPOSITE = {"+": "-", "-": "+"}
+LEVEL = ("min", "max", "minimum", "maximum")  # of as many arguments as there are
+BRACKETS = {"abs": ("|", "|"), "ceil": ("⌈", "⌉"), "floor": ("⌊", "⌋")}
+
+
+def with_units(tree: Any) -> Any:
+    """Return a tree in which a number times one of a unit is a quantity: 40 mm for 40 · 1 mm."""
+    if not isinstance(tree, list):
+        return tree
+    if len(tree) == 3 and tree[0] == "*" and tree[1][:1] == ["num"] and tree[2][:2] == ["qty", "1"]:
+        return ["qty", tree[1][1], tree[2][2]]
+    return [with_units(part) for part in tree]
+
+
+class Piece(NamedTuple):
+    """A printed part: its text, how tightly it holds together, and what its ends are."""
+
+    text: str
+    level: int
+    negative: bool = False  # begins with a minus
+    digit: bool = False  # begins with a digit
+    quantity: bool = False  # ends with a value put in for a symbol, or its unit
+    number: bool = False  # ends with a number of the formula itself
+    fraction: bool = False
+
+
+class Printer:
+    """What both forms have in common: the order of operations and its brackets."""
+
+    def __init__(self, words: Mapping[str, str] = WORDS, decimal: str = ".") -> None:
+        self.words = words
+        self.decimal = decimal
+
+    # what a form must say
+    def number(self, text: str) -> str:
+        """A number's text."""
+        raise NotImplementedError
+
+    def quantity(self, text: str, unit: str) -> str:
+        """A number with its unit."""
+        raise NotImplementedError
+
+    def symbol(self, name: str) -> str:
+        """A symbol with its subscript."""
+        raise NotImplementedError
+
+    def bracket(self, text: str, left: str = "(", right: str = ")") -> str:
+        """A text in brackets."""
+        raise NotImplementedError
+
+    def name(self, function: str) -> str:
+        """A function's name."""
+        raise NotImplementedError
+
+    def function(self, name: str) -> str:
+        """The name of a formula that is called by it: a letter with its subscript, or a word as functions have it."""
+        return self.name(name) if len(name) > 1 and name.isalpha() else self.symbol(name)
+
+    def word(self, text: str, before: str = " ", behind: str = " ") -> str:
+        """A word between formulas, with its spaces."""
+        raise NotImplementedError
+
+    def root(self, inner: Piece) -> Piece:
+        """A square root."""
+        raise NotImplementedError
+
+    def fraction(self, over: Piece, under: Piece) -> Piece:
+        """A fraction."""
+        raise NotImplementedError
+
+    def power(self, base: str, exponent: Tree) -> str:
+        """A base, brackets included, with its exponent."""
+        raise NotImplementedError
+
+    def cases(self, rows: list[tuple[str, str]]) -> str:
+        """Values, each with its condition."""
+        raise NotImplementedError
+
+    times = dot = comma = ""
+    signs: Mapping[str, str] = SIGNS
+    minus = "-"
+
+    # what is the same in both
+    def __call__(self, tree: Tree) -> str:
+        """The whole tree as text."""
+        return self.piece(tree).text
+
+    def piece(self, tree: Tree) -> Piece:
+        """A tree as a printed part."""
+        match tree:
+            case ["num", text]:
+                return self._numeric(text, self.number(text), "1")._replace(quantity=False, number=True)
+            case ["qty", text, unit]:
+                return self._numeric(text, self.quantity(text, unit), unit)
+            case ["sym", name]:
+                return Piece(self.symbol(name), ATOM)
+            case ["neg", inner]:
+                return Piece(f"{self.minus}{self._held(inner, PRODUCT, first=False)}", SUM, negative=True)
+            case ["+" | "-", *_]:
+                return self._sum(tree)
+            case ["*", *_]:
+                return self._product(factors(tree))
+            case ["/", over, under]:
+                return self.fraction(self.piece(over), self.piece(under))
+            case ["^", base, exponent]:
+                return self._power(base, exponent)
+            case ["call", name, *args]:
+                return self._call(name, [self.piece(a) for a in _nested(name, args)])
+            case ["at", symbol, *place]:
+                return Piece(self(symbol) + self.bracket(f" {self.signs['==']} ".join(map(self, place))), POWER)
+            case ["apply", name, *args]:
+                return Piece(self.function(name) + self.bracket(self.comma.join(map(self, args))), POWER)
+        return self._logic(tree)
+
+    def _logic(self, tree: Tree) -> Piece:
+        match tree:
+            case ["cmp", sign, left, right]:
+                return Piece(f"{self._held(left, COMPARE)} {self.signs[sign]} {self._held(right, SUM)}", COMPARE)
+            case ["and" | "or" as word, left, right]:
+                level = AND if word == "and" else OR
+                return Piece(f"{self._held(left, level)}{self.word(self.words[word])}{self._held(right, level)}", level)
+            case ["not", inner]:
+                return Piece(f"{self.word(self.words['not'], before='')}{self.bracket(self(inner))}", POWER)
+            case ["cases", *branches]:
+                return Piece(self.cases([self._branch(branch) for branch in branches]), OR)
+        raise ValueError(f"no expression: {tree!r}")
+
+    def _branch(self, branch: Tree) -> tuple[str, str]:
+        value = self(branch[0])
+        if len(branch) == 1:
+            return value, self.word(self.words["otherwise"], before="", behind="")
+        return value, f"{self.word(self.words['if'], before='')}{self(branch[1])}"
+
+    def _numeric(self, text: str, printed: str, unit: str) -> Piece:
+        found = parts(text)
+        if found is None:
+            return Piece(printed, ATOM)
+        negative, scaled = found[0] == "-", found[3] != 0
+        level = SUM if negative else PRODUCT if scaled or pretty(unit) else ATOM
+        return Piece(printed, level, negative, not negative, quantity=True)
+
+    def _held(self, tree: Tree, level: int, *, first: bool = True) -> str:
+        """A part inside another: in brackets where it holds less tightly, or begins with a minus and is not first."""
+        piece = self.piece(tree)
+        loose = piece.level < level or (piece.negative and not first)
+        return self.bracket(piece.text) if loose else piece.text
+
+    def _sum(self, tree: Tree) -> Piece:
+        pieces = [(sign, self.piece(term)) for sign, term in map(_plain_sign, terms(tree))]
+        text = pieces[0][1].text if pieces[0][1].level >= SUM else self.bracket(pieces[0][1].text)
+        for sign, piece in pieces[1:]:
+            loose = piece.negative or piece.level < SUM or (sign == "-" and piece.level == SUM)
+            text += f" {self.minus if sign == '-' else '+'} {self.bracket(piece.text) if loose else piece.text}"
+        return Piece(text, SUM, pieces[0][1].negative)
+
+    def _product(self, trees: list[Tree]) -> Piece:
+        pieces = [self._factor(tree, index, trees) for index, tree in enumerate(trees)]
+        text, last = pieces[0].text, pieces[0]
+        for piece in pieces[1:]:
+            text += (self.dot if dotted(last, piece) else self.times) + piece.text
+            last = piece
+        return Piece(text, PRODUCT, pieces[0].negative, pieces[0].digit, last.quantity)
+
+    def _factor(self, tree: Tree, index: int, trees: list[Tree]) -> Piece:
+        piece = self.piece(tree)
+        follows = trees[index + 1] if index + 1 < len(trees) else None
+        bare = tree[0] == "call" and piece.level == CALL
+        if bare and follows is not None and follows[0] != "call":
+            return self._closed_call(tree)
+        if piece.level < PRODUCT and (not piece.negative or index > 0 or tree[0] in "+-"):
+            return Piece(
+                self.bracket(piece.text),
+                ATOM,
+                quantity=piece.quantity or tree[0] == "num",
+                digit=tree[0] in ("num", "qty"),
+            )
+        return piece
+
+    def _closed_call(self, tree: Tree) -> Piece:
+        return Piece(self.name(tree[1]) + self.bracket(self(tree[2])), POWER)
+
+    def _power(self, base: Tree, exponent: Tree) -> Piece:
+        piece = self.piece(base)
+        numeric = base[0] in ("num", "qty")
+        text = piece.text if piece.level == ATOM else self.bracket(piece.text)
+        return Piece(self.power(text, exponent), POWER, digit=numeric, quantity=numeric)
+
+    def _call(self, name: str, args: list[Piece]) -> Piece:
+        if name == "sqrt":
+            return self.root(args[0])
+        if name in BRACKETS:
+            return Piece(self.bracket(args[0].text, *BRACKETS[name]), ATOM)
+        if len(args) == 1 and args[0].level == ATOM and not args[0].digit:
+            return Piece(f"{self.name(name)} {args[0].text}", CALL)
+        return Piece(self.name(name) + self.bracket(self.comma.join(a.text for a in args)), POWER)
+
+
+def dotted(left: Piece, right: Piece) -> bool:
+    """Whether two factors need a dot between them: before a digit, after a value, or where a mixed number would be read."""
+    return right.digit or left.quantity or (left.number and right.fraction)
+
+
+def _plain_sign(term: tuple[str, Tree]) -> tuple[str, Tree]:
+    """A term that begins with a minus of its own number, as one that is taken away: + (−0.131 w) is − 0.131 w."""
+    sign, tree = term
+    match tree:
+        case ["*", ["neg", ["num", _] as number], right]:
+            return OPPOSITE[sign], ["*", number, right]
+        case ["*", ["num", text], right] if text.startswith("-"):
+            return OPPOSITE[sign], ["*", ["num", text[1:]], right]
+        case ["*", ["*", *_] as left, right]:
+            new, first = _plain_sign((sign, left))
+            return new, ["*", first, right]
+    return term
+
+
+def _nested(name: str, args: list[Tree]) -> list[Tree]:
+    """The arguments of a function; those of the same function within it stand beside them: min(min(a, b), c) is min(a, b, c)."""
+    if name not in LEVEL:
+        return args
+    return [
+        inner
+        for each in args
+        for inner in (
+            _nested(name, each[2:])
+            if each[0] == "call" and NAMES.get(each[1], each[1]) == NAMES.get(name, name)
+            else [each]
+        )
+    ]
+
+
+def terms(tree: Tree) -> list[tuple[str, Tree]]:
+    """The top-level terms of a sum with their signs; a lone tree is one term."""
+    match tree:
+        case ["+" | "-" as sign, left, right]:
+            return [*terms(left), (sign, right)]
+    return [("+", tree)]
+
+
+def factors(tree: Tree) -> list[Tree]:
+    """The factors of a chain of products."""
+    match tree:
+        case ["*", left, right]:
+            return [*factors(left), *factors(right)]
+    return [tree]
+
+
+PRIMES = "′'"
+
+
+class Latex(Printer):
+    """Expressions as LaTeX, of the small part that math-core and mathra both read."""
+
+    times, dot, comma = r"\,", r" \cdot ", r",\, "
+    signs: Mapping[str, str] = {"<": "<", "<=": r"\le", ">": ">", ">=": r"\ge", "==": "=", "!=": r"\ne"}
+    fences: Mapping[str, str] = {
+        "(": "(",
+        ")": ")",
+        "|": "|",
+        "⌈": r"\lceil ",
+        "⌉": r"\rceil ",
+        "⌊": r"\lfloor ",
+        "⌋": r"\rfloor ",
+    }
+    known = frozenset(
+        ["sin", "cos", "tan", "arcsin", "arccos", "arctan", "sinh", "cosh", "tanh", "exp", "ln", "lg", "min", "max"]
+    )
+
+    def number(self, text: str) -> str:
+        found = parts(text)
+        if found is None:
+            return rf"\text{{{escaped(text)}}}"
+        sign, whole, decimals, power = found
+        body = grouped(whole, r"\,") + (
+            ("." if self.decimal == "." else f"{{{self.decimal}}}") + decimals if decimals else ""
+        )
+        return f"{sign.replace('+', '')}{body}" + (rf" \times 10^{{{power}}}" if power else "")
+
+    def quantity(self, text: str, unit: str) -> str:
+        printed = unit_latex(unit)
+        space = "" if not printed or printed.startswith("°") else r"\,"
+        return f"{self.number(text)}{space}{printed}"
+
+    def symbol(self, name: str) -> str:
+        if name[:1] == name[-1:] == "|" and len(name) > 2:
+            return self.bracket(self.symbol(name[1:-1]), "|", "|")
+        base, _, below = name.partition("_")
+        if not base:
+            return "{}"
+        letters, plain = base.rstrip(PRIMES), below.rstrip(PRIMES)
+        prime = "'" * (len(base) - len(letters) + len(below) - len(plain))
+        text = (rf"\mathit{{{letters}}}" if len(letters) > 1 and letters.isalpha() else letters) + prime
+        return f"{text}_{{{subscript_latex(plain)}}}" if plain else text
+
+    def bracket(self, text: str, left: str = "(", right: str = ")") -> str:
+        tall = left == "|" or any(part in text for part in (r"\frac", r"\sqrt", r"\begin"))
+        opening, closing = self.fences[left], self.fences[right]
+        return rf"\left{opening} {text} \right{closing}" if tall else f"{opening}{text}{closing}"
+
+    def name(self, function: str) -> str:
+        said = NAMES.get(function, function)
+        return rf"\{said}" if said in self.known else rf"\operatorname{{{said}}}"
+
+    def word(self, text: str, before: str = " ", behind: str = " ") -> str:
+        return rf"\text{{{before}{text}{behind}}}"
+
+    def root(self, inner: Piece) -> Piece:
+        return Piece(rf"\sqrt{{{inner.text}}}", POWER)
+
+    def fraction(self, over: Piece, under: Piece) -> Piece:
+        return Piece(
+            rf"\frac{{{over.text}}}{{{under.text}}}", PRODUCT, quantity=over.quantity and under.quantity, fraction=True
+        )
+
+    def power(self, base: str, exponent: Tree) -> str:
+        held = base if _PLAIN_BASE.fullmatch(base) else f"{{{base}}}"
+        return f"{held}^{{{self(exponent) if exponent[0] != '/' else self._slashed(exponent)}}}"
+
+    def _slashed(self, exponent: Tree) -> str:
+        return f"{self._held(exponent[1], PRODUCT)}/{self._held(exponent[2], POWER)}"
+
+    def cases(self, rows: list[tuple[str, str]]) -> str:
+        lines = r" \\ ".join(f"{value} & {condition}" for value, condition in rows)
+        return rf"\begin{{cases}} {lines} \end{{cases}}"
+
+
+class Linear(Printer):
+    """Expressions as one line of text."""
+
+    times, dot, comma = "·", " · ", ", "
+    minus = MINUS
+    raised = str.maketrans("0123456789", "⁰¹²³⁴⁵⁶⁷⁸⁹")
+
+    def number(self, text: str) -> str:
+        return quantity(text, "1", self.decimal)
+
+    def quantity(self, text: str, unit: str) -> str:
+        return quantity(text, unit, self.decimal).replace("\u00a0", " ")
+
+    def symbol(self, name: str) -> str:
+        return name
+
+    def bracket(self, text: str, left: str = "(", right: str = ")") -> str:
+        return f"{left}{text}{right}"
+
+    def name(self, function: str) -> str:
+        return NAMES.get(function, function)
+
+    def word(self, text: str, before: str = " ", behind: str = " ") -> str:
+        return f"{before}{text}{behind}"
+
+    def root(self, inner: Piece) -> Piece:
+        return Piece(f"√{inner.text if inner.level == ATOM else self.bracket(inner.text)}", POWER)
+
+    def fraction(self, over: Piece, under: Piece) -> Piece:
+        upper = over.text if over.level >= PRODUCT or (over.negative and over.level > SUM) else self.bracket(over.text)
+        lower = under.text if under.level >= CALL else self.bracket(under.text)
+        return Piece(f"{upper}/{lower}", PRODUCT, over.negative and over.level >= PRODUCT, over.digit, fraction=True)
+
+    def power(self, base: str, exponent: Tree) -> str:
+        text = self(exponent)
+        return base + text.translate(self.raised) if text.isdecimal() else f"{base}^({text})"
+
+    def cases(self, rows: list[tuple[str, str]]) -> str:
+        return "{" + "; ".join(f"{value} {condition}" for value, condition in rows) + "}"
+
+
+_PLAIN_BASE = re.compile(r"[^\W_](_\{.*\})?")  # a letter, whose exponent stands above its subscript
+
+_SPECIAL = {
+    "\\": r"\backslash ",
+    "{": r"\{",
+    "}": r"\}",
+    "$": r"\$",
+    "&": r"\&",
+    "#": r"\#",
+    "%": r"\%",
+    "_": r"\_",
+    "~": r"\sim ",
+    "^": r"\hat{}",
+}
+
+
+def escaped(text: str) -> str:
+    """A text for ``\\text{…}``."""
+    return "".join(_SPECIAL.get(character, character) for character in text)
+
+
+def subscript_latex(text: str) -> str:
+    """A subscript: words and letters upright, digits as they are, commas and hyphens between them kept."""
+    words = re.split(r"([,\s_-]+)", text)
+    joints = str.maketrans({"_": r"\,", " ": r"\,", "-": r"\text{-}"})
+    return "".join(part.translate(joints) if index % 2 else _upright(part) for index, part in enumerate(words) if part)
+
+
+def _upright(part: str) -> str:
+    return part if part.isdecimal() or unicodedata.category(part[0]) == "Sm" else rf"\mathrm{{{escaped(part)}}}"
+
+
+def unit_latex(unit: str) -> str:
+    """A unit, upright."""
+    printed = pretty(unit)
+    if not printed:
+        return ""
+    raised = re.sub(r"[⁻⁰¹²³⁴⁵⁶⁷⁸⁹]+", lambda m: f"^{{{m[0].translate(_LOWERED)}}}", printed)
+    upright = re.sub(r"[^\W\d]+|%", lambda m: r"\%" if m[0] == "%" else rf"\mathrm{{{m[0]}}}", raised)
+    return upright.replace("·", r"{\cdot}")
+
+
+_LOWERED = str.maketrans("⁰¹²³⁴⁵⁶⁷⁸⁹⁻", "0123456789-")
+
+
+# Paths as the operators of a PDF.
+
+
+class OperatorPen(BasePen):  # type: ignore[misc]  # fontTools has no types
+    """Writes a path as PDF operators; quadratic curves come as cubic ones."""
+
+    def __init__(self, glyphs: Any = None) -> None:
+        super().__init__(glyphs)
+        self.operators: list[str] = []
+
+    def _moveTo(self, pt: tuple[float, float]) -> None:  # noqa: N802
+        self.operators.append(f"{_number(*pt)} m")
+
+    def _lineTo(self, pt: tuple[float, float]) -> None:  # noqa: N802
+        self.operators.append(f"{_number(*pt)} l")
+
+    def _curveToOne(self, *points: tuple[float, float]) -> None:  # noqa: N802
+        self.operators.append(f"{_number(*(n for point in points for n in point))} c")
+
+    def _closePath(self) -> None:  # noqa: N802
+        self.operators.append("h")
+
+
+def _number(*values: float) -> str:
+    return " ".join(f"{value:g}" for value in values)

@@ -1,0 +1,546 @@
+"""The chapters of a DOCX, and what follows them: press data, calculations, sources, program, appendix."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator, Mapping, Sequence
+from typing import Any
+
+from markupsafe import Markup
+
+from diecut_report.report.chapters.front import ChangedCheck, ChangedRow, PrintedChanges
+from diecut_report.report.chapters.value_tables import RecordTable
+from diecut_report.report.document import REVISION, ReportDocument, former, machine_named
+from diecut_report.report.model import CheckRow, Heading, PrintedChapter, QuantityRow
+from diecut_report.report.office.word_body import MARKS, WordBody
+from diecut_report.report.office.wordml import (
+    FIELD_END,
+    Inline,
+    TableColumn,
+    bold,
+    field,
+    key,
+    link,
+    new_line,
+    paragraph,
+    rich,
+    run,
+    small,
+)
+from diecut_report.report.scope import BRIEF, FULL
+from diecut_report.report.symbols import SymbolRow, own_words, prose
+from diecut_report.report.text import joined
+
+# What stands before the chapters of a DOCX: title block, contents, summary with the verdict, changes.
+
+
+STATUSES = ("fail", "warn", "pass", "not_checked")
+
+
+FACTS = (("document", "document_number"), ("revision", "revision"), ("date", "date"))
+
+
+def title_block(body: WordBody, document: ReportDocument) -> None:
+    """Whose calculation of what this is, its status, who signs it, and its revisions."""
+    words, project, block = document.words, document.project, document.block
+    body.say(
+        small(" · ".join(filter(None, (project["organisation"], project["department"], project["document_type"]))))
+    )
+    body.say(run(document.title), "Title")
+    body.say(bold(words["across"]) if block.is_held else "")
+    body.say(run(machine_named(document.press["name"], words)))
+    facts = [*((words[name], project[of]) for name, of in FACTS), (words["status"], block.status)]
+    cells = [small(name) + new_line() + bold(text or "–") for name, text in facts]
+    body.table([TableColumn("", 1)] * len(facts), [cells], headed=False)
+    columns = [body.head(word, share) for word, share in (("release", 2), ("name", 3), ("date", 2), ("signature", 3))]
+    body.table(columns, [[run(words[role]), run(who), "", ""] for role, who in block.signers])
+    columns = [
+        body.head(word, share) for word, share in (("revision", 1.5), ("date", 2), ("description", 5), ("by", 2.5))
+    ]
+    body.table(columns, [[run(row[name]) for name in REVISION] for row in project["revisions"]])
+
+
+def contents(body: WordBody, document: ReportDocument) -> None:
+    """A field that the word processor renews with the sheets' numbers; until then the headings with links."""
+    body.say(bold(document.words["contents"]), keep=True)
+    lines = [
+        (depth, link(body.anchor(anchor), run(f"{number}\u2002" if number else "") + rich(prose(title))))
+        for anchor, number, title, depth in document.contents
+    ]
+    begin = field(r'TOC \o "1-2" \h \z \u', is_dirty=True).removesuffix(FIELD_END)
+    for index, (depth, line) in enumerate(lines):
+        inner = (begin if index == 0 else "") + line + (FIELD_END if index == len(lines) - 1 else "")
+        body.parts.append(paragraph(inner, f"TOC{depth}"))
+
+
+def summary(body: WordBody, document: ReportDocument) -> None:
+    """The verdict, what fails, what governs, and how each mechanism fares."""
+    words = document.words
+    body.heading(1, "1", words["summary"], "summary")
+    counts = f" {', '.join(document.counts)}." if document.counts else ""
+    is_judged = document.checks or document.unchecked or document.status != "pass"
+    body.say((body.status(document.face) + run("  ") if is_judged else "") + bold(document.verdict) + run(counts))
+    body.listed(_verdict_lines(body, document))
+    if document.detail == FULL:
+        _all_checks(body, document)
+    elif len(document.chapters) > 1:
+        _governing(body, document)
+    if document.unchecked:
+        body.subheading(words["not_checked"].capitalize())
+        columns = [body.head("check", 5), body.head("demand", 2, right=True), body.head("missing", 4)]
+        body.table(
+            columns, [[_named(body, row), run(row.demand), key(", ".join(row.missing))] for row in document.unchecked]
+        )
+    _assumed(body, document)
+    if document.detail != BRIEF:
+        for chapter in document.chapters:
+            if not chapter.lost:
+                body.subheading(f"{words['key_results']}: {chapter.letter} {chapter.title}")
+                body.quantities(chapter.key_results, sourced=False)
+
+
+def influence(body: WordBody, document: ReportDocument) -> None:
+    """What inputs do to the numbers that are looked at, and what tolerances do to the checks."""
+    found, words = document.influence, document.words
+    if found is None:
+        return
+    body.heading(1, "", words["influence"], "influence")
+    body.tell(found.lead)
+    heads = ("influence_lowered", "influence_gives", "influence_raised", "influence_gives")
+    columns = [body.head("path", 4), *(body.head(word, 2, right=True) for word in heads)]
+    for each in found.tornados:
+        body.subheading(each.title)
+        if each.rows:
+            body.figure(each.number, each.figure["title"], words["influence_caption"])
+            body.table(columns, [[key(name), *map(run, values)] for name, *values in each.rows])
+        body.tell(each.rest)
+    if found.chances:
+        body.subheading(words["influence_tolerances"])
+        body.tell(found.scatter)
+        told = ("influence_probability", "influence_interval", "influence_held")
+        columns = [body.head("check", 5), *(body.head(word, 2, right=True) for word in told)]
+        rows = [
+            [rich(prose(row.title)), run(row.probability), run(row.interval), run(row.held)] for row in found.chances
+        ]
+        body.table(columns, rows)
+        body.tell(found.sure)
+
+
+def _verdict_lines(body: WordBody, document: ReportDocument) -> Iterator[Inline]:
+    words, governing = document.words, document.governing
+    for row in document.failures:
+        yield run(f"{MARKS['fail']} {row.chapter} · ") + body.linked(row) + run(": ") + rich(prose(row.message))
+    for chapter in document.chapters:
+        if chapter.lost:
+            yield run(f"{MARKS['fail']} {chapter.letter} · {chapter.title}: ") + rich(
+                prose(chapter.error or words["skipped_text"])
+            )
+    if governing:
+        margin = f", {words.say('reserve', margin=governing.margin)}" if governing.status == "pass" else ""
+        yield (
+            run(f"{words['governing']}: {governing.chapter} · ")
+            + body.linked(governing)
+            + run(f", {governing.used}{margin}")
+        )
+    if document.sized:
+        told = ", ".join(f"{row.chapter} · {row.title} ({row.utilisation})" for row in document.sized)
+        yield run(f"{words['sized']}: {told}")
+    yield from map(run, document.notes)
+
+
+def _assumed(body: WordBody, document: ReportDocument) -> None:
+    """On what is assumed the verdict rests."""
+    words, line = document.words, document.assumed
+    if document.assumed_groups:
+        body.subheading(words["assumed_values"])
+        rows = []
+        for group in document.assumed_groups:
+            told = [f"{name} {value}" + (f" ({moves})" if moves else "") for name, value, moves in group.values]
+            rows.append([key(group.name), run(" · ".join(told))])
+        body.table([TableColumn("", 1), TableColumn("", 4)], rows, headed=False)
+    elif line and document.detail != BRIEF:
+        body.say(
+            run(
+                f"{line.head}: {', '.join(f'{path} ({moves})' if moves else path for path, moves in line.paths)}{line.more}."
+            )
+        )
+
+
+def _named(body: WordBody, row: CheckRow) -> Inline:
+    kind = f" · {body.words[f'class_{row.check_class}']}" if row.check_class else ""
+    return body.linked(row) + new_line() + small(f"{row.chapter} {row.mechanism}{kind}")
+
+
+def _governing(body: WordBody, document: ReportDocument) -> None:
+    """What governs each mechanism, and how many of its checks fail, warn, pass and are not made."""
+    columns = [body.head("mechanism", 4), body.head("governing_check", 5), body.head("utilisation", 2.2, right=True)]
+    columns += [TableColumn(run(MARKS[status]), 0.7, True) for status in STATUSES] + [body.head("verdict", 2)]
+    rows = []
+    for chapter in document.chapters:
+        row = chapter.governing
+        said = body.linked(row) + new_line() + small(f"{row.demand} {row.operator} {row.limit}") if row else run("–")
+        title = link(body.anchor(chapter.anchor), run(f"{chapter.letter} ") + rich(prose(chapter.title)))
+        counts = [run(str(chapter.count(status) or "–")) for status in STATUSES]
+        rows.append([title, said, run(row.utilisation if row else "–"), *counts, body.status(chapter.face)])
+    body.table(columns, rows)
+
+
+def _all_checks(body: WordBody, document: ReportDocument) -> None:
+    if document.checks:
+        body.subheading(document.words["checks"])
+        check_table(body, document.checks)
+
+
+def check_table(body: WordBody, rows: Sequence[CheckRow]) -> None:
+    """Checks, a line for each: what is demanded, what is allowed, how far that is used."""
+    columns = [
+        body.head("check", 5),
+        body.head("demand", 2.2, right=True),
+        TableColumn("", 0.6),
+        body.head("limit", 2.2),
+    ]
+    columns += [body.head("margin", 2, right=True), body.head("utilisation", 2.2, right=True), body.head("verdict", 2)]
+
+    def side(text: str, label: str) -> Inline:
+        return run(text) + (new_line() + small(prose(label)) if label else "")
+
+    made = [
+        [_named(body, row) + (new_line() + small(prose(row.source)) if row.source else ""), side(row.demand, row.demand_label), run(row.operator),
+         side(row.limit, row.limit_label), run(row.margin), run(row.utilisation), body.status(row.status)]
+        for row in rows
+    ]  # fmt: skip
+    body.table(columns, made)
+
+
+def changes(body: WordBody, document: ReportDocument, found: PrintedChanges) -> None:
+    """What changed since the former revision."""
+    words = document.words
+    body.heading(1, "", former({"old": found.old, "new": found.new}, words), "changes")
+    if not found:
+        body.tell(words["no_changes"])
+    _pairs(body, "changed_mechanisms", "mechanism", found.mechanisms)
+    _changed_checks(body, found.checks)
+    for title, rows in (
+        ("changed_inputs", found.inputs),
+        ("changed_outputs", found.outputs),
+        ("following_inputs", found.following),
+    ):
+        _changed_rows(body, title, rows)
+    _pairs(body, "changed_code", "program", found.code)
+
+
+def _sides(body: WordBody, what: str) -> list[TableColumn]:
+    return [body.head(what, 5), body.head("before", 3), body.head("after", 3)]
+
+
+def _pairs(body: WordBody, title: str, what: str, rows: Sequence[tuple[str, str, str]]) -> None:
+    if rows:
+        body.subheading(body.words[title])
+        body.table(_sides(body, what), [[key(name), run(old), run(new)] for name, old, new in rows])
+
+
+def _changed_checks(body: WordBody, rows: Sequence[ChangedCheck]) -> None:
+    def side(status: str, used: str) -> Inline:
+        return body.status(status) + run(f" {used}") if status else run("–")
+
+    if rows:
+        body.subheading(body.words["changed_checks"])
+        cells = [
+            [
+                rich(prose(row.title)) + new_line() + key(row.mechanism),
+                side(row.old_status, row.old),
+                side(row.new_status, row.new),
+                run(row.change),
+            ]
+            for row in rows
+        ]
+        body.table([*_sides(body, "check"), body.head("change", 2)], cells)
+
+
+def _changed_rows(body: WordBody, title: str, rows: Sequence[ChangedRow]) -> None:
+    if rows:
+        body.subheading(body.words[title])
+        cells = [
+            [rich(prose(row.description)) + run(" ") + rich(row.symbol) + new_line() + key(row.path), run(row.old), run(row.new),
+             run(row.change) + (new_line() + small(row.note) if row.note else "")]
+            for row in rows
+        ]  # fmt: skip
+        body.table([*_sides(body, "quantity"), body.head("change", 2)], cells)
+
+
+HASH = 12  # letters of a hash
+
+
+def key_results(body: WordBody, document: ReportDocument) -> None:
+    """The key results of each mechanism with one sketch, for a brief report."""
+    words = document.words
+    body.heading(1, "2", words["key_results"], "key-results")
+    for chapter in document.chapters:
+        body.heading(2, chapter.letter, chapter.title, chapter.anchor)
+        if chapter.lost:
+            body.tell(chapter.error or words["skipped_text"])
+            continue
+        body.quantities(chapter.key_results, sourced=False)
+        for number, figure in chapter.figures:
+            body.figure(number, figure["title"], "")
+    body.tell(words["more_in"], "Why")
+
+
+def press_data(body: WordBody, document: ReportDocument) -> None:
+    """What is given of the press as a whole."""
+    body.heading(1, "2", document.words["press_data"], "press")
+    if document.press_rows:
+        _inputs(body, document.press_rows)
+    else:
+        body.tell(document.words["no_press_data"])
+
+
+def chapter(body: WordBody, part: PrintedChapter, document: ReportDocument) -> None:
+    """The whole calculation of one mechanism."""
+    words = document.words
+    body.heading(1, part.letter, part.title, part.anchor)
+    version = f" {part.version}" if part.version else ""
+    body.say(key(part.name) + run(f" · {part.kind}{version} · ") + body.status(part.face))
+    if part.lost:
+        lost = "skipped_text" if part.status == "skipped" else "failed_comparison" if part.between else "failed_text"
+        body.say(bold(words[lost]))
+        body.tell(part.error)
+        return
+    _given(body, part)
+    _calculation(body, part)
+    _outcome(body, part)
+    _checks(body, part, document)
+    _rest(body, part)
+
+
+def _head(body: WordBody, heading: Heading | None) -> None:
+    if heading:
+        body.heading(2, heading.number, heading.title, heading.anchor)
+
+
+def _given(body: WordBody, part: PrintedChapter) -> None:
+    """Purpose, assumptions, inputs."""
+    if part.between:
+        body.tell(
+            f"{body.words['comparison']} {body.words.listed([f'{other.letter} {other.title}' for other in part.between])}"
+        )
+    _head(body, part.parts.get("purpose"))
+    body.tell(part.summary)
+    if part.assumptions:
+        body.subheading(body.words["assumptions"])
+        body.listed(rich(prose(text)) for text in part.assumptions)
+    _head(body, part.parts.get("inputs"))
+    _inputs(body, part.inputs)
+    if part.partners:
+        found = run(" · ").join(
+            (key(row.key) + run(": ") if row.key != row.value else run("")) + run(row.value) for row in part.partners
+        )
+        body.say(bold(body.words["partners"]) + run(": ") + found, "Why")
+    for group in part.taken:
+        basis = f" ({group.basis}): " if group.basis else ": "
+        rows = run(" · ").join(map(_taken, group.rows))
+        body.say(bold(body.words.say("taken_from", name=group.home)) + run(basis) + rows, "Why")
+    if part.defaults or part.are_defaults_told:
+        told = [run(body.words.say("defaults_told", letter=part.told_in))] if part.are_defaults_told else []
+        told += map(_default, part.defaults)
+        body.say(bold(body.words["defaults"]) + run(": ") + run(" · ").join(told), "Why")
+    for table in part.input_parts:
+        body.record_table(table) if isinstance(table, RecordTable) else body.parts_table(table)
+
+
+def _default(row: QuantityRow) -> Inline:
+    """An input that is left alone: its key where it is a choice, else its symbol."""
+    name = rich(prose(row.description)) + run(" ")
+    if row.wordy:
+        return name + key(row.key) + run(" ") + rich(own_words(row.value))
+    sign = rich(row.symbol) + run(" = ") if row.symbol else ""
+    return name + sign + run(joined(row.value, row.unit))
+
+
+def _taken(row: QuantityRow) -> Inline:
+    """An input that is taken from another mechanism, with its id there."""
+    sign = rich(row.symbol) if row.symbol else run(row.value)
+    value = sign if row.wordy else (sign + run(" = ") if row.symbol else run("")) + run(joined(row.value, row.unit))
+    return (
+        rich(prose(row.description))
+        + run(" ")
+        + key(row.key)
+        + run(" ")
+        + value
+        + run(f" ({row.origin})" if row.origin else "")
+    )
+
+
+def _inputs(body: WordBody, rows: Sequence[QuantityRow]) -> None:
+    typed = TableColumn(run(f"{body.words['typed']}, {body.words['origin'].lower()}"), 4)
+    columns = [
+        body.head("quantity", 6),
+        body.head("symbol", 1.5),
+        body.head("value", 2.2, right=True),
+        body.head("unit", 1.5),
+        typed,
+    ]
+
+    def cells(row: QuantityRow) -> list[Inline]:
+        description = rich(prose(row.description)) + (new_line() + key(row.key) if row.key else "")
+        said = " ".join(filter(None, (row.typed, row.origin)))
+        told = small(said) + (new_line() + small(own_words(row.note)) if row.note else "")
+        return [
+            description,
+            rich(row.symbol),
+            rich(own_words(row.value)) if row.wordy else run(row.value),
+            run(row.unit),
+            told,
+        ]
+
+    body.table(columns, [cells(row) for row in rows])
+
+
+def _calculation(body: WordBody, part: PrintedChapter) -> None:
+    for section in part.sections:
+        _head(body, section.heading)
+        body.tell(section.text)
+        body.tell(section.shown, "Why")
+        for item in section.items:
+            body.item(item)
+    for item in part.loose:
+        body.item(item)
+
+
+def _outcome(body: WordBody, part: PrintedChapter) -> None:
+    """Results and phases."""
+    _head(body, part.parts.get("results"))
+    body.quantities(part.outputs)
+    for table in part.output_parts:
+        body.parts_table(table)
+    _head(body, part.parts.get("phases"))
+    for phases in part.phases:
+        body.data_table(phases)
+    body.listed(rich(prose(text)) for text in part.phases_absent)
+
+
+def _checks(body: WordBody, part: PrintedChapter, document: ReportDocument) -> None:
+    """The checks of a mechanism; in a full report each with its words, else those that warn."""
+    if "checks" not in part.parts:
+        return
+    _head(body, part.parts["checks"])
+    rows = [row for row in part.checks if not row.is_self_test]
+    made, left = ([row for row in rows if row.is_made is is_made] for is_made in (True, False))
+    if not rows:
+        body.tell(document.words["no_checks"])
+    if made:
+        check_table(body, made)
+    for row in rows if document.detail == FULL else made:
+        if document.detail == FULL or row.status == "warn":
+            body.say(bold(f"{row.title}: ") + rich(prose(row.message)), "Why")
+        if row.parts:
+            body.parts_table(row.parts)
+    if left:
+        said = " · ".join(f"{row.title} ({document.words.say('needs', keys=', '.join(row.missing))})" for row in left)
+        body.say(bold(document.words["not_checked"].capitalize()) + run(f": {said}"))
+
+
+def _rest(body: WordBody, part: PrintedChapter) -> None:
+    """Files beside the report, and what is not calculated."""
+    _head(body, part.parts.get("files"))
+    body.table(
+        [body.head("file", 3), body.head("content", 5)],
+        [[key(each.name), rich(prose(each.content))] for each in part.files],
+    )
+    _head(body, part.parts.get("absent"))
+    body.listed(bold(str(each["title"])) + run(": ") + rich(prose(each["text"])) for each in part.absent)
+    _head(body, part.parts.get("symbols"))
+    columns = [body.head("symbol", 1), body.head("quantity", 6), body.head("unit", 1)]
+    body.table(columns, [[rich(row.symbol), _meaning(body, row), run(row.unit)] for row in part.symbols])
+
+
+def _meaning(body: WordBody, row: SymbolRow) -> Inline:
+    """What a symbol stands for, and how the source writes it where that is another letter."""
+    told = rich(Markup(f" ({body.words.say('in_source', symbol=row.in_source)})")) if row.in_source else ""
+    return rich(prose(row.meaning)) + told + (run(f" ({row.stands})") if row.stands else "")
+
+
+def closing(body: WordBody, document: ReportDocument, digest: str) -> None:
+    """Sources, and what calculated; ``digest`` is that of the results."""
+    words, program = document.words, document.program
+    body.heading(1, "3", words["sources"], "sources")
+    if not document.sources:
+        body.tell(words["no_sources"])
+    body.table(
+        [body.head("number", 1), body.head("source", 7)],
+        [[run(number), run(text)] for number, text in document.sources],
+    )
+    errata(body, document)
+    body.heading(1, "4", words["program"], "program")
+    rows = [
+        [
+            run(words["calculated_by"]),
+            run(f"{program['name']} {program['version']}") + _hash(body, program.get("source_sha256")),
+        ],
+        *([run(words["extension"]), key(name) + _hash(body, digest)] for name, digest in _extensions(program).items()),
+        *([[run(words["libraries"]), run(_versions(program))]] if program.get("libraries") else ()),
+        [run(words["config_file"]), run(document.config["file"])],
+        [run(words["sha256"]), key(document.config["sha256"])],
+        *([run(file["file"]), key(file["sha256"])] for file in document.config.get("materials", ())),
+        [run(f"{words['carried_results']}, {words['sha256']}"), key(digest)],
+    ]
+    body.table([TableColumn("", 2), TableColumn("", 6)], rows, headed=False)
+    columns = [
+        body.head("mechanism", 4),
+        body.head("kind", 2.5),
+        body.head("plugin_version", 3),
+        body.head("verdict", 2),
+    ]
+    body.table(columns, [
+        [run(f"{part.letter} {part.title} (") + key(part.name) + run(")"), key(part.kind),
+         run(part.version or "–") + _foreign(body, part) + _hash(body, part.source_sha256), body.status(part.face)]
+        for part in document.chapters
+    ])  # fmt: skip
+
+
+def _foreign(body: WordBody, part: PrintedChapter) -> Inline:
+    """The file of a plugin that is not the program's own, and what was found of it."""
+    told = key(f" {part.source_file}") if part.source_file else ""
+    return told + (run(f", {body.words[f'plugin_{part.source_check}']}") if part.source_check else "")
+
+
+def _versions(program: Mapping[str, Any]) -> str:
+    return ", ".join(f"{name} {version}" for name, version in program["libraries"].items())
+
+
+def _extensions(program: Mapping[str, object]) -> Mapping[str, str]:
+    found = program.get("extensions")
+    return found if isinstance(found, Mapping) else {}
+
+
+def _hash(body: WordBody, digest: object) -> Inline:
+    return new_line() + small(f"{body.words['source_hash']} {str(digest)[:HASH]}") if digest else ""
+
+
+def errata(body: WordBody, document: ReportDocument) -> None:
+    """What was found wrong in the sources."""
+    if document.errata:
+        body.subheading(document.words["errata"])
+    for source, text, touches in document.errata:
+        touched = new_line() + small(f"{document.words['touches']}: {touches}") if touches else ""
+        body.listed([bold(f"{source}: ") + rich(prose(text)) + touched])
+
+
+def appendix(body: WordBody, document: ReportDocument) -> None:
+    """Self-tests, curves, and the configuration as given."""
+    words = document.words
+    body.heading(1, "5", words["appendix"], "appendix")
+    body.heading(2, "5.1", words["self_test_list"], "self-tests")
+    if document.self_tests:
+        check_table(body, document.self_tests)
+    else:
+        body.tell(words["no_self_tests"])
+    body.heading(2, "5.2", words["curves"], "curves")
+    curved = [part for part in document.chapters if part.curves]
+    body.tell(words["curves_note" if curved else "no_curves"])
+    for part in curved:
+        body.subheading(f"{part.letter} {part.title}")
+        for table in part.curves:
+            body.data_table(table)
+    body.heading(2, "5.3", words["configuration"], "configuration")
+    for line in document.config["source_text"].splitlines():
+        body.parts.append(f'<w:p><w:pPr><w:pStyle w:val="Listing"/></w:pPr>{run(line)}</w:p>')

@@ -1,0 +1,1 @@
+"""HTML and PDF pages, and the templates that they are made from."""

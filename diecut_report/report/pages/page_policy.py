@@ -1,0 +1,216 @@
+"""What a page of a firm's templates must not do: run, fetch, or lose the policy that forbids it. Judged on what a browser reads.
+
+The page is parsed by the HTML5 algorithm and its styles by CSS Syntax, so that neither escapes nor misplaced tags hide an address.
+"""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator
+from copy import copy
+from functools import cache
+from typing import Any
+from xml.etree.ElementTree import Element, ParseError, fromstring
+
+from diecut_report.errors import Problem, UserError
+from diecut_report.report.pages.page_engine import HTML as PAGE_READING_HTML
+from diecut_report.report.pages.page_engine import UA_STYLESHEET, ElementWrapper, URLFetcher
+from diecut_report.text.phrases import Phrase, phrase
+
+HTML, SVG = "http://www.w3.org/1999/xhtml", "http://www.w3.org/2000/svg"
+RUNNING = {
+    "script",
+    "iframe",
+    "frame",
+    "frameset",
+    "link",
+    "object",
+    "embed",
+    "applet",
+    "portal",
+    "base",
+    "animate",
+    "set",
+    "noscript",
+}
+"""Elements that run, embed, change addresses, or are read otherwise where scripts are off."""
+ADDRESSES = {"src", "srcset", "data", "poster", "background", "href", "imagesrcset", "action", "formaction", "ping", "manifest", "longdesc",
+             "lowsrc", "dynsrc", "codebase", "archive", "classid", "icon", "profile"}  # fmt: skip
+SETS = {"srcset", "imagesrcset"}
+"""Attributes that hold many addresses, of which each screen takes another."""
+LINKS = re.compile(r"(https?:|mailto:|tel:|data:|#)", re.IGNORECASE)
+"""What a link may lead to: nothing is fetched before a reader follows it."""
+FETCHING_FUNCTIONS = {
+    "url",
+    "src",
+    "image",
+    "image-set",
+    "-webkit-image-set",
+    "cross-fade",
+    "-webkit-cross-fade",
+    "element",
+    "attr",
+}
+_UNWRITTEN = re.compile("[\0-\x08\x0b\x0c\x0e-\x1f\x7f\ud800-\udfff\ufffe\uffff]")  # characters that no page may hold
+
+
+def refuse_fetching(page: str, folder: str, policy: str, main: str) -> None:
+    """Raise UserError for a page that would fetch or run something, that lost its policy, or holds characters which none may hold.
+
+    ``policy`` is what a browser is to obey; a page that is only printed has none. ``main`` is the template that holds it.
+    """
+    from tinyhtml5 import parse
+
+    tree: Any = parse(page)
+    advice = phrase('a report fetches nothing. Put pictures into the folder and write {{ picture("NAME") }}.')
+    found = [
+        Problem(Phrase("{each} would be fetched; {advice}", each=each, advice=advice), folder)
+        for each in _fetched(tree)
+    ]
+    if policy and not _is_protected(tree, policy):
+        words = Phrase(
+            "The page has lost its Content-Security-Policy. Override blocks of {main}, not the whole of it, "
+            "or keep its head.",
+            main=main,
+        )
+        found.append(Problem(words, folder))
+    if letter := _UNWRITTEN.search(page):
+        code = format(ord(letter[0]), "04X")
+        found.append(
+            Problem(Phrase("A template writes U+{code}, which a page cannot hold. Leave it out.", code=code), folder)
+        )
+    if found:
+        raise UserError(found)
+
+
+def _is_protected(tree: Any, policy: str) -> bool:
+    """Return whether the page has this policy alone, at the begin of its head, behind its encoding, in which it was judged."""
+    of_policy = [
+        each for each in tree.iter(f"{{{HTML}}}meta") if _lower(each, "http-equiv") == "content-security-policy"
+    ]
+    head = tree.find(f"{{{HTML}}}head")
+    first = [] if head is None else [each for each in head if isinstance(each.tag, str)][:2]
+    return (
+        len(first) == 2
+        and _lower(first[0], "charset") == "utf-8"
+        and [first[1]] == of_policy
+        and first[1].get("content") == policy
+    )
+
+
+def _lower(element: Any, name: str) -> str:
+    return str(element.get(name, "")).strip().lower()
+
+
+def _fetched(tree: Any) -> Iterator[str]:
+    """Yield what a page would fetch or run."""
+    for element in tree.iter():
+        if not isinstance(element.tag, str):
+            continue  # a comment
+        tag = element.tag.rpartition("}")[2]
+        if tag.lower() in RUNNING or (tag == "meta" and _lower(element, "http-equiv") == "refresh"):
+            address = element.get("src") or element.get("href") or element.get("data") or _lower(element, "http-equiv")
+            yield f"<{tag}> {address[:80]}".rstrip()
+        if tag == "style":
+            yield from (what for what, _ in fetched_by_css("".join(element.itertext())))
+        for name, value in element.attrib.items():
+            yield from _fetched_by_attribute(tag, name.rpartition("}")[2].lower(), value)
+
+
+def _fetched_by_attribute(tag: str, name: str, value: str) -> Iterator[str]:
+    address = value.strip().lower()
+    if name.startswith("on"):
+        yield f"<{tag} {name}>"
+    elif name == "rel" and "attachment" in address.split():
+        yield f"<{tag} rel={value[:80]}>"  # into the sheets, beside what the program carries there
+    elif name in ("href", "xlink:href") and tag.lower() in ("a", "area"):
+        if not LINKS.match(re.sub(r"[\s\0-\x1f]", "", address)):
+            yield f"<{tag}> {value[:80]}"
+    elif (
+        name.removeprefix("xlink:") in ADDRESSES
+        and address
+        and (name in SETS or not address.startswith(("data:", "#")))
+    ):
+        yield f"<{tag}> {value[:80]}"
+    if name == "style" or "(" in value:
+        yield from (what for what, _ in fetched_by_css(value))
+
+
+def fetched_by_css(css: str) -> Iterator[tuple[str, int]]:
+    """Yield what a style would fetch, with its line."""
+    import tinycss2
+
+    yield from _fetched_by_tokens(tinycss2.parse_component_value_list(css, skip_comments=True))
+
+
+def _fetched_by_tokens(tokens: Iterable[Any], within: str = "") -> Iterator[tuple[str, int]]:
+    for token in tokens:
+        name = getattr(token, "lower_name", "") if token.type == "function" else ""
+        if token.type == "at-keyword" and token.lower_value == "import":
+            yield "@import", token.source_line
+        elif (
+            token.type == "url" or (token.type == "string" and within)
+        ) and not token.value.strip().lower().startswith(("data:", "#")):
+            yield f"{within or 'url'}({token.value[:60]}", token.source_line
+        elif token.type == "function":
+            yield from _fetched_by_tokens(token.arguments, name if name in FETCHING_FUNCTIONS else within)
+        else:
+            yield from _fetched_by_tokens(getattr(token, "content", None) or (), within)
+
+
+# The print page as WeasyPrint takes it: read by expat where it is well-formed, since reading HTML by its rules takes a tenth of a report.
+
+
+_VOID = re.compile(r"<(br|col|img|meta)\b([^<>]*?)/?>")  # elements without an end
+NOTES = ("footnote-call", "footnote-marker", "note-call", "note-marker", "note-callback")
+PART = 3  # place of the part of an element in the matcher's entries
+SYMBOL = "<i class=sy>"  # the one attribute without quotation marks
+
+
+class ReadPage(PAGE_READING_HTML):  # type: ignore[misc]  # the page engine has no types
+    """A page whose elements are read already."""
+
+    def __init__(self, root: Element, fetcher: URLFetcher) -> None:
+        self.base_url, self.url_fetcher, self.media_type = None, fetcher, "print"
+        self.wrapper_element = ElementWrapper.from_html_root(root, content_language=None)
+        self.etree_element = self.wrapper_element.etree_element
+
+    def _ua_stylesheets(self, forms: bool = False) -> list[Any]:
+        """The page engine's own style, as far as a report needs it."""
+        return super()._ua_stylesheets(forms) if forms else [_needed_style()]
+
+
+@cache
+def _needed_style() -> Any:
+    """The page engine's own style without that of notes, which reports have not; only items of lists have marks.
+
+    Else each element would get the styles of four parts that it has not, which are three quarters of all styles.
+    """
+    style = copy(UA_STYLESHEET)
+    style.matcher = copy(style.matcher)
+    every = [(selector[PART], selector) for selector in style.matcher.other_selectors]
+    marks = [selector for part, selector in every if part == "marker"]
+    style.matcher.other_selectors = [selector for part, selector in every if part not in NOTES and part != "marker"]
+    tags = style.matcher.lower_local_name_selectors
+    style.matcher.lower_local_name_selectors = tags | {"li": [*tags.get("li", []), *marks]}
+    return style
+
+
+def read_page(source: str, fetcher: URLFetcher, *, is_own: bool) -> PAGE_READING_HTML:
+    """Return the page of a source; one that is not the program's own (``is_own``), or not well-formed, is read by the rules of HTML.
+
+    The space before a symbol stands for itself: where only a space at a text's end has no room, the page engine breaks the text at its first
+    place.
+    """
+    source = source.replace(f" {SYMBOL}", f"<span> </span>{SYMBOL}")
+    if is_own:
+        try:
+            return ReadPage(fromstring(well_formed(source)), fetcher)
+        except ParseError:
+            pass  # a sign that XML cannot hold came with the results
+    return PAGE_READING_HTML(string=source, url_fetcher=fetcher)
+
+
+def well_formed(source: str) -> str:
+    """Return a page of the program's templates as XML."""
+    return _VOID.sub(r"<\1\2/>", source.strip().replace("&nbsp;", "\u00a0").replace(SYMBOL, '<i class="sy">'))

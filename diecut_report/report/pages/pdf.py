@@ -1,0 +1,151 @@
+"""The report as PDF by WeasyPrint, which is imported only here. Nothing is fetched: all is embedded."""
+
+from __future__ import annotations
+
+import base64
+import gc
+import warnings
+from collections.abc import Iterator
+from contextlib import contextmanager
+from typing import Any
+
+from markupsafe import Markup, escape
+
+from diecut_report.report.chapters.front import DATE, CarriedFile
+from diecut_report.report.context import Material
+from diecut_report.report.document import RULE, Backdrop
+from diecut_report.report.equations import Equation
+from diecut_report.report.model import Item
+from diecut_report.report.pages.frames import SheetBlocks, sheet_blocks, waiting_figures
+from diecut_report.report.pages.html import filled
+from diecut_report.report.pages.page_engine import Attachment, URLFetcher, block_layout, told_of_page
+from diecut_report.report.pages.page_policy import read_page
+from diecut_report.report.pages.pdf_archive import Archive
+from diecut_report.report.pages.pdf_figures import FigurePicture, NotDrawn
+from diecut_report.report.pages.pdf_math import Letters, Picture
+
+BESIDE_WIDTH = 33.0  # em of a formula that stands beside its description
+BESIDE_LETTERS = 60  # of a description of two lines beside a formula
+NARROW_WIDTH = 22.0  # em of a formula beside which a description has more room
+ROOMY_LETTERS = 100  # of such a description
+SMALLER = 0.85  # of the letters of a source
+BACKDROP, FORMULA = "data:backdrop,", "data:formula,"  # addresses of pictures, which WeasyPrint finds in its cache
+
+
+block_layout.block_level_layout = waiting_figures(block_layout.block_level_layout)
+
+
+class Paper:
+    """Formulas as outlines with searchable text under them, figures as images."""
+
+    def __init__(self, material: Material) -> None:
+        self.material = material
+        block = material.document.block
+        words = material.words
+        self.frame: SheetBlocks | None = sheet_blocks(block, words, has_logo=bool(material.logo))
+        self.letters = Letters()
+        behind = Backdrop(block.frame, words["across"] if block.is_held else "")
+        self.formulas: set[str] = set()
+        self.pictures: dict[str, Picture | FigurePicture | Backdrop] = {BACKDROP: behind} if behind else {}
+        self.style = RULE.format(BACKDROP) if behind else ""
+
+    def display(self, equation: Equation) -> Markup:
+        """A typeset formula: its picture."""
+        return self._picture(equation, "")
+
+    def beside(self, equation: Equation) -> Markup:
+        """The same on the line that it stands in."""
+        depth = self.material.typesetter.outline(equation.latex).depth
+        return self._picture(equation, f' style="vertical-align:{depth}em"')
+
+    def fits_beside(self, item: Item) -> bool:
+        """Whether a formula and its description, in two lines at most, have room side by side."""
+        if item.equation is None or item.condition or item.words:
+            return False
+        if self.has_room_beside(item):
+            return True
+        return (
+            _letters(item) <= BESIDE_LETTERS and self.material.typesetter.measure(item.equation.latex) <= BESIDE_WIDTH
+        )
+
+    def has_room_beside(self, item: Item) -> bool:
+        """Whether a formula is so narrow that its description may be wider."""
+        if item.equation is None or _letters(item) > ROOMY_LETTERS:
+            return False
+        return self.material.typesetter.measure(item.equation.latex) <= NARROW_WIDTH
+
+    def _picture(self, equation: Equation, style: str) -> Markup:
+        outline = self.material.typesetter.outline(equation.latex)
+        address = f"{FORMULA}{len(self.pictures)}"
+        self.pictures[address] = Picture(outline, equation.text, self.letters)
+        self.formulas.add(equation.text)
+        told = escape(equation.text).replace("\n", Markup("&#10;"))
+        return Markup('<img src="{}" alt="{}"{}>').format(address, told, Markup(style))
+
+    def figure(self, number: str, title: str) -> Markup:
+        """A figure as outlines; as an image where it holds what cannot be drawn so."""
+        drawing = self.material.figures[number]
+        try:
+            picture = FigurePicture(*drawing)
+        except NotDrawn:
+            return self._image(number, title)
+        address = f"{FORMULA}{len(self.pictures)}"
+        self.pictures[address] = picture
+        return Markup('<img src="{}" alt="{}">').format(address, title)
+
+    def _image(self, number: str, title: str) -> Markup:
+        data = base64.b64encode(self.material.figures[number].text.encode()).decode()
+        return Markup('<img src="data:image/svg+xml;base64,{}" alt="{}">').format(data, title)
+
+
+def _letters(item: Item) -> float:
+    """How long what is said of a formula is, in letters of the description."""
+    return len(item.description) + len(item.text) + SMALLER * len(item.source)
+
+
+def sheets(material: Material) -> bytes:
+    """The whole PDF."""
+    paper = Paper(material)
+    source = filled(material, paper, "print")
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
+    cache: dict[str, Any] = dict(paper.pictures)
+    with (
+        _without_collection(),
+        told_of_page(material.house.folder if material.house else ""),
+        warnings.catch_warnings(action="ignore", category=ResourceWarning),
+    ):  # WeasyPrint's own file
+        content: bytes = read_page(source, fetcher, is_own=material.house is None).write_pdf(
+            pdf_variant="pdf/a-3a", cache=cache, presentational_hints=False,
+            finisher=Archive(material.words, paper.letters, paper.formulas),
+            attachments=[_attached(file, fetcher) for file in material.carried],
+        )  # fmt: skip
+    return content
+
+
+def _attached(file: CarriedFile, fetcher: URLFetcher) -> Attachment:
+    """A file in the PDF; its type is that of its address, not what the system takes its ending for."""
+    return Attachment(
+        url=file.address,
+        url_fetcher=fetcher,
+        name=file.name,
+        description=file.description,
+        created=DATE,
+        modified=DATE,
+        relationship=file.relationship,
+    )
+
+
+@contextmanager
+def _without_collection() -> Iterator[None]:
+    """Without the garbage collector's passes, which find nothing in a tree of boxes that is in use.
+
+    What the figures left behind goes first: it would lie beside the tree, where the memory's peak is.
+    """
+    gc.collect()
+    was_on = gc.isenabled()
+    gc.disable()
+    try:
+        yield
+    finally:
+        if was_on:
+            gc.enable()

@@ -1,0 +1,490 @@
+"""All words of a report, in one place: in English here, in other languages in the program's catalogue, by key and English words."""
+
+from __future__ import annotations
+
+import math
+import re
+from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from typing import Any
+
+from diecut_report.quantities.formatting import shown
+from diecut_report.quantities.units import pretty
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, built_in, program_catalogue
+from diecut_report.text.phrases import worded
+from diecut_report.text.translation import Translator
+
+ENGLISH: dict[str, str] = {
+    # numbers and formulas
+    "decimal": ".", "if": "if", "otherwise": "otherwise", "and": "and", "or": "or", "not": "not", "at": "at", "from_nought": "from 0 to {end}",
+    "mean": "mean", "rms": "rms", "range": "range", "first": "first", "last": "last",
+    # title block
+    "calculation": "Calculation", "document": "Document", "revision": "Revision", "date": "Date", "sheet": "Sheet", "of": "of",
+    "organisation": "Organisation", "prepared": "Prepared", "checked": "Checked", "approved": "Approved", "name": "Name",
+    "signature": "Signature", "revisions": "Revisions", "description": "Description", "by": "By", "press": "Press",
+    "release": "Release", "status": "Status", "status_draft": "draft", "status_for check": "for check", "status_released": "released",
+    "not_released": "not released", "across": "NOT RELEASED", "norm_checked": "Norm control", "department": "Department",
+    "owner": "Legal owner", "title": "Title", "document_type": "Document type", "identification": "Identification number",
+    "issued": "Date of issue", "language": "Language", "logo": "Logo",
+    "dstu_change": "Ch.", "dstu_page": "Sheet", "dstu_document": "Doc. No.", "dstu_sign": "Sign.", "dstu_date": "Date",
+    "dstu_prepared": "Developed", "dstu_checked": "Checked", "dstu_norm_checked": "Norm control", "dstu_approved": "Approved",
+    "dstu_letter": "Stage", "dstu_sheet": "Sheet", "dstu_sheets": "Sheets",
+    # verdicts
+    "pass": "pass", "warn": "warning", "fail": "fail", "error": "error", "skipped": "skipped", "not_checked": "not checked",
+    "incomplete": "conditional",
+    "doubtful_plugin": "The formulas of the plugin of {kind} have faults: do not rely on its results.",
+    "count_pass": "{n} pass", "governing": "Governing", "no_checks": "There are no checks.",
+    "reserve": "margin {margin}", "beyond": "{margin} beyond the limit", "self_test": "self-test", "missing": "Not given",
+    "self_tests": "{n} self-tests of the calculation hold.",
+    "sized": "Sized to its limit by the program, so that the only reserve is in the factors of the inputs", "sized_short": "sized to its limit",
+    "class_function": "function", "class_strength": "strength", "class_practice": "practice", "class_numerical": "self-test",
+    # chapters
+    "contents": "Contents", "summary": "Summary", "checks": "Checks", "key_results": "Key results", "press_data": "Press data",
+    "no_press_data": "The configuration gives no data of the press but its name.",
+    "purpose": "Purpose and assumptions", "assumptions": "Assumptions and limits", "inputs": "Inputs", "results": "Results",
+    "curves": "Curves", "symbols": "Symbols", "in_source": "in the source {symbol}", "absent": "Not calculated",
+    "comparison": "Comparison of", "files": "Files beside this report",
+    "errata": "Errata of the sources", "sources": "Sources", "no_sources": "The mechanisms name no source.",
+    "program": "Program and configuration",
+    "self_test_list": "Self-tests of the calculation", "no_self_tests": "The calculation has no self-tests.",
+    "no_curves": "There are no curves.",
+    "only_part": "This report shows {n} of the {total} mechanisms of the press; the verdict of the whole press is: {status}.",
+    "missing_in_summary": "the keys that are missing stand in chapter 1",
+    "governing_check": "Governing check", "needs": "needs {keys}", "assumed_values": "Assumed values",
+    "more_in": "The calculation itself stands in the report with more detail.",
+    "configuration": "Configuration as given", "appendix": "Appendix", "warnings": "Warnings",
+    # tables
+    "mechanism": "Mechanism", "check": "Check", "demand": "Demand", "limit": "Limit", "margin": "Margin",
+    "utilisation": "Utilisation", "source": "Source", "number": "No.", "verdict": "Verdict", "quantity": "Quantity", "symbol": "Symbol",
+    "value": "Value", "unit": "Unit", "origin": "Origin", "typed": "As typed", "place": "At", "path": "Key",
+    "given": "given", "default": "default", "reference": "reference", "expression": "calculated",
+    "refers": "from {path}", "from_press": "default, from {path}",
+    "assumed": "assumed", "measured": "measured", "catalogue": "from a catalogue", "standard": "by a standard", "drawing": "from a drawing",
+    "rests_on": "Rests on {n} assumed values", "moving_first": ", those first that move a governing check",
+    "moves": "moves “{check}”", "move_each": "each moves “{check}”", "more_assumed": " and {n} more",
+    "influence": "Influence of inputs",
+    "influence_lead": "Each input that is given as a number is lowered and raised by {by}, or by its tolerance; all else stays as it is.",
+    "influence_on": "Influence on {what}", "influence_today": "Now: {value}.", "influence_none": "no machine",
+    "influence_utilisation": "utilisation",
+    "influence_caption": "Blue: with the input raised, brown: lowered; ×: there is no such machine; the line: now.",
+    "influence_lowered": "Lowered to", "influence_raised": "Raised to", "influence_gives": "Gives",
+    "influence_more": "{n} more move it less.", "influence_still": "{n} do not move it.", "influence_tolerances": "Tolerances",
+    "influence_at_default": "{n} inputs stand at their default and are not changed; report.influence.defaults changes them too.",
+    "influence_normal": "{n} machines drawn with the seed {seed}, normally distributed, the tolerance being three standard deviations: {inputs}.",
+    "influence_uniform": "{n} machines drawn with the seed {seed}, uniformly distributed within the tolerance: {inputs}.",
+    "influence_probability": "Probability that it holds", "influence_interval": "95 % interval (Clopper and Pearson)",
+    "influence_held": "Holds in", "influence_of": "{n} of {total}", "influence_all": "No check fails",
+    "influence_sure": "{n} checks hold in all of these machines.",
+    "advice_passes": "Followed together, the advice of the failing checks gives a pass: {changes}.",
+    "advice_leaves": "Followed together, the advice of the failing checks ({changes}) leaves others that fail: {checks}.",
+    "advice_impossible": "Followed together, the advice of the failing checks ({changes}) gives no machine that can be built.",
+    "touches": "Touches", "part": "No.", "nth": "{text}, no. {n}", "repeated_parts": "{n} repeated parts", "curves_over": "Curves over: {axis}",
+    "file": "File", "content": "Content",
+    "phases": "Phases", "phase": "Phase", "role": "Role", "from": "From", "to": "To", "length": "Length", "time": "Time",
+    "role_working": "working", "role_rest": "at rest", "role_moving": "moving", "role_window": "room for another part",
+    "phase_absent": "{description}: {text}.", "phase_of_parts": "{text}: {parts}, taken together.", "phase_same": "{text}: the same as “{parts}”.",
+    # items
+    "met": "{demand} {operator} {limit} is met", "not_met": "{demand} {operator} {limit} is not met",
+    "since": "Branch taken", "method": "Method", "residual": "relation met to {residual}", "checked_to": "verified to {residual}",
+    "residual_rounded": "relation met up to the rounding of the computer", "checked_to_rounded": "verified up to the rounding of the computer",
+    "of_curve": "of {curve}", "series": "Series", "looked_up": "From “{table}” for {choice}",
+    "figure": "Figure", "fig": "Fig.", "table": "Table", "formula": "Formula",
+    "as_formula": "as ({number})", "as_formula_with": "as ({number}) with {letters}", "letter_for": "{new} for {old}",
+    "as_chapter": "Formulas, assumptions and symbols are those of chapter {letter}: a number in brackets tells where a formula stands.",
+    "defaults": "Left at its default", "defaults_told": "as in chapter {letter}", "partners": "Mechanisms that it found", "taken_from": "From {name}",
+    "where": "where", "shown_at": "Curves are shown at {places}.",
+    "not_drawn": "This figure could not be drawn.", "not_written": "{title} could not be written: {error}",
+    "curves_note": "Some rows of the curves; a place that stands twice is a jump, before and after it. Extremes lie between the rows and "
+    "are given with the results.",
+    "dxf": "{title} in mm: polylines through {n} points each on the layers PROFILE and PITCH_CURVE, the axis on CENTER",
+    "dxf_profile": "{title} in mm: a polyline through {n} points on the layer PROFILE, the axis on CENTER",
+    "csv": "{title} as a table of {n} rows: {columns}",
+    "zero_everywhere": "{names}: 0 everywhere.", "drawing_scale": "scale bar", "positive": "positive", "negative": "negative",
+    # changes
+    "changes_since": "Changes since {name}", "changes_since_revision": "Changes since revision {name}",
+    "changes_of": "Changes from {old} to {new}", "before": "Before", "after": "Now",
+    "change": "Change", "changed_checks": "Checks that changed", "changed_inputs": "Inputs that changed",
+    "changed_outputs": "Results that changed", "changed_mechanisms": "Mechanisms that changed", "changed_code": "What calculated",
+    "following_inputs": "Inputs that follow from these", "no_changes": "Nothing changed.", "follows": "follows {path}",
+    "checks_worse": "worse", "checks_better": "better", "checks_added": "new", "checks_removed": "no longer made",
+    "checks_more used": "more used", "checks_less used": "less used",
+    "changed_mark": "changed, before: {old}", "marked": "What changed is marked in the margin.",
+    # the tools of a reader on a screen; what stands in braces is filled in by the page's script
+    "search": "Search", "dark": "Dark", "hits": "{n} found", "all_checks": "All checks", "check_class": "Class", "all_classes": "all",
+    "text_within": "Text", "shown_checks": "{n} of {total} checks", "copy_text": "Copy {text}", "copied": "Copied: {text}", "play": "Play a turn",
+    "copy_refused": "The browser does not let the page copy {text}", "as_printed": "As printed",
+    # programme
+    "calculated_by": "Calculated by", "version": "version", "plugin": "Mechanism", "plugin_version": "Version", "kind": "Kind",
+    "source_hash": "source", "libraries": "With", "extension": "Extension",
+    "plugin_passed": "declarations and formulas checked", "plugin_failed": "declarations checked, formulas with faults",
+    "carried": "Carried with this report", "carried_results": "Results", "attached": "attached to this PDF",
+    "verified": "diecut-report verify calculates it again and tells what differs.",
+    "config_file": "Configuration file", "sha256": "SHA-256",
+    "failed_text": "This mechanism could not be calculated.", "failed_comparison": "This comparison could not be calculated.",
+    "skipped_text": "This mechanism was not calculated, since what it refers to was not.",
+    # office files
+    "si_value": "Value, SI", "si_unit": "Unit, SI", "basis": "Basis", "note": "Note", "allowed": "Allowed", "class": "Class", "message": "Message",
+    "key_result": "Key result", "yes": "yes", "time_ms": "Time, ms",
+}  # fmt: skip
+COUNTED = {  # what is said of a number ``n`` of things, with its form for one where English has another
+    "count_pass": "1 passes", "self_tests": "1 self-test of the calculation holds.", "rests_on": "Rests on 1 assumed value", "more_assumed": "",
+    "influence_more": "1 more moves it less.", "influence_still": "1 does not move it.",
+    "influence_at_default": "1 input stands at its default and is not changed; report.influence.defaults changes it too.",
+    "influence_sure": "1 check holds in all of these machines.", "repeated_parts": "", "dxf": "", "dxf_profile": "", "csv": "",
+}  # fmt: skip
+
+
+def one(key: str) -> str:
+    """The English words of a key, of what is counted those for one: by them catalogues know it."""
+    return COUNTED.get(key) or ENGLISH[key]
+
+
+class Catalogue(Mapping[str, str]):
+    """The words of one language; in templates ``t.summary``. A missing key is an error, one that is not translated is English."""
+
+    def __init__(self, language: str) -> None:
+        self.language = language
+        self._own = program_catalogue(language) if language != "en" else None
+        self._texts = {key: self._said(key) for key in ENGLISH}
+
+    def _said(self, key: str) -> str:
+        return (self._own and self._own.text(one(key), key)) or ENGLISH[key]
+
+    def __getitem__(self, key: str) -> str:
+        return self._texts[key]
+
+    def __iter__(self) -> Iterator[str]:
+        return iter(self._texts)
+
+    def __len__(self) -> int:
+        return len(self._texts)
+
+    def say(self, key: str, **parts: object) -> str:
+        """A sentence with its parts filled in, in the form that goes with their number ``n``."""
+        return self._form(key, parts.get("n")).format(**parts)
+
+    def _form(self, key: str, count: object) -> str:
+        if key not in COUNTED or not isinstance(count, int):
+            return self[key]
+        if self._own and (found := self._own.plural(one(key), count, key)):
+            return found
+        return one(key) if count == 1 else ENGLISH[key]
+
+    def listed(self, parts: Sequence[str]) -> str:
+        """Several things in a sentence."""
+        return f" {self['and']} ".join(filter(None, (", ".join(parts[:-1]), *parts[-1:])))
+
+
+# Numbers and units for print: the one place that gives the neutral texts of the results their printed form.
+
+
+MINUS = "\u2212"
+THIN = "\u202f"  # narrow, and never broken
+RAISED = "⁰¹²³⁴⁵⁶⁷⁸⁹"
+_RAISED = str.maketrans("0123456789-", f"{RAISED}⁻")
+_NUMBER = re.compile(r"([+-]?)(\d+)(?:\.(\d+))?(?:[eE]([+-]?\d+))?")
+_SPACED_FROM = 5  # digits: 10 000, but 1200
+# A long whole number of a sentence with its unit, and none that is a name: EN 10083.
+_LONG = re.compile(
+    r"(?<![\w.,])\d{5,}(?=(?:[.,]\d+)?[ \u00a0](?:[kMG]?N|[kMG]?Pa|k?W|k?J|[mµ]?m|kg|s|h|r/min|1/h|1/s|K)(?!\w))"
+)
+
+
+def parts(text: str) -> tuple[str, str, str, int] | None:
+    """Sign, whole digits, decimals and power of ten of a number as results hold it ("-1.2e-05"); None of other texts."""
+    found = _NUMBER.fullmatch(text)
+    return (found[1], found[2], found[3] or "", int(found[4] or 0)) if found else None
+
+
+def is_words(text: str) -> bool:
+    """Whether the text of a value is not a number."""
+    return parts(text) is None
+
+
+def grouped(whole: str, separator: str = THIN) -> str:
+    """Whole digits in threes from 10 000 up."""
+    if len(whole) < _SPACED_FROM:
+        return whole
+    first = len(whole) % 3
+    groups = [whole[:first]] if first else []
+    return separator.join(groups + [whole[i : i + 3] for i in range(first, len(whole), 3)])
+
+
+def number(text: str, decimal: str = ".") -> str:
+    """A number of the results as it is printed: ``-1.2e-05`` → ``−1.2 × 10⁻⁵``; a text that is not a number stands as it is."""
+    found = parts(text)
+    if found is None:
+        return text
+    sign, whole, decimals, power = found
+    body = grouped(whole) + (decimal + decimals if decimals else "")
+    return (MINUS if sign == "-" else "") + body + (power_of_ten(power) if power else "")
+
+
+def power_of_ten(exponent: int) -> str:
+    """A power of ten behind a number."""
+    return f"\u2009×\u200910{str(exponent).translate(_RAISED)}"
+
+
+def quantity(text: str, unit: str, decimal: str = ".") -> str:
+    """A number with its unit: ``21000``, ``N*m`` → ``21 000 N·m``; degrees stand close to the number."""
+    return joined(number(text, decimal), pretty(unit))
+
+
+def joined(printed: str, unit: str) -> str:
+    """A printed number and a printed unit, not to be broken apart."""
+    space = "" if not unit or unit.startswith(("°", "′", "″")) else "\u00a0"
+    if not space and unit and printed.endswith(tuple(RAISED)):  # 10⁻⁶ °, whose sign is no part of the power
+        space = THIN
+    return f"{printed}{space}{unit}"
+
+
+def significant(value: float, digits: int = 4) -> str:
+    """A value as a neutral text with so many significant digits."""
+    if value == 0:
+        return "0"
+    exponent = math.floor(math.log10(abs(float(f"{value:.{digits - 1}e}"))))
+    if -4 <= exponent < 6:
+        return f"{value:.{max(digits - 1 - exponent, 0)}f}"
+    return f"{value:.{digits - 1}e}"
+
+
+def displayed(value: float, unit: str, decimal: str = ".") -> str:
+    """An SI value as it is printed in a display unit, without the unit: with those of its digits that mean something."""
+    return number(shown(value, unit)["text"], decimal)
+
+
+def tidy(text: str) -> str:
+    """A sentence with real minus signs, powers of ten written out, long numbers in threes, and degrees close to their number."""
+    powers = re.sub(r"(?<=\d)[eE]([+-]?\d+)(?!\w)", lambda found: power_of_ten(int(found[1])), text.replace(" °", "°"))
+    powers = re.sub(f"(?<=[{RAISED}])°", f"{THIN}°", _LONG.sub(lambda found: grouped(found[0]), powers))
+    return re.sub(r"(?<![\w.)])-(?=\d)", MINUS, powers)
+
+
+def sentence(text: str) -> str:
+    """A text as the beginning of a sentence."""
+    return text[:1].upper() + text[1:]
+
+
+# Names that a configuration gives: of mechanisms and of the parts of a list. They are printed as they are typed, in any language.
+
+
+Data = Mapping[str, Any]
+
+
+def given_names(mechanism: Data, mechanisms: Collection[str]) -> frozenset[str]:
+    """Return the names among the inputs of a mechanism: those of its parts, and of the ``mechanisms`` that it takes."""
+    rows = mechanism.get("inputs", {}).values()
+    return frozenset(
+        text
+        for row in rows
+        for text in _texts(row["value"])
+        if is_name(row) or (text in mechanisms and not _is_choice(row, text))
+    )
+
+
+def is_name(row: Data) -> bool:
+    """Return whether an input is what a part of a list is called."""
+    return bool(row.get("part", {}).get("quantity") == "name")
+
+
+def value_in_words(row: Data, names: Collection[str] = ()) -> str:
+    """Return the shown text of a quantity: a choice as words, a name, or what stands in the configuration elsewhere, as it is."""
+    text: str = row["display"]["text"]
+    is_taken = text == row.get("path") or (row.get("origin") == "given" and "text" not in row)  # a mechanism
+    return text if is_name(row) or is_taken else in_words(text, names)
+
+
+def in_words(text: str, names: Collection[str]) -> str:
+    """Return a found text as words, unless it is one of the names: bearing main_b is called so wherever it stands."""
+    return text if text in names else worded(text)
+
+
+def _is_choice(row: Data, text: str) -> bool:
+    """Whether an input is a word that was typed, such as a role, and no mechanism, though one may be called so."""
+    return row.get("origin") == "given" and row.get("text") == text
+
+
+def _texts(value: Any) -> list[str]:
+    several = value if isinstance(value, list) else [value]
+    return [each for each in several if isinstance(each, str)]
+
+
+# A results document in another language: the same places, numbers and keys, with the texts translated for print.
+
+
+Say = Callable[[str], str]
+SAID = frozenset({"title", "summary", "assumptions", "error", "warnings", "description", "message", "demand_label", "limit_label", "method",
+                  "words", "caption", "governing_title", "label", "touches", "lines", "by", "table", "series"})  # fmt: skip
+"""Keys of results whose texts the report prints."""
+NUMBERS = frozenset({"values", "left", "right", "breakpoints", "points", "outer", "holes", "intervals"})
+DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d)")
+
+
+def translated(results: Data, catalogues: Catalogues) -> Data:
+    """Return the results as they are printed in the language of the catalogues; English ones as they are."""
+    if catalogues.language == SOURCE_LANGUAGE:
+        return results
+    for data in (*results["mechanisms"].values(), *results.get("comparisons", {}).values()):
+        catalogues.of(data["kind"])
+    words = Translator(catalogues, results.get("wordings", {}), Catalogue(catalogues.language)["decimal"])
+    found = {**results, "project": _dated(results["project"])}
+    for part in ("mechanisms", "comparisons"):
+        if part in results:
+            found[part] = {name: _mechanism(words, data, results).said(data) for name, data in results[part].items()}
+    rest = _Mechanism(words, "")
+    found["press"] = rest.of_press(results["press"])
+    found |= {key: rest.walk(results[key]) for key in ("comparisons_left_out", "changes") if key in results}
+    if "changes" in found:
+        sides = {
+            side: {**found["changes"][side], "date": _date(found["changes"][side]["date"])} for side in ("old", "new")
+        }
+        found["changes"] = {**found["changes"], **sides}
+    return found
+
+
+def figure_translated(
+    figure: Data, curves: Data, kind: str, catalogues: Catalogues
+) -> tuple[dict[str, Any], dict[str, Any]]:
+    """Return a figure of a mechanism of this kind with the curves that it shows, in the language of the catalogues."""
+    words = _Mechanism(Translator(catalogues, {}, Catalogue(catalogues.language)["decimal"]), kind)
+    return words.drawn(figure), words.walk(curves)
+
+
+def _dated(project: Data) -> Data:
+    """The project with its dates as they are written in documents: 22.11.2026."""
+    lines = [{**line, "date": _date(line.get("date"))} for line in project.get("revisions") or ()]
+    return {**project, "date": _date(project.get("date"))} | ({"revisions": lines} if lines else {})
+
+
+def _date(given: Any) -> Any:
+    found = DATE.fullmatch(given) if isinstance(given, str) else None
+    return ".".join(reversed(found.groups())) if found else given
+
+
+def _mechanism(words: Translator, data: Data, results: Data) -> _Mechanism:
+    """What says the texts of a mechanism, or of a comparison, whose sources are those of what it compares."""
+    kinds = [results["mechanisms"][name]["kind"] for name in data.get("between", ())]
+    home = kinds[-1] if kinds and all(map(built_in, kinds)) else data["kind"]
+    return _Mechanism(words, data["kind"], given_names(data, results["mechanisms"]), home)
+
+
+class _Mechanism:
+    """Says the texts of one mechanism's results, but the names that its configuration gives; ``home`` is the kind of its sources."""
+
+    def __init__(self, words: Translator, kind: str, names: frozenset[str] = frozenset(), home: str = "") -> None:
+        self.words, self.kind, self.names, self.home = words, kind, names, home or kind
+
+    def said(self, data: Data) -> Data:
+        """The results of the mechanism."""
+        own = {
+            "inputs": {key: self._row(row) for key, row in data["inputs"].items()},
+            "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
+            "figures": [self.drawn(figure) for figure in data.get("figures", ())],
+            "sources": [
+                {
+                    "id": self.words.source(source["id"], self.home),
+                    "citation": self.words.paper(source["citation"], self.home),
+                }
+                for source in data.get("sources", ())
+            ],
+        }
+        return {**self.walk({key: part for key, part in data.items() if key not in own}), **own}
+
+    def of_press(self, press: Data) -> Data:
+        """The fields of the press."""
+        return {**press, "fields": [self._row(row) for row in press["fields"]]}
+
+    def text(self, text: str) -> str:
+        """A text of the mechanism."""
+        return self.words.said(text, self.kind)
+
+    def _shown(self, text: str) -> str:
+        """A value that is a text: the words of a choice, or a key in words; a name as it is."""
+        if text in self.names:
+            return text
+        return self.words.known(worded(text), self.kind) or self.text(text)
+
+    def _row(self, row: Data) -> Data:
+        """An input, or a field of the press: what was typed and noted stands as it is."""
+        display = {**row["display"], "text": self._shown(row["display"]["text"])}
+        return {**row, "description": self.text(row["description"]), "display": display}
+
+    def walk(self, data: Any) -> Any:
+        """Any part of the results."""
+        if isinstance(data, Mapping):
+            return {key: self._part(key, part, data) for key, part in data.items()}
+        return [self.walk(part) for part in data] if isinstance(data, list) else data
+
+    def _part(self, key: str, part: Any, home: Data) -> Any:
+        if key in NUMBERS:
+            return self.walk(part) if isinstance(part, Mapping) else part
+        if isinstance(part, str):
+            return self._string(key, part)
+        if key in SAID and isinstance(part, list):
+            return [self.text(each) if isinstance(each, str) else self.walk(each) for each in part]
+        if key == "rows" and "columns" in home:
+            return [[self._shown(cell) if isinstance(cell, str) else cell for cell in row] for row in part]
+        return self.walk(part)
+
+    def _string(self, key: str, text: str) -> str:
+        if key in SAID:
+            return self.text(text)
+        if key == "source":
+            return self.words.source(text, self.home)
+        if key == "citation":
+            return self.words.paper(text, self.home)
+        if key in ("text", "key", "column", "note", "table_rows", "part_name", "name"):
+            return self._shown(text)
+        return text
+
+    def drawn(self, data: Any) -> Any:
+        """A figure, or a part of it: whatever text is not translated has at least its numbers in the language's form."""
+        if isinstance(data, Mapping):
+            return {key: self._drawn_part(key, part) for key, part in data.items()}
+        return [self.drawn(part) for part in data] if isinstance(data, list) else data
+
+    def _drawn_part(self, key: str, part: Any) -> Any:
+        if key in NUMBERS:
+            return part
+        if key not in SAID and key != "text":
+            return self.drawn(part)
+        if isinstance(part, str):
+            return self._label(part)
+        if isinstance(part, list):
+            return [self._label(each) if isinstance(each, str) else self.drawn(each) for each in part]
+        return self.drawn(part)
+
+    def _label(self, text: str) -> str:
+        """A text within a figure."""
+        return text if text in self.names else self.words.numbers(self.text(text))
+
+
+# Columns of numbers aligned on their decimal sign: how much room a number leaves behind itself.
+
+
+_ALIGNMENT_NUMBER = re.compile(r"[−-]?[\d\u202f]+(?:[.,](\d+))?")
+_POWER = re.compile(r"[−-]?\d(?:[.,]\d+)?\u2009×\u200910[⁰¹²³⁴⁵⁶⁷⁸⁹⁻]+")
+MOST = 8  # digits for which there is a class
+
+
+def decimals(text: str) -> int | None:
+    """How many digits a printed number has behind its decimal sign; None of words, of a dash, of a power of ten."""
+    found = _ALIGNMENT_NUMBER.fullmatch(text)
+    return len(found[1] or "") if found else None
+
+
+def is_power(text: str) -> bool:
+    """Whether a text is a printed number with a power of ten."""
+    return _POWER.fullmatch(text) is not None
+
+
+def rooms(texts: Sequence[str]) -> list[str]:
+    """The class of each text of a column: ``f2`` leaves room for two digits, ``w2`` for these and the decimal sign."""
+    found = [decimals(text) for text in texts]
+    most = max((count for count in found if count is not None), default=0)
+    return [_room(count, most) for count in found]
+
+
+def _room(count: int | None, most: int) -> str:
+    if count is None or count == most:
+        return ""
+    return f"{'f' if count else 'w'}{min(most - count, MOST)}"

@@ -1,0 +1,249 @@
+"""A press that a script has loaded: asked for its inputs, changed into another one, calculated, swept, and asked questions."""
+
+from __future__ import annotations
+
+import os
+from collections.abc import Iterable, Mapping
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from typing import TYPE_CHECKING, Any
+
+import yaml
+
+from diecut_report import pipeline
+from diecut_report.config.loader import Config, load_config
+from diecut_report.config.model import PRESS
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.references import as_file, written
+from diecut_report.config.yaml import KeyPath, Tree, parse, read_text
+from diecut_report.errors import Problem, UserError
+from diecut_report.exchange.carried import carried_results
+from diecut_report.files import write_all
+from diecut_report.scripting.parts import NamedParts
+from diecut_report.scripting.press_inputs import InputList, press_inputs, stands
+from diecut_report.scripting.results import Results
+from diecut_report.scripting.values import known_language, plain, told_in, typed
+from diecut_report.study.execution.pending import one_thread
+from diecut_report.text.phrases import phrase
+
+if TYPE_CHECKING:
+    from diecut_report.scripting.questions import InfluenceTable, MendedPress, Solution
+    from diecut_report.scripting.sweeps import SweepTable
+
+
+@dataclass(frozen=True, eq=False, repr=False)
+class LoadedPress:
+    """Hold a valid configuration. It never changes: ``with_values`` gives another one.
+
+    ``config`` is the configuration as the program has read it, ``language`` that of messages and documents, where
+    one was asked for.
+    """
+
+    config: Config
+    discovery: Discovery
+    language: str | None
+
+    @property
+    def name(self) -> str:
+        """Return the name of the press."""
+        return str(self.config.tree.data[PRESS]["name"])
+
+    @property
+    def title(self) -> str:
+        """Return the title of the project."""
+        return str(self.config.project.title)
+
+    @property
+    def text(self) -> str:
+        """Return the configuration as YAML, to which lines and columns of errors belong."""
+        return self.config.tree.text
+
+    @property
+    def instances(self) -> NamedParts[str]:
+        """Return the mechanisms by name, each with its kind; with those that run by themselves."""
+        return NamedParts(self.config.kinds, phrase("there is no mechanism"), self.language)
+
+    @cached_property
+    def inputs(self) -> InputList:
+        """Return all inputs of the press and of its mechanisms that have a value."""
+        return InputList(tuple(press_inputs(self.config)), self.language)
+
+    def validate(self) -> tuple[Problem, ...]:
+        """Return why the machine cannot exist, as the command ``validate`` tells it; nothing where it can.
+
+        What is wrong with the file itself is told when it is loaded.
+        """
+        try:
+            with told_in(self.language):
+                pipeline.validate(self.config.tree, self.discovery)
+        except UserError as error:
+            return error.problems
+        return ()
+
+    def with_values(self, values: Mapping[str, Any]) -> LoadedPress:
+        """Return the press with other values, by path: ``{"drive.crank_length": "120 mm", "press.productivity": 6000}``.
+
+        A value is a number in the unit of its key, a text with a unit, a quantity (of this program or of pint), true or false, a choice,
+        or a reference ``"${cylinder.radius}"``. All else in the file stays as it is. ConfigError with path, line and allowed range for
+        an unknown path, another dimension, or a value that is out of range; all that is wrong is told at once.
+        """
+        with told_in(self.language):
+            places, problems = self._places(values)
+            try:
+                changed = self._read(written(self.config.tree, places, over_references=True)) if places else self
+            except UserError as error:
+                raise UserError([*problems, *error.problems]) from error.__cause__
+            if problems:
+                raise UserError(problems)
+            return changed
+
+    def _places(self, values: Mapping[str, Any]) -> tuple[dict[KeyPath, str], list[Problem]]:
+        """Values as they are typed, by their places in the file, and what is wrong with the others."""
+        places: dict[KeyPath, str] = {}
+        problems: list[Problem] = []
+        for path, value in values.items():
+            try:
+                places[stands(self.config, str(path))] = typed(value, str(path))
+            except UserError as error:
+                problems += error.problems
+        return places, problems
+
+    def _read(self, text: str) -> LoadedPress:
+        tree = self.config.tree
+        changed = parse(text, tree.file)
+        again = Tree(changed.root, tree.file, text, changed.sha256, tree.name)
+        return self._of(load_config(again, self.discovery))
+
+    def save(self, file: str | Path) -> Path:
+        """Write the configuration; Unwritable in words where that is not possible. Tables that it names are sought beside it."""
+        path = Path(file)
+        with told_in(self.language):
+            write_all({path: as_file(self.config.tree, self.text)}, keep=None)
+        return path
+
+    def calculate(self) -> Results:
+        """Return the results; ConfigError with places where the machine cannot exist.
+
+        Where a plugin breaks it is in ``errors`` of the results, whose status is ``error``; those of other mechanisms stand.
+        """
+        with told_in(self.language), one_thread():
+            outcome, _ = pipeline.calc(self.config.tree, self.discovery, lambda _: None)
+        return Results(outcome.results, self.discovery, self.language, config=self.config, errors=outcome.broken)
+
+    def sweep(
+        self, vary: Mapping[str, Any], *, outputs: Iterable[str] | None = None, constraints: Iterable[str] = (), method: str = "grid",
+        count: int | None = None, seed: int | None = None,
+    ) -> SweepTable:  # fmt: skip
+        """Return a table of many machines, calculated together: a row each, with status and governing check.
+
+        ``vary`` has for each path a list or an array of values, ``linspace("80 mm", "120 mm", 41)``, or a range or distribution as in
+        [a study](studies.md). ``method`` is ``grid`` (each with each), ``zip``, ``latin_hypercube`` or ``sobol``, the last two with
+        ``count`` and ``seed``. ``outputs`` are those to keep, such as ``drive.crank_torque_peak`` (all, where they are not named).
+        ``constraints`` are those of a study. A machine that cannot exist has the status ``error`` and says why. ConfigError for all
+        that is wrong with the question.
+        """
+        from diecut_report.scripting.sweeps import AskedSweep, swept
+
+        asked = AskedSweep(
+            dict(vary), None if outputs is None else list(outputs), list(constraints), method, count, seed
+        )
+        with told_in(self.language, without_places=True), one_thread():
+            return swept(self.config, self.discovery, self.language, asked)
+
+    def solve(
+        self, vary: str, target: str, *, low: str | None = None, high: str | None = None, passing: bool = False
+    ) -> Solution[LoadedPress]:
+        """Return the values of one input with which a target is met, ``"drive.crank_torque_peak = 400 N*m"``: the command ``solve``.
+
+        It is searched from ``low`` to ``high`` (a third of today's value to three times it); with ``passing`` only machines with which no
+        check fails. ConfigError where nothing can be searched.
+        """
+        from diecut_report.scripting.questions import solved_press
+
+        with told_in(self.language), one_thread():
+            return solved_press(self._usable(), self.discovery, self._of, vary, target, (low, high), passing=passing)
+
+    def advise(self, *, free: Iterable[str] = (), keep: Iterable[str] = ()) -> MendedPress[LoadedPress]:
+        """Return the smallest changes with which no check fails: the command ``advise``."""
+        from diecut_report.scripting.questions import mended_press
+
+        with told_in(self.language), one_thread():
+            return mended_press(self._usable(), self.discovery, self._of, tuple(free), tuple(keep))
+
+    def influence(self, *of: str, share: float = 0.1, defaults: bool = False) -> InfluenceTable:
+        """Return how far each input moves a number (the governing checks, where none is named) when it changes by a share of its value.
+
+        These are the inputs that are given; with ``defaults`` those that stand at their default too.
+        """
+        from diecut_report.scripting.questions import influence_of
+
+        with told_in(self.language), one_thread():
+            return influence_of(self._usable(), of, share, defaults=defaults)
+
+    def _usable(self) -> Config:
+        """The configuration; PluginError where one of its plugins is broken."""
+        for error in self.config.broken.values():
+            raise error
+        return self.config
+
+    def _of(self, config: Config) -> LoadedPress:
+        return LoadedPress(config, self.discovery, self.language)
+
+    def __repr__(self) -> str:
+        return f"<press {self.name} of {self.config.tree.name}: {', '.join(self.instances)}>"
+
+    def _repr_html_(self) -> str:
+        from diecut_report.scripting.values import inputs_html
+
+        return inputs_html(self.inputs, self.language, f"{self.name} · {self.title}")
+
+
+# Presses and results from files, texts and mappings.
+
+
+Folder = str | os.PathLike[str]
+GIVEN = "press.yaml"  # what documents call a configuration that has no file
+
+
+def load(
+    source: Folder | Mapping[str, Any], *, plugins: Iterable[Folder] = (), language: str | None = None
+) -> LoadedPress:
+    """Return the press of a configuration: of its file, or of a mapping with the same keys, whose values may be quantities.
+
+    ``plugins`` are folders with plugins, which run with your rights; ``language`` is that of messages and
+    documents (``en``, ``uk``; without it messages are English, and documents as the project has them). ConfigError with
+    file, line, column, key and what is allowed for all that is wrong with it.
+    """
+    if isinstance(source, Mapping):
+        text = yaml.safe_dump(plain(source, ""), allow_unicode=True, sort_keys=False)
+        return _press(parse(text, GIVEN), plugins, known_language(language), without_places=True)
+    return _press(Path(source), plugins, known_language(language))
+
+
+def loads(text: str, *, plugins: Iterable[Folder] = (), language: str | None = None) -> LoadedPress:
+    """Return the press of a configuration that is given as text; tables that it names are sought in the current folder."""
+    spoken = known_language(language)
+    with told_in(spoken):
+        return _press(read_text(text, GIVEN), plugins, spoken)
+
+
+def load_results(file: Folder, *, plugins: Iterable[Folder] = (), language: str | None = None) -> Results:
+    """Return the results that a results file, or a report (PDF, HTML), holds; nothing is calculated. ConfigError where it holds none."""
+    spoken = known_language(language)
+    with told_in(spoken):
+        return Results(carried_results(Path(file)).results, _discovery(plugins), spoken)
+
+
+def _press(
+    source: Path | Tree, plugins: Iterable[Folder], language: str | None, *, without_places: bool = False
+) -> LoadedPress:
+    with told_in(language, without_places=without_places):
+        discovery = _discovery(plugins)
+        return LoadedPress(load_config(source, discovery), discovery, language)
+
+
+def _discovery(plugins: Iterable[Folder]) -> Discovery:
+    if isinstance(plugins, str | os.PathLike):
+        plugins = (plugins,)
+    return Discovery([Path(folder) for folder in plugins])

@@ -1,0 +1,446 @@
+"""The stored variants of a study, opened for questions: read only, by DuckDB over the part files."""
+
+from __future__ import annotations
+
+import glob
+import io
+import re
+import tempfile
+from collections import Counter
+from collections.abc import Iterable, Iterator, Mapping, Sequence
+from contextlib import contextmanager
+from dataclasses import dataclass
+from functools import cached_property
+from pathlib import Path
+from types import MappingProxyType
+from typing import TYPE_CHECKING, Any, Literal
+
+from diecut_report.config import yaml
+from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
+from diecut_report.config.source_hashes import plugin_hash, program_hash
+from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.quantities.formatting import number_text
+from diecut_report.quantities.units import UnitError, pretty, unit
+from diecut_report.report.text import number
+from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind, ResultColumn, code_told
+from diecut_report.study.storage.state import continuing
+from diecut_report.study.storage.store import Store
+from diecut_report.text.catalogues import SOURCE_LANGUAGE
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import decimal_sign, know_plugins, said, say, spoken_language
+
+if TYPE_CHECKING:
+    from duckdb import DuckDBPyConnection
+    from rich.table import Table
+
+
+# What calculates a stored variant by other code than the study was calculated by.
+
+
+SHORT = 12  # of a hash, as in a report
+ABSENT = ""
+
+
+def other_code(sources: Mapping[str, str], kinds: Iterable[str], discovery: Discovery) -> list[str]:
+    """Return in words what has other code now than the ``sources`` of a study have noted, for variants of these kinds."""
+    discovery.extend()
+    now = {"program": program_hash()} | dict(_plugins(kinds, discovery))
+    now |= {f"extension {name}": digest for name, digest in discovery.extended.items()}
+    gone = [name for name in sources if name.startswith("extension ") and name not in now]
+    pairs = [(name, sources.get(name, ABSENT), now.get(name, ABSENT)) for name in (*now, *gone)]
+    return [
+        Phrase(
+            "The source of the {name} is not what the study was calculated by (SHA-256 {old} then, {new} "
+            "now): the numbers of this variant may differ from those that are stored.",
+            name=code_told(name),
+            old=old[:SHORT] or phrase("none"),
+            new=new[:SHORT] or phrase("none"),
+        )
+        for name, old, new in pairs
+        if old != new and name.isprintable()  # a name of study.json may be by anybody
+    ]
+
+
+def _plugins(kinds: Iterable[str], discovery: Discovery) -> Iterator[tuple[str, str]]:
+    for kind in dict.fromkeys(kinds):
+        try:
+            yield f"plugin {kind}", plugin_hash(discovery.mechanism(kind))
+        except (PluginError, UnknownKind, DuplicateKind):  # reported where the configuration is read
+            continue
+
+
+# What people call the columns of a study: the description of the quantity and its mechanism, each title once.
+
+
+MECHANISMS = "mechanisms."
+PART = re.compile(r"(.+)\.(\d+)\.\w+")  # of a list of the inputs
+LISTED = re.compile(rf"{re.escape(MECHANISMS)}[^.]+\.{PART.pattern}")
+UTILISATION, VERDICT_OF = ".utilisation", ".status"  # ends of the columns of a check
+ENDS_OF_CHECKS = {
+    re.compile("(?P<what>.+): utilisation"): phrase("{quantity}: utilisation"),
+    re.compile("(?P<what>.+): verdict"): "",
+}
+ENDS = {  # as `result_columns` describes one of several results of a step
+    re.compile(r"(?P<what>.+): no\. (?P<number>\d+)"): phrase("{quantity}: no. {number}"),
+    re.compile("(?P<what>.+): how many in a turn"): phrase("{quantity}: how many in a turn"),
+}
+
+
+def titles(columns: Sequence[ResultColumn], kinds: Mapping[str, str] = MappingProxyType({})) -> dict[str, str]:
+    """Return the titles by name: ``Radius of the bore (cylinder)``; longer where two columns would share one, empty without a description.
+
+    They are in the language that is spoken, by the catalogue of the mechanism's kind; ``kinds`` says which each one is of.
+    """
+    words = _Words(kinds)
+    checks = [column for column in columns if _is_verdict(column)]
+    return _titles(words, [column for column in columns if not _is_verdict(column)]) | _titles(words, checks)
+
+
+def _titles(words: _Words, columns: Sequence[ResultColumn]) -> dict[str, str]:
+    found = {column.name: "" for column in columns}
+    open_ = [column for column in columns if column.description and home(column.name)]
+    for title in (words.short, words.whole, words.with_name):
+        made = {column.name: title(column) for column in open_}
+        often = Counter([*made.values(), *found.values()])
+        found |= {name: told for name, told in made.items() if often[told] == 1 or title == words.with_name}
+        open_ = [column for column in open_ if not found[column.name]]
+    return found
+
+
+def home(name: str) -> str:
+    """Return the mechanism (or ``press``) of a column; nothing for those of the study itself."""
+    first, _, rest = name.removeprefix(MECHANISMS).partition(".")
+    return first if rest else ""
+
+
+@dataclass(frozen=True)
+class _Words:
+    """Say what columns are, by the words of the kinds of their mechanisms."""
+
+    kinds: Mapping[str, str]
+
+    def short(self, column: ResultColumn) -> str:
+        """Without what a closing bracket explains; of a part with its number, whatever else is varied."""
+        if LISTED.fullmatch(column.name):
+            return self.with_name(column)
+        return _placed(column, re.sub(r" \([^()]*\)$", "", self._told(column)))
+
+    def whole(self, column: ResultColumn) -> str:
+        """With all of its words."""
+        return _placed(column, self._told(column))
+
+    def with_name(self, column: ResultColumn) -> str:
+        """With the key, or which part of a list it is of."""
+        name = column.name.removeprefix(MECHANISMS).partition(".")[2]
+        listed = PART.fullmatch(name)
+        if listed:
+            words = "{quantity}: no. {nth} of {list}"
+            return _placed(column, say(words, quantity=self._told(column), nth=int(listed[2]) + 1, list=listed[1]))
+        return _placed(column, f"{self._told(column)}, {name}")
+
+    def _told(self, column: ResultColumn) -> str:
+        """The description in the language that is spoken; of a check's verdict the check alone."""
+        of_check = _is_verdict(column) or column.name.endswith(UTILISATION)
+        what, ending, number = _parted(column.description, ENDS_OF_CHECKS if of_check else ENDS)
+        if not ending or _is_verdict(column):
+            return said(what, self.kinds.get(home(column.name), ""))
+        return said(Phrase(ending, quantity=phrase(what), number=number), self.kinds.get(home(column.name), ""))
+
+
+def _parted(description: str, ends: Mapping[re.Pattern[str], str]) -> tuple[str, str, str]:
+    """What a column is of, and the words that say what of it, with its number."""
+    for pattern, words in ends.items():
+        if found := pattern.fullmatch(description):
+            return found["what"], words, found.groupdict().get("number", "")
+    return description, "", ""
+
+
+def _is_verdict(column: ResultColumn) -> bool:
+    return ".checks." in column.name and column.name.endswith(VERDICT_OF)
+
+
+def _placed(column: ResultColumn, told: str) -> str:
+    return f"{told} ({home(column.name)})"
+
+
+DISPLAY = {
+    "m": "mm",
+    "rad": "deg",
+    "rad/s": "rpm",
+    "Pa": "MPa",
+    "1/s": "1/h",
+}  # as designers say it, where a column does not
+FIXED = (VARIANT.name, *(column.name for column in VERDICT))
+STATUSES = ("pass", "warn", "fail", "error")
+PARTS = "part-*.parquet"
+MEMORY = "400MB"  # of DuckDB
+
+
+@dataclass(frozen=True)
+class StoredColumn:
+    """Hold a stored quantity: its name, what it holds, its SI unit, the unit that people read, its symbol, and what it is."""
+
+    name: str
+    kind: Kind
+    unit: str = "1"
+    display: str = "1"
+    symbol: str = ""
+    title: str = ""
+
+    @property
+    def is_number(self) -> bool:
+        """Return whether it has sizes: floats and integers."""
+        return self.kind in ("float", "int")
+
+    @property
+    def sql(self) -> str:
+        """Return the name for DuckDB."""
+        return quoted(self.name)
+
+    @property
+    def told(self) -> str:
+        """Return what people call it."""
+        return self.title or self.name.removeprefix("mechanisms.")
+
+
+@dataclass(frozen=True)
+class Stored:
+    """Hold a folder of results: its study, what ``study.json`` says, the columns, and a connection that reads the part files alone."""
+
+    folder: Path
+    description: Description
+    study: Mapping[str, Any]
+    columns: Mapping[str, StoredColumn]
+    connection: DuckDBPyConnection
+
+    @cached_property
+    def varied(self) -> list[StoredColumn]:
+        """Return what the study varies, in its order."""
+        return [self.columns[path] for path in self.study.get("varied", ()) if path in self.columns]
+
+    @cached_property
+    def checks(self) -> dict[str, tuple[StoredColumn, StoredColumn]]:
+        """Return each check, ``drive.checks.play``, with its columns of utilisation and status."""
+        names = [
+            name.removesuffix(UTILISATION) for name in self.columns if ".checks." in name and name.endswith(UTILISATION)
+        ]
+        return {name: (self.columns[name + UTILISATION], self.columns[name + VERDICT_OF]) for name in names}
+
+    @cached_property
+    def outputs(self) -> list[StoredColumn]:
+        """Return the kept outputs."""
+        other = {*FIXED, *(column.name for column in self.varied)}
+        return [
+            column for column in self.columns.values() if column.name not in other and ".checks." not in column.name
+        ]
+
+    def check_told(self, check: str) -> str:
+        """Return what people call a check."""
+        return self.checks[check][1].told if check in self.checks else check
+
+    def rows(self, sql: str, parameters: Any = ()) -> list[tuple[Any, ...]]:
+        """Return the whole answer to a query, which is to be small."""
+        return self.connection.execute(sql, list(parameters)).fetchall()
+
+
+def quoted(name: str) -> str:
+    """Return a name as DuckDB takes it."""
+    return '"' + name.replace('"', '""') + '"'
+
+
+def text(value: str) -> str:
+    """Return a text as DuckDB takes it."""
+    return "'" + value.replace("'", "''") + "'"
+
+
+@contextmanager
+def opened(folder: Path) -> Iterator[Stored]:
+    """Open the stored variants of a study; UserError in words where there are none or they cannot be read.
+
+    The connection reads the folder's part files and nothing else, and writes nothing.
+    """
+    import duckdb
+
+    store = Store.open(folder)
+    paths = store.whole_parts()
+    if not paths:
+        columns = dict.fromkeys(column.name for column in store.description.columns)
+        words = Phrase(
+            "No variants are stored here yet. Continue the run with: {continued}", continued=continuing(folder, columns)
+        )
+        raise UserError(Problem(words, str(folder)))
+    description = store.description
+    config: dict[str, str | bool | int | float | list[str]] = {
+        "memory_limit": MEMORY,
+        "temp_directory": tempfile.gettempdir(),
+        "preserve_insertion_order": "false",
+    }
+    with duckdb.connect(":memory:", config=config) as connection:
+        try:
+            _view(connection, paths)
+            yield Stored(folder, description, store.state, columns_of(description), connection)
+        except duckdb.InterruptException as error:
+            raise KeyboardInterrupt from error
+        except (
+            duckdb.Error
+        ) as error:  # the parts are as they were written: what is asked gives no answer, or there is no room
+            words = Phrase(
+                "The stored variants give no answer to this ({first}). Ask for something else, or for less at a time.",
+                first=_first(error),
+            )
+            raise UserError(Problem(words, str(folder))) from error
+
+
+def _first(error: Exception) -> str:
+    return str(error).splitlines()[0]
+
+
+def _view(connection: DuckDBPyConnection, paths: Sequence[Path]) -> None:
+    """Name the part files ``v`` and shut everything else."""
+    files = [str(path.absolute()) for path in paths]
+    named = ", ".join(text(glob.escape(file)) for file in files)  # a folder may be called a[1]
+    connection.execute(f"CREATE VIEW v AS SELECT * FROM read_parquet([{named}])")
+    connection.execute(f"SET allowed_paths = [{', '.join(map(text, files))}]")
+    connection.execute("SET enable_external_access = false")
+    connection.execute("SET lock_configuration = true")
+
+
+def columns_of(description: Description) -> dict[str, StoredColumn]:
+    """Return the columns of the part files by name; curves, which are lists, are not quantities to compare."""
+    known = titles(description.all_columns, _kinds(description))
+    return {
+        column.name: StoredColumn(column.name, column.kind, column.unit, _display(column.display, column.unit), column.symbol, known[column.name])
+        for column in description.all_columns
+        if column.kind != "curve"
+    }  # fmt: skip
+
+
+def _kinds(description: Description) -> Mapping[str, str]:
+    """The kinds of the mechanisms by name, so that their columns are told in the words of their plugins; none in English."""
+    content = description.base.content
+    if spoken_language() == SOURCE_LANGUAGE:
+        return {}
+    know_plugins(description.plugins)  # also where the base is not kept any more
+    given = yaml.parse(content.decode("utf-8-sig"), description.base.file).data if content else {}
+    return {name: str(block.get("kind")) for name, block in (given.get("mechanisms") or {}).items()}
+
+
+def _display(wanted: str, si: str) -> str:
+    """The unit that people read: the column's own, else the usual one for its SI unit."""
+    usual = DISPLAY.get(si, si)
+    return wanted if wanted and _is_like(wanted, si) else usual
+
+
+def _is_like(display: str, si: str) -> bool:
+    """Whether the one is a unit for the other."""
+    try:
+        return unit(display).kind == unit(si).kind
+    except UnitError:
+        return False
+
+
+# Stored variants as a table for people: in the units that they read, as many columns as the line holds.
+
+
+FREE = 10_000  # letters of a line that no terminal breaks
+HEAD = 14  # letters of a line of a heading
+BETWEEN, REASON = 3, 40  # letters between columns; on a line of a reason, at least
+FEWEST = 3  # columns that stand whatever the line holds
+
+
+def table_text(
+    columns: Sequence[StoredColumn], rows: Sequence[Sequence[Any]], width: int | None
+) -> tuple[str, list[StoredColumn]]:
+    """Return the table, and the columns that the line has no room for."""
+    heads = [_head(column) for column in columns]
+    texts = [[shown(value, column) for value, column in zip(row, columns, strict=True)] for row in rows]
+    wide = [max(map(len, (*head.split("\n"), *column))) for head, *column in zip(heads, *texts, strict=True)]
+    kept = _kept(columns, wide, width or FREE)
+    return _drawn(columns, heads, texts, kept, width or FREE), [c for i, c in enumerate(columns) if i not in kept]
+
+
+def compared_text(
+    columns: Sequence[StoredColumn], rows: Sequence[Sequence[Any]], width: int | None, *, keep_equal: bool
+) -> tuple[str, int]:
+    """Return variants side by side, a line for each quantity with its unit, and how many quantities are left out as equal for all."""
+    from rich.text import Text
+
+    table = _empty_table()
+    for head in (say("quantity"), say("unit")):
+        table.add_column(Text(head), justify="left", overflow="fold")
+    for row in rows:
+        table.add_column(Text(str(row[0])), justify="right", overflow="fold")
+    lines = [(column, [row[index] for row in rows]) for index, column in enumerate(columns) if column.name != "variant"]
+    kept = [(column, values) for column, values in lines if keep_equal or any(value != values[0] for value in values)]
+    for column, values in kept:
+        texts = [column.name, pretty(column.display), *(shown(value, column) for value in values)]
+        table.add_row(*map(Text, texts))
+    return _printed(table, width or FREE), len(lines) - len(kept)
+
+
+def _kept(columns: Sequence[StoredColumn], wide: Sequence[int], room: int) -> list[int]:
+    """The columns that fit, by index: the first ones, the reason of an error (on several lines, if need be), then what fits."""
+    reason = [index for index, column in enumerate(columns) if column.name == "error"]
+    kept: list[int] = []
+    used = 0
+    for index in dict.fromkeys([*range(min(FEWEST, len(wide))), *reason, *range(len(wide))]):
+        own = BETWEEN + (min(wide[index], REASON) if index in reason else wide[index])
+        if used + own <= room or len(kept) < FEWEST:
+            kept.append(index)
+            used += own
+    return sorted(kept)
+
+
+def _drawn(
+    columns: Sequence[StoredColumn],
+    heads: Sequence[str],
+    texts: Sequence[Sequence[str]],
+    kept: Sequence[int],
+    width: int,
+) -> str:
+    from rich.text import Text
+
+    table = _empty_table()
+    for index in kept:
+        justify: Literal["left", "right"] = "right" if columns[index].is_number else "left"
+        table.add_column(Text(heads[index]), justify=justify, overflow="fold")
+    for row in texts:
+        table.add_row(*(Text(row[index]) for index in kept))
+    return _printed(table, width)
+
+
+def _empty_table() -> Table:
+    from rich import box
+    from rich.table import Table
+
+    return Table(box=box.SIMPLE_HEAD, pad_edge=False)
+
+
+def _printed(table: Table, width: int) -> str:
+    from rich.console import Console
+
+    target = io.StringIO()
+    Console(file=target, width=width, color_system=None, soft_wrap=False, legacy_windows=False).print(table)
+    return "\n".join(line.rstrip() for line in target.getvalue().splitlines())
+
+
+def _head(column: StoredColumn) -> str:
+    """The name on short lines, and the unit below it."""
+    lines = [""]
+    for part in re.findall(r"[^._]*[._]|[^._]+", column.name.removeprefix("mechanisms.")):
+        if lines[-1] and (lines[-1].endswith(".") or len(lines[-1] + part) > HEAD):
+            lines.append("")
+        lines[-1] += part
+    sign = pretty(column.display)
+    return "\n".join([*lines, sign] if sign else lines)
+
+
+def shown(value: Any, column: StoredColumn) -> str:
+    """Return a stored value as people read it, in the column's display unit, without the unit."""
+    if value is None:
+        return "–"
+    if isinstance(value, bool):
+        return say("yes") if value else say("no")
+    if isinstance(value, float):
+        return number(number_text(unit(column.display).from_si(value), 5), decimal_sign()) if value else "0"
+    return number(str(value)) if isinstance(value, int) and column.name != "variant" else str(value)

@@ -1,0 +1,192 @@
+"""Constraints between inputs, and on outputs: a text such as ``mechanisms.a.bore <= 0.6 * a.radius_min``, read once, held on arrays."""
+
+from __future__ import annotations
+
+import math
+from collections.abc import Callable, Collection, Mapping
+from dataclasses import dataclass
+from functools import partial
+from typing import Any
+
+import numpy as np
+
+from diecut_report.config.instances import Target
+from diecut_report.config.loader import Config
+from diecut_report.config.model import PRESS
+from diecut_report.formulas import Array
+from diecut_report.formulas.condition_numpy import JudgedRows, judged, shortfall
+from diecut_report.formulas.condition_parts import Name, read
+from diecut_report.formulas.condition_tree import Node as Tree
+from diecut_report.formulas.condition_tree import as_formula, names
+from diecut_report.formulas.conditions import ConditionError
+from diecut_report.formulas.formula import Formula, evaluate
+from diecut_report.formulas.tree import Node, symbols, transform
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
+from diecut_report.text.phrases import Phrase, phrase
+
+WITHOUT_VALUE = phrase("a division by zero, or the root of a number below zero")
+EXAMPLE = "mechanisms.NAME.KEY <= '90 mm'"
+
+
+@dataclass(frozen=True)
+class Term:
+    """Hold what a path stands for in a constraint: its SI unit (None for a text or a yes/no), its value, and the unit that people read.
+
+    The value is ``sym`` of a varied path or of an output, ``qty`` of a value that the base fixes, or an expression of these.
+    """
+
+    unit: str | None
+    node: Node
+    display: str = ""
+    is_output: bool = False
+    is_truth: bool = False  # an output that is a yes or a no; an input of that sort is a text
+
+
+Find = Callable[[str], Term]
+"""What a path stands for; ConditionError in words where it stands for nothing that a constraint may name."""
+
+
+@dataclass(frozen=True)
+class Constraint:
+    """Hold what must hold of a variant; ``values`` says what each name in its tree stands for.
+
+    With ``outputs``, the results that it names, it is judged when the variant is calculated; else before.
+    """
+
+    text: str
+    tree: Tree
+    values: Mapping[str, Node]
+    outputs: tuple[str, ...] = ()
+
+    @property
+    def paths(self) -> tuple[str, ...]:
+        """Return the varied paths and the outputs that it names."""
+        return tuple(dict.fromkeys(path for name in names(self.tree) for path in symbols(self.values[name])))
+
+    def judged(self, rows: Mapping[str, Any]) -> JudgedRows:
+        """Return for each row whether it holds and whether it fails; what has no value (a division by zero) does neither."""
+
+        return judged(self.tree, partial(self._value_of, rows), len(rows[self.paths[0]]))
+
+    def shortfall(self, rows: Mapping[str, Any]) -> Array:
+        """Return for each row 0 where it holds, else how far it is from that."""
+        return shortfall(self.tree, partial(self._value_of, rows), len(rows[self.paths[0]]))
+
+    def _value_of(self, rows: Mapping[str, Any], name: str) -> Any:
+        node = self.values[name]
+        if node.op == "sym":
+            return rows[node.args[0]]
+        found = evaluate(node, lambda leaf: _value(leaf, rows))
+        return found if isinstance(found, str) else np.where(np.isfinite(found), found, np.nan)
+
+    def holds(self, rows: Mapping[str, Any]) -> Array:
+        """Return for each row whether it holds."""
+        return self.judged(rows).holds
+
+
+def why_dropped(counts: Mapping[str, Any]) -> str:
+    """Return what to add where the dropped variants are counted: how many of them because a constraint has no value."""
+    found = counts.get("without_value")
+    words = ", {n} of them because a constraint has no value there ({why})"
+    return Phrase(words, n=found, why=WITHOUT_VALUE) if found else ""
+
+
+def _value(leaf: Node, rows: Mapping[str, Any]) -> Any:
+    value = leaf.args[0]
+    return np.asarray(rows[value]) if leaf.op == "sym" else value if isinstance(value, str) else np.float64(value)
+
+
+def parse(text: str, find: Find, known: Collection[str] = ()) -> Constraint:
+    """Read a constraint; ConditionError in words for what it may not hold, unlike dimensions, or no varied path in it.
+
+    ``known``: paths that are taken whole, whatever they are made of.
+    """
+    found: dict[str, Node] = {}
+    outputs: list[str] = []
+
+    def name(path: str) -> Name:
+        if "." not in path and path not in known:
+            advice = phrase(
+                "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and "
+                "texts in quotes"
+            )
+            raise ConditionError(Phrase("“{path}” is not a path of an input; {advice}.", path=path, advice=advice))
+        term = find(path)
+        found[path] = term.node
+        if term.is_output:
+            outputs.append(path)
+        if term.is_truth:
+            return Name(path, "truth")
+        return Name(path, "text") if term.unit is None else Name(path, "number", term.unit, term.display)
+
+    made = Constraint(text, read(text, known, name, EXAMPLE), found, tuple(dict.fromkeys(outputs)))
+    if not made.paths:
+        words = Phrase(
+            "“{text}” names no varied path, so it would keep all variants or none; name one of vary.", text=text
+        )
+        raise ConditionError(words)
+    return made
+
+
+# What a path in a constraint stands for: a varied input, or what the base says of another one before calculating.
+
+
+def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
+    """Return what a path stands for; ConditionError in words where it is not known before the calculation.
+
+    ``base`` has stand-ins for what is varied, so that its references are those of every variant.
+    """
+    if path in varied:
+        return Term(varied[path].unit, Node("sym", (path,)), _display(varied[path]))
+    try:
+        asked = find_input(base, path)
+    except UnknownPath as fault:
+        raise ConditionError(Phrase("“{path}”: {fault}", path=path, fault=fault)) from None
+    target = base.links.get((asked.instance, *asked.key))
+    if target is None:
+        return Term(asked.unit, Node("qty", (_fixed(base, asked),)), _display(asked))
+    if target.expression is None:
+        return _referred(base, varied, asked, target)
+    nodes = [_referred(base, varied, asked, single).node for single in target.terms]
+    known = dict(zip(target.expression.names, nodes, strict=True))
+    return Term(asked.unit, as_formula(target.expression.tree, known), _display(asked))
+
+
+def _display(asked: Input) -> str:
+    return asked.meta.unit if isinstance(asked.meta, Quantity) else ""
+
+
+def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: Target) -> Term:
+    if target.result is not None or target.is_broken:
+        raise ConditionError(
+            Phrase(
+                "“{path}” refers to ${{target}}, which is known only after calculating; in a constraint an "
+                "output is named by itself, as in NAME.OUTPUT.",
+                path=asked.path,
+                target=target.path,
+            )
+        )
+    head = PRESS if target.instance == PRESS else f"{MECHANISMS}.{target.instance}"
+    found = term(base, varied, ".".join([head, *map(str, target.key)]))
+    if target.formula is None:
+        return found
+    assert isinstance(asked.meta, Quantity), "only quantities have a default that the press gives"
+    return Term(asked.meta.parsed_unit.si, _applied(target.formula, found.node), _display(asked))
+
+
+def _applied(formula: Formula, to: Node) -> Node:
+    """The formula of a default, of what it is derived from."""
+    known = {name: Node("qty", (float(value),)) for name, value in formula.constants.items()}
+    known |= {"π": Node("qty", (math.pi,)), formula.parameters[0]: to}
+    return transform(formula.tree, lambda leaf: known[leaf.args[0]] if leaf.op == "sym" else leaf)
+
+
+def _fixed(base: Config, asked: Input) -> float | str:
+    instance = base.instances[asked.instance]
+    assert instance is not None, "an input of a broken plugin is not found"
+    name = ".".join(part for part in asked.key if isinstance(part, str))
+    value = instance.value(asked.key) if name in instance.given else None
+    if value is None:
+        raise ConditionError(Phrase("“{path}” has no value in the base; give it there, or vary it.", path=asked.path))
+    return str(value).lower() if isinstance(value, bool) else value if isinstance(value, str) else float(value)

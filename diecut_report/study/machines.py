@@ -1,0 +1,443 @@
+"""Configurations calculated side by side on all cores: of each its results, or what is wrong with it."""
+
+from __future__ import annotations
+
+import csv
+import io
+import json
+import os
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from contextlib import redirect_stdout
+from dataclasses import asdict, dataclass, field, replace
+from hashlib import sha256
+from pathlib import Path, PurePath
+from typing import Any
+
+from markupsafe import Markup
+
+from diecut_report import __version__
+from diecut_report.config import yaml
+from diecut_report.config.loader import is_study
+from diecut_report.config.plugins import Discovery
+from diecut_report.config.yaml import Tree
+from diecut_report.errors import Problem, UserError
+from diecut_report.files import room
+from diecut_report.quantities.units import pretty
+from diecut_report.report.pages import html, pdf
+from diecut_report.report.pages.page_engine import HTML, URLFetcher
+from diecut_report.report.text import Catalogue, translated
+from diecut_report.results.conclusion import SELF_TEST, doubtful_kinds
+from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results, settle
+from diecut_report.study.storage.spreadsheets import workbook
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
+from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.translation import localised, said, say, spoken_language
+
+ENDINGS = (".yaml", ".yml")
+MOST = 10_000  # machines of one check
+UNUSED = ("curves", "sections", "figures", "exports", "values", "assumptions", "sources", "errata", "absent", "lists")
+BAD, BROKEN = "bad", "error"  # states beside pass, warn and fail: the file is bad, a plugin broke
+
+
+@dataclass
+class CheckedMachine:
+    """Hold what came out of a configuration: its results without curves and print, and the words of what is wrong with it."""
+
+    file: str
+    status: str
+    results: dict[str, Any] = field(default_factory=dict)
+    words: list[str] = field(default_factory=list)
+
+    @property
+    def mechanisms(self) -> Mapping[str, Any]:
+        """Return the results of its mechanisms."""
+        found: Mapping[str, Any] = self.results.get("mechanisms", {})
+        return found
+
+
+@dataclass
+class FoundFiles:
+    """Hold the files to calculate, and those of folders that are passed over, each with why."""
+
+    files: list[Path] = field(default_factory=list)
+    passed_over: dict[Path, str] = field(default_factory=dict)
+
+    def look_into(self, folder: Path) -> None:
+        """Take all configurations of a folder, by name; studies and other YAML files are passed over."""
+        for path in sorted(path for path in folder.rglob("*") if path.suffix in ENDINGS and path.is_file()):
+            why = _why_no_configuration(path)
+            if why:
+                self.passed_over[path] = why
+            else:
+                self.files.append(path)
+
+
+def configurations(given: Sequence[Path]) -> FoundFiles:
+    """Return the files to calculate: those named, and of folders all configurations; UserError where there are none."""
+    made = FoundFiles()
+    for path in given:
+        if os.path.isdir(path):
+            made.look_into(path)
+        else:
+            made.files.append(path)
+    found = made.files = list(dict.fromkeys(made.files))
+    if not found:
+        words = Phrase(
+            "There is no configuration in {given}. Name files, or folders with .yaml files.",
+            given=", ".join(map(str, given)),
+        )
+        others = [Problem(Phrase("passed over: {why}", why=why), str(path)) for path, why in made.passed_over.items()]
+        raise UserError([Problem(words), *others])
+    if len(found) > MOST:
+        words = Phrase(
+            "These are {count} configurations; at most {most} are checked at once.", count=len(found), most=MOST
+        )
+        raise UserError(Problem(words))
+    return made
+
+
+def _why_no_configuration(path: Path) -> str:
+    """Why a file of a folder is not meant, empty where it is: also one that cannot be read, so that its fault is told."""
+    try:
+        tree = yaml.load(path)
+    except UserError:
+        return ""
+    if isinstance(tree.data, dict) and "mechanisms" in tree.data:
+        return ""
+    if is_study(tree):
+        return phrase("it is a study, which batch calculates")
+    return phrase("it has no key mechanisms, and so is not a configuration")
+
+
+def machines(
+    files: Sequence[Path | Tree], folders: Sequence[str], jobs: int | None = None
+) -> Iterator[tuple[int, CheckedMachine]]:
+    """Yield each configuration's number and what came out, in the order in which they are ready."""
+    warm = Warm(sha256(repr((folders, os.getcwd())).encode()).hexdigest(), _loaded, (tuple(folders),))
+    count = min(jobs or os.cpu_count() or 1, len(files))
+    engine: Engine = Pool(count, warm) if count > 1 else InProcess(warm)
+    chunks = [(number, given if isinstance(given, Tree) else str(given)) for number, given in enumerate(files)]
+    with engine:
+        for (number, _), made in results(engine, calculated, chunks):
+            yield number, made
+
+
+def _loaded(folders: tuple[str, ...]) -> Discovery:
+    settle()
+    return Discovery(tuple(map(Path, folders)))
+
+
+def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMachine:
+    """Return what comes out of a file, or of what was read of it."""
+    from diecut_report import pipeline
+
+    given = chunk[1] if isinstance(chunk[1], Tree) else Path(chunk[1])
+    file = given.file if isinstance(given, Tree) else str(given)
+    try:
+        with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere):  # a plugin may print
+            outcome, _ = pipeline.calc(given, discovery, lambda _: None)
+    except UserError as error:
+        return CheckedMachine(file, BAD, {}, [str(problem) for problem in _all_faults(given, discovery, error)])
+    status = BROKEN if outcome.broken else str(outcome.results["status"])
+    return CheckedMachine(file, status, _lean(outcome.results), [*map(str, outcome.broken), *outcome.warnings])
+
+
+def _all_faults(given: Path | Tree, discovery: Discovery, error: UserError) -> Sequence[Problem]:
+    """All that is wrong with a file: calculating stops at the first kind of it."""
+    from diecut_report import pipeline
+
+    try:
+        pipeline.validate(given, discovery)
+    except UserError as more:
+        return more.problems
+    return error.problems
+
+
+def _lean(whole: dict[str, Any]) -> dict[str, Any]:
+    """Results without what a comparison does not show, so that they travel fast between processes."""
+    kept = {
+        name: {key: part for key, part in data.items() if key not in UNUSED}
+        for name, data in whole["mechanisms"].items()
+    }
+    config = {key: part for key, part in whole["config"].items() if key in ("file", "sha256")}
+    return {**whole, "config": config, "mechanisms": kept, "comparisons": {}}
+
+
+# What machines have in common and where they differ: verdicts, the matrix of checks, unlike inputs, advice. Plain data.
+
+
+Data = Mapping[str, Any]
+NOT_CHECKED, INCOMPLETE = "not_checked", "incomplete"
+STATES = {
+    "pass": phrase("pass"),
+    INCOMPLETE: phrase("conditional"),
+    "warn": phrase("warn"),
+    "fail": phrase("fail"),
+    BROKEN: phrase("error"),
+    BAD: phrase("bad"),
+    "skipped": phrase("skipped"),
+    NOT_CHECKED: phrase("not checked"),
+}
+
+
+@dataclass(frozen=True)
+class Verdict:
+    """Hold a machine's line of the table of verdicts; ``words`` say what is wrong with a bad file, or with a plugin."""
+
+    machine: str
+    file: str
+    status: str
+    governing: str = ""
+    utilisation: float | None = None
+    failed: int = 0
+    not_checked: int = 0
+    warnings: int = 0
+    words: tuple[str, ...] = ()
+    formulas_with_faults: bool = False
+    assumed: int = 0
+    conclusion: str = ""
+
+    @property
+    def face(self) -> str:
+        """Return the verdict as it is shown: one that passes, but leaves something open, is conditional."""
+        is_open = self.not_checked or self.assumed or self.formulas_with_faults
+        return INCOMPLETE if self.status == "pass" and is_open else self.status
+
+
+@dataclass(frozen=True)
+class MachineComparison:
+    """Hold machines side by side: a row has a cell for each of ``machines``, "" or None where a machine lacks it."""
+
+    machines: list[str]
+    verdicts: list[Verdict]
+    checks: list[tuple[str, str, list[dict[str, Any] | None]]]  # id, title, status and utilisation of each
+    inputs: list[tuple[str, str, list[str]]]  # path, description, what each has
+    advice: list[tuple[str, list[str]]]  # machine, what to do
+
+    def as_data(self) -> dict[str, Any]:
+        """Return it as the JSON file holds it."""
+        checks = [
+            {"id": name, "title": title, "machines": dict(zip(self.machines, cells, strict=True))}
+            for name, title, cells in self.checks
+        ]
+        inputs = [
+            {"path": path, "description": told, "machines": dict(zip(self.machines, cells, strict=True))}
+            for path, told, cells in self.inputs
+        ]
+        return {
+            "schema_version": 1,
+            "machines": [asdict(verdict) for verdict in self.verdicts],
+            "checks": checks,
+            "differing_inputs": inputs,
+            "advice": dict(self.advice),
+        }
+
+
+def verdict(machine: CheckedMachine, name: str) -> Verdict:
+    """Return a machine's line."""
+    if machine.status == BAD:
+        return Verdict(name, machine.file, BAD, words=tuple(machine.words))
+    checks = list(_checks(machine))
+    found, whole = machine.results.get("governing"), machine.results.get("summary", {})
+    named = f"{found['mechanism']}.{found['check']}" if found else ""
+    ratio = next((check["utilisation"] for key, check in checks if key == named), None)
+    return Verdict(
+        name, machine.file, machine.status, named, ratio,
+        sum(check["status"] == "fail" for _, check in checks),
+        whole.get(NOT_CHECKED, sum(check["status"] == NOT_CHECKED for _, check in checks)),
+        sum(check["status"] == "warn" for _, check in checks), tuple(machine.words), bool(machine.results and doubtful_kinds(machine.results)),
+        len(whole.get("assumed", ())), whole.get("conclusion", ""),
+    )  # fmt: skip
+
+
+def _checks(machine: CheckedMachine) -> Iterator[tuple[str, Data]]:
+    for name, data in machine.mechanisms.items():
+        own = (check for check in data["checks"] if check.get("class") != SELF_TEST)
+        yield from ((f"{name}.{check['id']}", check) for check in own)
+
+
+def names(files: Sequence[str]) -> list[str]:
+    """Return what machines are called: their files' names, with so much of the path as tells them apart."""
+    parts = [PurePath(file).with_suffix("").parts for file in files]
+    length = 1
+    while len({part[-length:] for part in parts}) < len(set(parts)):
+        length += 1
+    return ["/".join(part[-length:]) for part in parts]
+
+
+def language_of(machines: Sequence[CheckedMachine]) -> str:
+    """Return the language that the projects of all machines share; English where they do not."""
+    found = {machine.results["project"].get("language") or SOURCE_LANGUAGE for machine in machines if machine.results}
+    return found.pop() if len(found) == 1 else SOURCE_LANGUAGE
+
+
+def in_language(machines: Sequence[CheckedMachine], catalogues: Catalogues) -> list[CheckedMachine]:
+    """Return machines with their texts in the language of the catalogues."""
+    if catalogues.language == SOURCE_LANGUAGE:
+        return list(machines)
+    return [
+        replace(each, results=dict(translated(each.results, catalogues))) if each.results else each for each in machines
+    ]
+
+
+def compared(machines: Sequence[CheckedMachine]) -> MachineComparison:
+    """Return machines side by side; bad ones have a verdict alone."""
+    called = names([machine.file for machine in machines])
+    verdicts = [verdict(machine, name) for machine, name in zip(machines, called, strict=True)]
+    good = [(name, machine) for name, machine in zip(called, machines, strict=True) if machine.status != BAD]
+    sides = [machine for _, machine in good]
+    advice = [(name, told) for name, machine in good if (told := list(_advice(machine)))]
+    return MachineComparison([name for name, _ in good], verdicts, _matrix(sides), _differing(sides), advice)
+
+
+def _matrix(machines: Sequence[CheckedMachine]) -> list[tuple[str, str, list[dict[str, Any] | None]]]:
+    made = [dict(_checks(machine)) for machine in machines]
+    titles = {key: str(check["title"]) for checks in made for key, check in checks.items()}
+    return [(key, title, [_verdicts_cell(checks.get(key)) for checks in made]) for key, title in titles.items()]
+
+
+def _verdicts_cell(check: Data | None) -> dict[str, Any] | None:
+    return None if check is None else {"status": check["status"], "utilisation": check["utilisation"]}
+
+
+def _differing(machines: Sequence[CheckedMachine]) -> list[tuple[str, str, list[str]]]:
+    """The inputs that are not alike in all machines, as they are printed."""
+    made = [dict(_inputs(machine)) for machine in machines]
+    told = {key: str(row["description"]) for inputs in made for key, row in inputs.items()}
+    rows = [(key, text, [_shown(inputs.get(key)) for inputs in made]) for key, text in told.items()]
+    return [row for row in rows if len(set(row[2])) > 1]
+
+
+def _inputs(machine: CheckedMachine) -> Iterator[tuple[str, Data]]:
+    for row in machine.results["press"]["fields"]:
+        yield row["path"], row
+    for name, data in machine.mechanisms.items():
+        yield from ((f"{name}.{key}", row) for key, row in data["inputs"].items())
+
+
+def _shown(row: Data | None) -> str:
+    if row is None:
+        return ""
+    return f"{localised(row['display']['text'])} {pretty(row['display']['unit'])}".rstrip()
+
+
+def _advice(machine: CheckedMachine) -> Iterator[str]:
+    """What the checks that do not pass tell to do."""
+    for name, check in _checks(machine):
+        if check["status"] in ("fail", "warn"):
+            yield f"{name}: {check['message']}"
+
+
+# The comparison of machines as HTML (one file, no network), PDF, XLSX, CSV and JSON.
+
+
+NAME = "machines"
+HEADS = (
+    phrase("machine"), phrase("verdict"), phrase("governing check"), phrase("utilisation"), phrase("failed"),
+    phrase("not checked"), phrase("warnings"), phrase("assumed"), phrase("file"), phrase("what is wrong"),
+)  # fmt: skip
+Rows = list[list[Any]]
+
+
+def page(made: MachineComparison) -> bytes:
+    """Return the comparison as one self-contained HTML page."""
+    return _filled(made, "screen").encode()
+
+
+def sheets(made: MachineComparison) -> bytes:
+    """Return the comparison as PDF (PDF/UA-1)."""
+    fetcher = URLFetcher(allowed_protocols={"data"}, allow_redirects=False, fail_on_errors=True)
+    with room(), pdf._without_collection():
+        content: bytes = HTML(string=_filled(made, "print"), url_fetcher=fetcher).write_pdf(pdf_variant="pdf/ua-1")
+    return content
+
+
+def _filled(made: MachineComparison, kind: str) -> str:
+    faces = html._font_faces(tuple(html.FACES.items()))
+    style = "\n".join(
+        [
+            faces,
+            *(
+                html._read(f"{name}.css")
+                for name in ("report", kind, *(["strip"] if kind == "print" else []), "summary", "machines")
+            ),
+        ]
+    )
+    language = spoken_language()
+    return html._environment().get_template("summary_machines.html.j2").render(
+        c=made, t=Catalogue(language), language=language, kind=kind, say=say, said=said, states=STATES, policy=html.policy(""),
+        style=Markup(style), version=__version__, shown=shown, utilised=utilised,
+    )  # fmt: skip
+
+
+def shown(cell: dict[str, Any] | None) -> str:
+    """Return a check of a machine as a cell: its utilisation in per cent, or its verdict; nothing where it is not made."""
+    if cell is None:
+        return ""
+    return said(STATES[cell["status"]]) if cell["utilisation"] is None else utilised(cell["utilisation"])
+
+
+def utilised(share: float) -> str:
+    """Return a utilisation in per cent."""
+    return localised(f"{100 * share:.4g} %")
+
+
+def table(made: MachineComparison) -> bytes:
+    """Return the verdicts, the matrix of checks, the inputs that differ and the advice as one CSV, each below its heads."""
+    text = io.StringIO()
+    writer = csv.writer(text, lineterminator="\n")
+    for rows in _tables(made).values():
+        writer.writerows(rows)
+        writer.writerow([])
+    return text.getvalue().encode()
+
+
+def _tables(made: MachineComparison) -> dict[str, Rows]:
+    return {
+        say("verdicts"): [[*map(said, HEADS)], *map(_verdict, made.verdicts)],
+        say("checks"): [[say("check"), say("title"), *made.machines],
+                   *([name, title, *map(_cell, cells)] for name, title, cells in made.checks)],
+        say("differing inputs"): [[say("input"), say("description"), *made.machines],
+                             *([path, told, *cells] for path, told, cells in made.inputs)],
+        say("advice"): [[say("machine"), say("advice")], *([name, each] for name, told in made.advice for each in told)],
+    }  # fmt: skip
+
+
+def _verdict(of: Verdict) -> list[Any]:
+    return [
+        of.machine,
+        said(STATES[of.face]),
+        of.governing,
+        of.utilisation,
+        of.failed,
+        of.not_checked,
+        of.warnings,
+        of.assumed,
+        of.file,
+        "\n".join(map(said, of.words)),
+    ]
+
+
+def _cell(cell: dict[str, Any] | None) -> str:
+    """A check in a table: its verdict with its utilisation."""
+    if cell is None:
+        return ""
+    used = "" if cell["utilisation"] is None else localised(f" {cell['utilisation']:.6g}")
+    return said(STATES[cell["status"]]) + used
+
+
+def _json(made: MachineComparison) -> bytes:
+    return (json.dumps(made.as_data(), indent=1, ensure_ascii=False, allow_nan=False) + "\n").encode()
+
+
+FORMATS: dict[str, Callable[[MachineComparison], bytes]] = {
+    "html": page, "pdf": sheets, "xlsx": lambda made: workbook(_tables(made)), "csv": table, "json": _json,
+}  # fmt: skip
+
+
+def files(
+    made: MachineComparison, folder: Path, formats: list[str], neutral: MachineComparison | None = None
+) -> Iterator[tuple[Path, bytes]]:
+    """Yield the files of a comparison, all made before any is written; ``neutral`` is the same in English, for JSON."""
+    sides = {"json": neutral or made}
+    yield from [(folder / f"{NAME}.{ending}", FORMATS[ending](sides.get(ending, made))) for ending in formats]

@@ -1,1 +1,0 @@
-"""Many machines, each a configuration of its own: calculated side by side, and compared."""

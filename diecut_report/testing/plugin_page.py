@@ -1,0 +1,256 @@
+"""Judges plugins: which kinds are meant, on which machines they are tried, and what was found."""
+
+from __future__ import annotations
+
+import re
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field, replace
+from functools import cached_property
+from importlib.resources import as_file, files
+from itertools import groupby
+from pathlib import Path
+from typing import Any
+
+from diecut_report.config.loader import Config, load_config
+from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind, in_folder
+from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.testing.contract import TITLES, WORST_LAST, ContractTest, TriedRule, refuse_own, write_missing
+from diecut_report.text.catalogues import ChangedCatalogue
+from diecut_report.text.phrases import Counted, Phrase, joined
+from diecut_report.text.translation import said
+
+# Machines to try a plugin on: of the configurations that are named, or of those that lie beside the plugin.
+
+
+FOLDERS = (".", "examples", "configs")
+Machine = tuple[Config, str]
+LEVELS = 3  # folders above a plugin in which its examples are sought
+INSTALLED = "site-packages"
+LARGEST = 1_000_000  # bytes of a file that is looked through
+
+
+def named_machines(files: Iterable[Path], kind: str, discovery: Discovery) -> list[Machine]:
+    """Return all machines of a kind in these configurations with their names; UserError where one of them is wrong."""
+    return [
+        (config, name)
+        for config in (load_config(file, discovery) for file in files)
+        for name, own in config.kinds.items()
+        if own == kind
+    ]
+
+
+def machines_beside(origin: Origin, discovery: Discovery) -> tuple[list[Machine], list[Problem]]:
+    """Return all machines of a kind in sound configurations beside its plugin; where there are none, why others are not sound."""
+    found: list[Machine] = []
+    refused: list[Problem] = []
+    for file in _files(origin):
+        try:
+            found += named_machines([file], origin.kind, discovery)
+        except UserError as error:  # of something else, which its user knows, if there is a sound one
+            refused += error.problems
+    return found, [] if found else refused
+
+
+def _files(origin: Origin) -> Iterator[Path]:
+    """The configurations near a plugin that name its kind."""
+    kind = re.compile(rf"\bkind:\s*[\"']?{re.escape(origin.kind)}\b")
+    for folder in _folders(origin):
+        for file in sorted(folder.glob("*.yaml")):
+            if file.is_file() and file.stat().st_size < LARGEST and kind.search(file.read_text("utf-8", "replace")):
+                yield file
+
+
+def _folders(origin: Origin) -> Iterator[Path]:
+    if origin.is_own:
+        with as_file(files("diecut_report.configs")) as examples:
+            yield examples
+        return
+    for level, home in enumerate(origin.file().resolve().parents):
+        if level >= LEVELS or home.name == INSTALLED:
+            return
+        yield from (home / name for name in FOLDERS if (home / name).is_dir())
+
+
+# Tries a plugin on each machine of its kind that is known, not on the first alone.
+
+
+ON_EACH = ("example", "alone", "figures")  # the others depend on the plugin alone, or put every input to the test
+
+
+def tried_on_each(first: ContractTest, others: Sequence[Machine]) -> Iterator[TriedRule]:
+    """Yield each rule with what was found on the first machine and, where what is given matters, on each of the others."""
+    tests: Iterable[ContractTest] = _tests(first, others)
+    for found in first.tried():
+        if found.id not in ON_EACH or found.status == "not_tried":
+            yield found
+            continue
+        also = [(test, test.tried_alone(found.id)) for test in tests]
+        yield _merged(first, found, also) if also else found
+        tests = [test for test, own in also if own.id != "example" or own.status == "pass"]
+
+
+def _tests(first: ContractTest, others: Sequence[Machine]) -> Iterator[ContractTest]:
+    """The tests of the other machines; those of one configuration calculate its press once."""
+    latest = first
+    for config, name in others:
+        test = latest.of(config, name)
+        yield test
+        latest = test
+
+
+def _merged(first: ContractTest, found: TriedRule, also: Sequence[tuple[ContractTest, TriedRule]]) -> TriedRule:
+    faults = list(found.faults)
+    for test, own in also:
+        words = "{file}, mechanism {name}: {fault}"
+        faults += [
+            Phrase(words, file=_file(test), name=test.name, fault=fault)
+            for fault in own.faults
+            if fault not in found.faults
+        ]
+    status = max((found, *(own for _, own in also)), key=lambda each: WORST_LAST.index(each.status)).status
+    told = _machines([first, *(test for test, _ in also)]) if found.id == "example" and found.told else found.told
+    if told and found.id != "example":
+        told += Counted(len(also), "; on {n} other machine too", "; on {n} other machines too")
+    return replace(found, status=status, told=told, faults=tuple(faults))
+
+
+def _machines(tests: Sequence[ContractTest]) -> str:
+    """Which machines it was tried on, by their files."""
+    told = []
+    for file, group in groupby(tests, key=_file):
+        names = [test.name for test in group]
+        words = "{file}, mechanism {name}" if len(names) == 1 else "{file}, mechanisms {name}"
+        told.append(Phrase(words, file=file, name=", ".join(names)))
+    return joined(told, "; ")
+
+
+def _file(test: ContractTest) -> Path | str:
+    assert test.config is not None
+    return test.config.tree.name
+
+
+PLUGINS = "plugins"  # the folder of a new plugin's project that holds the plugin
+
+
+class FolderFirst(Discovery):
+    """Knows all kinds that are here; those of one folder stand before installed ones of the same name."""
+
+    def __init__(self, first: Path | None, folders: Sequence[Path]) -> None:
+        super().__init__([*([first] if first else []), *folders])
+        self.first = first
+
+    @cached_property
+    def origins(self) -> dict[str, list[Origin]]:
+        """Return each kind with the places that give it."""
+        found = super().origins
+        return {**found, **{kind: [origin] for kind, origin in self.own_kinds.items()}}
+
+    @cached_property
+    def own_kinds(self) -> dict[str, Origin]:
+        """Return the kinds of the folder."""
+        return {} if self.first is None else {origin.kind: origin for origin in in_folder(self.first)}
+
+
+@dataclass
+class CheckedPlugin:
+    """Hold what was found of a plugin: each rule of the contract, and its chapter as HTML."""
+
+    kind: str
+    told: str
+    mechanism: Mechanism | None = None
+    rules: list[TriedRule] = field(default_factory=list)
+    page: str = ""
+    error: str = ""
+    changed: dict[Path, ChangedCatalogue] = field(default_factory=dict)
+
+    @property
+    def status(self) -> str:
+        """Return the worst that was found: pass, note, fail or broke."""
+        found = [rule.status for rule in self.rules if rule.status != "not_tried"]
+        return "broke" if self.error else max(found, key=WORST_LAST.index, default="pass")
+
+    @property
+    def data(self) -> dict[str, Any]:
+        """Return it as plain data."""
+        version = self.mechanism.version if self.mechanism else None
+        rules = [
+            {
+                "rule": each.id,
+                "status": each.status,
+                "told": said(each.told),
+                "faults": [said(fault) for fault in each.faults],
+            }
+            for each in self.rules
+        ]
+        error = {"error": said(self.error)} if self.error else {}
+        return {
+            "kind": self.kind,
+            "version": version,
+            "from": said(self.told),
+            "status": self.status,
+            "rules": rules,
+        } | error
+
+
+def meant(asked: str, folders: Sequence[Path]) -> tuple[FolderFirst, list[str]]:
+    """Return the kinds that a name or a folder means, and what knows them; UserError where there are none."""
+    place = Path(asked)
+    if not place.is_dir():
+        if place.suffix or "/" in asked:
+            raise UserError(
+                Problem(Phrase("There is no such folder of plugins: give a folder, or the name of a kind."), asked)
+            )
+        known = FolderFirst(None, folders)
+        if asked not in known.origins:
+            raise UserError(Problem(_unknown(known, asked)))
+        return known, [asked]
+    for folder in (place, place / PLUGINS):
+        if folder.is_dir() and (own := (known := FolderFirst(folder, folders)).own_kinds):
+            return known, list(own)
+    words = "There is no plugin in this folder: a plugin is NAME.py, or a folder NAME with an __init__.py."
+    raise UserError(Problem(Phrase(words), asked))
+
+
+def _unknown(known: Discovery, kind: str) -> str:
+    try:
+        known.mechanism(kind)
+    except UnknownKind as fault:
+        return str(fault)
+    raise AssertionError(kind)
+
+
+def checked(
+    known: FolderFirst, kind: str, configs: Sequence[Path], language: str, *, write_po: bool = False
+) -> Iterator[TriedRule | CheckedPlugin]:
+    """Yield each rule when it was tried, and at last the whole; UserError where a configuration cannot be used.
+
+    With ``write_po`` the plugin's catalogues get the texts that they lack, and what nothing says is marked, before its words are tried.
+    """
+    origin = known.origins[kind][0]
+    found = CheckedPlugin(kind, origin.told)
+    if write_po:
+        refuse_own(origin)
+    try:
+        known.extend()
+        found.mechanism = known.mechanism(kind)
+    except (PluginError, DuplicateKind) as error:
+        found.error = error.message if isinstance(error, PluginError) else str(error)
+        yield found
+        return
+    machines, refused = (named_machines(configs, kind, known), []) if configs else machines_beside(origin, known)
+    if configs and not machines:
+        words = Phrase("There is no mechanism of the kind {kind} in it.", kind=repr(kind))
+        raise UserError(Problem(words, str(configs[0])))
+    config, name = machines[0] if machines else (None, "")
+    test = ContractTest(found.mechanism, known, config, name, language, refused)
+    if write_po:
+        found.changed = write_missing(test, origin)
+    for rule in tried_on_each(test, machines[1:]):
+        found.rules.append(rule)
+        yield rule
+    found.page = test.page
+    yield found
+
+
+__all__ = ["TITLES", "CheckedPlugin", "FolderFirst", "checked", "meant"]

@@ -1,0 +1,1 @@
+"""Texts that keep their values, their translation, and the catalogues they are found in."""
