@@ -157,7 +157,8 @@ def leaf(place: str, pair: tuple[Any, Any], tolerance: float, scale: float) -> I
     """Yield a line where two values differ by more than a share of their size, or of that of their curve."""
     stored, now = pair
     if isinstance(stored, int | float) and isinstance(now, int | float):
-        if abs(stored - now) <= tolerance * max(abs(stored), abs(now), scale):
+        both_absent = stored != stored and now != now  # not a number: of a variant that has none
+        if both_absent or abs(stored - now) <= tolerance * max(abs(stored), abs(now), scale):
             return
     elif stored == now:
         return
