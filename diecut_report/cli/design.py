@@ -252,6 +252,29 @@ def _save(target: Path, text: str, config: Path, quiet: bool) -> None:
         tell_written([target])
 
 
+@click.command(cls=HelpfulCommand)
+@click.argument("name", metavar="MECHANISM.NAME")
+@click.argument("config", type=path_of)
+@form_option
+@common
+def where(name: str, config: Path, form: str, folders: tuple[Path, ...], quiet: bool) -> int:
+    """Tell where a number comes from: file and line of its formula, what it takes, its source, and the checks that compare it.
+
+    NAME is an output or value of the results file, `inputs.KEY` or `checks.ID`.
+
+    Exit codes: 0 found, 2 bad input or no such name, 3 a plugin broke.
+    """
+    from diecut_report.results.warm_press import WarmPress
+    from diecut_report.results.where import data, lines
+    from diecut_report.results.where import where as place_of
+
+    with Progress(quiet) as progress, without_output():
+        progress(phrase("calculating"))
+        found = place_of(WarmPress().calculate(_loaded(config, Discovery(folders))), name)
+    emit(_json(data(found)) if form == "json" else _text(lines(found)))
+    return PASSED
+
+
 def _loaded(config: Path, discovery: Discovery) -> Config:
     """The configuration; PluginError where one of its plugins is broken."""
     from diecut_report.config.loader import load_config

@@ -259,7 +259,7 @@ def needed(mechanism: Mechanism, given: frozenset[str], names: Iterable[str]) ->
     """Return the ids of the steps that quantities need, and of what must hold for them."""
     known = _asking(mechanism, given)
     found: set[str] = set()
-    pending = [_giver(name, known.own) for name in names]
+    pending = [giver_of(name, known.own) for name in names]
     while pending:
         giver = pending.pop()
         if giver and giver not in found:
@@ -280,7 +280,7 @@ class _Asking(NamedTuple):
 def _asking(mechanism: Mechanism, given: frozenset[str]) -> _Asking:
     steps = [step for _, step in mechanism.active(given)]
     own = {step.id: step for step in steps}
-    giver = cache(partial(_giver, own=own))
+    giver = cache(partial(giver_of, own=own))
 
     def givers(names: Iterable[str]) -> frozenset[str]:
         return frozenset(filter(None, map(giver, names)))
@@ -305,7 +305,7 @@ def _of_abscissa(steps: Sequence[Step], step: Step) -> list[str]:
     return [s.id for s in steps if getattr(s, "abscissa", "") == step.id]
 
 
-def _giver(name: str, own: Mapping[str, Step]) -> str:
+def giver_of(name: str, own: Mapping[str, Step]) -> str:
     """Return the id of the step of this id, or that gives this name; nothing where none does."""
     if name in own:
         return name
