@@ -437,7 +437,7 @@ def lines(found: Mended) -> Iterator[str]:
     """Yield what became of the machine, in words."""
     failing = [name for name, _ in found.before.checks("fail")]
     if not failing:
-        words = "no check fails: nothing is to be mended (governing: {check})"
+        words = "no check fails: nothing to fix (governing: {check})"
         yield Phrase(words, check=found.before.governing or phrase("none"))
         return
     yield Counted(

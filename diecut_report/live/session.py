@@ -122,9 +122,7 @@ class LiveSession:
         """
         self.read()  # as it stands now, whatever the editor has saved meanwhile
         if self.faults or self.tree is None:
-            words = phrase(
-                "Nothing is written, as this cannot be calculated; take a change back, or mend the file first."
-            )
+            words = phrase("Nothing is written, as this cannot be calculated; undo a change, or fix the file first.")
             raise UserError(Problem(words, str(self.file)))
         tree, text = self.tree, rewritten(self.tree, self._edited()).text
         if text != tree.text:

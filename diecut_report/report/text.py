@@ -59,7 +59,7 @@ ENGLISH: dict[str, str] = {
     "given": "given", "default": "default", "reference": "reference", "expression": "calculated",
     "refers": "from {path}", "from_press": "default, from {path}",
     "assumed": "assumed", "measured": "measured", "catalogue": "from a catalogue", "standard": "by a standard", "drawing": "from a drawing",
-    "rests_on": "Rests on {n} assumed values", "moving_first": ", those first that move a governing check",
+    "rests_on": "{n} inputs are assumed", "moving_first": "; the most influential first",
     "moves": "moves “{check}”", "move_each": "each moves “{check}”", "more_assumed": " and {n} more",
     "influence": "Influence of inputs",
     "influence_lead": "Each input that is given as a number is lowered and raised by {by}, or by its tolerance; all else stays as it is.",
@@ -126,7 +126,7 @@ ENGLISH: dict[str, str] = {
     "key_result": "Key result", "yes": "yes", "time_ms": "Time, ms",
 }  # fmt: skip
 COUNTED = {  # what is said of a number ``n`` of things, with its form for one where English has another
-    "count_pass": "1 passes", "self_tests": "1 self-test of the calculation holds.", "rests_on": "Rests on 1 assumed value", "more_assumed": "",
+    "count_pass": "1 passes", "self_tests": "1 self-test of the calculation holds.", "rests_on": "1 input is assumed", "more_assumed": "",
     "influence_more": "1 more moves it less.", "influence_still": "1 does not move it.",
     "influence_at_default": "1 input stands at its default and is not changed; report.influence.defaults changes it too.",
     "influence_sure": "1 check holds in all of these machines.", "repeated_parts": "", "dxf": "", "dxf_profile": "", "csv": "",

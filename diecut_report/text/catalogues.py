@@ -47,7 +47,7 @@ class TextCatalogue:
             judge(found, self._plural)
         except Exception as error:  # of any kind: that of a plugin may hold anything
             words = Phrase(
-                "This catalogue of texts cannot be read: {error}. Mend it, or remove it: its texts are English then.",
+                "This catalogue of texts cannot be read: {error}. Fix it, or remove it: its texts are then in English.",
                 error=error,
             )
             raise UserError(Problem(words, str(file))) from error

@@ -101,5 +101,5 @@ gear.value("gear_speed_peak_sector_referred", "ω_31", "rad",
            source="003, Fig. 7, the source's unit")
 gear.reduction("gear_rotation_per_cycle", "φ_1,Σ", "deg", "Rotation of the gear in a cycle (mean of its speed)", "mean", of="gear_speed",
                source="kinematics")
-gear.value("gear_rotation_error", "Δφ_1", "deg", "What that is off a full turn",
+gear.value("gear_rotation_error", "Δφ_1", "deg", "Deviation from a full turn",
            lambda gear_rotation_per_cycle: abs(gear_rotation_per_cycle - 2 * np.pi), source="kinematics", output=False)

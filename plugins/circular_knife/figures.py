@@ -122,7 +122,7 @@ FIGURES = (
     ),
     Chart(
         id="placement",
-        title="Where the board lies",
+        title="Position of the board",
         caption="Shear angle, force and torque if the board's front edge is at another distance from the axis, all else as it is: further away "
         "the edge stands steeper and the force is smaller.",
         build=placement,

@@ -13,7 +13,7 @@ from diecut_report.plugins.circular_knife import formulas as f
 
 OWN = "this method"
 
-reach = Chapter("What the edge reaches",
+reach = Chapter("Reach of the edge",
                 text="The formulas of this calculation are its own. Of the source (001, third paper) only the first page survives: it gives the "
                      "arrangement and its parameters r, R, δ, b and h, not its formulas; these are derived here from that geometry. The shaft's "
                      "axis is the origin; x runs along the counter-knife, depths point down, and the knife angle φ turns clockwise from the "
@@ -80,7 +80,7 @@ shear_range = Chapter("Range of the cut",
                      "r·sin φ)/R falls there.")
 shear_range.value("touch_angle", "φ_0", "deg", "Knife angle at which the edge touches the counter-knife",
             lambda depth, edge_radius, eccentricity: np.arcsin((depth - edge_radius) / eccentricity), source=OWN, output=False)
-shear_range.value("return_angle", "φ_r", "deg", "Knife angle at which the cutting point turns back", f.reversal_angle, source=OWN, output=False)
+shear_range.value("return_angle", "φ_r", "deg", "Knife angle at which the cutting point reverses", f.reversal_angle, source=OWN, output=False)
 shear_range.add(_at_distance("angle_start", "φ_1", "Knife angle at the start of the cut", "front_distance"))
 shear_range.add(_at_distance("angle_end", "φ_2", "Knife angle at the end of the cut", "cut_end"))
 shear_range.value("cut_angle", "Δφ", "deg", "Angle of the cut", lambda angle_end, angle_start: angle_end - angle_start, source="kinematics")

@@ -67,7 +67,7 @@ release.value("self_locking", "L_s", "1", "Whether the wedge locks itself", lamb
 release.words("release_advice", advice.against_locking, ("friction_angle", "wedge_slope"))
 
 lining = Chapter("Lining", text="The shoes are cylindrical and press evenly on their share of the circumference.")
-lining.value("shoe_width", "b", "mm", "Width of the shoes that the allowed pressure asks for",
+lining.value("shoe_width", "b", "mm", "Shoe width required by the allowed pressure",
              lambda pressing_force, shoe_radius, shoe_coverage, allowable_pressure:
                  pressing_force / (2 * np.pi * shoe_radius * shoe_coverage * allowable_pressure), source="002 eq. 17")
 lining.value("lining_width", "b_L", "mm", "Width of the lining: as given", bind(lambda shoe_width: shoe_width, shoe_width="inputs.shoe_width"),

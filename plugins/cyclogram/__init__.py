@@ -36,7 +36,7 @@ MECHANISM = Mechanism(
               demand="rate_error", limit=steps.LARGEST_RATE_ERROR, unit="1", demand_label="relative difference",
               limit_label="accepted", source="kinematics",
               consequence="{line_name} runs at another rate than the press; let its speed follow press.productivity, as it does by default."),
-        Check(id="carriage_height", check_class="function", title="Height that the cylinder leaves the carriages",
+        Check(id="carriage_height", check_class="function", title="Clearance height for the carriages",
               demand="carriage_clearance", limit="clearance_least",
               unit="mm", demand_label="needed", limit_label="least over the period", source="geometry", asks_for=("station",),
               consequence="a carriage is hit; let the carriages stop elsewhere, lower them, or turn the transport by its offset."),

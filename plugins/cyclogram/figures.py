@@ -151,7 +151,10 @@ def moving(view: View) -> list[Shape]:
     motions: Motions = view.prepared("motions")
     main = _angles(view.prepared("timing"))
     ways = [
-        (Phrase("Way of {name}", name=name), line(main, motions.ways.one(k, main[None], main[None], None)[0], name))
+        (
+            Phrase("Displacement of {name}", name=name),
+            line(main, motions.ways.one(k, main[None], main[None], None)[0], name),
+        )
         for k, name in enumerate(motions.ways.names)
     ]
     panels = [chart_panel(title, "mm", *AXIS, lines=[drawn]) for title, drawn in ways]
@@ -231,7 +234,7 @@ FIGURES = (
     ),
     Chart(
         id="ways",
-        title="Ways and slack",
+        title="Displacements and slack",
         caption="Ways of the lines over the common period of the main shaft; a transport goes on with each step. Where an offset "
         "is found: the least slack of all interlocks over it; between the upright lines all interlocks hold.",
         needs=("rates_agree",),

@@ -17,8 +17,10 @@ class Passage(Block):
     """A stretch of the sheet's way of which it is known what it passes there."""
 
     name: Annotated[str, Text("Name of the phase")]
-    __annotations__["from"] = Annotated[float, Quantity("s_1", "mm", "Way from the dwell at which it begins", ge=0)]
-    to: Annotated[float, Quantity("s_2", "mm", "Way from the dwell at which it ends", gt=0)]
+    __annotations__["from"] = Annotated[
+        float, Quantity("s_1", "mm", "Displacement from the dwell at which it begins", ge=0)
+    ]
+    to: Annotated[float, Quantity("s_2", "mm", "Displacement from the dwell at which it ends", gt=0)]
     every: Annotated[int, Quantity("k", "1", "Of so many steps one passes", ge=1, le=12, integer=True)] = 1
     first: Annotated[int, Quantity("k_0", "1", "Number of the first step that passes", ge=0, le=11, integer=True)] = 0
 
@@ -41,7 +43,7 @@ class LineKeys(Block):
     torque_curve: Annotated[
         str, Text("Name of a curve of the line, such as `torque`, where its torque is not the one of its kind")
     ] = ""
-    passing: Annotated[list[Passage], Text("What the sheet passes on its way")] = []  # noqa: RUF012
+    passing: Annotated[list[Passage], Text("Stations that the sheet passes")] = []  # noqa: RUF012
 
 
 class InterlockKeys(Block):

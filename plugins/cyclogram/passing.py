@@ -1,4 +1,4 @@
-"""What the sheet passes on its way: the angles at which it is at two places of a step, of all machines at once."""
+"""Stations that the sheet passes: the angles at which it is at two places of a step, of all machines at once."""
 
 from __future__ import annotations
 

@@ -22,7 +22,7 @@ LINES = ("mechanism", "turns_per_sheet", "offset", "path_efficiency", "torque_cu
 INTERLOCKS = ("name", "phase", "within", "apart_from", "margin")
 FRICTION = ("name", "torque", "power", "turns_per_sheet", "path_efficiency")
 STATION = ("cylinder", "transport", "carriage_stop", "carriage_width", "forward_direction")
-PHASES = "phases of the lines, laid over the common period of the main shaft"
+PHASES = "phases of the lines over the common period of the main shaft"
 LARGEST_RATE_ERROR = 1e-6  # relative
 TIMING, SUM = ("timing",), ("sum",)
 
@@ -42,7 +42,7 @@ shaft.value("main_period", "P", "deg", "Common period of the main shaft", lambda
 shaft.value("period_time", "T_P", "ms", "Time of the common period", lambda sheets_per_period, sheet_time: sheets_per_period * sheet_time)
 shaft.computed("line_turns", "i_k", "1", "Turns of each line for each sheet",
                lambda timing: np.array([[float(each.line.turns) for each in timing.lines]]), TIMING, "as given", over="lines", output=False)
-shaft.computed("line_offset", "Φ_k", "deg", "Main-shaft angle at which each line's zero comes",
+shaft.computed("line_offset", "Φ_k", "deg", "Main-shaft angle of each line's zero",
                lambda timing: np.array([[each.line.offset for each in timing.lines]]), TIMING,
                "as given; an automatic one is where the least slack of all interlocks is greatest", over="lines", digits=6)
 shaft.computed("is_moved", "k_a", "1", "Whether the offset of a line is to be found", lambda timing: timing.moved is not None, TIMING, "as given",
@@ -68,7 +68,7 @@ for name, symbol, words, function in (
     ("margin_end", "m_2", "Margin at the end", _worst("end")),
     ("margin_required", "m_r", "Margin that is required", lambda timing: timing.row(timing.required(each) for each in timing.final)),
     ("margin_least", "g", "Lesser of both margins", _worst("least")),
-    ("slack", "g_s", "What the lesser margin has above the required one", _slack),
+    ("slack", "g_s", "Excess of the smaller margin over the required one", _slack),
     ("held_length", "l_A", "Length of what must be held", _worst("inner_length")),
 ):
     interlocks.computed(name, symbol, "deg", words, function, TIMING, PHASES, over="interlocks")
@@ -93,7 +93,7 @@ interlocks.computed("productivity_limit", "n_max", "1/h",
                     "Largest productivity that the margins of time allow; nothing else is judged by it", _limit, TIMING,
                     "angles stay, times take more angle the faster the shaft turns; torques and accelerations are not judged", digits=5,
                     exists=lambda is_limited: is_limited > 0)
-interlocks.computed("is_feasible", "k_Φ", "1", "Whether an offset that is to be found leaves all margins",
+interlocks.computed("is_feasible", "k_Φ", "1", "Whether the solved offset keeps all margins",
                     lambda timing: bool(timing.best and timing.best.feasible), TIMING, PHASES, output=False)
 interlocks.computed("offset_feasible_start", "Φ_a", "deg", "Least of the offsets about the one found that leave all margins",
                     lambda timing: timing.feasible[0], TIMING, PHASES, digits=6, exists=lambda is_feasible: is_feasible > 0)
@@ -141,7 +141,7 @@ def _needed(cylinder: GivenMechanism) -> Any:
 
 station.computed("is_below", "k_Y", "1", "Whether a carriage is ever below the cylinder", _is_below, ("least",), "least height over the period",
                  output=False)
-station.computed("clearance_least", "Y_min", "mm", "Least height that the cylinder leaves the carriages", _least, ("least",), CLEARANCE,
+station.computed("clearance_least", "Y_min", "mm", "Least clearance height for the carriages", _least, ("least",), CLEARANCE,
                  exists=lambda is_below: is_below > 0)
 station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle at which that is", lambda least: least.angle[:, None], ("least",), CLEARANCE,
                  exists=lambda is_below: is_below > 0)
@@ -155,7 +155,7 @@ motions = Chapter("Motions over the main shaft", needs=("rates_agree",))
 motions.prepared("motions", motions_of, ("timing", "main_period", *(f"lines.{key}" for key in LINES)), for_many=True)
 motions.abscissa("main_angle", "Φ", "deg", "Angle of the main shaft", "main_period", speed="main_shaft_speed", intervals=16)
 OWN = "from the line's own calculation"
-motions.part_curves("way", "s", "mm", "Way of the line", lambda motions: motions.ways.names,
+motions.part_curves("way", "s", "mm", "Displacement of the line", lambda motions: motions.ways.names,
                     lambda motions, *asked: motions.ways.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
 motions.computed("moving_lines", "N_E", "1", "Lines whose kinetic energy is known", lambda motions: float(len(motions.energies.names)), ("motions",),
                  "as given", output=False)
@@ -175,7 +175,7 @@ energies.reduction("kinetic_energy_mean", "E_m", "J", "The same in the mean", "m
 energies.reduction("kinetic_energy_range", "ΔE_k", "J", "Range of it", "range", of="kinetic_energy_total", output=False)
 energies.computed("kinetic_energy_ranges", "ΣΔE_k", "J", "Ranges of the kinetic energies of the lines, added up", lambda motions: motions.ranges,
                  ("motions",), "searched over a turn of each line", output=False)
-energies.value("energy_exchange", "E_e", "J", "Energy that the lines lend one another",
+energies.value("energy_exchange", "E_e", "J", "Energy exchanged between drives",
               lambda kinetic_energy_ranges, kinetic_energy_range: np.maximum(kinetic_energy_ranges - kinetic_energy_range, 0))
 
 torques = Chapter("Sum of the torques at the main shaft", needs=("rates_agree", "takes_torque"),

@@ -70,7 +70,9 @@ class CylinderDrive(Inputs):
     ] = 1.0
     static_unbalance: Annotated[float, Quantity("me", "kg*m", "Static unbalance of the cylinder", ge=0)] = 0
     efficiency_sector: Annotated[float, _efficiency("sector", "sector and pinion")] = 0.96
-    efficiency_gear: Annotated[float, _efficiency("gear", "gear, where one lies between crank and cylinder")] = 1.0
+    efficiency_gear: Annotated[float, _efficiency("gear", "gear pair between crank and cylinder, if there is one")] = (
+        1.0
+    )
     efficiency_four_bar: Annotated[float, _efficiency("four-bar", "four-bar linkage")] = 0.95
     efficiency_bearings: Annotated[float, _efficiency("bearings", "bearings")] = 0.99
     efficiency_chain: Annotated[float, _efficiency("chain", "chain")] = 0.95

@@ -60,7 +60,7 @@ class Damper(Inputs):
         float | None, Quantity("me", "kg*m", "Static unbalance of the cylinder, away from the die at the end", ge=0)
     ] = None
     contact_distance: Annotated[
-        float | None, Quantity("d_c", "mm", "Way before the end of the travel at which the damper is met", ge=0)
+        float | None, Quantity("d_c", "mm", "Distance before the end of travel at which the damper is engaged", ge=0)
     ] = None
     elastic_modulus: Annotated[
         float | None, Quantity("E", "MPa", "Elastic modulus of the rubber; or shore_hardness", gt=0)

@@ -59,7 +59,7 @@ turn.value("output_period", "φ_T", "deg", "Angle of the output shaft after whic
            lambda torque_curve_turns: 2 * np.pi * torque_curve_turns, source="kinematics", output=False)
 turn.abscissa("output_angle", "φ", "deg", "Angle of the output shaft", "output_period")
 turn.from_curve("output_torque", "M", "N*m", "Torque at the output shaft", given="torque_curve", abscissa="output_angle")
-turn.crossings("power_reversal", "φ_r", "deg", "Angle at which the power turns round", of="output_torque")
+turn.crossings("power_reversal", "φ_r", "deg", "Angle at which the power changes sign", of="output_torque")
 turn.breakpoints("losses", "output_angle", "power_reversal")
 turn.value("driving_torque", "M_+", "N*m", "Torque at the output, where it drives the load", lambda output_torque: np.maximum(output_torque, 0),
            output=False)
@@ -82,7 +82,7 @@ turn.value("mean_difference", "ΔM_mean", "N*m", "Mean of the curve off the mean
 turn.value("peak_difference", "ΔM_peak", "N*m", "Peak of the curve off the peak torque given",
            lambda curve_peak, torque_peak: abs(curve_peak - torque_peak), output=False)
 turn.words("mean_advice", motor_advice.mean_advice, ("driving_mean", "braking_mean"), output=False)
-turn.value("accepted_difference", "[ΔM]", "N*m", "What the curve may differ from them", lambda curve_peak: curve_peak / 100, output=False)
+turn.value("accepted_difference", "[ΔM]", "N*m", "Permitted deviation of the curve", lambda curve_peak: curve_peak / 100, output=False)
 
 efficiency = Chapter("Efficiency")
 efficiency.total("gears_efficiency", "η_g", "1", "Efficiency of all gears", "product", of="gears.efficiency", source="mechanics", needs=("gears",))

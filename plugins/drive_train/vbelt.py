@@ -40,7 +40,7 @@ vbelt_chapter.value("small_radius", "r_1", "mm", "Radius of the smaller pulley",
 vbelt_chapter.value("large_radius", "r_2", "mm", "Radius of the larger pulley",
                     bind(lambda driver_diameter, driven_diameter: np.maximum(driver_diameter, driven_diameter) / 2,
                          driver_diameter="vbelt.driver_diameter"), output=False)
-vbelt_chapter.value("least_center_distance", "a_min", "mm", "Distance at which the pulleys touch",
+vbelt_chapter.value("least_center_distance", "a_min", "mm", "Centre distance at which the pulleys touch",
                     lambda small_radius, large_radius: small_radius + large_radius, output=False)
 vbelt_chapter.lookup("shortest_belt", "L_min", "mm", "Shortest standard belt of the section",
                      {name: series.values[0] for name, series in advice.LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
@@ -130,7 +130,7 @@ for known in (("power_per_belt",), (COUNT,)):
                    source="this method", needs=known, lacks=(*lacks, "vbelt.tension"))
     tensions.value("vbelt_tension", "F_T", "N", "Tension of one belt at rest: as given", bind(lambda given: given, given="vbelt.tension"),
                    source="input", needs=(*known, "vbelt.tension"), lacks=lacks)
-    tensions.value("vbelt_slip_pull", "F_slip", "N", "Pull at which the belts begin to slip",
+    tensions.value("vbelt_slip_pull", "F_slip", "N", "Effective pull at which the belts begin to slip",
                    bind(belts.pull_before_slip, tension="vbelt_tension", **PULL), source="Euler", needs=(*known, "vbelt.tension"), lacks=lacks)
     tensions.value("shaft_load", "F_s", "N", "Load of the belts at rest on the shafts of motor and flywheel",
                    lambda vbelt_count, vbelt_tension, vbelt_wrap: 2 * vbelt_count * vbelt_tension * np.sin(vbelt_wrap / 2), source="statics",

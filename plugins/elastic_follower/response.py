@@ -33,10 +33,10 @@ response_chapter.breakpoints("natural_periods", "time", every="natural_period")
 response_chapter.value("decay", "E", "1", "Share of a vibration that is left after the time t", followers.decay, source="vibration",
                        output=False)
 response_chapter.value("phase", "ψ", "deg", "Phase of the damped vibration", followers.phase, source="vibration", output=False)
-response_chapter.value("in_phase_part", "c", "rad/s**2", "What the first integral adds up",
+response_chapter.value("in_phase_part", "c", "rad/s**2", "Integrand of the first integral",
                        bind(followers.in_phase_part, input_acceleration="rigid_acceleration"), units=STRAIGHT_ACCELERATION,
                        source="Duhamel's integral", output=False)
-response_chapter.value("quadrature_part", "s_q", "rad/s**2", "What the second integral adds up",
+response_chapter.value("quadrature_part", "s_q", "rad/s**2", "Integrand of the second integral",
                        bind(followers.quadrature_part, input_acceleration="rigid_acceleration"), units=STRAIGHT_ACCELERATION,
                        source="Duhamel's integral", output=False)
 response_chapter.accumulated("in_phase", "C_t", "rad/s", "First integral up to the time t", of="in_phase_part", units=STRAIGHT_SPEED,
@@ -45,7 +45,7 @@ response_chapter.accumulated("quadrature", "S_t", "rad/s", "Second integral up t
                              source="Duhamel's integral", output=False)
 response_chapter.value("deflection", "z", "deg", "Deflection of the drive: link ahead of the input", followers.deflection, units=STRAIGHT,
                        source="Duhamel's integral")
-response_chapter.value("swing_speed", "v_ψ", "rad/s", "What the phase's growth gives of the deflection's speed", followers.swing_speed,
+response_chapter.value("swing_speed", "v_ψ", "rad/s", "Contribution of the phase's growth to the deflection's speed", followers.swing_speed,
                        units=STRAIGHT_SPEED, source="Duhamel's integral", output=False)
 response_chapter.value("deflection_speed", "v_z", "rad/s", "Speed of the deflection", followers.deflection_velocity, units=STRAIGHT_SPEED,
                        source="Duhamel's integral", output=False)
@@ -96,9 +96,9 @@ peaks_chapter.value("residual_ratio", "q_2", "1", "Peak acceleration after the m
 peaks_chapter.reduction("response_max", "x_max", "deg", "Farthest position of the driven link", "max", of="response", units=STRAIGHT, output=False)
 peaks_chapter.reduction("response_min", "x_min", "deg", "Lowest position of the driven link", "min", of="response", units=STRAIGHT, output=False,
                         needs=CURVE)
-peaks_chapter.value("overshoot", "ε", "1", "What the link goes beyond the rise, to the rise", lambda response_max, rise: (response_max - rise) / rise,
+peaks_chapter.value("overshoot", "ε", "1", "Overshoot beyond the rise, relative to the rise", lambda response_max, rise: (response_max - rise) / rise,
                     needs=LAW)
-peaks_chapter.value("overshoot", "ε", "1", "What the link goes beyond the ends of the motion, to its range",
+peaks_chapter.value("overshoot", "ε", "1", "Overshoot beyond the ends of the motion, relative to its range",
                     lambda response_max, response_min, input_max, input_min, rise:
                         np.maximum(response_max - input_max, input_min - response_min) / rise, needs=CURVE)
 peaks_chapter.reduction("torque_peak", "M_max", "N*m", "Greatest torque (or force) of the drive", "abs_max", of="torque", units=FORCE)
@@ -147,7 +147,7 @@ for number, (name, law) in enumerate(LAWS.items(), 1):
                       units=STRAIGHT_ACCELERATION, source="this method")
 compared.computed("least_acceleration", "a_L", "rad/s**2", "Least of these", function=least, takes=tuple(OF_LAWS.values()), method="comparison",
                   units=STRAIGHT_ACCELERATION, source="this method", output=False)
-compared.computed("one_way", "g", "1", "What the motion gains in a cycle, to its range", function=rests.gained, takes=CURVE,
+compared.computed("one_way", "g", "1", "Gain of the motion in a cycle, relative to its range", function=rests.gained, takes=CURVE,
                   method="positions at both ends of the cycle", source="this method", output=False, needs=CURVE)
 compared.add(recommended("Law of motion with the least peak acceleration of the driven link", LAW, None))
 compared.add(recommended("Law that is gentlest on the link in a single rise; this motion, of several parts, may ask for another", CURVE,

@@ -32,10 +32,10 @@ load.value("torque_peak", "T_1", "N*m", "Greatest torque on the pinion, of that 
 load.require("loaded", lambda torque_peak: torque_peak > 0, key="torque", message="is 0; give the torque that the teeth carry", lacks=CURVE)
 load.require("loaded_by_curve", lambda torque_peak: torque_peak > 0, key="torque_curve", needs=CURVE,
              message="is 0 everywhere; give the torque that the teeth carry")
-load.value("reversing", "R_T", "1", "Whether the torque changes its sign over the cycle: each tooth is bent both ways",
+load.value("reversing", "R_T", "1", "Reversing torque over the cycle: each tooth is bent both ways",
            bind(lambda torque_max, torque_min, torque_peak, share: (torque_max > share * torque_peak) & (-torque_min > share * torque_peak),
                 share=REVERSED), needs=CURVE, source="this method")
-load.value("reversing", "R_T", "1", "Whether the torque changes its sign: a single torque does not",
+load.value("reversing", "R_T", "1", "Reversing torque: a single torque does not reverse",
            lambda torque_peak: torque_peak < 0, lacks=CURVE, source="this method")
 load.value("alternating_factor", "Y_M", "1", "Factor of alternating bending: as given", bind(lambda given: given, given="inputs.alternating_factor"),
            needs=("alternating_factor",), source="input")

@@ -37,8 +37,8 @@ mesh.root("working_pressure_angle", "α_wt", "deg", "Working pressure angle",
           left=lambda working_pressure_angle: np.tan(working_pressure_angle),
           right=lambda working_pressure_angle, working_involute: working_involute + as_number(working_pressure_angle),
           lacks=GIVEN_DISTANCE, source=ISO_21771, digits=6, tolerance=1e-12)
-mesh.value("least_distance", "a_min", "mm", "Distance at which the base circles touch", bind(f.least_distance, module="inputs.module", **ALPHA),
-           needs=GIVEN_DISTANCE, source=ISO_21771, output=False)
+mesh.value("least_distance", "a_min", "mm", "Centre distance at which the base circles touch",
+           bind(f.least_distance, module="inputs.module", **ALPHA), needs=GIVEN_DISTANCE, source=ISO_21771, output=False)
 mesh.require("base_circles_apart", bind(lambda distance, least_distance: distance > least_distance, distance="inputs.center_distance"),
              key="center_distance", needs=GIVEN_DISTANCE,
              message="is {inputs.center_distance}, within which the base circles of {teeth_1} and {teeth_2} teeth overlap; take more than "
@@ -46,7 +46,7 @@ mesh.require("base_circles_apart", bind(lambda distance, least_distance: distanc
 mesh.value("working_pressure_angle", "α_wt", "deg", "Working pressure angle",
            bind(lambda distance, least_distance: np.arccos(least_distance / distance), distance="inputs.center_distance"), needs=GIVEN_DISTANCE,
            source=ISO_21771, digits=6)
-mesh.value("shift_2", "x_2", "1", "Profile shift of the wheel: as the distance of the axes asks for", bind(f.shift_of_distance, **ALPHA),
+mesh.value("shift_2", "x_2", "1", "Profile shift of the wheel: required by the centre distance", bind(f.shift_of_distance, **ALPHA),
            needs=GIVEN_DISTANCE, source=ISO_21771, digits=6)
 mesh.require("shift_2_possible", bind(lambda shift_2, least, most: (shift_2 >= least) & (shift_2 <= most), least=LEAST_SHIFT, most=LARGEST_SHIFT),
              key="center_distance", needs=GIVEN_DISTANCE,

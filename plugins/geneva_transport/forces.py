@@ -25,7 +25,7 @@ torque.value("roller_distance", "d", "mm", "Distance of the roller from the whee
 torque.value("roller_force", "F", "N", "Force of the roller on the slot's flank (positive: it drives)", loads.roller_force, source="statics")
 torque.reduction("torque_peak", "M_peak", "N*m", "Greatest torque at the crank, driving and driven", "max", of="torque", source="energy")
 torque.reduction("roller_force_peak", "F_peak", "N", "Greatest roller force", "max", of="roller_force", source="statics")
-torque.value("kinetic_energy_max", "E_k", "J", "Energy that goes into the wheel and back at each step",
+torque.value("kinetic_energy_max", "E_k", "J", "Energy exchanged with the wheel at each step",
              lambda driven_inertia, speed_ratio_peak, crank_speed: driven_inertia * (speed_ratio_peak * crank_speed) ** 2 / 2, source="energy")
 torque.reduction("energy_turn", "E_Σ", "J", "Work of the torque over a turn", "integral", of="torque", output=False, source="energy")
 torque.value("energy_residual", "r_E", "1", "Work over a turn to the energy of a step",
@@ -104,9 +104,9 @@ locking.value("hold_half_angle", "θ_l", "deg", "Half the angle over which an ar
               exists=REACHES)
 locking.value("cover", "φ_d", "deg", "Angle by which the disc covers the wheel's arc on the side where it does so least",
               lambda cover_angle, hold_half_angle: np.minimum(cover_angle, hold_half_angle), source="geometry", exists=REACHES, needs=HELD)
-locking.value("locking_play", "Δψ", "deg", "Angle by which the wheel can turn while the sheet must rest",
+locking.value("locking_play", "Δψ", "deg", "Play of the wheel while the sheet must rest",
               bind(formulas.locking_play), source="geometry", exists=REACHES, needs=HELD)
-locking.value("sheet_play", "Δx", "mm", "Way by which the sheet can move while it must rest", bind(formulas.travel, angle="locking_play"),
+locking.value("sheet_play", "Δx", "mm", "Displacement of the sheet during its rest", bind(formulas.travel, angle="locking_play"),
               source="geometry", exists=REACHES, needs=(*CONVEYOR_NEEDS, *HELD))
 locking.value("play_allowed", "[Δψ]", "deg", "Angle by which the wheel may turn then", lambda allowable_sheet_play, travel_radius:
               as_angle(allowable_sheet_play / travel_radius), source="geometry", output=False, needs=PLAY_NEEDS)

@@ -144,7 +144,7 @@ def rate_of_rate(ratio: Any, crank_speed: Any) -> Any:
 
 @formula
 def travel_radius(sprocket_teeth: Any, chain_pitch: Any, gear_ratio: Any) -> Any:
-    """Way of the conveyor for each radian of the wheel."""
+    """Conveyor displacement per radian of the wheel."""
     return sprocket_teeth * chain_pitch * gear_ratio / (2 * np.pi)
 
 

@@ -108,7 +108,7 @@ motion_chapter.value("wheel_acceleration_max", "ε_2,max", "rad/s**2", "Greatest
                      bind(formulas.rate_of_rate, ratio="acceleration_peak"), source="kinematics")
 
 conveyor = Chapter("Motion of the sheet", needs=CONVEYOR_NEEDS, absent="not calculated: {missing} not given")
-conveyor.value("travel_radius", "r_c", "mm", "Way of the conveyor for each radian of the wheel", formulas.travel_radius, source="000, Fig. 1")
+conveyor.value("travel_radius", "r_c", "mm", "Conveyor displacement per radian of the wheel", formulas.travel_radius, source="000, Fig. 1")
 conveyor.value("sheet_step", "S", "mm", "Step of the conveyor for each turn of the crank",
                lambda sprocket_teeth, chain_pitch, gear_ratio, slots: sprocket_teeth * chain_pitch * gear_ratio / slots, source="000, Fig. 1")
 conveyor.value("sheet_position", "x", "mm", "Position of the sheet from where it is in the middle of its motion",

@@ -167,7 +167,7 @@ def _of_planetary(lacks: tuple[str, ...], *pair: str) -> Steps:
     ratio("acceleration_ratio_planetary", "q_W", "Greatest acceleration", PEAK)
     ratio("stroke_ratio_planetary", "q_H", "Stroke", "stroke")
     ratio("factor_ratio_planetary", "q_k", "Factor of the acceleration at the lowest point", "end_factor")
-    steps.choice("reason", "→", "1", "What makes the planetary drive's acceleration differ",
+    steps.choice("reason", "→", "1", "Cause of the difference in the planetary drive's acceleration",
                  case("mostly its stroke", "the strokes differ more than the factors of the drives",
                       lambda stroke_ratio_planetary, factor_ratio_planetary:
                           np.maximum(stroke_ratio_planetary, 1 / stroke_ratio_planetary)
@@ -188,7 +188,7 @@ why.add(_of_planetary((CRANK_SLIDER.key,), PLANETARY.key, CRANK_ROCKER.key))
 
 def _grip(drives: Drives) -> Steps:
     steps = Steps()
-    steps.choice("grip_verdict", "→", "1", "What asks more of the paper",
+    steps.choice("grip_verdict", "→", "1", "Harder on the paper",
                  case("the grip of the rollers, not the knife", "with the best drive the grip accelerates the signature more than the knife does",
                       bind(common.is_below, smaller=f"best_{PEAK}", greater="best_grip_size")),
                  case("the knife, not the grip of the rollers", "with the best drive the knife accelerates the signature at least as much"),

@@ -45,11 +45,11 @@ load.value("torque_peak", "T_max", "N*m", "Greatest torque: as given", bind(lamb
            source="input")
 load.value("torque_peak", "T_max", "N*m", "Greatest torque: that of the cycle", lambda torque_size: torque_size, lacks=("torque_peak",),
            source="this method")
-load.value("reversing", "R_T", "1", "Whether the torque changes its sign over the cycle",
+load.value("reversing", "R_T", "1", "Reversing torque over the cycle",
            bind(lambda torque_greatest, torque_least, torque_size, share:
                     (torque_greatest > share * torque_size) & (-torque_least > share * torque_size), share=REVERSED), needs=CURVE,
            source="this method")
-load.value("reversing", "R_T", "1", "Whether the torque changes its sign: a single torque does not", lambda torque_size: torque_size < 0, lacks=CURVE,
+load.value("reversing", "R_T", "1", "Reversing torque: a single torque does not reverse", lambda torque_size: torque_size < 0, lacks=CURVE,
            source="this method")
 FLANKS = ("changes_of_flank", "N_W", "1", "Changes of the flank that bears, in the life")
 load.value(*FLANKS, bind(lambda reversing, count, speed, life: reversing * count * speed * life / (2 * np.pi), count="flank_change_count",

@@ -147,5 +147,5 @@ window.value("clear_travel", "u_w", "mm", "Travel of the platen from the dead ce
 window.value("window_start", "φ_w1", "deg", "Crank angle at which the window opens",
              bind(slider_crank.inner_crank_angle_at, displacement="clear_travel"),
              source="closed form")
-window.value("window_end", "φ_w2", "deg", "Crank angle at which it closes", lambda window_start: 2 * np.pi - window_start, source="symmetry")
+window.value("window_end", "φ_w2", "deg", "Crank angle at which the press closes", lambda window_start: 2 * np.pi - window_start, source="symmetry")
 window.phase("carriage_window", "window", "Room for the carriages", "crank_angle", ("window_start", "window_end"))

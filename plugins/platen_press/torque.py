@@ -69,7 +69,7 @@ guides = Chapter("Friction of the guides",
                  absent="not calculated: guide_length is not given, and no force is offset from the axis of the guides")
 guides.value("guide_moment", "M_g", "N*m", "Moment that turns the platen in its guides", formulas.guide_moment, source="001 eq. 3", output=False)
 guides.crossings("guide_change", "φ_g", "deg", "Crank angle at which the guides' reactions change sides", of="guide_moment", output=False)
-guides.crossings("platen_turn", "φ_V", "deg", "Crank angle at which the platen turns back", of="platen_velocity_ideal", output=False)
+guides.crossings("platen_turn", "φ_V", "deg", "Crank angle at which the platen reverses", of="platen_velocity_ideal", output=False)
 guides.breakpoints("guide_changes", "crank_angle", "guide_change", "platen_turn")
 guides.choice("guide_friction", "T", "N", "Friction of the guides", case(lambda: 0, "the platen stands on the die", in_phase(1)),
               case(bind(formulas.guide_friction), "the platen moves"), source="001 eq. 3, 4")

@@ -15,7 +15,7 @@ MECHANISM = Mechanism(
     version="1.0",
     title="Consistency of the press",
     summary="Holds the mechanisms of a press against one another: the sheet against cylinder and step, the rate that the gears give against the "
-    "productivity, the inertia that the crank feels against that of the clutch, the speed before the ends of the travel against that of the "
+    "productivity, the equivalent inertia at the crank against that of the clutch, the speed before the ends of the travel against that of the "
     "dampers, the conveyor's mass against the wheel's inertia, the motor against a load that its flywheel smooths in part, the plays "
     "against the register.",
     inputs=PressConsistency,

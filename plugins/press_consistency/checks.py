@@ -27,7 +27,7 @@ CHECKS = (
           consequence="the next sheet comes to lie on this one; the step must be longer, or the sheet shorter."),
     Check(id="sheet_gap", check_class="function", title="Room between two sheets",
           demand="sheet_gap", limit="step_room", unit="mm", tolerance=ROUNDING,
-          demand_label="needed for grippers and carriage", limit_label="room that the step leaves", source="geometry",
+          demand_label="needed for grippers and carriage", limit_label="gap after a step", source="geometry",
           consequence="there is not room enough for grippers and carriage between two sheets; the step must be longer, or the sheet shorter."),
     Check(id="actual_rate", check_class="function", presumed=True, title="Productivity and gears", demand="rate_asked", limit="least_rate",
           unit="1/h", severity="warn", fails_beyond=1 / (1 - FURTHEST_RATE), tolerance=1e-6,

@@ -17,7 +17,7 @@ TRAVEL = ("displacement", "velocity", "stroke", "dead_center_outer", "dead_cente
 MOTOR = ("flywheel_torque", "output_speed", "flywheel_inertia", "flywheel_speed", "belt_ratio", "motor_rated_torque", "motor_speed",
          "synchronous_speed")
 
-inertia = Chapter("Inertia that the crank feels",
+inertia = Chapter("Equivalent inertia at the crank",
                   text="The inertia of equal kinetic energy; it is zero where the cylinder stands, and the unbalance makes it differ between the "
                        "strokes.", needs=CYLINDER, absent="not calculated: there is no cylinder drive to take it from, or there are several")
 inertia.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi, shown_at="crank_inertia_max_at")
@@ -25,7 +25,7 @@ inertia.from_curve("rotation", "θ", "deg", "Rotation of the cylinder", given="c
 inertia.from_curve("speed", "ω_z", "rad/s", "Speed of the cylinder", given="cylinder_speed", abscissa="crank_angle", output=False)
 inertia.value("speed_ratio", "ω_31", "1", "Speed of the cylinder to the crank's", lambda speed, crank_speed: speed / crank_speed, source="kinematics",
               output=False)
-inertia.value("crank_inertia", "I_red", "kg*m**2", "Inertia that the crank feels",
+inertia.value("crank_inertia", "I_red", "kg*m**2", "Equivalent inertia at the crank",
               bind(inertia_at_crank, rotation="rotation", speed_ratio="speed_ratio"), source="energy")
 inertia.reduction("crank_inertia_mean", "I_m", "kg*m**2", "Inertia at the crank, its mean over a turn, for the run-up", "mean", of="crank_inertia")
 inertia.reduction("crank_inertia_max", "I_max", "kg*m**2", "Inertia at the crank, its greatest value", "max", of="crank_inertia")
@@ -81,7 +81,7 @@ ends_chapter.choice("end_impacts", "z_e", "1/h", "Impacts at one end of the trav
 ends_chapter.computed("way_inner", "d_in", "mm", "Way before the inner end at which it has the speed that the dampers are calculated with",
                       function=ends.inner_way, takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics",
                       needs=("damper_velocity",))
-ends_chapter.computed("way_outer", "d_out", "mm", "Way before the outer end at which it has it", function=ends.outer_way,
+ends_chapter.computed("way_outer", "d_out", "mm", "Distance before the outer end at which it occurs", function=ends.outer_way,
                       takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics", needs=("damper_velocity",))
 
 motor_chapter = Chapter("Motor behind its flywheel",

@@ -6,7 +6,7 @@ from diecut_report.api import Level, Mark, Panel, Plot, Series
 
 INERTIA = Plot(
     id="crank_inertia",
-    title="Inertia that the crank feels",
+    title="Equivalent inertia at the crank",
     caption="The inertia of equal kinetic energy over a turn of the crank: none where the cylinder stands, and of different size in the two "
     "strokes, as the unbalance swings. Its mean is that of the run-up.",
     abscissa="crank_angle",

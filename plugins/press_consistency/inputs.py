@@ -22,9 +22,7 @@ class PressConsistency(Inputs):
         float | None,
         Quantity("B_s", "mm", "Width of the sheet", gt=0, press=FromPress("press.sheet.width", optional=True)),
     ] = None
-    feed_side: Annotated[Literal["width", "length"], Text("Side of the sheet that lies in the direction of feed")] = (
-        "width"
-    )
+    feed_side: Annotated[Literal["width", "length"], Text("Side of the sheet in the direction of feed")] = "width"
     sheet_gap: Annotated[
         float | None,
         Quantity("g_s", "mm", "Room that two sheets leave each other in the feed, for grippers and carriage", ge=0),
@@ -61,9 +59,7 @@ class PressConsistency(Inputs):
     sprocket_teeth: Annotated[
         int | None, Quantity("z_s", "1", "Teeth of the transport's sprocket", ge=3, integer=True)
     ] = None
-    sheet_play: Annotated[
-        float | None, Quantity("Δx", "mm", "Way by which the sheet can move while it must rest", ge=0)
-    ] = None
+    sheet_play: Annotated[float | None, Quantity("Δx", "mm", "Displacement of the sheet during its rest", ge=0)] = None
     cover_angle: Annotated[
         float | None,
         Quantity(
@@ -104,7 +100,7 @@ class PressConsistency(Inputs):
         ),
     ] = None
     travel_radius: Annotated[
-        float | None, Quantity("r_c", "mm", "Way of the conveyor for each radian of the wheel", gt=0)
+        float | None, Quantity("r_c", "mm", "Conveyor displacement per radian of the wheel", gt=0)
     ] = None
 
     crank_speed: Annotated[float | None, Quantity("ω_1", "rpm", "Speed of the cylinder drive's crank", gt=0)] = None
@@ -141,7 +137,8 @@ class PressConsistency(Inputs):
         Any | None, CurveInput("ω_z", "rad/s", "Speed of the cylinder over a turn of its crank", referred=True)
     ] = None
     displacement: Annotated[
-        Any | None, CurveInput("x_z", "mm", "Way of the cylinder's axis over a turn of its crank", referred=True)
+        Any | None,
+        CurveInput("x_z", "mm", "Displacement of the cylinder's axis over a turn of its crank", referred=True),
     ] = None
     velocity: Annotated[
         Any | None, CurveInput("v_z", "m/s", "Velocity of the cylinder's axis over a turn of its crank", referred=True)

@@ -49,7 +49,7 @@ for feed, length, width in ((BY_WIDTH, "sheet_length", "sheet_width"), (BY_LENGT
     sides.value("side_across", "s_a", "mm", f"Side across it: its {length.removeprefix('sheet_')}",
                 SIDES[length],
                 source="input", needs=(*feed, length))
-    sides.value("step_room", "Δs", "mm", "Room that a step leaves between two sheets", lambda sheet_step, side_in_feed: sheet_step - side_in_feed,
+    sides.value("step_room", "Δs", "mm", "Gap between two sheets after a step", lambda sheet_step, side_in_feed: sheet_step - side_in_feed,
                 source="geometry", needs=(*feed, width, "sheet_step"))
 
 WAYS = ((("output_turns_per_sheet",), ()), (("crank_speed",), ("output_turns_per_sheet",)))
@@ -72,11 +72,11 @@ rate.value("rate_asked", "n_0", "1/h", "Sheets that the press must make", lambda
            lacks=("required_rate",))
 for needs, lacks in WAYS:
     rate.value("actual_rate", "n_a", "1/h", "Sheets at the motor's rated speed", actual_rate, source="kinematics", needs=needs, lacks=lacks)
-    rate.value("rate_error", "Δn", "%", "What it makes more than its productivity, relative", rate_error, source="kinematics", needs=needs,
+    rate.value("rate_error", "Δn", "%", "Relative excess over its productivity", rate_error, source="kinematics", needs=needs,
                lacks=lacks)
     rate.value("true_rate", "n_t", "1/h", "Sheets at the speed that the motor has under the mean torque",
                bind(actual_rate, output_speed="loaded_output_speed"), source="kinematics", needs=(*needs, "loaded_output_speed"), lacks=lacks)
-    rate.value("load_rise", "Δ_a", "%", "What accelerations rise by then, relative",
+    rate.value("load_rise", "Δ_a", "%", "Relative rise of the accelerations",
                lambda true_rate, productivity: (true_rate / productivity) ** 2 - 1, source="kinematics", needs=(*needs, "loaded_output_speed"),
                lacks=lacks)
     rate.value("least_rate", "n_min", "1/h", "Less of both rates", lambda actual_rate, true_rate: np.minimum(actual_rate, true_rate),
@@ -91,10 +91,10 @@ stopping = Chapter("Stopping", needs=STOPPED, text="The brake and the mean load 
                    absent="not calculated: brake_torque is not given, or flywheel and cyclogram are not there")
 stopping.value("energy_running", "E_0", "J", "Kinetic energy of flywheel and lines",
                lambda flywheel_inertia, flywheel_speed, lines_energy: flywheel_inertia * flywheel_speed**2 / 2 + lines_energy, source="energy")
-stopping.value("stopping_angle", "Φ_b", "deg", "Angle of the main shaft until it stands",
+stopping.value("stopping_angle", "Φ_b", "deg", "Main-shaft angle to standstill",
                lambda energy_running, brake_torque, shaft_torque_mean: as_angle(energy_running / (brake_torque + shaft_torque_mean)), source="energy")
 for needs, lacks in WAYS:
-    stopping.value("stopping_time", "t_b", "s", "Time until it stands",
+    stopping.value("stopping_time", "t_b", "s", "Time to standstill",
                    lambda stopping_angle, actual_rate: 2 * as_number(stopping_angle) / (as_number(2 * np.pi) * actual_rate), source="kinematics",
                    needs=needs, lacks=lacks)
 
@@ -126,7 +126,7 @@ register.value("play_total", "Δx_Σ", "mm", "Plays of transport and lines toget
 register.value("pitches", "n_p", "1", "Pitches of the chain for each step",
                lambda sheet_step, chain_pitch: sheet_step / chain_pitch,
                source="geometry", needs=("sheet_step", "chain_pitch"), digits=10)
-register.value("pitch_error", "Δn_p", "1", "What they miss a whole number by", lambda pitches: abs(pitches - np.floor(pitches + 1 / 2)),
+register.value("pitch_error", "Δn_p", "1", "Deviation from a whole number", lambda pitches: abs(pitches - np.floor(pitches + 1 / 2)),
                source="geometry", needs=("sheet_step", "chain_pitch"))
 register.value("speed_ripple", "ε_v", "%", "Ripple of the chain's speed, as links lie on the sprocket as a polygon",
                lambda sprocket_teeth: 1 - np.cos(np.pi / sprocket_teeth), source="geometry", needs=("sprocket_teeth",))

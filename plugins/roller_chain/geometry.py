@@ -46,22 +46,22 @@ loop.value("teeth_small", "z_s", "1", "Teeth of the smaller sprocket", lambda te
 for g, teeth in TEETH.items():
     loop.value(f"sprocket_diameter_{g}", f"d_{g}", "mm", f"Pitch circle of the {'driving' if g == 1 else 'driven'} sprocket",
                bind(f.pitch_diameter, teeth=teeth), source="geometry", digits=6)
-loop.value("center_least", "a_min", "mm", "Distance of the axes at which the sprockets touch",
+loop.value("center_least", "a_min", "mm", "Centre distance at which the sprockets touch",
            lambda sprocket_diameter_1, sprocket_diameter_2: (sprocket_diameter_1 + sprocket_diameter_2) / 2, source="geometry", output=False)
 loop.require("sprockets_apart", lambda center_distance, center_least: center_distance > center_least, key="center_distance", needs=GIVEN_DISTANCE,
              message="is {center_distance}, at which sprockets of {sprocket_diameter_1} and {sprocket_diameter_2} overlap; give more than "
                      "{center_least:up}")
-loop.value("links_exact", "X_0", "1", "Links that the distance of the axes asks for", bind(f.exact_links, center="center_distance", **BOTH),
+loop.value("links_exact", "X_0", "1", "Number of links required by the centre distance", bind(f.exact_links, center="center_distance", **BOTH),
            needs=GIVEN_DISTANCE, source=SHIGLEY, digits=7)
 loop.value("links", "X", "1", "Links: the next even number", bind(f.even_links, exact="links_exact"), needs=GIVEN_DISTANCE, source=SHIGLEY,
            whole=True)
 loop.value("links", "X", "1", "Links: as given", bind(lambda given: given, given="inputs.links"), lacks=GIVEN_DISTANCE, source="input", whole=True)
 loop.value("links_free", "B", "1", "Links that are not on the sprockets", bind(f.free_links, **BOTH), source=SHIGLEY, output=False, digits=6)
-loop.value("links_discriminant", "D_X", "1", "What must be above zero for whole links to fit", bind(f.discriminant, free="links_free", **BOTH),
+loop.value("links_discriminant", "D_X", "1", "Condition for a whole number of links (above zero)", bind(f.discriminant, free="links_free", **BOTH),
            source=SHIGLEY, output=False, digits=6)
 loop.require("long_enough", lambda links_free, links_discriminant: (links_free > 0) & (links_discriminant > 0), key="links", lacks=GIVEN_DISTANCE,
              message="is {inputs.links}, too few to go round sprockets of {teeth_1} and {driven_teeth} teeth; give more links or fewer teeth")
-loop.value("center_distance_adjusted", "a_X", "mm", "Distance of the axes at which these links fit",
+loop.value("center_distance_adjusted", "a_X", "mm", "Centre distance for this number of links",
            bind(f.adjusted_center, free="links_free", root_of="links_discriminant"), source=SHIGLEY, digits=7)
 loop.require("adjusted_apart", lambda center_distance_adjusted, center_least: center_distance_adjusted > center_least, key="links",
              lacks=GIVEN_DISTANCE,
@@ -75,7 +75,7 @@ loop.value("chain_length", "L", "m", "Length of the chain", lambda links, pitch:
 loop.value("links_polygon", "X_e", "1", "Links at the adjusted distance by the exact polygon",
            bind(f.polygon_links, center="center_distance_adjusted", diameter_1="sprocket_diameter_1", diameter_2="sprocket_diameter_2", **BOTH),
            source="geometry", output=False, digits=8)
-loop.value("links_residual", "ΔX", "1", "Links by which the formula misses the exact polygon",
+loop.value("links_residual", "ΔX", "1", "Deviation of the formula from the exact polygon, in links",
            lambda links_polygon, links: abs(links_polygon - links), source="geometry", output=False)
 loop.value("wrap_small", "β_s", "deg", "Wrap of the smaller sprocket",
            lambda sprocket_diameter_1, sprocket_diameter_2, center:

@@ -62,7 +62,7 @@ cycle.reduction("velocity_size", "v_m", "m/s", "Greatest size of the velocity", 
 cycle.value("velocity_margin", "v_k", "m/s", "Size of the velocity above what counts as rest",
             bind(lambda speed, size, still: abs(speed) - still * size, speed="velocity_over", size="velocity_size", still=STILL),
             source="this method", output=False, **VELOCITY)
-cycle.crossings("rest_edge", "φ_r", "deg", "Where a rest begins or ends", of="velocity_margin", output=False, **VELOCITY)
+cycle.crossings("rest_edge", "φ_r", "deg", "Start or end of a rest", of="velocity_margin", output=False, **VELOCITY)
 cycle.breakpoints("rests", "cycle_angle", "rest_edge", **VELOCITY)
 
 motion = Chapter("Motion",
@@ -98,7 +98,7 @@ useful.value("moving_mass_total", "m_tot", "kg", "Mass that is accelerated, with
              **CONVEYED)
 useful.value("resistance", "F_w", "N", "Force against the motion", bind(f.resistance, friction="friction_coefficient", mass="moving_mass_with_chain"),
              source="this method", **CONVEYED)
-MOVES = "Whether the chain moves (1) or stands (0)"
+MOVES = "Chain in motion (1) or at rest (0)"
 useful.choice("moving_over", "k_φ", "1", MOVES, case(lambda: 1, "the chain moves", lambda velocity_margin: velocity_margin > 0),
               case(lambda: 0, "the chain stands"), per_piece=True, source="this method", output=False, **VELOCITY)
 useful.choice("moving", "k_v", "1", MOVES, case(lambda: 1, "the chain moves", lambda velocity: velocity > 0),

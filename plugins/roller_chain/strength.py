@@ -51,7 +51,7 @@ rating.choice("strand_factor", "k_s", "1", "Factor of the strands",
               case(lambda: 3.3, "4 strands"), source="ANSI B29.1", output=False)
 rating.value("rated_power", "P_zul", "kW", "Rated power", lambda plate_power, roller_power, strand_factor:
              strand_factor * np.minimum(plate_power, roller_power), source="ANSI B29.1")
-rating.choice("rating_governing", "G", "1", "What governs the rating",
+rating.choice("rating_governing", "G", "1", "Governing factor of the rating",
               case("plate", "the plates last up to less power than the rollers", lambda plate_power, roller_power: plate_power <= roller_power),
               case("roller", "the rollers last up to less power than the plates"), source="ANSI B29.1")
 rating.value("design_power", "P_d", "kW", "Power with the application factor", lambda application, torque_carried, angular_speed:

@@ -22,7 +22,7 @@ motion = Chapter("Motion of the rings",
                       "Where the rings only swing, neighbouring rolling elements roll over the same places only from a swing of 720°/Z on.")
 row(motion, "is_angle", "w", "1", "Whether the motion is given as an angle (1) or a speed (0)",
     lambda known: known.flag(each.angle is not None for each in known.duties), "by the keys that are given", output=False)
-row(motion, "travel", "V", "deg", "Way of the relative angle in a cycle (0 where a speed is given)",
+row(motion, "travel", "V", "deg", "Travel of the relative angle in a cycle (0 where a speed is given)",
     lambda known: known.row(lambda i: known.duties[i].travel if known.is_swinging(i) else np.zeros((known.variants, 1))),
     "∮ |dθ/dφ| dφ between the reversals", output=False)
 row(motion, "cycles", "n_z", "rpm", "Cycles, as a speed: 1 r/min is a cycle a minute (0 where a speed is given)",
@@ -43,7 +43,7 @@ row(motion, "swing", "W", "deg", "Width of the swing", lambda known: known.row(k
     "greatest less least relative angle", exists=lambda returns: returns > 0)
 row(motion, "elements", "Z", "1", "Rolling elements: as given, else 8", lambda known: known.row(known.elements.__getitem__), "as given, else 8",
     output=False)
-value(motion, "critical_swing", "W_crit", "deg", "Least swing at which neighbouring rolling elements overlap",
+value(motion, "critical_swing", "W_crit", "deg", "Least oscillation at which neighbouring rolling elements overlap",
       lambda elements: 4 * np.pi / elements, exists=lambda returns: returns > 0, source="this method")
 
 motion.part_table("motion_table", "Motion of all bearings", "bearings", ("turns_per_cycle", "mean_speed", "speed_max", "swing", "critical_swing"))

@@ -45,7 +45,7 @@ loads = Chapter("Loads and reactions",
                      "interval.")
 loads.prepared("cycle", lambda given: cycle(*map(given.get, CYCLE)), CYCLE, for_many=True)
 loads.prepared("under_load", lambda given: _under_load(*map(given.get, LOADED)), LOADED, for_many=True)
-_number(loads, "torque_left", "ΣT", "N*m", "What the torques add up to", "torque_left", OVER_CYCLE, output=False)
+_number(loads, "torque_left", "ΣT", "N*m", "Torque balance", "torque_left", OVER_CYCLE, output=False)
 _number(loads, "torque_scale", "T_i,max", "N*m", "Greatest torque of a load", "torque_scale", OVER_CYCLE, output=False)
 loads.require("torques_balance", lambda torque_left, torque_scale: torque_left <= 1e-6 * torque_scale, key="loads",
               message="have torques that add up to {torque_left}, so that the shaft would not turn evenly; correct them, or give one load "

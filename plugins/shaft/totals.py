@@ -47,7 +47,7 @@ def numbers(statics: Statics) -> dict[str, Array]:
 
 
 def _torque_left(statics: Statics) -> Array:
-    """What the torques add up to where none balances them, the greatest over the cycle."""
+    """Torque balance where none balances them, the greatest over the cycle."""
     if statics.cycle.balance is not None:
         return np.zeros(len(statics.shear))
     low, high = statics.cycle.bounds("torque", np.ones((1, *statics.cycle.places.shape)))

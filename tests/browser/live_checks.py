@@ -132,7 +132,7 @@ def test_a_wrong_number_is_told_beside_it_and_changes_nothing(browser: Browser, 
     expect(tab.input("knife.eccentricity").locator(".wrong")).to_contain_text("mass", timeout=SECONDS)
     tab.type("knife.eccentricity", "-3 mm")  # a length, but none that the input may have
     expect(tab.page.locator("#faults")).to_contain_text("eccentricity", timeout=SECONDS)
-    tab.page.get_by_role("button", name="Take all back").click()
+    tab.page.get_by_role("button", name="Undo all changes").click()
     expect(tab.page.locator("#faults")).to_be_hidden(timeout=SECONDS)
 
 
@@ -150,7 +150,7 @@ def test_an_input_is_found_by_a_search_and_a_fault_stands_beside_what_gave_it(br
     expect(other.page.locator("#figures svg").first).to_be_visible(timeout=SECONDS)
     tab.type("knife.eccentricity", "2.1 cm")
     expect(tab.page.locator("#faults")).to_be_hidden(timeout=SECONDS)
-    tab.page.get_by_role("button", name="Take all back").click()
+    tab.page.get_by_role("button", name="Undo all changes").click()
     expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("20 mm", timeout=SECONDS)
     tab.page.get_by_role("button", name="Put back again").click()
     expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("2.1 cm", timeout=SECONDS)

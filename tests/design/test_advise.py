@@ -82,7 +82,7 @@ def test_what_a_plugin_advises_is_where_the_search_begins(tmp_path: Path, capfd:
 
 def test_what_passes_is_left_alone(tmp_path: Path, capfd: Capture) -> None:
     assert advise(saved(tmp_path, TEXT.replace("3 kN", "2 kN")), "-o", tmp_path / "new.yaml") == 0
-    assert "no check fails: nothing is to be mended (governing: a.moment)" in capfd.readouterr().out
+    assert "no check fails: nothing to fix (governing: a.moment)" in capfd.readouterr().out
     assert not (tmp_path / "new.yaml").exists()
 
 

@@ -50,7 +50,7 @@ def test_a_line_without_a_known_way_is_reported_without_the_figure_of_ways(tmp_p
     more = ["--plugins", str(tmp_path), "-o", str(tmp_path / "out"), "--format", "html", "--quiet"]
     assert main(["report", str(saved(tmp_path, HEAD + LINES)), *more]) == 0
     page = (tmp_path / "out" / "press.html").read_text("utf-8")
-    assert "Cyclogram, once round" in page and "Ways and slack" not in page
+    assert "Cyclogram, once round" in page and "Displacements and slack" not in page
 
 
 def test_a_line_across_all_rows_follows_the_angle_and_the_bars_that_it_passes_are_filled(tmp_path: Path) -> None:

@@ -49,7 +49,7 @@ def test_those_that_move_a_governing_check_come_first(out: Path) -> None:
 
 def test_page_1_tells_how_many_they_are_and_which_move_a_check(out: Path) -> None:
     page = (out / "press.html").read_text("utf-8")
-    line = page[page.index("Rests on 5 assumed values, those first that move a governing check") :][:400]
+    line = page[page.index("5 inputs are assumed; the most influential first") :][:400]
     paths = ", ".join(
         f'<span class="key">{path}</span>'
         for path in ("mechanisms.a.allowable_moment", "press.sheet.width", "mechanisms.a.force")

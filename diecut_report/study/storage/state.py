@@ -149,7 +149,7 @@ def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
         raise _told(
             faults,
             file,
-            Phrase("Let the program mend it: {continued}", continued=continuing(file.parent, found.columns)),
+            Phrase("Let the program fix it: {continued}", continued=continuing(file.parent, found.columns)),
         )
 
 

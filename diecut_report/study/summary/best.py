@@ -394,9 +394,9 @@ def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[Group]:
         groups += [
             Group(say("Others that pass, with most margin first"), _numbers(stored, SOUND, "NULLS LAST")),
             Group(
-                say("Those that fail, the least overloaded first"), _numbers(stored, "status = 'fail'", "NULLS LAST")
+                say("Failing variants, the least overloaded first"), _numbers(stored, "status = 'fail'", "NULLS LAST")
             ),
-            Group(say("Those that cannot exist"), _numbers(stored, "status = 'error'", "")),
+            Group(say("Impossible variants"), _numbers(stored, "status = 'error'", "")),
         ]
     else:
         groups += [
