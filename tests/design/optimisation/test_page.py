@@ -6,7 +6,7 @@ from pathlib import Path
 
 import pytest
 
-from tests.optimisation.searches import BASE, optimised, search_file
+from tests.design.optimisation.searches import BASE, optimised, search_file
 
 
 @pytest.mark.nightly

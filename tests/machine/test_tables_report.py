@@ -14,7 +14,7 @@ from diecut_report.report.figures.labels import Across, Line, Note, PanelData
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import HEAD, loaded, saved
-from tests.engine.geared import FACTORS
+from tests.machine.geared import FACTORS
 
 MECHANISM = "  a: {kind: geared, bearing: '6204', teeth: 17}\n"
 AS_GIVEN = "  a: {kind: geared, bore_given: 30 mm, teeth: 17}\n"
@@ -24,7 +24,7 @@ AS_GIVEN = "  a: {kind: geared, bore_given: 30 mm, teeth: 17}\n"
 def plugins(tmp_path: Path) -> Discovery:
     folder = tmp_path / "plugins"
     folder.mkdir()
-    (folder / "geared.py").write_text("from tests.engine.geared import MECHANISM\n", "utf-8")
+    (folder / "geared.py").write_text("from tests.machine.geared import MECHANISM\n", "utf-8")
     return Discovery([folder])
 
 

@@ -11,7 +11,7 @@ from diecut_report.api import Block, Derivative, FromPress, Inputs, Mechanism, Q
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.mechanism.chapters import form_keys, in_all_units, in_form, in_unit
 from diecut_report.mechanism.inputs import meta_of
-from tests.engine.swing import MECHANISM, RATIOS, SPECTRUM, Swing
+from tests.machine.swing import MECHANISM, RATIOS, SPECTRUM, Swing
 from tests.testing.test_testing import mechanism as of_steps
 
 

@@ -18,7 +18,7 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.pipeline import calc as run
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import problems, saved
-from tests.engine.loop import COMPARED, MECHANISM, Loop
+from tests.machine.loop import COMPARED, MECHANISM, Loop
 
 POSTS = [{"x": "-1 m"}, {"x": "3 m", "grip": "rough"}, {"x": "4 m"}]
 HEAD = "schema_version: 1\nproject: {title: T}\npress: {name: P}\nmechanisms:\n"
@@ -37,7 +37,7 @@ def plugins(tmp_path: Path) -> Discovery:
     """The loop as a plugin of a folder."""
     folder = tmp_path / "plugins"
     folder.mkdir()
-    (folder / "loop.py").write_text("from tests.engine.loop import MECHANISM\n", "utf-8")
+    (folder / "loop.py").write_text("from tests.machine.loop import MECHANISM\n", "utf-8")
     return Discovery([folder])
 
 

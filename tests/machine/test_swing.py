@@ -8,10 +8,10 @@ import pytest
 from diecut_report.machine.calculation import CurveHandle, Impossible
 from diecut_report.machine.figure_views import MachineView
 from diecut_report.machine.steps.run import calculate
-from tests.engine.loop import MECHANISM as LOOP
-from tests.engine.swing import MECHANISM, RATIOS
-from tests.engine.swings import CLOSED, TURN, follower, grown, made, results, swing, values
 from tests.examples import few
+from tests.machine.loop import MECHANISM as LOOP
+from tests.machine.swing import MECHANISM, RATIOS
+from tests.machine.swings import CLOSED, TURN, follower, grown, made, results, swing, values
 
 # --- derivatives and integrals ---------------------------------------------------------------------------------------
 

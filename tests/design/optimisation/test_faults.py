@@ -14,7 +14,7 @@ import yaml
 from diecut_report.cli.main import main
 from diecut_report.study.definition.schema import study_schema
 from tests.configs import GOOD
-from tests.optimisation.searches import BASE, FORCE, VARY, optimised, search_file
+from tests.design.optimisation.searches import BASE, FORCE, VARY, optimised, search_file
 from tests.study.studies import faults
 
 pytestmark = pytest.mark.usefixtures("without_page")

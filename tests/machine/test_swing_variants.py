@@ -8,8 +8,8 @@ import pytest
 from diecut_report.machine.calculation import CurveHandle, Unproven
 from diecut_report.machine.numerics.domain import Domain
 from diecut_report.machine.steps.run import calculate, varied, varied_curves
-from tests.engine.swing import MECHANISM
-from tests.engine.swings import CLOSED, TURN, follower, grown, made, results, several, single
+from tests.machine.swing import MECHANISM
+from tests.machine.swings import CLOSED, TURN, follower, grown, made, results, several, single
 
 # --- pieces ----------------------------------------------------------------------------------------------------------
 

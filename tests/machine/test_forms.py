@@ -20,7 +20,7 @@ from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import problems, saved
-from tests.engine.swing import MECHANISM, Swing
+from tests.machine.swing import MECHANISM, Swing
 
 HEAD = "schema_version: 1\nproject: {title: T}\npress: {name: P}\nmechanisms:\n"
 TURNS = HEAD + "  a: {kind: swing, inertia: 1, lift: 1 rad}\n"
@@ -33,7 +33,7 @@ def plugins(tmp_path: Path) -> Discovery:
     folder = tmp_path / "plugins"
     folder.mkdir()
     for kind in ("swing", "loop"):
-        (folder / f"{kind}.py").write_text(f"from tests.engine.{kind} import MECHANISM\n", "utf-8")
+        (folder / f"{kind}.py").write_text(f"from tests.machine.{kind} import MECHANISM\n", "utf-8")
     return Discovery([folder])
 
 

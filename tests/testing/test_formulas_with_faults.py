@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
-from tests.kit.test_check_plugin import toggle
+from tests.testing.test_check_plugin import toggle
 
 Capture = pytest.CaptureFixture[str]
 WRONG = ("wire**4 / (8", "wire**5 / (8")  # springs that are too soft, so that no check fails

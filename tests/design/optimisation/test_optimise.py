@@ -12,7 +12,7 @@ import pytest
 
 from diecut_report.design.optimisation import run as run_module
 from diecut_report.design.optimisation.search import search
-from tests.optimisation.searches import ARM, BASE, FORCE, VARY, WIDTH, optimised, search_file
+from tests.design.optimisation.searches import ARM, BASE, FORCE, VARY, WIDTH, optimised, search_file
 
 pytestmark = pytest.mark.usefixtures("without_page")
 

@@ -21,8 +21,8 @@ from diecut_report.mechanism.steps import (
     names_ahead,
     result_names,
 )
-from tests.engine.loop import MECHANISM as LOOP
-from tests.engine.test_loop import told
+from tests.machine.loop import MECHANISM as LOOP
+from tests.machine.test_loop import told
 
 PARTS = 12
 

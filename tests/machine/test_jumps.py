@@ -13,7 +13,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.numerics.jumps import jumping
 from diecut_report.machine.numerics.samples import JUMP
 from tests.configs import ON_ARRAYS
-from tests.engine.test_compiled import EXAMPLES_AT_HAND, axes, machines, stem
+from tests.machine.test_compiled import EXAMPLES_AT_HAND, axes, machines, stem
 
 
 def jumps(calc: Calculation, axis: str) -> frozenset[str]:

@@ -20,7 +20,7 @@ from diecut_report.machine.printing.items import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.quantities.units import unit
-from tests.engine.geared import FACTORS, LIFTS, MECHANISM, Geared
+from tests.machine.geared import FACTORS, LIFTS, MECHANISM, Geared
 
 TEETH, Y = (column.values for column in FACTORS.columns)
 

@@ -12,7 +12,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.mechanism import mechanism_results
-from tests.engine.swing import MECHANISM, Swing
+from tests.machine.swing import MECHANISM, Swing
 
 TURN = 2 * np.pi / 3
 CLOSED: dict[str, Callable[[Any, float], Any]] = {  # of the share of the time and the time itself, for a lift of 1

@@ -14,7 +14,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
 from diecut_report.mechanism.steps import Root
 from diecut_report.results.mechanism import mechanism_results
-from tests.engine.toy import MECHANISM, ROOTED, cube, cubed, doubled, plus_one, same, zero
+from tests.machine.toy import MECHANISM, ROOTED, cube, cubed, doubled, plus_one, same, zero
 from tests.machines import inputs, number
 
 STEP = np.radians(120)

@@ -16,7 +16,7 @@ from diecut_report.machine.printing.items import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.mechanism.names import Misdeclared
-from tests.engine.test_tables import eval_json
+from tests.machine.test_tables import eval_json
 
 SPEEDS, FORCES = (10.0, 100.0, 1000.0), (8.0, 2.0, 1.0)  # rpm, kN
 LIFE = own_table(

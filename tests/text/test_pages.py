@@ -33,10 +33,10 @@ from diecut_report.text.translation import speaking
 from tests.cli.test_cli import run
 from tests.configs import EXAMPLES
 from tests.examples import few
-from tests.languages.test_ukrainian_words import CATALOGUES, MIXED, PLACE
 from tests.processes import Example
 from tests.report.test_ukrainian import LATIN, OWN, VERBATIM, titles, verbatim, visible
 from tests.shared import once
+from tests.text.test_ukrainian_words import CATALOGUES, MIXED, PLACE
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 ECCENTRICITY = "vary:\n  mechanisms.knife.eccentricity: {from: 14 mm, to: 26 mm"

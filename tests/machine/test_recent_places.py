@@ -6,7 +6,7 @@ import numpy as np
 
 from diecut_report.machine.calculation import CurveHandle
 from diecut_report.machine.numerics.domain import RecentPlaces
-from tests.engine.test_switches import FORMULAS, run, wheel
+from tests.machine.test_switches import FORMULAS, run, wheel
 
 X = np.linspace(0, 1, 5)[None, :]
 MOST = 3

@@ -8,7 +8,7 @@ import pytest
 
 from diecut_report.machine.calculation import Calculation, CurveHandle, same_curve
 from diecut_report.machine.steps.run import calculate
-from tests.engine.swing import MECHANISM
+from tests.machine.swing import MECHANISM
 
 LINK = {"inertia": 2.0, "stiffness": 100.0, "duration": 2.0, "ripple": 1.0, "share": 0.0, "n_points": 48, "grade": "plain"}  # fmt: skip
 OWN = {"position", "level", "turned", "passed", "middle", "speed", "acceleration", "area", "way", "force"}
