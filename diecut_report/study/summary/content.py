@@ -17,6 +17,7 @@ from diecut_report import __version__
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.validation import ASSUMED
+from diecut_report.config.yaml import printable
 from diecut_report.files import room
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.pages import html, pdf
@@ -320,7 +321,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     groups = best.chosen(stored, total, first)
     shown = best.columns(stored, goals)
     return Summary(
-        title=_title(stored), folder=stored.folder.resolve().name, study=stored.study, files=_files(stored),
+        title=_title(stored), folder=printable(stored.folder.resolve().name), study=stored.study, files=_files(stored),
         checks={check: said(stored.check_told(check)) for check in stored.checks},
         total=total, statuses=states, facts=_facts(stored, total), asked=asked_questions(stored),
         failures=failures, governing=governing, passing=passing_values.values(stored),
@@ -403,7 +404,7 @@ def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
 
 def _title(stored: Stored) -> str:
     """The title of the base's project, else the study's file."""
-    return str((_base(stored).get("project") or {}).get("title") or stored.description.study.file)
+    return str((_base(stored).get("project") or {}).get("title") or printable(stored.description.study.file))
 
 
 def _base(stored: Stored) -> Any:
@@ -435,7 +436,7 @@ def _files(stored: Stored) -> list[tuple[str, str]]:
     """The files that the study was made from, and the code that calculated it, with their SHA-256."""
     made = stored.description
     code = [(say("the source of the {name}", name=_code(name)), digest) for name, digest in made.sources.items()]
-    return [*((source.file, source.sha256) for source in (made.study, made.base, *made.tables)), *code]
+    return [*((printable(source.file), source.sha256) for source in (made.study, made.base, *made.tables)), *code]
 
 
 def _code(name: str) -> Phrase:
