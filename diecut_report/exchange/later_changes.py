@@ -10,7 +10,8 @@ from typing import Any
 import pikepdf
 
 from diecut_report.exchange.added_sections import is_clear
-from diecut_report.exchange.carried import FAULTS, MOST_RESULTS, bounded
+from diecut_report.exchange.carried import MOST_RESULTS
+from diecut_report.exchange.pdf_attachments import FAULTS, bounded
 
 OF_FIELD = {"/V", "/AP", "/F", "/M"}  # what signing sets in a field: the signature, how it shows, its flags, its time
 OF_FORM = {"/SigFlags", "/Fields"}  # the fields may grow by document timestamps

@@ -15,7 +15,8 @@ from diecut_report.testing import extreme_inputs
 from diecut_report.testing.contract import TITLES, ContractTest, TriedRule, check_contract, write_missing
 from diecut_report.testing.plugin_page import meant
 from diecut_report.testing.scaffold import contents
-from diecut_report.text.catalogues import catalogue, changed, read
+from diecut_report.text.catalogues import catalogue
+from diecut_report.text.po_files import changed, read
 from tests.configs import BROKEN, SMALL, saved
 
 Capture = pytest.CaptureFixture[str]

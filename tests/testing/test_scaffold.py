@@ -19,7 +19,8 @@ from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.testing.contract import ContractTest
 from diecut_report.testing.scaffold import LIKE, contents
-from diecut_report.text.catalogues import file_beside, read
+from diecut_report.text.catalogues import file_beside
+from diecut_report.text.po_files import read
 
 Capture = pytest.CaptureFixture[str]
 FOLDER = {

@@ -11,7 +11,7 @@ from babel.messages.catalog import Message
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration.texts import texts
-from diecut_report.text import catalogues
+from diecut_report.text import po_files
 from diecut_report.text.catalogues import languages
 from tools.make_catalogues import ROOT, untranslatable, wanted
 
@@ -25,7 +25,7 @@ def name(file: Path) -> str:
 
 @cache
 def messages(file: Path) -> tuple[Message, ...]:
-    return tuple(message for message in catalogues.read(file, file.stem) if message.id)
+    return tuple(message for message in po_files.read(file, file.stem) if message.id)
 
 
 def pairs(file: Path) -> Iterator[tuple[str, str]]:

@@ -27,7 +27,7 @@ from diecut_report.report.text import translated
 from diecut_report.study import command
 from diecut_report.study.summary import summarise
 from diecut_report.testing.contract import ContractTest
-from diecut_report.text import catalogues
+from diecut_report.text import po_files
 from diecut_report.text.catalogues import Catalogues, built_in_kinds
 from diecut_report.text.translation import speaking
 from tests.cli.test_cli import run
@@ -230,7 +230,5 @@ def test_an_example_is_ukrainian(config: Path) -> None:
 @pytest.mark.parametrize("name", CATALOGUES)
 def test_english_texts_have_english_letters(name: str) -> None:
     """What documents and messages say in English is what catalogues translate."""
-    ids = [
-        each for m in catalogues.read(CATALOGUES[name], "uk") for each in ((m.id,) if isinstance(m.id, str) else m.id)
-    ]
+    ids = [each for m in po_files.read(CATALOGUES[name], "uk") for each in ((m.id,) if isinstance(m.id, str) else m.id)]
     assert [text for text in ids if re.search("[а-яіїєґё]", PLACE.sub("", text), re.IGNORECASE)] == []

@@ -8,7 +8,7 @@ from pathlib import Path
 import pytest
 from babel.messages.catalog import Message
 
-from diecut_report.text import catalogues
+from diecut_report.text import po_files
 
 ROOT = Path(__file__).parents[2]
 FILES = sorted(
@@ -38,14 +38,14 @@ def faults(message: Message) -> list[str]:
 
 @pytest.mark.parametrize("file", FILES, ids=lambda file: f"{file.parts[-3]}")
 def test_each_number_has_its_form(file: Path) -> None:
-    catalogue = catalogues.read(file, "uk")
+    catalogue = po_files.read(file, "uk")
     assert catalogue.num_plurals == 3 and "n%10==1" in catalogue.plural_expr.replace(" ", "")
     assert [fault for message in catalogue if isinstance(message.id, tuple) for fault in faults(message)] == []
 
 
 def test_the_program_counts() -> None:
     """So that the test above finds something."""
-    catalogue = catalogues.read(ROOT / "diecut_report" / "locale" / "uk.po", "uk")
+    catalogue = po_files.read(ROOT / "diecut_report" / "locale" / "uk.po", "uk")
     assert sum(isinstance(message.id, tuple) for message in catalogue) > 50
 
 

@@ -11,7 +11,7 @@ from typing import NamedTuple
 
 import pytest
 
-from diecut_report.text import catalogues
+from diecut_report.text import po_files
 
 ROOT = Path(__file__).parents[2]
 CATALOGUES = {
@@ -67,7 +67,7 @@ def translations(name: str) -> tuple[Translated, ...]:
 
 
 def _read(file: Path) -> Iterator[Translated]:
-    for message in catalogues.read(file, "uk"):
+    for message in po_files.read(file, "uk"):
         forms = message.string if isinstance(message.string, tuple) else (message.string,)
         english = message.id if isinstance(message.id, str) else message.id[-1]
         yield from (Translated(english, form) for form in forms if english and form)
