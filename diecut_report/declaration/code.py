@@ -76,10 +76,19 @@ FILE, AROUND = phrase("a file"), phrase("what is around the program")
 END, ENDS = "end", {"_exit", "abort", "execv", "execve", "kill"}  # what ends the program, of the module os
 OF_MODULE = {"time": CLOCK, "random": CHANCE, "secrets": CHANCE, "uuid": CHANCE, "numpy.random": CHANCE,
              "io": FILE, "_io": FILE, "tempfile": FILE, "glob": FILE, "shutil": FILE,
-             "platform": AROUND, "socket": AROUND,
+             "platform": AROUND, "socket": AROUND, "subprocess": AROUND,
              "urllib.request": AROUND, "locale": AROUND}  # fmt: skip
 NOW = {"now", "today", "utcnow"}  # of a date
-READERS = {"read_text", "read_bytes"}  # of a path, which is known by its name alone
+READERS = {
+    "read_text",
+    "read_bytes",
+    "exists",
+    "is_file",
+    "is_dir",
+    "iterdir",
+    "rglob",
+}  # of a path, known by their names alone
+OF_RUN = (hash, id)  # other numbers in each run
 TABLES = {"load", "loadtxt", "genfromtxt", "fromfile", "memmap"}  # of NumPy
 SEEDED = {"default_rng", "Random", "RandomState"}  # with a number to begin with they give the same each time
 OF_SYSTEM = {
@@ -254,7 +263,13 @@ def _of(value: Any) -> str:
         return FILE
     if name in ENDS and getattr(value, "__module__", "") in ("os", "posix", "nt"):
         return END
-    if value is os.environ or (name in OF_SYSTEM and getattr(value, "__module__", "") in ("os", "posix", "nt")):
+    if any(value is each for each in OF_RUN):
+        return CHANCE
+    if (
+        value is os.environ
+        or value is sys.argv
+        or (name in OF_SYSTEM and getattr(value, "__module__", "") in ("os", "posix", "nt"))
+    ):
         return AROUND
     homes = {str(getattr(each, "__module__", None)) for each in (value, type(value), type(owner))}
     homes |= {owner.__name__} if isinstance(owner, ModuleType) else set()

@@ -196,7 +196,9 @@ def test_one_bad_file_hides_no_other(
     )
 
 
-@pytest.mark.parametrize(("command", "arguments"), few(list(commands()), lambda each: each[0] in ("calc", "batch", "where")))
+@pytest.mark.parametrize(
+    ("command", "arguments"), few(list(commands()), lambda each: each[0] in ("calc", "batch", "where"))
+)
 def test_every_command_reports_every_slip(
     command: str,
     arguments: list[str],

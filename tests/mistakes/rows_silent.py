@@ -45,6 +45,8 @@ SILENT = (
     load("a list that may be empty", 'Text("Pulleys that turn the belt, without the head drum")]',
          'Text("Pulleys that turn the belt, without the head drum")] = []', "journal_loss", r"pulleys\.diameter, but pulleys may have no parts",
          r'needs=\("pulleys",\)', placed=False),
+    load("a row that stands twice in a table", '{"bare": 0.2, "rubber": 0.3}', '{"bare": 0.2, "rubber": 0.3, "rubber": 0.5}', "'rubber'", "twice",
+         "only the last one counts"),
     load("a source that is not listed", 'source="S2 eq. 4"', 'source="S7 eq. 4"', "froude_number", "S7", "S1, S2"),
     calc("plain code that changes what it is given", FALL, "speed += 1\n    return np.sqrt(2 * drop / GRAVITY) + 0 * speed", "read-only",
          placed=True),
