@@ -121,6 +121,13 @@ def test_what_ends_the_program_is_told(code: str, tmp_path: Path) -> None:
     assert any(f"function found: ends the whole program ({code.partition('(')[0]})" in line for line in told)
 
 
+@pytest.mark.parametrize("place", [{"body": "os.chdir('/')"}, {"module": "os.chdir(os.curdir)"}])
+def test_what_leaves_the_folder_is_told(place: dict[str, str], tmp_path: Path) -> None:
+    """The report would be written elsewhere than is said."""
+    (line,) = judged(tmp_path, **place)
+    assert "leaves the folder that the program works in (os.chdir), so that reports are written elsewhere" in line
+
+
 @pytest.mark.parametrize("name", LOOPS)
 def test_the_number_of_a_loop_in_plain_code_is_told(name: str, tmp_path: Path) -> None:
     """All functions would take the last one, in silence."""
