@@ -74,12 +74,22 @@ def _imports(tree: ast.AST) -> Iterator[tuple[int, str, list[str]]]:
 CLOCK, CHANCE = phrase("the clock"), phrase("chance")
 FILE, AROUND = phrase("a file"), phrase("what is around the program")
 END, ENDS = "end", {"_exit", "abort", "execv", "execve", "kill"}  # what ends the program, of the module os
+LEAVE, LEAVES = "leave", {"chdir", "fchdir", "chroot"}  # what leaves the working folder
 OF_MODULE = {"time": CLOCK, "random": CHANCE, "secrets": CHANCE, "uuid": CHANCE, "numpy.random": CHANCE,
              "io": FILE, "_io": FILE, "tempfile": FILE, "glob": FILE, "shutil": FILE,
-             "platform": AROUND, "socket": AROUND,
+             "platform": AROUND, "socket": AROUND, "subprocess": AROUND,
              "urllib.request": AROUND, "locale": AROUND}  # fmt: skip
 NOW = {"now", "today", "utcnow"}  # of a date
-READERS = {"read_text", "read_bytes"}  # of a path, which is known by its name alone
+READERS = {
+    "read_text",
+    "read_bytes",
+    "exists",
+    "is_file",
+    "is_dir",
+    "iterdir",
+    "rglob",
+}  # of a path, known by their names alone
+OF_RUN = (hash, id)  # other numbers in each run
 TABLES = {"load", "loadtxt", "genfromtxt", "fromfile", "memmap"}  # of NumPy
 SEEDED = {"default_rng", "Random", "RandomState"}  # with a number to begin with they give the same each time
 OF_SYSTEM = {
@@ -136,17 +146,12 @@ def _of_loops(tree: ast.Module, node: ast.AST) -> Iterator[ast.Name]:
 
 
 def _fault(file: Path, where: ast.expr, what: str, name: str) -> Fault:
+    words = "asks {what} ({code}), so that equal inputs give unlike results; take it as an input, or read a table when the module is loaded"
     if what == END:
-        text = Phrase(
-            "ends the whole program ({code}), without a word to who uses it; raise Refusal(…), or an exception",
-            code=ast.unparse(where),
-        )
-        return Fault(f"{file}:{where.lineno}", Phrase("function {name}", name=name), text)
-    text = Phrase(
-        "asks {what} ({code}), so that equal inputs give unlike results; take it as an input, or read a table when the module is loaded",
-        what=what,
-        code=ast.unparse(where),
-    )
+        words = "ends the whole program ({code}), without a word to who uses it; raise Refusal(…), or an exception"
+    if what == LEAVE:
+        words = "leaves the folder that the program works in ({code}), so that reports are written elsewhere; name files by their whole path"
+    text = Phrase(words, what=what, code=ast.unparse(where))
     return Fault(f"{file}:{where.lineno}", Phrase("function {name}", name=name), text)
 
 
@@ -211,7 +216,7 @@ def _used_at_load(tree: ast.Module, scope: dict[str, Any]) -> Iterator[Used]:
             yield from (
                 found
                 for found in _asked(statement, ChainMap(scope, vars(builtins)))
-                if found[1] in (CLOCK, CHANCE, END)
+                if found[1] in (CLOCK, CHANCE, END, LEAVE)
             )
 
 
@@ -252,9 +257,15 @@ def _of(value: Any) -> str:
         return CLOCK
     if name in TABLES and getattr(value, "__module__", "") in ("numpy", "numpy.lib._npyio_impl", "numpy.lib.npyio"):
         return FILE
-    if name in ENDS and getattr(value, "__module__", "") in ("os", "posix", "nt"):
-        return END
-    if value is os.environ or (name in OF_SYSTEM and getattr(value, "__module__", "") in ("os", "posix", "nt")):
+    if name in ENDS | LEAVES and getattr(value, "__module__", "") in ("os", "posix", "nt"):
+        return END if name in ENDS else LEAVE
+    if any(value is each for each in OF_RUN):
+        return CHANCE
+    if (
+        value is os.environ
+        or value is sys.argv
+        or (name in OF_SYSTEM and getattr(value, "__module__", "") in ("os", "posix", "nt"))
+    ):
         return AROUND
     homes = {str(getattr(each, "__module__", None)) for each in (value, type(value), type(owner))}
     homes |= {owner.__name__} if isinstance(owner, ModuleType) else set()

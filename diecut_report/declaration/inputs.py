@@ -21,7 +21,7 @@ from diecut_report.errors import nearest
 from diecut_report.formulas.formula import FormulaError
 from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.curve_inputs import CurveInput
-from diecut_report.mechanism.inputs import BOUNDS, Block, Meta, Quantity, meta_of, nested
+from diecut_report.mechanism.inputs import BOUNDS, Block, Meta, Quantity, Referred, meta_of, nested
 from diecut_report.mechanism.mechanism import ExampleBlock, ForEach, Mechanism, Wired, kinds_named
 from diecut_report.mechanism.names import Binding, Bound, ByText, Text, bound
 from diecut_report.mechanism.steps import Choice, Computed, Require, Step, Value
@@ -166,14 +166,47 @@ def _form(place: str, subject: str, form: tuple[str, str], keys: dict[str, Key])
         )
 
 
+MADE_BY = ("__init__", "__new__", "__getattribute__", "__getattr__", "model_post_init")
+
+
+def _own_code(model: type[Block]) -> Iterator[str]:
+    """What of a class comes between the values that the program read and those that count."""
+    judged = model.__pydantic_decorators__
+    yield from (*judged.validators, *judged.field_validators, *judged.root_validators, *judged.model_validators)
+    yield from (
+        name for name in MADE_BY if any(name in vars(each) for each in model.__mro__ if each not in Block.__mro__)
+    )
+
+
+def _beside(declared: FieldInfo) -> Iterator[str]:
+    """What is declared of an input beside its quantity, and would be held against SI numbers in silence."""
+    if others := [
+        type(each).__name__ for each in declared.metadata if not isinstance(each, Quantity | Text | Referred)
+    ]:
+        words = (
+            "has {names} beside its quantity, by which another value than the user's may count; give bounds to the quantity, "
+            "and calculate in a step"
+        )
+        yield Phrase(words, names=", ".join(others))
+
+
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
     if changed := [name for name, value in Block.model_config.items() if model.model_config.get(name) != value]:
         words = "changes {names} in its model_config, so that keys that are misspelt may pass unread; take it away"
         subject = Phrase("class {name}", name=model.__name__)
         yield Fault(of_class(model, place), subject, Phrase(words, names=", ".join(changed)))
+    if own := list(_own_code(model)):
+        words = (
+            "reads its inputs by code of its own ({names}), so that another value than the user's may count; calculate in a step, "
+            "and refuse by require"
+        )
+        yield Fault(
+            of_class(model, place), Phrase("class {name}", name=model.__name__), Phrase(words, names=", ".join(own))
+        )
     for name, declared in model.model_fields.items():
         inner, subject = nested(declared.annotation), Phrase("input {path}", path=f"{prefix}{name}")
-        for text in (*_absent(declared), *(() if inner else _wrong(name, declared, meta_of(model, name)))):
+        told = () if inner else _wrong(name, declared, meta_of(model, name))
+        for text in (*_absent(declared), *_beside(declared), *told):
             yield Fault(of_field(model, name, place), subject, text)
         if name in RESERVED and not prefix:
             text = Phrase(

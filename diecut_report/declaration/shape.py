@@ -226,9 +226,23 @@ MEANT = {
 
 
 def doubled_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
-    """Yield functions, classes and fields that are defined twice at one level of a file."""
+    """Yield functions, classes and fields that are defined twice at one level of a file, and keys that stand twice in a table."""
     for file in sorted(file for file in files(mechanism) if file.suffix == ".py"):
         yield from _twice(file, parsed(file))
+        yield from _keys_twice(file, parsed(file))
+
+
+def _keys_twice(file: Path, tree: ast.Module) -> Iterator[Fault]:
+    for table in ast.walk(tree):
+        seen: dict[str, int] = {}
+        for key in table.keys if isinstance(table, ast.Dict) else ():
+            if not isinstance(key, ast.Constant | ast.Tuple):
+                continue
+            written = ast.unparse(key)
+            if written in seen:
+                told = "stands twice in a table, at first in line {line}, and only the last one counts; take one of them away"
+                yield Fault(f"{file}:{key.lineno}", Phrase("key {key}", key=written), Phrase(told, line=seen[written]))
+            seen.setdefault(written, key.lineno)
 
 
 def _twice(file: Path, scope: ast.Module | Defined) -> Iterator[Fault]:

@@ -106,6 +106,7 @@ OF_A_CONFIGURATION = {
     "solve": ["--for", "clutch.pressing_force <= 1 kN", "--vary", "clutch.torque"],
     "validate": [], "diff": ["good.yaml"],
 }  # fmt: skip
+OF_A_NUMBER = {"where": "clutch.pressing_force"}
 OF_A_STUDY = {"batch": ["-o", "out"], "optimise": ["-o", "out"], "validate": []}
 OTHERS = {
     "live",
@@ -125,7 +126,7 @@ OTHERS = {
 
 
 def test_every_command_is_tried_or_named() -> None:
-    assert {*OF_A_CONFIGURATION, *OF_A_STUDY, *OTHERS} == set(program.commands)
+    assert {*OF_A_CONFIGURATION, *OF_A_NUMBER, *OF_A_STUDY, *OTHERS} == set(program.commands)
 
 
 def slipped(typed: str, instead: str) -> str:
@@ -135,6 +136,7 @@ def slipped(typed: str, instead: str) -> str:
 
 def commands() -> Iterator[tuple[str, list[str]]]:
     yield from ((name, ["press.yaml", *more]) for name, more in OF_A_CONFIGURATION.items())
+    yield from ((name, [number, "press.yaml"]) for name, number in OF_A_NUMBER.items())
     yield from ((name, ["study.yaml", *more]) for name, more in OF_A_STUDY.items())
 
 
@@ -194,7 +196,9 @@ def test_one_bad_file_hides_no_other(
     )
 
 
-@pytest.mark.parametrize(("command", "arguments"), few(list(commands()), lambda each: each[0] in ("calc", "batch")))
+@pytest.mark.parametrize(
+    ("command", "arguments"), few(list(commands()), lambda each: each[0] in ("calc", "batch", "where"))
+)
 def test_every_command_reports_every_slip(
     command: str,
     arguments: list[str],

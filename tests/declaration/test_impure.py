@@ -15,6 +15,7 @@ from __future__ import annotations
 from datetime import date, datetime
 import os
 import random
+import sys
 import time
 from pathlib import Path
 from time import perf_counter as ticks
@@ -63,6 +64,11 @@ ASKED = {
     "arm = arm * len(os.environ)": "what is around the program (os.environ)",
     "arm = arm * len(os.listdir('.'))": "what is around the program (os.listdir)",
     "arm = arm * os.getpid()": "what is around the program (os.getpid)",
+    "arm = arm * len(sys.argv)": "what is around the program (sys.argv)",
+    "import subprocess; arm = arm * len(subprocess.check_output('date'))": "what is around the program (subprocess.check_output)",
+    "arm = arm * Path('n').exists()": "a file (Path('n').exists)",
+    "arm = arm * hash('a')": "chance (hash)",
+    "arm = arm * id(arm)": "chance (id)",
     "arm = (lambda: arm * time.time())()": "the clock (time.time)",
 }
 ENDING = ("os._exit(0)", "os.abort()", "os.kill(os.getppid(), 9)")
@@ -86,6 +92,7 @@ SOUND = (
     "arm = arm * len(os.path.join('a', 'b'))",
     "arm = arm * len(TABLE)",
     "arm = arm * date(2026, 1, 1).year",
+    "id = arm; arm = id.real",
 )
 
 
@@ -114,6 +121,13 @@ def test_what_ends_the_program_is_told(code: str, tmp_path: Path) -> None:
     assert any(f"function found: ends the whole program ({code.partition('(')[0]})" in line for line in told)
 
 
+@pytest.mark.parametrize("place", [{"body": "os.chdir('/')"}, {"module": "os.chdir(os.curdir)"}])
+def test_what_leaves_the_folder_is_told(place: dict[str, str], tmp_path: Path) -> None:
+    """The report would be written elsewhere than is said."""
+    (line,) = judged(tmp_path, **place)
+    assert "leaves the folder that the program works in (os.chdir), so that reports are written elsewhere" in line
+
+
 @pytest.mark.parametrize("name", LOOPS)
 def test_the_number_of_a_loop_in_plain_code_is_told(name: str, tmp_path: Path) -> None:
     """All functions would take the last one, in silence."""
@@ -139,4 +153,4 @@ def test_what_gives_the_same_each_time_passes(code: str, tmp_path: Path) -> None
 
 def test_a_clock_that_is_asked_when_the_module_is_loaded_is_told(tmp_path: Path) -> None:
     (line,) = judged(tmp_path, module="BEGAN = time.time()")
-    assert "asking.py:15: function the module: asks the clock (time.time)" in line
+    assert "asking.py:16: function the module: asks the clock (time.time)" in line

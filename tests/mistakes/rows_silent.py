@@ -6,6 +6,10 @@ from tests.mistakes.rows import calc, load
 
 # fmt: off
 
+LAST_INPUT = "    n_points: Annotated[int, POINTS] = 360"
+NUMPY = "import numpy as np\n"
+PYDANTIC = ((NUMPY, f"{NUMPY}from pydantic import AfterValidator, Field, field_validator, model_validator\n"),)
+HEIGHT = 'Quantity("H", "m", "Height of lift", gt=0, le=60)]'
 THROW = 'discharge.value("throw", "s_f", "mm", "How far the waste flies meanwhile", lambda belt_speed, fall_time: belt_speed * fall_time)'
 FALL = "return np.sqrt(2 * drop / GRAVITY) + 0 * speed"
 CURVE = "lambda head_diameter, angle: head_diameter / 2 * np.sin(angle))"
@@ -42,9 +46,24 @@ SILENT = (
     load("inputs that take any key", "    n_points: Annotated[int, POINTS] = 360",
          '    n_points: Annotated[int, POINTS] = 360\n    model_config = {"extra": "ignore"}',
          "Elevator", "model_config", placed=False),
+    load("inputs that a validator changes", LAST_INPUT,
+         f'{LAST_INPUT}\n\n    @field_validator("height")\n    @classmethod\n    def half(cls, value):\n        return value / 2',
+         "Elevator", r"half\)?, so that another value than the user's may count", "require", also=PYDANTIC, placed=False),
+    load("inputs that a validator of all changes", LAST_INPUT,
+         f'{LAST_INPUT}\n\n    @model_validator(mode="before")\n    @classmethod\n    def half(cls, data):\n        return data | {{"height": 3.0}}',
+         "Elevator", "half", "another value", also=PYDANTIC, placed=False),
+    load("inputs that are changed when they are made", LAST_INPUT,
+         f'{LAST_INPUT}\n\n    def model_post_init(self, _):\n        object.__setattr__(self, "height", 3.0)',
+         "Elevator", "model_post_init", "another value", placed=False),
+    load("an input that a validator changes", HEIGHT, HEIGHT.replace("]", ", AfterValidator(lambda value: value / 2)]"), "input height",
+         "AfterValidator", "another value", also=PYDANTIC),
+    load("an input whose bounds stand beside its quantity", HEIGHT, HEIGHT.replace("]", ", Field(lt=50)]"), "input height", "Lt", "bounds",
+         also=PYDANTIC),
     load("a list that may be empty", 'Text("Pulleys that turn the belt, without the head drum")]',
          'Text("Pulleys that turn the belt, without the head drum")] = []', "journal_loss", r"pulleys\.diameter, but pulleys may have no parts",
          r'needs=\("pulleys",\)', placed=False),
+    load("a row that stands twice in a table", '{"bare": 0.2, "rubber": 0.3}', '{"bare": 0.2, "rubber": 0.3, "rubber": 0.5}', "'rubber'", "twice",
+         "only the last one counts"),
     load("a source that is not listed", 'source="S2 eq. 4"', 'source="S7 eq. 4"', "froude_number", "S7", "S1, S2"),
     calc("plain code that changes what it is given", FALL, "speed += 1\n    return np.sqrt(2 * drop / GRAVITY) + 0 * speed", "read-only",
          placed=True),
