@@ -12,9 +12,11 @@ import hashlib
 import os
 import re
 import shutil
+import signal
 import stat
 import sys
 import tempfile
+import threading
 from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import ExitStack, contextmanager, suppress
 from io import BufferedReader
@@ -42,7 +44,7 @@ def write_all(files: Mapping[Path, bytes], keep: Path | None, *, through: bool =
     ``keep`` is a file that must not be written over: the config itself, where there is one. With ``through`` a device or a pipe that the user
     names is written into; else it is replaced, as a link always is.
     """
-    with ExitStack() as stack:
+    with _ended_by_system(), ExitStack() as stack:
         ready = []
         for path, content in files.items():
             with in_words(path, NOTHING):
@@ -56,6 +58,20 @@ def write_all(files: Mapping[Path, bytes], keep: Path | None, *, through: bool =
                     temporary.write_bytes(files[path])
                 else:
                     _take_place(temporary, place)
+
+
+@contextmanager
+def _ended_by_system() -> Iterator[None]:
+    """Let the system (SIGTERM) end what runs within as Ctrl-C does, so that no temporary file stays; who has a way of his own keeps it."""
+    is_main = threading.current_thread() is threading.main_thread()
+    if not is_main or signal.getsignal(signal.SIGTERM) is not signal.SIG_DFL:
+        yield
+        return
+    signal.signal(signal.SIGTERM, signal.default_int_handler)
+    try:
+        yield
+    finally:
+        signal.signal(signal.SIGTERM, signal.SIG_DFL)
 
 
 def _place(path: Path) -> Path:
@@ -248,7 +264,7 @@ def replaced(path: Path, *, instead_of: str | None = None) -> Iterator[Path]:
 
     ``instead_of`` as in `write`.
     """
-    with in_words(path, KEPT if instead_of is None else NOTHING):
+    with _ended_by_system(), in_words(path, KEPT if instead_of is None else NOTHING):
         temporary = _temporary(path)
         try:  # from before it is there: a Ctrl-C comes at any time
             _make(temporary, path)

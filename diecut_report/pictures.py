@@ -5,7 +5,8 @@ from __future__ import annotations
 import io
 import re
 import warnings
-from collections.abc import Mapping
+from collections.abc import Mapping, Sequence
+from typing import Any
 from xml.parsers import expat
 
 from diecut_report.text.phrases import Phrase, phrase
@@ -35,6 +36,7 @@ _OUTSIDE = re.compile(r"@import|@font-face|url\(\s*['\"]?(?!#)", re.IGNORECASE)
 PIXELS = {"": 1.0, "px": 1.0, "pt": 96 / 72, "pc": 16.0, "mm": 96 / 25.4, "cm": 960 / 25.4, "in": 96.0}
 """Of the units of CSS."""
 LONGEST = 1e6  # pixels of a side that has a meaning
+_SIMPLE = re.compile(r"[\w.#*-]*")  # a selector: element, class, id
 _PARTED = re.compile(r"\s*(\d+\.?\d*|\.\d+)(px|pt|pc|mm|cm|in|)\s*")
 _LENGTH = re.compile(r"\s*(?:\d+\.?\d*|\.\d+)(?:px|pt|pc|mm|cm|in)?\s*")
 
@@ -187,7 +189,7 @@ class _SvgJudge:
         self.clips = max(self.clips - 1, 0)
         style = "".join(self.style or ())
         _judge_style(style)
-        self.rules += style.count("{")
+        self.rules += _count_of_rules(style)
         self.style = None
 
     def _text(self, text: str) -> None:
@@ -209,6 +211,26 @@ def _judge_style(text: str) -> None:
     _judge_repetition(text)
     if "clip-path" in text.lower():
         raise PictureFault(phrase("clips by a style sheet; save it with presentation attributes"))
+
+
+def _count_of_rules(style: str) -> int:
+    """How many names each element is held against; PictureFault for those of elements within or beside others, all of which may be tried."""
+    import tinycss2
+
+    found = tinycss2.parse_stylesheet(style, skip_comments=True)
+    selectors = [each for rule in found if rule.type == "qualified-rule" for each in _selectors(rule.prelude)]
+    if not all(map(_SIMPLE.fullmatch, selectors)):
+        raise PictureFault(
+            phrase(
+                "has a style for elements within or beside others, which may never end; name each by its class alone"
+            )
+        )
+    return len(selectors)
+
+
+def _selectors(tokens: Sequence[Any]) -> list[str]:
+    text = "".join("" if token.type == "comment" else token.serialize() for token in tokens)
+    return [each.strip() for each in text.split(",")]
 
 
 def _judge_root(space: str, name: str, given: Mapping[str, str]) -> None:

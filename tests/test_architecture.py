@@ -50,7 +50,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "docx": r"diecut_report\.report\.office\.word_file",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
     "threadpoolctl": r"diecut_report\.study\.execution\.pending",
-    "pikepdf": r"diecut_report\.exchange\.(carried|later_changes)",
+    "pikepdf": r"diecut_report\.exchange\.(pdf_attachments|added_sections|later_changes)",
     "pyhanko": r"diecut_report\.exchange\.(signing|signing_keys|signature_status|signatures)",
     "pyhanko_certvalidator": r"diecut_report\.exchange\.(signing|signing_keys|signature_status|signatures)",
     "cryptography": r"diecut_report\.exchange\.(signing|signing_keys|signature_status|signatures)",
@@ -63,7 +63,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "pydyf": r"diecut_report\.report\.pages\.page_engine",
     "ezdxf": r"diecut_report\.report\.profile_files",
     "jinja2": r"diecut_report\.report\.(document|pages\.(html|firm_templates))",
-    "tinycss2": r"diecut_report\.report\.pages\.page_policy",
+    "tinycss2": r"diecut_report\.(pictures|report\.pages\.page_policy)",
     "tinyhtml5": r"diecut_report\.report\.pages\.page_policy",
     "scipy.stats": r"diecut_report\.(study|design)\..*",  # slow to import, and needed by studies and tolerances alone
     "matplotlib.pyplot": r"(?!)",  # keeps global state

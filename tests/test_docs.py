@@ -17,8 +17,8 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing.machines import calculate, load
 from tests.docs.pages import ROOT, PageRun
-from tests.engine.swing import MECHANISM as SWING
-from tests.engine.swings import CLOSED, made, swing
+from tests.machine.swing import MECHANISM as SWING
+from tests.machine.swings import CLOSED, made, swing
 
 
 def test_the_mechanism_pages_are_made_from_the_declarations() -> None:

@@ -5,9 +5,11 @@ from __future__ import annotations
 import errno
 import hashlib
 import os
+import signal
 import stat
 import struct
 from collections.abc import Callable
+from contextlib import suppress
 from pathlib import Path
 
 import pytest
@@ -142,6 +144,25 @@ def test_an_interrupt_leaves_nothing_half_written(
     with pytest.raises(KeyboardInterrupt):
         write(tmp_path / "a", b"new")
     assert list(tmp_path.iterdir()) == []
+
+
+def test_the_system_ends_a_run_and_nothing_is_left_half_written(
+    write: Write, tmp_path: Path, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    touch = Path.touch
+
+    def ended(path: Path, *args: int, **more: bool) -> None:
+        touch(path, *args, **more)
+        os.kill(os.getpid(), signal.SIGTERM)
+
+    monkeypatch.setattr(Path, "touch", ended)
+    child = os.fork()
+    if not child:
+        with suppress(KeyboardInterrupt):
+            write(tmp_path / "a", b"new")
+        os._exit(7)
+    assert os.waitstatus_to_exitcode(os.waitpid(child, 0)[1]) == 7 and list(tmp_path.iterdir()) == []
+    assert signal.getsignal(signal.SIGTERM) is signal.SIG_DFL
 
 
 def test_a_link_is_replaced_and_what_it_points_to_kept(write: Write, tmp_path: Path) -> None:

@@ -42,7 +42,10 @@ DRAWN = [
     svg(
         '<defs><linearGradient id="a"><stop offset="1"/></linearGradient></defs><rect fill="url(#a)" width="1" height="1"/>'
     ),
-    svg("<style>.a{fill:#fff}</style>", '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="10mm">'),
+    svg(
+        "<style>.a, #b ,g.c/* x */{fill:#fff}*{}</style>",
+        '<svg xmlns="http://www.w3.org/2000/svg" width="20mm" height="10mm">',
+    ),
     svg(
         '<clipPath id="c"><rect width="1" height="1"/></clipPath><g clip-path="url(#c)"><rect clip-path="url(#c)"/></g>'
     ),
@@ -105,7 +108,11 @@ REFUSED = [
         svg('<linearGradient id="a">' + "<stop/>" * 2400 + "</linearGradient>" + '<rect fill="url(#a)"/>' * 400),
         "too long to draw",
     ),
-    (svg("<style>" + "rect+rect{}" * 1000 + "</style>" + "<rect/>" * 1000), "too long to draw"),
+    (svg("<style>" + "rect{}" * 1000 + "</style>" + "<rect/>" * 1000), "too long to draw"),
+    (svg("<style>" + "a," * 1000 + "b{}</style>" + "<rect/>" * 1000), "too long to draw"),
+    (svg("<style>path~rect~rect~rect~rect~rect{}</style>" + "<rect/>" * 300), "within or beside others"),
+    (svg("<style>a{} path/**/ g g rect{}</style>"), "within or beside others"),
+    (svg("<style>:nth-last-child(2 of rect){}</style>"), "within or beside others"),
     (svg('<svg viewBox="a b c d"/>'), "does not say its size"),
     (svg("", '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 1">'), "does not say its size"),
     (b'<?xml-stylesheet href="a.css"?>' + svg(""), "processing instruction"),

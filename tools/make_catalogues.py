@@ -13,7 +13,7 @@ from diecut_report.declaration.code import code_texts, fixed_texts
 from diecut_report.declaration.texts import DeclaredText, texts
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.testing.plugin_words import tables_of
-from diecut_report.text import catalogues as po_files
+from diecut_report.text import po_files
 from diecut_report.text.catalogues import file_beside
 from tools.program_texts import ProgramText, program_texts
 

@@ -332,7 +332,7 @@ def _write(
 ) -> None:  # fmt: skip
     """Write the summary, in the language that is asked for, else in that of all projects."""
     from diecut_report.files import write_all
-    from diecut_report.study import machines as pages
+    from diecut_report.study import machine_pages as pages
     from diecut_report.study.machines import compared, in_language, language_of
 
     language = asked_language() or language_of(found)

@@ -9,7 +9,9 @@ from typing import Any
 
 import pikepdf
 
-from diecut_report.exchange.carried import FAULTS, MOST_RESULTS, bounded
+from diecut_report.exchange.added_sections import is_clear
+from diecut_report.exchange.carried import MOST_RESULTS
+from diecut_report.exchange.pdf_attachments import FAULTS, bounded
 
 OF_FIELD = {"/V", "/AP", "/F", "/M"}  # what signing sets in a field: the signature, how it shows, its flags, its time
 OF_FORM = {"/SigFlags", "/Fields"}  # the fields may grow by document timestamps
@@ -41,7 +43,8 @@ def only_signed(before: bytes, after: bytes) -> bool:
             lists = set(_lists(old))
             kept = (_is_kept(each, new.get_object(each.objgen), old, new, lists) for each in old.objects)
             same = same and all(kept) and not _filled_gaps(old, new)
-            return same and not new.get_warnings()  # a key that stands twice is for each reader another one
+            same = same and not new.get_warnings()  # a key that stands twice is for each reader another one
+        return same and is_clear(before, after)
     except FAULTS:
         return False
 

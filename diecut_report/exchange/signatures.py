@@ -9,7 +9,7 @@ from contextlib import contextmanager
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
-from diecut_report.exchange.carried import PDF_FAULTS
+from diecut_report.exchange.pdf_faults import PDF_FAULTS
 from diecut_report.files import content
 from diecut_report.text.phrases import Phrase, cell, joined, phrase
 

@@ -24,7 +24,8 @@ from pyhanko_certvalidator.registry import SimpleCertificateStore
 
 from diecut_report.config.yaml import printable
 from diecut_report.errors import Problem, UserError, nearest
-from diecut_report.exchange.carried import MOST, PDF_FAULTS, form_of
+from diecut_report.exchange.carried import MOST, form_of
+from diecut_report.exchange.pdf_faults import PDF_FAULTS
 from diecut_report.exchange.signatures import silent
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import content, write_all

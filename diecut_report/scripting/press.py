@@ -4,8 +4,9 @@ from __future__ import annotations
 
 import os
 from collections.abc import Iterable, Mapping
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from functools import cached_property
+from hashlib import sha256
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
@@ -19,7 +20,7 @@ from diecut_report.config.references import as_file, written
 from diecut_report.config.yaml import KeyPath, Tree, parse, read_text
 from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.carried import carried_results
-from diecut_report.files import write_all
+from diecut_report.files import in_words, write, write_all
 from diecut_report.scripting.parts import NamedParts
 from diecut_report.scripting.press_inputs import InputList, press_inputs, stands
 from diecut_report.scripting.results import Results
@@ -32,17 +33,33 @@ if TYPE_CHECKING:
     from diecut_report.scripting.sweeps import SweepTable
 
 
+@dataclass(frozen=True)
+class LoadedFile:
+    """Hold the file that a press was loaded from, if any, and by their SHA-256 what the script knows to stand in it."""
+
+    file: Path | None = None
+    known: set[str] = field(default_factory=set)
+
+    def known_in(self, file: Path) -> str | None:
+        """Return the SHA-256 of what is to stand in a file that is written: of this file alone, while it is there."""
+        if self.file is None or not file.is_file() or file.resolve() != self.file:
+            return None
+        found = sha256(file.read_bytes()).hexdigest()
+        return found if found in self.known else ""
+
+
 @dataclass(frozen=True, eq=False, repr=False)
 class LoadedPress:
     """Hold a valid configuration. It never changes: ``with_values`` gives another one.
 
     ``config`` is the configuration as the program has read it, ``language`` that of messages and documents, where
-    one was asked for.
+    one was asked for. ``origin`` is shared by all presses that are made of one that was loaded.
     """
 
     config: Config
     discovery: Discovery
     language: str | None
+    origin: LoadedFile = field(default_factory=LoadedFile)
 
     @property
     def name(self) -> str:
@@ -116,10 +133,18 @@ class LoadedPress:
         return self._of(load_config(again, self.discovery))
 
     def save(self, file: str | Path) -> Path:
-        """Write the configuration; Unwritable in words where that is not possible. Tables that it names are sought beside it."""
-        path = Path(file)
-        with told_in(self.language):
-            write_all({path: as_file(self.config.tree, self.text)}, keep=None)
+        """Write the configuration; Unwritable in words where that is not possible. Tables that it names are sought beside it.
+
+        Where it is the file that the press was loaded from, and another program has saved that since, it is a ConfigError.
+        """
+        path, content = Path(file), as_file(self.config.tree, self.text)
+        with told_in(self.language), in_words(path):
+            known = self.origin.known_in(path)
+            if known is None:
+                write_all({path: content}, keep=None)
+            else:
+                write(path.resolve(), content, instead_of=known)
+                self.origin.known.add(sha256(content).hexdigest())
         return path
 
     def calculate(self) -> Results:
@@ -188,7 +213,7 @@ class LoadedPress:
         return self.config
 
     def _of(self, config: Config) -> LoadedPress:
-        return LoadedPress(config, self.discovery, self.language)
+        return LoadedPress(config, self.discovery, self.language, self.origin)
 
     def __repr__(self) -> str:
         return f"<press {self.name} of {self.config.tree.name}: {', '.join(self.instances)}>"
@@ -240,7 +265,9 @@ def _press(
 ) -> LoadedPress:
     with told_in(language, without_places=without_places):
         discovery = _discovery(plugins)
-        return LoadedPress(load_config(source, discovery), discovery, language)
+        config = load_config(source, discovery)
+        origin = LoadedFile(source.resolve(), {config.tree.sha256}) if isinstance(source, Path) else LoadedFile()
+        return LoadedPress(config, discovery, language, origin)
 
 
 def _discovery(plugins: Iterable[Folder]) -> Discovery:

@@ -123,13 +123,9 @@ class QuantityValue:
         return with_unit(format(self.magnitude, form), self.unit) if form else str(self)
 
     def _repr_html_(self) -> str:
-        pass  # REMOVE
-
         return value_html(self.symbol, self.printed)
 
     def _repr_latex_(self) -> str:
-        pass  # REMOVE
-
         return value_latex(self.symbol, self.printed)
 
     # --- numbers -----------------------------------------------------------------------------------------------------

@@ -36,8 +36,9 @@ from diecut_report.testing import machines
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
 from diecut_report.testing.machines import Keys, MachineCase, WithMechanism, configured, one_of, unlike
 from diecut_report.testing.plugin_words import PluginWords
-from diecut_report.text.catalogues import SOURCE_LANGUAGE, ChangedCatalogue, built_in, changed, file_beside, languages
+from diecut_report.text.catalogues import SOURCE_LANGUAGE, built_in, file_beside, languages
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
+from diecut_report.text.po_files import ChangedCatalogue, changed
 from diecut_report.time_limit import Overran, limited
 
 # What the contract test tells of each rule, and where in a plugin something stands.

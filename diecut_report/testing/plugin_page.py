@@ -16,8 +16,8 @@ from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, Unkno
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.testing.contract import TITLES, WORST_LAST, ContractTest, TriedRule, refuse_own, write_missing
-from diecut_report.text.catalogues import ChangedCatalogue
 from diecut_report.text.phrases import Counted, Phrase, joined
+from diecut_report.text.po_files import ChangedCatalogue
 from diecut_report.text.translation import said
 
 # Machines to try a plugin on: of the configurations that are named, or of those that lie beside the plugin.

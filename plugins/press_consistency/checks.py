@@ -13,7 +13,7 @@ CHECKS = (
     Check(id="timing", check_class="function", title="Timing of the press", demand=0.0, limit="timing_slack", unit="deg", tolerance=1e-9,
           demand_label="needed", limit_label="least slack of the interlocks", source="this method",
           consequence="the mechanisms are in each other's way; the cyclogram says which, by how much, and which offset is best. "
-          "Torques, motor and flywheel are then those of a press that cannot run: mend this first, and judge them after it."),
+          "Torques, motor and flywheel are then those of a press that cannot run: fix this first, then judge them."),
     Check(id="format_rolled", check_class="function", presumed=True, title="Sheet in the feed and cylinder",
           demand="side_in_feed", limit="working_length",
           unit="mm", tolerance=ROUNDING, demand_label="side of the sheet in the feed", limit_label="length that the cylinder unrolls",

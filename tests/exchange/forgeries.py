@@ -304,9 +304,42 @@ def with_two_contents(content: bytes) -> bytes:
     return content + first + second + table + trailer + end
 
 
+def _hidden(content: bytes, table: str) -> bytes:
+    """The contents of the first sheet, painted over, behind the end, and a table that tells where those of before are.
+
+    ``{first}`` stands there, ``{later}`` where the others are, ``{number}`` is what both are called.
+    """
+    with pikepdf.open(io.BytesIO(content)) as pdf:
+        number, size, root = pdf.pages[0].obj.Contents.objgen[0], int(pdf.trailer.Size), pdf.Root.objgen[0]
+    data = b"1 1 1 rg 0 0 999 999 re f"
+    later = b"\n%d 0 obj\n<< /Length %d >>\nstream\n%s\nendstream\nendobj\n" % (number, len(data), data)
+    begins = re.search(rb"(?<=\n)%d 0 obj" % number, content)
+    assert begins
+    told = table.format(number=number, first=f"{begins.start():010d} 00000 n", later=f"{len(content) + 1:010d} 00000 n")
+    previous = re.findall(rb"startxref\s+(\d+)", content)[-1]
+    trailer = b"trailer\n<< /Size %d /Root %d 0 R /Prev %s >>" % (size, root, previous)
+    end = b"\nstartxref\n%d\n%%%%EOF\n" % (len(content) + len(later))
+    return content + later + told.encode() + trailer + end
+
+
+def told_by(table: str) -> Callable[[bytes], bytes]:
+    return lambda content: _hidden(content, table)
+
+
 OF_PDF = (
     Forgery("what a sheet shows, painted over", added(painted), PAGES),
     Forgery("contents of a sheet that only some readers show", with_two_contents, PAGES),
+    Forgery(
+        "contents of a sheet that the table of objects names twice: some programs show the first, some the last",
+        told_by("xref\n{number} 1\n{first} \n{number} 1\n{later} \n"),
+        PAGES,
+    ),
+    Forgery(
+        "the same, in a table that some programs do not take, and search the file instead",
+        told_by("xref\n{number} 1\n{first}\n"),
+        PAGES,
+    ),
+    Forgery("the same, which no table names", told_by("xref\n0 1\n0000000000 65535 f \n"), PAGES),
     Forgery("a sheet, turned", added(turned), PAGES),
     Forgery("a sheet, cut smaller", added(cropped), PAGES),
     Forgery("a sheet, taken out", added(without_sheet), PAGES),

@@ -15,7 +15,7 @@ import pytest
 from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.report.rendering import Rendering
-from diecut_report.text import catalogues
+from diecut_report.text import po_files
 from tests.examples import few
 
 ROOT = Path(__file__).parents[2]
@@ -85,7 +85,7 @@ def titles() -> frozenset[str]:
     """The words of the catalogues that stand in them in another language: titles of works, names of makers and authors."""
     found = set()
     for file in (ROOT / "diecut_report" / "locale" / "uk.po", *ROOT.glob("plugins/*/locale/uk.po")):
-        for message in catalogues.read(file, "uk"):
+        for message in po_files.read(file, "uk"):
             if message.context in CITED or any(
                 "standard series" in of or "of a table" in of for of in message.auto_comments
             ):

@@ -146,6 +146,19 @@ def test_a_press_is_saved_as_text(press: dr.LoadedPress, tmp_path: Path) -> None
         press.save(tmp_path)
 
 
+def test_what_an_editor_saved_meanwhile_is_not_written_over(press: dr.LoadedPress, tmp_path: Path) -> None:
+    file = tmp_path / "press.yaml"
+    for arm in ("80 mm", "70 mm"):  # of one press, one after the other: the script knows what stands there
+        press.with_values({"a.arm": arm}).save(file)
+    assert file.read_text("utf-8") == TEXT.replace("90 mm", "70 mm")
+    edited = TEXT + "# a note\n"
+    file.write_text(edited, "utf-8")
+    with pytest.raises(dr.UserError, match="Another program has saved this file meanwhile"):
+        press.save(file)
+    assert file.read_text("utf-8") == edited
+    assert dr.load(file, plugins=[GOOD]).save(file).read_text("utf-8") == edited
+
+
 @pytest.mark.wheel
 def test_the_installed_program_serves_scripts() -> None:
     press = dr.loads(SMALL)

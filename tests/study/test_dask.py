@@ -21,7 +21,7 @@ from diecut_report.study.execution.pending import SAFE_PATH, ChunkFailed, InProc
 from diecut_report.study.execution.refusals import dask_cluster
 from diecut_report.study.execution.study_run import Counts, Where, run_study
 from tests.configs import GOOD
-from tests.optimisation.searches import optimised, search_file
+from tests.design.optimisation.searches import optimised, search_file
 from tests.processes import until
 from tests.study.made_store import dies_at_three, fails_at_three, slow_square, square, warm
 from tests.study.studies import study

@@ -24,8 +24,8 @@ from diecut_report.study.summary import best as pareto
 from diecut_report.study.summary import content, data, summarise
 from diecut_report.study.summary import content as contents
 from diecut_report.study.summary.charts import near
-from diecut_report.study.summary.content import page
 from diecut_report.study.summary.data import WORST, display, utilised, value_told
+from diecut_report.study.summary.pages import page
 from tests.hostile.bounded import PEAK
 from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, calculated, made, many, ten, written
 

@@ -9,7 +9,7 @@ import pytest
 
 from diecut_report.api import Chapter, Check, Formula, Mechanism, Step, Value, bind, formula
 from diecut_report.declaration.formula_checks import check_mechanism
-from tests.engine.toy import MECHANISM, READ, ROOTED, Toy, same
+from tests.machine.toy import MECHANISM, READ, ROOTED, Toy, same
 
 
 @formula

@@ -10,9 +10,9 @@ from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import Any
 
-from diecut_report.design.optimisation.page import lines
 from diecut_report.design.optimisation.result import InputPlace, OptimisationResult, result
 from diecut_report.design.optimisation.run import Recheck, SearchOutcome, run_search
+from diecut_report.design.optimisation.texts import lines
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import write_all
 from diecut_report.study.analysis.answers import answer

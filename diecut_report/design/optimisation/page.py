@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import base64
-import math
-from collections.abc import Callable, Iterator, Sequence
+from collections.abc import Callable, Sequence
 from dataclasses import dataclass
 from functools import partial
 from itertools import combinations
@@ -19,7 +18,6 @@ from matplotlib.ticker import MaxNLocator
 from diecut_report import __version__
 from diecut_report.config import yaml
 from diecut_report.design.optimisation.result import (
-    Conflict,
     FoundFront,
     InputPlace,
     OptimisationResult,
@@ -27,17 +25,24 @@ from diecut_report.design.optimisation.result import (
     TriedMachines,
     columns_shown,
 )
-from diecut_report.design.optimisation.run import Recheck, asked_of
+from diecut_report.design.optimisation.run import asked_of
+from diecut_report.design.optimisation.texts import (
+    conflict_lines,
+    counts,
+    held,
+    recheck_lines,
+    row,
+    suggested,
+    today,
+)
 from diecut_report.files import room
 from diecut_report.formulas import Array
-from diecut_report.quantities.formatting import number_text, with_unit
-from diecut_report.quantities.units import unit
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, text_size
 from diecut_report.report.pages import html, pdf
 from diecut_report.report.pages.page_engine import HTML, URLFetcher
 from diecut_report.report.text import Catalogue, number
-from diecut_report.study.analysis.variants import StoredColumn, table_text
+from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.summary import best
 from diecut_report.study.summary import content as questions
 from diecut_report.study.summary.best import StoredObjective
@@ -45,7 +50,7 @@ from diecut_report.study.summary.charts import COLOURS, HEAD, LABEL, chart, pane
 from diecut_report.study.summary.data import display, factor, named, titled, utilised, value_told, wrapped
 from diecut_report.study.summary.data import quantity as charts_quantity
 from diecut_report.study.summary.figures import SummaryFigure
-from diecut_report.text.phrases import Counted, Phrase, capital, joined, phrase
+from diecut_report.text.phrases import capital
 from diecut_report.text.translation import localised, said, say, say_counted, spoken_language
 
 # The figures of an optimisation, in the style of a study's summary: the front, how it was found, where it lies within the bounds.
@@ -185,200 +190,6 @@ def _bounds(found: Sequence[InputPlace]) -> Figure:
 
 def _bare(value: float, column: StoredColumn) -> str:
     return charts_quantity(value, column)
-
-
-# What an optimisation has found, in words: for the terminal, and for the page.
-
-
-DIGITS = 5
-TOLD = 5  # machines that differ, demands that are broken
-
-
-def quantity(value: float, column: StoredColumn) -> str:
-    """Return an SI value in the unit that people read."""
-    return localised(with_unit(number_text(unit(column.display).from_si(value), DIGITS), column.display))
-
-
-def called(column: StoredColumn) -> str:
-    """Return what a quantity is called in commands: ``knife.cut_time``, an input without ``mechanisms.``"""
-    return column.name.removeprefix("mechanisms.")
-
-
-def lines(found: OptimisationResult) -> Iterator[str]:
-    """Yield what was found, a line after the other."""
-    yield goals(found)
-    yield counts(found)
-    if found.conflict is not None:
-        yield from conflict_lines(found, found.conflict)
-        return
-    yield from (line for line in (head(found), *table(found), suggested(found), today(found)) if line)
-    for each in found.bounds:
-        if told := held(each, found.front.is_single):
-            yield told
-    yield from recheck_lines(found)
-
-
-def goals(found: OptimisationResult) -> str:
-    """Return what was searched for."""
-    told = [
-        Phrase("least {quantity}" if goal.is_less else "greatest {quantity}", quantity=called(goal.column))
-        for goal in found.front.objectives
-    ]
-    return Phrase("searched for: {goals}", goals=joined(told, ", "))
-
-
-def counts(found: OptimisationResult) -> str:
-    """Return how many machines were tried, and what became of them."""
-    tried = Counted(found.tried, "{n} machine tried", "{n} machines tried")
-    whole = tried + phrase(", all there are") if found.is_all else tried
-    parts: list[str] = [
-        whole,
-        Counted(found.front.allowed, "{n} of them allowed", "{n} of them allowed"),
-    ]
-    if found.errors:
-        parts.append(Counted(found.errors, "{n} cannot exist", "{n} cannot exist"))
-    if found.dropped:
-        words = "{n} breaks a constraint between inputs", "{n} break a constraint between inputs"
-        parts.append(Counted(found.dropped, *words))
-    return joined(parts, "; ")
-
-
-def head(found: OptimisationResult) -> str:
-    """Return how large the front is, and how much of it is listed."""
-    if found.front.is_single:
-        return phrase("the best of them:")
-    size, listed = len(found.front.variants), len(found.front.listed)
-    words = "front of {n} machine that no other betters", "front of {n} machines that no other betters"
-    of_all = Phrase(", {listed} of them listed", listed=listed) if listed < size else ""
-    return Counted(size, *words) + of_all + ":"
-
-
-def table(found: OptimisationResult) -> list[str]:
-    """Return the listed machines as lines of a table."""
-    stored, front = found.stored, found.front
-    fixed = [stored.columns[name] for name in ("variant", "status", "governing")]
-    columns = [*fixed, *columns_shown(front)]
-    text, _ = table_text(columns, [row(found, place) for place in front.listed], None)
-    return [line for line in text.splitlines() if line.strip()]
-
-
-def row(found: OptimisationResult, place: int) -> list[Any]:
-    """Return a machine of the front: number, verdict, governing check, then objectives and inputs, each once (SI)."""
-    front = found.front
-    values: dict[str, Any] = {column.name: front.inputs[column.name][place] for column in front.varied}
-    values |= {goal.column.name: front.values[place, n] for n, goal in enumerate(front.objectives)}
-    own = [int(front.variants[place]), front.status[place], front.governing[place]]
-    return [*own, *(_plain(values[column.name]) for column in columns_shown(front))]
-
-
-def _plain(value: Any) -> Any:
-    """A value as plain data."""
-    return value.item() if hasattr(value, "item") else value
-
-
-def suggested(found: OptimisationResult) -> str:
-    """Return which machine is suggested, and why."""
-    front = found.front
-    if front.is_single:
-        return ""
-    if front.suggested is None:
-        return front.why
-    number = int(front.variants[front.suggested])
-    return Phrase("a suggestion: {number} ({why})", number=number, why=phrase(front.why))
-
-
-def today(found: OptimisationResult, name: Callable[[StoredColumn], str] = called) -> str:
-    """Return what today's machine has of the objectives, each by its ``name``."""
-    if found.front.today is None:
-        return ""
-    signs = [1.0 if goal.is_less else -1.0 for goal in found.front.objectives]
-    goals_ = zip(found.front.objectives, found.known.costs[0] * signs, strict=True)
-    told = [
-        Phrase(
-            "{name} {value}",
-            name=name(goal.column),
-            value=quantity(value, goal.column) if math.isfinite(value) else "–",
-        )
-        for goal, value in goals_
-    ]
-    verdict = phrase("it is allowed") if found.known.violations[0] == 0 else phrase("it is not allowed")
-    return Phrase("today's machine is {number} ({verdict}): {told}", number=0, verdict=verdict, told=joined(told, ", "))
-
-
-def held(each: InputPlace, is_single: bool) -> str:
-    """Return in words that an end of what is searched holds the front; nothing where none does."""
-    if each.is_text or not (each.at_low or each.at_high):
-        return ""
-    parts = [
-        _end(each, count, value, may_go, is_single, is_low=is_low)
-        for count, value, may_go, is_low in (
-            (each.at_low, each.low, each.may_lower, True),
-            (each.at_high, each.high, each.may_raise, False),
-        )
-        if count
-    ]
-    return Phrase("{name}: {ends}", name=called(each.column), ends=joined(parts, "; "))
-
-
-def _end(each: InputPlace, count: int, value: float, may_go: bool, is_single: bool, *, is_low: bool) -> str:
-    end = phrase("lower") if is_low else phrase("upper")
-    told = quantity(value, each.column)
-    if is_single:
-        place = Phrase("stands at the {end} end of its range, {value}", end=end, value=told)
-    else:
-        words = (
-            "{n} of {all} stands at the {end} end of its range, {value}",
-            "{n} of {all} stand at the {end} end of its range, {value}",
-        )
-        place = Counted(count, *words, all=each.count, end=end, value=told)
-    if not may_go:
-        return place + phrase(", and the input allows no more")
-    return place + phrase(": the bound holds it; widen the range to look further")
-
-
-def recheck_lines(found: OptimisationResult) -> Iterator[str]:
-    """Yield what the listed machines are by themselves."""
-    count, differing = len(found.rechecks), found.differing
-    if not differing:
-        most = max((each.share for each in found.rechecks), default=0.0)
-        agreed = "calculated again by itself: {n} agrees{most}", "calculated again one by one: all {n} agree{most}"
-        share = Phrase(" (numbers differ by {share} at most)", share=f"{most:.1g}") if most else ""
-        yield Counted(count, *agreed, most=share)
-        return
-    words = "calculated again one by one: {n} of {all} differs", "calculated again one by one: {n} of {all} differ"
-    yield Counted(len(differing), *words, all=count)
-    yield from ("  " + phrase(difference(each)) for each in differing[:TOLD])
-
-
-def difference(each: Recheck) -> str:
-    """Return in words how a machine by itself differs from what it was among many."""
-    if each.fault:
-        return Phrase("{number}: {fault}", number=each.variant, fault=phrase(each.fault))
-    if each.status != each.alone:
-        words = "{number}: {status} among many, {alone} by itself"
-        return Phrase(words, number=each.variant, status=phrase(each.status), alone=phrase(each.alone))
-    words = "{number}: {name} differs by {share} of its size"
-    return Phrase(words, number=each.variant, name=each.name, share=f"{each.share:.2g}")
-
-
-def conflict_lines(found: OptimisationResult, why: Conflict) -> Iterator[str]:
-    """Yield why no machine is allowed, and which one comes nearest."""
-    if why.nearest is None:
-        reason = phrase(why.reason) if why.reason else phrase("the constraints between inputs drop them all")
-        yield Phrase("none of them can be calculated: {reason}", reason=reason)
-        return
-    if len(why.together) == 1:
-        yield Phrase("none of them holds this: {name}", name=why.together[0])
-    elif why.together:
-        yield Phrase("none of them holds these together: {names}", names=", ".join(why.together))
-    yield Phrase("nearest is {number}, which breaks {names}", number=why.nearest, names=", ".join(_broken(why)))
-
-
-def _broken(why: Conflict) -> Sequence[str]:
-    told = [
-        f"{name} ({localised(f'{used:.4g}')})" if math.isfinite(used) else name for name, used in why.failing[:TOLD]
-    ]
-    return [*told, "…"] if len(why.failing) > TOLD else told
 
 
 @dataclass(frozen=True)

@@ -13,7 +13,7 @@ from diecut_report.config.own_tables import KEY as LOGO
 from diecut_report.config.own_tables import OWN_TABLES_KEY as TABLES
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.references import as_file, written
-from diecut_report.config.yaml import KeyPath, Scalar, Tree, resolved, with_values
+from diecut_report.config.yaml import KeyPath, Scalar, Tree, printable, resolved, with_values
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.quantities.formatting import as_typed
 from diecut_report.quantities.units import unit
@@ -139,7 +139,7 @@ def _tables(base: Tree, directory: Path, file: str) -> Iterator[tuple[KeyPath, s
 def _named(base: Tree, variant: int, study: str) -> Iterator[tuple[KeyPath, str]]:
     """Return what the title block says, as typed, and which variant it is: no two documents are called alike."""
     title, number = ("project", "title"), ("project", "document_number")
-    yield title, f"{base.typed(title) or ''} – variant {variant} of {Path(study).stem}"
+    yield title, f"{base.typed(title) or ''} – variant {variant} of {printable(Path(study).stem)}"
     if (base.data.get("project") or {}).get("document_number") is not None:
         yield number, f"{base.typed(number)}/V{variant}"
 

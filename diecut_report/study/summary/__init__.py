@@ -24,7 +24,7 @@ def summarise(directory: Path, formats: Sequence[str] = FORMATS, discovery: Disc
 
     with opened(directory) as stored:
         found = content(stored, discovery or Discovery())
-    from diecut_report.study.summary.content import page, sheets  # with WeasyPrint
+    from diecut_report.study.summary.pages import page, sheets  # with WeasyPrint
 
     contents = {"html": lambda: page(found).encode(), "pdf": lambda: sheets(found)}
     files = {directory / f"summary.{ending}": contents[ending]() for ending in formats}

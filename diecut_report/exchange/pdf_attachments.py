@@ -1,0 +1,132 @@
+"""Reads a file that is attached to a PDF, whoever made it: bounded, and without repairing what is damaged."""
+
+from __future__ import annotations
+
+import io
+import re
+from collections.abc import Iterator
+from functools import cache
+from typing import Any
+
+import pikepdf
+from pikepdf import settings
+
+from diecut_report.errors import Problem, UserError
+from diecut_report.exchange.pdf_faults import PDF_FAULTS
+from diecut_report.text.phrases import Phrase, phrase
+
+MOST_ITEMS = 1_000_000  # of an array or a dictionary
+MOST_WARNINGS = 100
+DEEPEST = 100
+MOST_REVISIONS = 100
+NAMES = ("/F", "/UF", "/DOS", "/Mac", "/Unix")  # of an attachment
+END = re.compile(rb"startxref\s+\d+\s+%%EOF\s?\n?")
+FAULTS = (pikepdf.PdfError, *PDF_FAULTS)
+"""What the library raises for a file that is not as the standard has it."""
+
+
+def attachment(content: bytes, name: str, most: int, file: str) -> bytes | None:
+    """Return the attachment of a name, None where the PDF has none; UserError where it cannot be read, or is larger than ``most``."""
+    bounded(most)
+    try:
+        with _opened(content) as pdf:
+            found = _found(pdf, name, most, file)
+        _refuse_former(content, found, name, most, file)
+        return found
+    except pikepdf.PasswordError as error:
+        words = phrase("The PDF is encrypted, and opens only with a password. Give one without.")
+        raise UserError(Problem(words, file)) from error
+    except FAULTS as error:
+        words = Phrase(
+            "The PDF is damaged, or holds more than {most} MB in one piece. Give the file as the program wrote it.",
+            most=format(most / 1000000.0, "g"),
+        )
+        raise UserError(Problem(words, file)) from error
+
+
+def _opened(content: bytes) -> pikepdf.Pdf:
+    return pikepdf.open(io.BytesIO(content), attempt_recovery=False, suppress_warnings=True)
+
+
+@cache
+def bounded(most: int) -> None:
+    """Let the library unpack no more than so much of any stream, be it one that only tells where the objects stand."""
+    settings.set_qpdf_limits(
+        doc_max_warnings=MOST_WARNINGS, parser_max_nesting=DEEPEST, parser_max_container_size=MOST_ITEMS,
+        flate_max_memory=most, png_max_memory=most, run_length_max_memory=most, tiff_max_memory=most, dct_max_memory=most,
+    )  # fmt: skip
+
+
+def _found(pdf: pikepdf.Pdf, name: str, most: int, file: str) -> bytes | None:
+    # the names only tell which attachment it is; nothing is written under them
+    found = list(_named(pdf, name))
+    if not found:
+        return None
+    if len(found) > 1:
+        raise UserError(Problem(_several(len(found), name), file))
+    content = found[0].read_bytes()
+    if len(content) > most:
+        words = Phrase(
+            "What is attached is too large: {count} MB; at most {most} MB are taken.",
+            count=format(len(content) / 1000000.0, ".1f"),
+            most=format(most / 1000000.0, "g"),
+        )
+        raise UserError(Problem(words, file))
+    return bytes(content)
+
+
+def _refuse_former(content: bytes, found: bytes | None, name: str, most: int, file: str) -> None:
+    """UserError where the file held another attachment of this name before something was added to it: readers of PDF may show either."""
+    ends = [end.end() for end in END.finditer(content)][:-1]
+    if len(ends) > MOST_REVISIONS:
+        raise UserError(
+            Problem(
+                Phrase("The PDF was added to {count} times. Give the file as the program wrote it.", count=len(ends)),
+                file,
+            )
+        )
+    for end in ends:
+        try:
+            with _opened(content[:end]) as pdf:
+                former = _found(pdf, name, most, file)
+        except FAULTS:  # no end of a PDF: the letters stand in a stream
+            continue
+        if former is not None and former != found:
+            raise UserError(Problem(_several(2, name), file))
+
+
+def _several(count: int, name: str) -> str:
+    words = "The PDF carries {count} files named {name}, and a report has one. Give the file as the program wrote it."
+    return Phrase(words, count=count, name=name)
+
+
+def _named(pdf: pikepdf.Pdf, name: str) -> Iterator[pikepdf.Stream]:
+    """The attachments of a name, wherever the PDF has them: among its attachments, at an annotation, or as an associated file."""
+    names = pdf.Root.get("/Names", pikepdf.Dictionary())
+    tree = pikepdf.NameTree(names["/EmbeddedFiles"]).items() if "/EmbeddedFiles" in names else ()
+    specs = [spec for label, spec in tree if _alike(label, name)]
+    told = (part for each in pdf.objects if b"/EF" in each.unparse(resolved=True) for part in _dictionaries(each, 0))
+    specs += [part for part in told if "/EF" in part and any(_alike(part.get(key, ""), name) for key in NAMES)]
+    seen = set[tuple[int, int]]()
+    for spec in specs:
+        for stream in spec["/EF"].as_dict().values():
+            if isinstance(stream, pikepdf.Stream) and stream.objgen not in seen:
+                seen.add(stream.objgen)
+                yield stream
+
+
+def _alike(label: object, name: str) -> bool:
+    return str(label).strip().casefold() == name
+
+
+def _dictionaries(part: Any, depth: int) -> Iterator[pikepdf.Dictionary | pikepdf.Stream]:
+    """The dictionaries that stand in an object itself."""
+    if depth and part.is_indirect if isinstance(part, pikepdf.Object) else True:
+        return
+    if isinstance(part, pikepdf.Dictionary | pikepdf.Stream):
+        yield part
+        inner = [part[key] for key in part.keys()]  # noqa: SIM118 a stream has no other way
+    else:
+        inner = list(part) if isinstance(part, pikepdf.Array) else []
+    for each in inner if depth < DEEPEST else ():
+        yield from _dictionaries(each, depth + 1)

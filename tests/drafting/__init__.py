@@ -1,1 +1,0 @@
-"""Tests of the beginning of a configuration."""

@@ -1,0 +1,250 @@
+"""What the plugin contract can say, computed on a made-up mechanism whose results are known in closed form."""
+
+from __future__ import annotations
+
+from dataclasses import replace
+from typing import Any
+
+import numpy as np
+import pytest
+
+from diecut_report.api import Annotated, Chapter, CurveInput, Inputs, Mechanism, Require, Value, bind, formula
+from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible, Unproven
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanics import common
+from diecut_report.mechanism.steps import Root
+from diecut_report.results.mechanism import mechanism_results
+from tests.machine.toy import MECHANISM, ROOTED, cube, cubed, doubled, plus_one, same, zero
+from tests.machines import inputs, number
+
+STEP = np.radians(120)
+
+
+def toy(**keys: Any) -> Calculation:
+    """The toy with some keys."""
+    return calculate(MECHANISM, inputs(MECHANISM, keys))
+
+
+def test_a_formula_gives_a_number() -> None:
+    assert number(toy(), "moment") == pytest.approx(200)
+
+
+def test_extremes_take_one_sided_limits_at_a_jump_and_search_inside_a_piece() -> None:
+    calc = toy()
+    assert number(calc, "torque_max") == pytest.approx(200 * (np.sin(STEP) + 1), rel=1e-14)
+    assert number(calc, "torque_max_at") == pytest.approx(STEP, abs=1e-12)
+    assert number(calc, "torque_min") == pytest.approx(0, abs=1e-9)
+    assert number(calc, "torque_range") == pytest.approx(200 * (np.sin(STEP) + 1), rel=1e-12)
+
+
+@pytest.mark.parametrize("before", [1e-1, 1e-2, 1e-4, 1e-6])
+def test_an_extreme_that_hides_beside_a_breakpoint_is_found(before: float) -> None:
+    calc = toy(step_angle=90 - before)
+    assert number(calc, "torque_max") == pytest.approx(400, rel=1e-14)
+    assert number(calc, "torque_max_at") == pytest.approx(np.pi / 2, abs=1e-7)
+
+
+def test_integrals_go_piece_by_piece() -> None:
+    calc, on = toy(), 2 * np.pi - STEP
+    assert number(calc, "work") == pytest.approx(200 * on, rel=1e-13)
+    assert number(calc, "torque_mean") == pytest.approx(200 * on / (2 * np.pi), rel=1e-13)
+    square = np.pi + on + 2 * (np.cos(STEP) - 1)
+    assert number(calc, "torque_rms") == pytest.approx(200 * np.sqrt(square / (2 * np.pi)), rel=1e-12)
+
+
+def test_crossings_are_found_inside_pieces_and_at_jumps() -> None:
+    calc = toy(step_angle="270 deg")
+    found = calc["turns"][0]
+    np.testing.assert_allclose(np.degrees(found[np.isfinite(found)]), [180, 270], atol=1e-9)
+
+
+def test_a_choice_gives_a_text_and_keeps_the_branch() -> None:
+    assert toy(force=2)["verdict"][0, 0] == "light"
+    assert toy(force=6)["verdict"][0, 0] == "heavy"
+    assert mechanism_results(toy(force=6), {})["outputs"]["verdict"]["value"] == "heavy"
+
+
+def test_an_output_can_exist_under_a_condition() -> None:
+    assert mechanism_results(toy(force=2), {})["outputs"]["twice"]["value"] == pytest.approx(400)
+    heavy = mechanism_results(toy(force=7), {})
+    assert "twice" not in heavy["outputs"]
+    assert [c["id"] for c in heavy["checks"]] == ["rated"]
+
+
+@pytest.mark.parametrize("force, rated", [(0.9, 100), (1.0, 100), (1.001, 200), (5, 800), (20, 800)])
+def test_a_standard_value_is_picked_at_or_above(force: float, rated: float) -> None:
+    assert number(toy(force=force), "rated") == rated
+
+
+def test_the_neighbours_that_were_not_taken_are_printed() -> None:
+    items = [i for s in mechanism_results(toy(force=3), {})["sections"] for i in s["items"]]
+    picked = next(i for i in items if i.get("id") == "rated")
+    assert "200" in picked["method"] and "800" in picked["method"] and picked["result"]["text"] == "400"
+
+
+def test_repeated_parts_make_rows_sums_and_products() -> None:
+    gears = [{"driver_teeth": 20, "driven_teeth": 60}, {"driver_teeth": 18, "driven_teeth": 45}]
+    calc = toy(gears=gears)
+    np.testing.assert_allclose(calc["pair_ratio"], [[3, 2.5]])
+    assert number(calc, "total_ratio") == pytest.approx(7.5)
+    assert number(calc, "total_teeth") == 38
+    results = mechanism_results(calc, {})
+    assert results["outputs"]["pair_ratio.1"]["value"] == 2.5
+    assert results["inputs"]["gears.1.driven_teeth"]["value"] == 45
+    tables = [
+        i for s in results["sections"] for i in s["items"] if i["type"] == "table" and i["title"] == "Ratio of the pair"
+    ]
+    assert [row[-1] for row in tables[0]["rows"]] == ["3", "2.5"]
+
+
+def test_an_absent_block_switches_its_chapter_off_and_says_so() -> None:
+    without, with_spring = mechanism_results(toy(), {}), mechanism_results(toy(spring={"stiffness": "100 N/mm"}), {})
+    assert {"title": "Spring", "text": "no spring is given"} in without["absent"]
+    assert with_spring["outputs"]["sag"]["value"] == pytest.approx(0.02)
+    assert "Spring" not in [a["title"] for a in with_spring["absent"]]
+
+
+def test_a_family_of_outputs_is_written_once() -> None:
+    calc = toy()
+    assert number(calc, "first_load_moment") == number(calc, "second_load_moment") == pytest.approx(200)
+
+
+def test_a_curve_is_an_input_of_another_mechanism_with_its_breakpoints() -> None:
+    source = toy(step_angle="33.3 deg")
+    taken = calculate(MECHANISM, inputs(MECHANISM, {"n_points": 40}) | {"torque_curve": CurveHandle(source, "torque")})
+    assert number(taken, "taken_max") == pytest.approx(number(source, "torque_max"), rel=1e-12)
+    assert number(taken, "taken_mean") == pytest.approx(number(source, "torque_mean"), rel=1e-12)
+
+
+def test_a_curve_taken_over_keeps_its_one_sided_limits_at_a_jump() -> None:
+    taken = toy(torque_curve=CurveHandle(toy(), "torque"))
+    (curve,) = (mechanism_results(taken, {})["curves"][name] for name in ("taken",))
+    jump = curve["breakpoints"].index(pytest.approx(2 * np.pi / 3))
+    moment = 200 * np.sin(2 * np.pi / 3)
+    assert (curve["left"][jump], curve["right"][jump]) == (pytest.approx(moment), pytest.approx(moment + 200))
+
+
+def test_a_list_of_values_is_a_curve_that_runs_straight_between_them() -> None:
+    calc = toy(torque_curve=[0, 10, 0, -10])
+    assert number(calc, "taken_max") == pytest.approx(10)
+    assert number(calc, "taken_mean") == pytest.approx(0, abs=1e-12)
+
+
+def root_step() -> Root:
+    """The only step of the mechanism with a root."""
+    step = ROOTED.chapters[0].steps[0]
+    assert isinstance(step, Root)
+    return step
+
+
+def test_a_root_is_found_and_proved() -> None:
+    assert number(calculate(ROOTED, inputs(ROOTED, {})), "x") == pytest.approx(2000 ** (1 / 3), rel=1e-13)
+
+
+def test_a_root_that_its_relation_does_not_confirm_is_refused() -> None:
+    wrong = replace(root_step(), right=plus_one)
+    with pytest.raises(Unproven, match="Cube root"):
+        calculate(replace(ROOTED, chapters=(Chapter("Root", steps=(wrong,)),)), inputs(ROOTED, {}))
+
+
+def test_a_relation_that_is_zero_on_both_sides_is_proved() -> None:
+    """Both sides may become nothing for a sensible machine, such as one without a gap."""
+    nothing = replace(root_step(), low=zero, equation=cubed, left=zero, right=zero)
+    calc = calculate(replace(ROOTED, chapters=(Chapter("Root", steps=(nothing,)),)), inputs(ROOTED, {}))
+    assert (number(calc, "x"), calc.proof["x"]) == (0.0, 0.0)
+
+
+def test_a_bracket_without_a_root_is_no_silent_nan() -> None:
+    empty = replace(root_step(), high=zero, low=zero, equation=cube)
+    with pytest.raises(Unproven):
+        calculate(replace(ROOTED, chapters=(Chapter("Root", steps=(empty,)),)), inputs(ROOTED, {}))
+
+
+def test_an_impossible_machine_is_refused_in_the_users_words() -> None:
+    with pytest.raises(Impossible) as refused:
+        toy(arm="600 mm")
+    assert (refused.value.key, refused.value.message) == ("arm", "is 600 mm, too long for 2 kN")
+
+
+def test_an_impossible_variant_is_marked_and_leaves_its_neighbours_alone() -> None:
+    base = inputs(MECHANISM, {})
+    calc = calculate(MECHANISM, base | {"arm": np.array([0.1, 0.6, 0.2])}, variants=3)
+    assert calc.flaws == {1: ("arm", "is 600 mm, too long for 2 kN")}
+    np.testing.assert_allclose(calc["moment"][[0, 2], 0], [200, 400])
+    np.testing.assert_allclose(calc["torque_max"][[0, 2], 0], np.array([200, 400]) * (np.sin(STEP) + 1))
+
+
+@formula
+def root_of(arm: Any) -> Any:
+    return np.sqrt(arm)
+
+
+@formula
+def is_between(root: Any) -> Any:
+    return root > 0.5
+
+
+def test_what_follows_from_an_impossible_number_makes_no_message() -> None:
+    steps = (
+        Require(id="positive", condition=bind(common.is_positive, quantity="arm"), key="arm", message="is {arm}"),
+        Value(id="root", symbol="r", unit="m", description="Root", formula=bind(root_of)),
+        Require(id="long", condition=is_between, key="arm", message="has a root of {root}"),
+    )
+    mechanism = Mechanism(
+        kind="m", version="1", title="M", summary="M.", inputs=MECHANISM.inputs, chapters=(Chapter("S", steps=steps),)
+    )
+    calc = calculate(mechanism, inputs(MECHANISM, {}) | {"arm": np.array([0.04, -1.0])}, 2)
+    assert calc.flaws[0][1] == "has a root of 0.2 m" and calc.flaws[1][1] == "is -1000 mm"
+
+
+def test_variants_may_jump_at_places_of_their_own() -> None:
+    places = np.radians([10.0, 200.0, 350.0])
+    calc = calculate(MECHANISM, inputs(MECHANISM, {}) | {"step_angle": places}, variants=3)
+    np.testing.assert_allclose(calc["work"][:, 0], 200 * (2 * np.pi - places), rtol=1e-12)
+
+
+def test_a_number_that_is_not_finite_is_refused() -> None:
+    with pytest.raises(Unproven, match="moment"):
+        calculate(MECHANISM, inputs(MECHANISM, {}) | {"force": float("nan")})
+
+
+def test_curves_in_results_carry_their_one_sided_values() -> None:
+    torque = mechanism_results(toy(), {})["curves"]["torque"]
+    assert torque["breakpoints"] == pytest.approx([STEP])
+    assert torque["left"] == pytest.approx([200 * np.sin(STEP)])
+    assert torque["right"] == pytest.approx([200 * (np.sin(STEP) + 1)])
+    assert len(torque["values"]) == 90
+
+
+def test_formula_of_a_plugin_is_callable_alone() -> None:
+    assert doubled(21) == 42
+
+
+def test_repeated_parts_may_differ_in_their_optional_keys() -> None:
+    first, second = {"driver_teeth": 20, "driven_teeth": 60}, {"driver_teeth": 20, "driven_teeth": 60, "label": "slow"}
+    for gears in ([first, second], [second, first]):
+        assert inputs(MECHANISM, {"gears": gears})["gears.label"] == tuple(g.get("label") for g in gears)
+
+
+def test_a_required_curve_may_not_be_empty() -> None:
+    class Needy(Inputs):
+        curve: Annotated[Any, CurveInput("M", "N*m", "Torque")]
+
+    with pytest.raises(ValueError, match="curve or a list"):
+        Needy.model_validate({"curve": None})
+
+
+def test_each_crossing_can_be_referred_to() -> None:
+    calc = toy(step_angle="270 deg")
+    known = MECHANISM.results_of(calc.given)
+    assert {"turns_count", "turns_1", "turns_2"} < set(known)
+    assert number(calc, "turns_count") == 2
+    assert np.degrees(number(calc, "turns_2")) == pytest.approx(270)
+
+
+def test_a_root_without_a_change_of_sign_names_its_bracket() -> None:
+    step = ROOTED.chapters[0].steps[0]
+    shifted = replace(ROOTED, chapters=(Chapter("Root", steps=(replace(step, low=bind(same, quantity="target")),)),))
+    words = r"Cube root \(x, toy\.py:\d+\): the equation does not change its sign between low = 2000 and high = 2001"
+    with pytest.raises(Unproven, match=words):
+        calculate(shifted, {"target": 2000.0})

@@ -1,0 +1,425 @@
+"""``check-plugin`` tries each rule of the contract, and tells what is wrong with file and line."""
+
+from __future__ import annotations
+
+import json
+import re
+from pathlib import Path
+
+import pytest
+
+from diecut_report.cli.main import main
+from diecut_report.config.loader import load_config
+from diecut_report.config.plugins import Discovery
+from diecut_report.testing import extreme_inputs
+from diecut_report.testing.contract import TITLES, ContractTest, TriedRule, check_contract, write_missing
+from diecut_report.testing.plugin_page import meant
+from diecut_report.testing.scaffold import contents
+from diecut_report.text.catalogues import catalogue
+from diecut_report.text.po_files import changed, read
+from tests.configs import BROKEN, SMALL, saved
+
+Capture = pytest.CaptureFixture[str]
+SOUND = contents("toggle", as_package=False)
+
+
+def toggle(folder: Path, *changes: tuple[str, str]) -> Path:
+    """The project of a new mechanism with changes in its plugin."""
+    for place, content in SOUND.items():
+        file = folder / "toggle" / place
+        file.parent.mkdir(parents=True, exist_ok=True)
+        for old, new in changes if file.name == "toggle.py" else ():
+            assert old in content
+            content = content.replace(old, new)
+        file.write_text(content, "utf-8")
+    return folder / "toggle"
+
+
+def contract(folder: Path, *changes: tuple[str, str]) -> ContractTest:
+    """The contract test of a mechanism with changes."""
+    home = toggle(folder, *changes)
+    known = Discovery([home / "plugins"])
+    config = load_config(home / "examples" / "toggle.yaml", known)
+    return ContractTest(known.mechanism("toggle"), known, config, "toggle")
+
+
+def found(test: ContractTest, rule: str) -> TriedRule:
+    """What is found of one rule."""
+    return test.tried_alone(rule)
+
+
+@pytest.mark.wheel
+def test_a_sound_plugin_holds_all_rules_and_is_shown(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    home = toggle(tmp_path)
+    monkeypatch.chdir(home)
+    assert main(["check-plugin", "toggle", "--plugins", "plugins", "--language", "uk"]) == 0
+    told = capfd.readouterr()
+    lines = told.out.splitlines()
+    assert lines[0] == "toggle 0.1, з plugins/toggle.py" and len(lines) == 1 + len(TITLES)
+    assert all(line.startswith("  дотримано  ") for line in lines[1:]) and "Приклад машини: " in told.out
+    assert told.err.startswith("-o FILE ") and not (home / "toggle.html").exists()
+
+
+def test_its_chapter_is_written_where_it_is_asked_for_and_nowhere_else(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
+) -> None:
+    home, shown = toggle(tmp_path), list[str]()
+    monkeypatch.chdir(home)
+    monkeypatch.setattr("webbrowser.open", shown.append)
+    monkeypatch.setattr("diecut_report.cli.plugins.mkdtemp", lambda prefix: str(tmp_path))
+    before = sorted(home.rglob("*.html"))
+    (home / "build").mkdir()
+    one = ["check-plugin", "toggle", "--plugins", "plugins", "--language", "uk"]
+    assert main([*one, "-o", "chapter.html"]) == main([*one, "-o", "build"]) == main([*one, "--open"]) == 0
+    assert capfd.readouterr().err.splitlines() == [
+        "записано: chapter.html", "записано: build/toggle.html", f"записано: {tmp_path / 'toggle.html'}",
+    ]  # fmt: skip
+    page = (home / "chapter.html").read_text("utf-8")
+    assert "Пружини виштовхувача" in page and "Характеристика" in page
+    assert shown == [(tmp_path / "toggle.html").as_uri()]
+    assert sorted(home.rglob("*.html")) == sorted([*before, home / "chapter.html", home / "build" / "toggle.html"])
+
+
+def test_a_plugin_is_tried_on_all_machines_of_its_kind(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path)
+    example = home / "examples" / "toggle.yaml"
+    second = example.read_text("utf-8").replace("\n  toggle:\n", "\n  second:\n")
+    (home / "examples" / "zweig.yaml").write_text(second, "utf-8")
+    assert main(["check-plugin", str(home)]) == 0
+    out = capfd.readouterr().out
+    assert re.search(r"Example machine: \S*toggle.yaml, mechanism toggle; \S*zweig.yaml, mechanism second\n", out)
+    assert "Figures and report: 1 figure; on 1 other machine too" in out
+    home = toggle(tmp_path / "odd", *odd("assert np.all(travel != 0.011)\n    return travel * 1e5"))
+    (home / "examples" / "zweig.yaml").write_text(second.replace("travel: 10 mm", "travel: 11 mm"), "utf-8")
+    assert main(["check-plugin", str(home)]) == 3
+    assert re.search(r"broke  Example machine: .*\n +\S*zweig.yaml, mechanism second: ", capfd.readouterr().out)
+
+
+MISTAKES = {
+    "dimensions": (("wire**4 / (8", "wire**3 / (8"), ("toggle.py:59: spring_rate: ", "gives Pa, declared is N/m")),
+    "inputs": (
+        ("    # A limit", '    spare: Annotated[float, Quantity("z", "mm", "Spare")] = 1\n    # A limit'),
+        ("toggle.py:", "input spare: nothing takes it"),
+    ),
+    "figures": (('view["travel"], 25', 'view["trvel"], 25'), ("toggle.py:", "characteristic: ", "there is no number 'trvel'")),
+}  # fmt: skip
+
+
+@pytest.mark.parametrize("rule", MISTAKES)
+def test_a_mistake_is_told_with_its_rule_file_and_line(tmp_path: Path, rule: str) -> None:
+    change, words = MISTAKES[rule]
+    tried = found(contract(tmp_path, change), rule)
+    assert tried.status == "fail"
+    assert any(all(part in fault for part in words) for fault in tried.faults), tried.faults
+
+
+def odd(body: str) -> tuple[tuple[str, str], tuple[str, str]]:
+    """Changes that add a quantity by plain code."""
+    head, total = 'EN_13906 = "EN 13906-1"\n', 'springs.total("rate"'
+    computed = 'springs.computed("odd", "o", "N", "Odd", odd, ("travel",), "in words")\n'
+    return (total, f"{computed}{total}"), (head, f"{head}\n\ndef odd(travel):\n    {body}\n\n")
+
+
+def test_a_machine_that_is_another_one_among_others_is_told(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, *odd("return travel * 1e5 * len(travel)")), "alone")
+    assert tried.status == "fail" and "toggle.py:" in tried.faults[0]
+    assert "odd: is " in tried.faults[0] and " among others, " in tried.faults[0]
+
+
+CANCELLED = "return (np.sin(1e6 * travel) ** 2 + np.cos(1e6 * travel) ** 2) * 1e9 - 1e9"
+
+
+def test_what_rounding_leaves_of_numbers_that_cancel_is_no_difference(tmp_path: Path) -> None:
+    """Arrays are rounded otherwise than single numbers: here by a share of the whole, of which nothing is left."""
+    other = CANCELLED.replace("1e9 - 1e9", "1e9 * (1 + 3e-17 * len(travel)) - 1e9")  # by 4e-7 among others
+    assert found(contract(tmp_path / "same", *odd(CANCELLED)), "alone").status == "pass"
+    assert found(contract(tmp_path / "more", *odd(other)), "alone").status == "pass"
+    assert found(contract(tmp_path / "else", *odd(f"{CANCELLED} + len(travel)")), "alone").status == "fail"
+
+
+def test_a_machine_beside_the_example_may_be_refused(tmp_path: Path) -> None:
+    """By plain code too, which refuses all of many for one of them."""
+    body = 'if (travel > {limit}).any():\n        raise Refusal("travel", "is too long")\n    return {gives} * 1e5'
+    for gives in ("travel", "travel.item()"):
+        changes = (
+            *odd(body.format(limit=0.01005, gives=gives)),
+            ("import numpy as np", "import numpy as np\n\nfrom diecut_report.api import Refusal"),
+        )
+        test = contract(tmp_path / gives, *changes)
+        assert found(test, "alone").status == "note" and found(test, "speed").status == "pass"
+
+
+PICKED = (  # a size of a series by the travel, and what is wrong among others as soon as they have another size
+    'springs.total("rate"',
+    'springs.pick("wire_size", "d_n", "mm", "Size", "above", of="travel", series=(8, 12.5, 20, 40))\n'
+    'springs.computed("odd", "o", "mm", "Odd", odd, ("wire_size",), "in words")\nsprings.total("rate"',
+)
+
+
+def test_machines_are_tried_together_where_they_take_other_values_of_a_series(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, PICKED, odd("return wire_size * (1 + wire_size.std())")[1], PICKED_NAMES), "alone")
+    assert tried.status == "fail" and "1 of 1 picks change" in tried.told
+    assert any("odd: is " in fault and " among others, " in fault for fault in tried.faults)
+
+
+PICKED_NAMES = ("def odd(travel)", "def odd(wire_size)")
+
+
+def test_warnings_of_numpy_are_not_told(tmp_path: Path) -> None:
+    """Here a warning is an error, so that the rule would break."""
+    test = contract(tmp_path, *odd("return travel + 0 * (np.nanmax(np.full(2, np.nan)) > 0)"))
+    assert [found(test, rule).status for rule in ("example", "alone")] == ["pass", "pass"]
+
+
+def test_each_list_is_tried_as_an_empty_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    tried = list[str]()
+    monkeypatch.setattr("diecut_report.testing.extreme_inputs.EXTREMES", 2)
+    monkeypatch.setattr(
+        extreme_inputs, "outcome_of", lambda text, *_: tried.append(text) or extreme_inputs.Outcome(None)
+    )
+    found(contract(tmp_path), "hostile")
+    assert [json.loads(text)["mechanisms"]["toggle"]["springs"] for text in tried].count([]) == 1 and len(tried) == 3
+
+
+def test_a_text_that_a_lambda_makes_is_one_of_the_plugin(tmp_path: Path) -> None:
+    words = 'springs.words("more", lambda rate: Phrase("make it {rate}", rate=rate), takes=("rate",))\n'
+    home = contract(
+        tmp_path, ("strength = Chapter", f"{words}strength = Chapter"), ("    Mechanism,\n", "    Mechanism,\n    Phrase,\n"),
+        ('consequence="', 'consequence="{more}; '), ("yields; a thinner wire", "yields")
+    )  # fmt: skip
+    assert any("“make it {rate}” (toggle.py) is not translated" in fault for fault in found(home, "languages").faults)
+
+
+def test_the_texts_that_a_catalogue_lacks_are_written_into_it(tmp_path: Path, capfd: Capture) -> None:
+    change = ('title="Springs of an ejector"', 'title="Springs that eject"')
+    home = toggle(tmp_path, change)
+    (home / "plugins" / "_old.py").write_text(
+        'KEPT = "Springs of an ejector"\n', "utf-8"
+    )  # so that nothing is obsolete
+    file, page = home / "plugins" / "toggle.uk.po", ("-o", str(tmp_path / "page.html"))
+    before = file.read_text("utf-8")
+    assert main(["check-plugin", str(home), "--write-po", *page]) == 0
+    told = capfd.readouterr()
+    assert f"written: {file}: 1 text to be translated" in told.err
+    assert file.read_text("utf-8") == f'{before.rstrip()}\n\n#. mechanism\nmsgid "Springs that eject"\nmsgstr ""\n\n'
+    known = Discovery([home / "plugins"])
+    test, origin = ContractTest(known.mechanism("toggle"), known), known.origins["toggle"][0]
+    assert write_missing(test, origin) == {}  # what waits already is not written twice
+    file.unlink()
+    catalogue.cache_clear()
+    assert list(write_missing(test, origin)) == [file]
+    assert 'msgid "Diameter of the wire"\nmsgstr ""' in file.read_text("utf-8")
+    assert all(not message.string for message in read(file, "uk") if message.id)
+
+
+def test_catalogues_of_the_program_are_not_written(capfd: Capture) -> None:
+    assert main(["check-plugin", "parallel_key", "--write-po"]) == 2
+    assert "parallel_key comes with the program" in capfd.readouterr().err
+
+
+def test_a_plugin_that_cannot_take_arrays_is_noted(tmp_path: Path) -> None:
+    test = contract(tmp_path, *odd("return travel.item() * 1e5"))
+    assert found(test, "alone").status == "note" and found(test, "speed").status == "pass"
+    words = "cannot take arrays, so that a study calculates it variant by variant: ValueError"
+    assert words in found(test, "alone").faults[0]
+
+
+def test_a_plugin_that_breaks_for_an_extreme_value_is_told(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, *odd("return {True: travel}[bool((travel < 1.0).all())] * 1e5")), "hostile")
+    assert tried.status == "fail"
+    assert (
+        "toggle.py:42: travel: with 100000: the plugin breaks: " in tried.faults[0]
+        and "KeyError: False (toggle.py:54)" in tried.faults[0]
+    )
+
+
+def test_a_value_that_is_not_a_number_is_told(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, *odd("return travel * float('nan')")), "example")
+    assert tried.status != "pass" and "odd" in tried.faults[0]
+
+
+def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    test = contract(tmp_path, *odd("while True: pass"))
+    monkeypatch.setattr("diecut_report.testing.contract.LONGEST", 0.2)
+    tried = found(test, "example")
+    assert (
+        tried.status == "broke"
+        and "it did not come back within 0.2 s" in tried.faults[0]
+        and "toggle.py:54" in tried.faults[0]
+    )
+
+
+def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
+    tried = found(contract(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"')), "languages")
+    assert tried.status == "note"
+    assert list(tried.faults) == [
+        "uk: “Springs that eject” (mechanism) is not translated",
+        "uk: “Springs of an ejector” is in the catalogue, and nothing says it any more; --write-po marks it as obsolete",
+    ]
+
+
+def test_a_text_that_nothing_says_any_more_becomes_obsolete_and_comes_back(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"'))
+    file, page = home / "plugins" / "toggle.uk.po", ("-o", str(tmp_path / "page.html"))
+    before = file.read_text("utf-8")
+    assert main(["check-plugin", str(home), "--write-po", *page]) == 0
+    assert f"written: {file}: 1 text to be translated, 1 text is obsolete" in capfd.readouterr().err
+    obsolete = '#~ msgid "Springs of an ejector"\n#~ msgstr "Пружини виштовхувача"\n'
+    text = file.read_text("utf-8")
+    assert text.rstrip().endswith(obsolete.rstrip())
+    assert text.partition("\n\n")[0] == before.partition("\n\n")[0]  # its head stays as it was written
+    again = changed(file.read_bytes(), "uk", "toggle", [("Springs of an ejector", "mechanism")], ["Springs that eject"])
+    assert (again.added, again.obsolete) == (0, 1)
+    file.write_bytes(again.content)
+    known = read(file, "uk")
+    assert known["Springs of an ejector"].string == "Пружини виштовхувача" and not known.obsolete
+    assert "Springs that eject" not in known  # it was never translated
+
+
+def test_sources_in_words_that_no_catalogue_has_are_told(tmp_path: Path) -> None:
+    change = ("    source=EN_13906,\n)\nsprings.total", '    source="theory of beams",\n)\nsprings.total')
+    tried = found(contract(tmp_path, change), "languages")
+    assert tried.status == "pass"
+    assert tried.told == "en, uk; sources that stay as they are given: theory of beams"
+
+
+def test_sources_in_functions_are_not_asked_for(tmp_path: Path) -> None:
+    made = (
+        "CONTRACT = 1",
+        "def made():\n    return own_table(title='', unit='mm', rows={'a': 1}, sources=('a list of one maker',)), "
+        "Source('B', 'A book about springs')\n\n\nCONTRACT = 1",
+    )
+    test = contract(tmp_path, made, ("    line,\n", "    line,\n    own_table,\n"))
+    assert list(test.words.untranslated("uk")) == []
+
+
+STANDARD = (
+    ("    line,\n", "    line,\n    standard_series,\n"),
+    (
+        "springs.total(",
+        'springs.pick("size", "d_n", "mm", "Active turns", "above", of="travel", series=standard_series("renard_r40_lengths"))\nsprings.total(',
+    ),
+)
+
+
+def test_titles_of_standard_series_are_translated_by_the_program(tmp_path: Path) -> None:
+    test = contract(tmp_path, *STANDARD)
+    assert list(test.words.untranslated("uk")) == []
+    title = test.words.catalogues("uk").program.text("Lengths and diameters by preferred numbers R40")
+    assert title == "Довжини і діаметри за рядом переважних чисел R40"
+
+
+def test_what_came_of_extreme_values_is_told_in_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
+    test = contract(tmp_path)
+    monkeypatch.setattr("diecut_report.testing.extreme_inputs.EXTREMES", 12)
+    told = found(test, "hostile").told
+    assert re.fullmatch(
+        r"an extreme value in the place of one input at a time: \d+ gave numbers, \d+ were refused in words; they are a sample of 142",
+        told,
+    )
+    numbers, refused = (int(each) for each in re.findall(r"\d+", told)[:2])
+    assert refused and numbers + refused == 13  # with the empty list
+
+
+def test_authors_may_assert_the_contract(tmp_path: Path) -> None:
+    keys = {"springs": [{"wire": "3 mm", "coil": "24 mm", "turns": 8}], "travel": "10 mm"}
+    mechanism = contract(tmp_path, ("wire**4 / (8", "wire**3 / (8")).mechanism
+    with pytest.raises(AssertionError, match=r"Dimensions of formulas: toggle.py:59: spring_rate: "):
+        check_contract(mechanism, keys)
+
+
+def test_a_plugin_that_breaks_in_its_example_ends_with_3(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path, *odd("raise RuntimeError('it fell over')"))
+    assert main(["check-plugin", str(home), "--format", "json"]) == 3
+    (whole,) = json.loads(capfd.readouterr().out)
+    rules = {rule["rule"]: rule for rule in whole["rules"]}
+    assert whole["status"] == rules["example"]["status"] == "broke" and rules["figures"]["status"] == "not_tried"
+    assert "RuntimeError: it fell over (toggle.py:" in rules["example"]["faults"][0]
+
+
+def test_plugins_that_cannot_be_loaded_end_with_3_and_the_others_are_tried(capfd: Capture) -> None:
+    assert main(["check-plugin", str(BROKEN), "--format", "json"]) == 3
+    whole = {each["kind"]: each for each in json.loads(capfd.readouterr().out)}
+    assert "No module named 'library_that_is_not_there'" in whole["breaks_at_import"]["error"]
+    assert whole["breaks_in_calculation"]["rules"][0]["status"] == "pass"
+
+
+def test_a_declaration_that_cannot_be_is_told_with_all_its_faults(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path, ('demand="stress"', 'demand="stres"'), ('"rate", "force")', '"rate", "forc")'))
+    assert main(["check-plugin", str(home)]) == 3
+    told = capfd.readouterr().out
+    assert "check stress: takes stres, which nothing gives (did you mean 'stress'?)" in told and "forc" in told
+
+
+def test_a_broken_rule_ends_with_1_and_without_a_machine_the_rest_is_not_tried(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path, MISTAKES["dimensions"][0])
+    (home / "examples" / "toggle.yaml").unlink()
+    assert main(["check-plugin", str(home)]) == 1
+    out = capfd.readouterr().out
+    assert "  fails  Dimensions of formulas\n      toggle.py:59: spring_rate: " in out
+    assert (
+        "note  Example machine\n      there is no machine of this kind to try the rest on; give a configuration" in out
+    )
+    assert "not tried  Extreme inputs: not tried before what is above holds" in out
+
+
+@pytest.mark.parametrize(
+    ("arguments", "words"),
+    [
+        (("nothing",), "'nothing' is not a known kind"),
+        (("no/folder",), "no/folder: There is no such folder of plugins"),
+        (("{tmp}",), "There is no plugin in this folder"),
+        (("clutch", "--config", "{tmp}/none.yaml"), "none.yaml"),
+        ((str(BROKEN), "-o", "{tmp}/page.html"), "plugins; name one of them, or give a folder with -o."),
+        (("damper", "--config", "{tmp}/press.yaml"), "There is no mechanism of the kind 'damper' in it."),
+    ],
+)  # fmt: skip
+def test_what_cannot_be_asked_ends_with_2(
+    tmp_path: Path, capfd: Capture, arguments: tuple[str, ...], words: str
+) -> None:
+    saved(tmp_path, SMALL)
+    assert main(["check-plugin", *(part.format(tmp=tmp_path) for part in arguments)]) == 2
+    assert words in capfd.readouterr().err
+
+
+@pytest.mark.nightly
+@pytest.mark.parametrize("kind", ["clutch", "geneva_transport", "platen_press", "parallel_key"])
+def test_kinds_of_the_program_hold_the_rules(tmp_path: Path, capfd: Capture, kind: str) -> None:
+    assert main(["check-plugin", kind, "-o", str(tmp_path / "page.html")]) == 0, capfd.readouterr().out
+
+
+@pytest.mark.parametrize("as_package", [False, True])
+def test_the_folder_where_one_stands_has_its_own_kinds_alone(
+    tmp_path: Path, monkeypatch: pytest.MonkeyPatch, as_package: bool
+) -> None:
+    for place, content in contents("toggle", as_package=as_package).items():
+        (tmp_path / place).parent.mkdir(parents=True, exist_ok=True)
+        (tmp_path / place).write_text(content, "utf-8")
+    monkeypatch.chdir(tmp_path)
+    known, kinds = meant(".", ())
+    assert kinds == ["toggle"] and known.mechanism("toggle").kind == "toggle"
+
+
+def test_a_list_without_parts_is_refused_in_words(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path)
+    example = home / "examples" / "toggle.yaml"
+    parts = "    springs:\n      - {wire: 3 mm, coil: 24 mm, turns: 8}\n      - {wire: 2.5 mm, coil: 20 mm, turns: 6}\n"
+    text = example.read_text("utf-8")
+    assert parts in text
+    example.write_text(text.replace(parts, "    springs: []\n"), "utf-8")
+    assert main(["calc", str(example), "--plugins", str(home / "plugins"), "--quiet"]) == 2
+    assert "toggle.yaml:17:14: mechanisms.toggle.springs: is empty; give at least one" in capfd.readouterr().err
+
+
+def test_why_the_example_is_refused_is_told_as_validate_tells_it(tmp_path: Path, capfd: Capture) -> None:
+    home = toggle(tmp_path)
+    example = home / "examples" / "toggle.yaml"
+    example.write_text(example.read_text("utf-8").replace("    travel: 10 mm\n", "    trvel: 10 mm\n"), "utf-8")
+    assert main(["validate", str(example), "--plugins", str(home / "plugins")]) == 2
+    told = [line for line in capfd.readouterr().err.splitlines() if "toggle.yaml:" in line]
+    assert any("trvel" in line for line in told)
+    assert main(["check-plugin", str(home)]) == 1
+    out = capfd.readouterr().out
+    assert "fails  Example machine: its configuration is refused" in out and all(line.strip() in out for line in told)
