@@ -77,7 +77,7 @@ END, ENDS = "end", {"_exit", "abort", "execv", "execve", "kill"}  # what ends th
 LEAVE, LEAVES = "leave", {"chdir", "fchdir", "chroot"}  # what leaves the working folder
 OF_MODULE = {"time": CLOCK, "random": CHANCE, "secrets": CHANCE, "uuid": CHANCE, "numpy.random": CHANCE,
              "io": FILE, "_io": FILE, "tempfile": FILE, "glob": FILE, "shutil": FILE,
-             "platform": AROUND, "socket": AROUND, "subprocess": AROUND,
+             "platform": AROUND, "socket": AROUND,
              "urllib.request": AROUND, "locale": AROUND}  # fmt: skip
 NOW = {"now", "today", "utcnow"}  # of a date
 READERS = {

@@ -16,8 +16,6 @@ from tests.configs import saved
 PLUGIN = """\
 from typing import Annotated
 
-from pydantic import field_validator
-
 from diecut_report.api import Chapter, Drawing, Inputs, Mechanism, Quantity
 
 
@@ -47,12 +45,10 @@ press: {name: P}
 mechanisms: {a: {kind: endless}}
 """
 LOOP = "while True:\n        pass\n"
-VALIDATOR = f'\n    @field_validator("arm")\n    @classmethod\n    def judged(cls, value):\n        {LOOP.replace("        ", "            ")}'
 PLACES = {
     "at import": ("class Arm(Inputs):", f"if True:\n    {LOOP}\n\nclass Arm(Inputs):"),
     "in plain code": ("    return 2 * arm", f"    {LOOP}"),
     "in a drawing": ("    return []", f"    {LOOP}"),
-    "in a validator": ("= 10\n", f"= 10\n{VALIDATOR}"),
 }
 COMMANDS = {
     "calc": ("calc", "press.yaml", "-o", "press.json"),

@@ -65,7 +65,6 @@ ASKED = {
     "arm = arm * len(os.listdir('.'))": "what is around the program (os.listdir)",
     "arm = arm * os.getpid()": "what is around the program (os.getpid)",
     "arm = arm * len(sys.argv)": "what is around the program (sys.argv)",
-    "import subprocess; arm = arm * len(subprocess.check_output('date'))": "what is around the program (subprocess.check_output)",
     "arm = arm * Path('n').exists()": "a file (Path('n').exists)",
     "arm = arm * hash('a')": "chance (hash)",
     "arm = arm * id(arm)": "chance (id)",
@@ -93,6 +92,7 @@ SOUND = (
     "arm = arm * len(TABLE)",
     "arm = arm * date(2026, 1, 1).year",
     "id = arm; arm = id.real",
+    "import subprocess; arm = arm * len(subprocess.check_output('true'))",
 )
 
 
