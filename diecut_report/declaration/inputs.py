@@ -181,7 +181,7 @@ def _own_code(model: type[Block]) -> Iterator[str]:
 def _beside(declared: FieldInfo) -> Iterator[str]:
     """What is declared of an input beside its quantity, and would be held against SI numbers in silence."""
     if others := [
-        type(each).__name__ for each in declared.metadata if not isinstance(each, Quantity | Text | Referred)
+        type(each).__name__ for each in declared.metadata if not isinstance(each, Quantity | Text | Referred | str)
     ]:
         words = (
             "has {names} beside its quantity, by which another value than the user's may count; give bounds to the quantity, "

@@ -12,8 +12,6 @@ from diecut_report.cli.main import main
 from tests.configs import GOOD
 
 LEVER = (GOOD / "lever.py").read_text("utf-8")
-POINTS = "    n_points: Annotated[int, POINTS] = 36\n"
-VALIDATOR = '\n    @model_validator(mode="after")\n    def _odd(self):\n        return {}["nothing"]\n'
 PRESS = "def turn_for_each_sheet(productivity: Any) -> Any:\n    return 2 * np.pi * productivity\n"
 CONFIG = """\
 schema_version: 1
@@ -33,10 +31,6 @@ mechanisms:
   c: {kind: lever, force: 2 kN, speed: 1 rpm, load: "${b.load}"}
 """
 BREAKING = {
-    "a validator": (
-        ("import numpy as np\n", "import numpy as np\nfrom pydantic import model_validator\n"),
-        (POINTS, POINTS + VALIDATOR),
-    ),
     "a formula of a default of the press": (("@formula\n" + PRESS, PRESS.replace("return", "raise KeyError('nothing')  #")),),
 }  # fmt: skip
 
