@@ -5,7 +5,7 @@
 #
 # Each system is built by debootstrap with nothing but Python, git and certificates, and removed afterwards; KEEP=1 keeps it, with its log, to look
 # into. Root only. The mirror is the one that this machine's apt uses (MIRROR names another); its certificates and the configuration of pip are
-# taken over, and pip's cache.
+# taken over.
 # Takes some ten minutes and 3 GB for each system.
 set -euo pipefail
 exec </dev/null

@@ -57,8 +57,9 @@ def where(run: WarmRun, name: str) -> FoundPlace:
     instance = run.config.instances.get(mechanism)
     if instance is None or not own or instance.mechanism is None:
         known = [each for each in run.config.kinds if run.config.instances.get(each)]
+        near = "" if mechanism in known else nearest(mechanism, known)
         words = "write MECHANISM.NAME; the mechanisms are: {known}{nearest}"
-        raise UnknownName(Problem(Phrase(words, known=", ".join(known), nearest=nearest(mechanism, known)), name))
+        raise UnknownName(Problem(Phrase(words, known=", ".join(known), nearest=near), name))
     if mechanism not in run.calculations:
         raise UserError(Problem(phrase("this mechanism could not be calculated; `calc` tells why"), mechanism))
     return _PlaceFinder(instance, run.calculations[mechanism]).found(own)
