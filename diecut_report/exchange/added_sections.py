@@ -1,178 +1,141 @@
-"""Whether what was added to a PDF reads alike in all programs: each added object is told once, by tables that leave no choice.
+"""The revisions that were added to a PDF, where all programs read them alike: each ends with a table that leaves no choice.
 
-Programs differ where a table names an object twice or is not quite as the standard has it: some take the first entry, some the last, some
-search the file for objects by themselves. So whatever such a program could find must be what the tables tell.
+A program that cannot read a table searches the file for objects by itself, each program in its own way. So nothing may stand there that
+only such a search finds, and each revision is given by itself: whatever a program takes out of one was judged.
 """
 
 from __future__ import annotations
 
-import io
 import re
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
 import pikepdf
 
-MOST_SECTIONS = 200
-_GAP = rb"(?:[\0\t\n\f\r ]|%[^\r\n]*[\r\n])+"
-_OBJECT = re.compile(rb"(?<!\d)(\d{1,10})" + _GAP + rb"(\d{1,5})(?:" + _GAP + rb")?obj")
-_START = re.compile(rb"startxref\s+(\d{1,15})\s+%%EOF")
-_HEAD = re.compile(rb"xref *(?:\r\n|\n|\r)")
-_RANGE = re.compile(rb"(\d{1,10}) (\d{1,7}) *(?:\r\n|\n|\r)")
-_ENTRY = re.compile(rb"(\d{10}) (\d{5}) ([nf])(?: \r| \n|\r\n)")
-_TRAILER = re.compile(rb"\s*trailer\s*<<([^#%]*?)>>\s*startxref")
-_PREVIOUS = re.compile(rb"/Prev\s+(\d{1,15})(?!\s+\d+\s+R)")
-_ROOT = re.compile(
-    rb"/" + rb"".join(rb"(?:%c|#%02x|#%02X)" % (each, each, each) for each in b"Root") + rb"(?![A-Za-z])"
-)
+MOST_REVISIONS, MOST_ADDED = 50, 100_000  # the latter objects in a revision
+LONGEST_END = 64  # bytes behind the end; a program looks for the last table in about a thousand
+LONGEST_GAP = 64  # bytes between the numbers of an object and what it is; more are not taken
+KEYS = {"/Type", "/Size", "/Index", "/W", "/ID", "/Prev", "/Length", "/Filter", "/DecodeParms"}  # with /Root and /Info
+_LINE = rb"(?:\r\n|\n|\r)"
+_START = re.compile(rb"[\r\n]startxref" + _LINE + rb"(\d{1,15})" + _LINE + rb"%%EOF")
+_TABLE = re.compile(rb"(\d{1,10}) 0 obj[\r\n ]*<<([^#%(]*?)>>[\r\n ]*stream\r?\n")
+_REFERENCES = re.compile(rb"/(?:Root|Info) \d+ \d+ R")
+_TABLE_END = re.compile(rb"[\r\n]*endstream[\r\n ]+endobj[\r\n ]*")
+_OBJECT = re.compile(rb"(?<!end)obj")
+_GAP = rb"[\0-\x20\x7f-\xff]"  # with all that any program takes for white space
+_NUMBER = rb"[0-9+.-]+"
+_HEAD = re.compile(
+    rb"(?:(?:\A|[\r\n])%b*(?:%b)?|%b%b+%b)%b*\Z" % (_GAP, _NUMBER, _NUMBER, _GAP, _NUMBER, _GAP)
+)  # a number may stand behind a comment
+_TRAILER = re.compile(rb"trailer" + _GAP + rb"*<<")
 
 
-class _Unclear(ValueError):
-    """What programs may read in several ways."""
+class Revision(NamedTuple):
+    """Hold the file up to the end of a revision, the number of its table, where its objects stand, and those that streams of it hold."""
+
+    content: bytes
+    table: int
+    placed: dict[int, int]
+    packed: dict[int, list[int]]
+
+    def is_plain(self, pdf: pikepdf.Pdf) -> bool:
+        """Return whether only this revision's table tells of objects, and only streams that it names hold some: those that it says."""
+        objects = {number: pdf.get_object(number, 0) for number in self.placed}
+        holders = {number for number, each in objects.items() if _type(each) == "/ObjStm"}
+        tables = {number for number, each in objects.items() if _type(each) == "/XRef"}
+        return (
+            tables <= {self.table}
+            and holders == self.packed.keys()
+            and all(_numbers_within(objects[number]) == self.packed[number] for number in holders)
+        )
 
 
-class _Section(NamedTuple):
-    """Where a table tells objects: number, generation and place of each, and those within others (number, number of that)."""
-
-    places: list[tuple[int, int, int]]
-    packed: list[tuple[int, int]]
-    previous: int
-
-
-def is_clear(before: bytes, after: bytes) -> bool:
-    """Return whether all that was added behind ``before`` can be read in one way only; what it changes is another question."""
-    try:
-        sections = list(_sections(before, after))
-    except (_Unclear, pikepdf.PdfError):
-        return False
-    added, told = after[len(before) :], {place for each in sections for place in each.places}
-    found = [(int(each[1]), int(each[2]), each.start() + len(before)) for each in _OBJECT.finditer(added)]
-    starts = len(_START.findall(added)), added.count(b"startxref")
-    return set(found) == told and starts == (len(sections),) * 2 and _has_one_root(after, added)
+def revisions(before: bytes, after: bytes) -> Iterator[Revision]:
+    """Give what was added behind ``before``, revision by revision; ValueError where programs may read it in several ways."""
+    begin, former = len(before), int(_START.findall(before)[-1])
+    starts = list(_START.finditer(after, begin))
+    last = starts[-1].end() if starts else begin
+    _require(len(starts) <= MOST_REVISIONS and after.count(b"startxref", begin) == len(starts))
+    _require(len(after) - last <= LONGEST_END and not _has_other_objects(after[last:], set()))
+    for start in starts:
+        yield _revision(after[: start.end()], begin, start, former)
+        begin, former = start.end(), int(start[1])
 
 
-def _sections(before: bytes, after: bytes) -> Iterator[_Section]:
-    """The tables that were added, from the last on to the one that was there."""
-    stop, place = _start(before), _start(after)
-    for _ in range(MOST_SECTIONS):
-        if place == stop:
-            return
-        if not len(before) <= place < len(after):
-            break
-        section = _table(after, place) if after.startswith(b"xref", place) else _stream(after, place)
-        numbers = [each[0] for each in (*section.places, *section.packed)]
-        if len(set(numbers)) != len(numbers) or not stop <= section.previous < place:
-            break
-        yield section
-        place = section.previous
-    raise _Unclear
+def _revision(whole: bytes, begin: int, start: re.Match[bytes], former: int) -> Revision:
+    """The last revision of a file, which has what was added from ``begin`` on."""
+    place = int(start[1])
+    number, told, data = _table(whole, place, start.start())
+    _require(begin <= place and told["/Prev"] == former)
+    placed, packed = _entries(told, data)
+    _require(placed.get(number) == place)
+    for each, at in placed.items():
+        _require(begin <= at <= place and whole[at - 1] in b"\r\n" and whole.startswith(b"%d 0 obj" % each, at))
+    known = {at + len(f"{each} 0 ") - begin for each, at in placed.items()}
+    _require(not _has_other_objects(whole[begin:], known))
+    return Revision(whole, number, placed, packed)
 
 
-def _start(content: bytes) -> int:
-    found = _START.findall(content)
-    if not found:
-        raise _Unclear
-    return int(found[-1])
-
-
-def _table(whole: bytes, place: int) -> _Section:
-    """A table in letters, of exactly the form that the standard gives it."""
-    at = _matched(_HEAD, whole, place).end()
-    places: list[tuple[int, int, int]] = []
-    while part := _RANGE.match(whole, at):
-        at = part.end()
-        for number in range(int(part[1]), int(part[1]) + int(part[2])):
-            entry = _matched(_ENTRY, whole, at)
-            at = entry.end()
-            if entry[3] == b"n":
-                places.append((number, int(entry[2]), int(entry[1])))
-            elif number:  # what is taken away may be there for others
-                raise _Unclear
-    trailer = _matched(_TRAILER, whole, at)[1]
-    if b"/XRefStm" in trailer:
-        raise _Unclear
-    return _Section(places, [], _previous(trailer))
-
-
-def _stream(whole: bytes, place: int) -> _Section:
-    """A table as a stream; the stream itself need not be in it."""
-    head = _matched(_OBJECT, whole, place)
-    number, generation = int(head[1]), int(head[2])
-    with _read_with(whole, number, generation, place) as pdf:
-        table = pdf.get_object((number, generation))
-        if not isinstance(table, pikepdf.Stream) or table.get("/Type") != "/XRef":
-            raise _Unclear
-        places, packed = _entries(table)
-        for within in {each[1] for each in packed}:
-            if _numbers_within(pdf.get_object((within, 0))) != [each[0] for each in packed if each[1] == within]:
-                raise _Unclear
-        previous = int(table.get("/Prev", -1))
-    own = number, generation, place
-    return _Section(places if own in places else [*places, own], packed, previous)
-
-
-def _entries(table: pikepdf.Stream) -> tuple[list[tuple[int, int, int]], list[tuple[int, int]]]:
-    widths = [max(int(each), 0) for each in list(table["/W"])]
-    if len(widths) != 3:
-        raise _Unclear
-    told: Any = table.get("/Index", [0, table["/Size"]])
-    index = [int(each) for each in told]
-    data, places, packed, at = table.read_bytes(), list[tuple[int, int, int]](), list[tuple[int, int]](), 0
-    for first, count in zip(index[::2], index[1::2], strict=True):
-        for number in range(first, first + count):
-            if not at < at + sum(widths) <= len(data):
-                raise _Unclear
-            fields = []
-            for width in widths:
-                fields.append(int.from_bytes(data[at : at + width], "big"))
-                at += width
-            kind = fields[0] if widths[0] else 1
-            if kind == 1:
-                places.append((number, fields[2], fields[1]))
-            elif kind == 2:
-                packed.append((number, fields[1]))
-            elif number:
-                raise _Unclear
-    if at != len(data):
-        raise _Unclear
-    return places, packed
-
-
-def _numbers_within(stream: object) -> list[int]:
-    """The numbers of the objects that are packed in a stream, in their order."""
-    if not isinstance(stream, pikepdf.Stream) or "/Extends" in stream:
-        raise _Unclear
-    words = stream.read_bytes()[: int(stream["/First"])].split()
-    return [int(each) for each in words[: 2 * int(stream["/N"]) : 2]]
-
-
-def _read_with(whole: bytes, number: int, generation: int, place: int) -> pikepdf.Pdf:
-    """The file with one more table, which tells this object alone."""
-    with pikepdf.open(io.BytesIO(whole), attempt_recovery=False, suppress_warnings=True) as pdf:
-        size, root = max(int(pdf.trailer["/Size"]), number + 1), pdf.Root.objgen
-    more = b"\nxref\n%d 1\n%010d %05d n \ntrailer\n<< /Size %d /Root %d %d R /Prev %d >>\nstartxref\n%d\n%%%%EOF\n" % (
-        number, place, generation, size, *root, _start(whole), len(whole) + 1,
-    )  # fmt: skip
-    return pikepdf.open(io.BytesIO(whole + more), attempt_recovery=False, suppress_warnings=True)
-
-
-def _has_one_root(after: bytes, added: bytes) -> bool:
-    """Whether wherever the added part names a root it is that of the document."""
-    with pikepdf.open(io.BytesIO(after), attempt_recovery=False, suppress_warnings=True) as pdf:
-        number, generation = pdf.Root.objgen
-    right = re.compile(rb"\s*0*%d\s+0*%d\s+R(?![A-Za-z])" % (number, generation))
-    return all(right.match(added, each.end()) for each in _ROOT.finditer(added))
-
-
-def _previous(trailer: bytes) -> int:
-    found = _PREVIOUS.findall(trailer)
-    if len(found) != 1 or trailer.count(b"/Prev") != 1:
-        raise _Unclear
-    return int(found[0])
-
-
-def _matched(pattern: re.Pattern[bytes], whole: bytes, place: int) -> re.Match[bytes]:
-    found = pattern.match(whole, place)
+def _table(whole: bytes, place: int, stop: int) -> tuple[int, Any, bytes]:
+    """The number of a table, what it tells of itself, and its rows; nothing may stand between it and ``stop``."""
+    found = _TABLE.match(whole, place)
     if found is None:
-        raise _Unclear
-    return found
+        raise ValueError
+    number, told = int(found[1]), pikepdf.Object.parse(b"<<%b>>" % _REFERENCES.sub(b"", found[2]))
+    end = found.end() + int(told["/Length"])
+    _require(set(told.keys()) <= KEYS and told["/Type"] == "/XRef")
+    _require(told.get("/Filter", "/FlateDecode") == "/FlateDecode")
+    _require(_TABLE_END.fullmatch(whole, end, stop))
+    with pikepdf.new() as pdf:
+        return number, told, pikepdf.Stream(pdf, whole[found.end() : end], told).read_bytes()
+
+
+def _entries(told: Any, data: bytes) -> tuple[dict[int, int], dict[int, list[int]]]:
+    """Where a table says that objects stand, and what others hold: the numbers in their order."""
+    widths, index = _whole_numbers(told["/W"]), _whole_numbers(told.get("/Index", [0, told["/Size"]]))
+    kinds, places, ends = (sum(widths[:count]) for count in (1, 2, 3))
+    _require(len(widths) == 3 and places > kinds and len(data) == ends * sum(index[1::2]) <= ends * MOST_ADDED)
+    numbers = [
+        each for first, count in zip(index[::2], index[1::2], strict=True) for each in range(first, first + count)
+    ]
+    _require(len(set(numbers)) == len(numbers))
+    placed, packed = dict[int, int](), dict[int, list[int]]()
+    for at, number in enumerate(numbers):
+        row = data[at * ends : (at + 1) * ends]
+        kind = int.from_bytes(row[:kinds], "big") if kinds else 1
+        first, second = int.from_bytes(row[kinds:places], "big"), int.from_bytes(row[places:], "big")
+        if kind == 1 and not second:  # a later generation is another object for some programs
+            placed[number] = first
+        elif kind == 2 and second == len(packed.setdefault(first, [])):
+            packed[first].append(number)
+        else:  # what is taken away may be there for others
+            _require(kind == 0 and number == 0)
+    return placed, packed
+
+
+def _numbers_within(stream: Any) -> list[int]:
+    """The numbers of the objects that a stream holds, in their order."""
+    words = stream.read_bytes()[: int(stream["/First"])].split()
+    _require("/Extends" not in stream and len(words) == 2 * int(stream["/N"]) and all(map(bytes.isdigit, words)))
+    return [int(each) for each in words[::2]]
+
+
+def _has_other_objects(part: bytes, known: set[int]) -> bool:
+    """Whether a program that searches for objects, or for what tells of them, could find others than those that are known."""
+    others = (each.start() for each in _OBJECT.finditer(part) if each.start() not in known)
+    return bool(_TRAILER.search(part)) or any(_HEAD.search(part[max(at - LONGEST_GAP, 0) : at]) for at in others)
+
+
+def _type(found: Any) -> object:
+    return found.get("/Type") if isinstance(found, pikepdf.Dictionary | pikepdf.Stream) else None
+
+
+def _whole_numbers(array: Any) -> list[int]:
+    numbers = list(array)
+    _require(all(type(each) is int and each >= 0 for each in numbers))
+    return numbers
+
+
+def _require(holds: object) -> None:
+    if not holds:
+        raise ValueError

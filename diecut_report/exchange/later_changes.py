@@ -5,13 +5,15 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator
+from decimal import Decimal
 from typing import Any
 
 import pikepdf
 
-from diecut_report.exchange.added_sections import is_clear
+from diecut_report.exchange import pdf_attachments
+from diecut_report.exchange.added_sections import Revision, revisions
 from diecut_report.exchange.carried import MOST_RESULTS
-from diecut_report.exchange.pdf_attachments import FAULTS, bounded
+from diecut_report.exchange.pdf_attachments import bounded
 
 OF_FIELD = {"/V", "/AP", "/F", "/M"}  # what signing sets in a field: the signature, how it shows, its flags, its time
 OF_FORM = {"/SigFlags", "/Fields"}  # the fields may grow by document timestamps
@@ -26,6 +28,7 @@ OF_TIMESTAMP = {"/Type", "/Subtype", "/FT", "/T", "/TU", "/V", "/Rect", "/F", "/
 FLAGS = (
     4 | 128 | 512
 )  # printed, locked, its contents locked; others let a field grow over the sheet where it is shown small
+FAULTS = (pikepdf.PasswordError, *pdf_attachments.FAULTS)
 REFERENCE = re.compile(rb"\b(\d+) (\d+) R\b")
 
 
@@ -36,17 +39,21 @@ def only_signed(before: bytes, after: bytes) -> bool:
     """
     bounded(MOST_RESULTS)
     try:
-        with _opened(before) as old, _opened(after) as new:
-            same = not new.is_encrypted and all(
-                old.trailer.get(key, _NONE).objgen == new.trailer.get(key, _NONE).objgen for key in ("/Root", "/Info")
-            )
-            lists = set(_lists(old))
-            kept = (_is_kept(each, new.get_object(each.objgen), old, new, lists) for each in old.objects)
-            same = same and all(kept) and not _filled_gaps(old, new)
-            same = same and not new.get_warnings()  # a key that stands twice is for each reader another one
-        return same and is_clear(before, after)
+        with _opened(before) as old:
+            return all(_is_signing(old, each) for each in revisions(before, after))
     except FAULTS:
         return False
+
+
+def _is_signing(old: pikepdf.Pdf, revision: Revision) -> bool:
+    with _opened(revision.content) as new:
+        same = not new.is_encrypted and all(
+            old.trailer.get(key, _NONE).objgen == new.trailer.get(key, _NONE).objgen for key in ("/Root", "/Info")
+        )
+        lists = set(_lists(old))
+        kept = (_is_kept(each, new.get_object(each.objgen), old, new, lists) for each in old.objects)
+        same = same and all(kept) and not _filled_gaps(old, new) and revision.is_plain(new)
+        return same and not new.get_warnings()  # a key that stands twice is for each reader another one
 
 
 def fault(content: bytes) -> str:
@@ -107,10 +114,22 @@ def _is_kept(first: Any, second: Any, old: pikepdf.Pdf, new: pikepdf.Pdf, lists:
         )
     if first.get("/FT") == "/Sig" and "/V" not in first:
         added = int(second.get("/F", 0)) & ~int(first.get("/F", 0)) & ~FLAGS
-        return not added and _same_but(first, second, OF_FIELD) and "/ByteRange" in second.get("/V", _NONE)
+        is_shown_within = "/AP" not in second or _is_cut(second["/AP"])
+        is_signed = "/ByteRange" in second.get("/V", _NONE)
+        return not added and is_shown_within and is_signed and _same_but(first, second, OF_FIELD)
     if first.get("/Type") == "/Page":
         return _same_but(first, second, {"/Annots"}) and _grown(first.get("/Annots"), second.get("/Annots"))
     return first.objgen == old.Root.get("/AcroForm", _NONE).objgen and _is_form(first, second)
+
+
+def _is_cut(appearance: Any) -> bool:
+    """Whether a field shows a drawing with a box; without one some programs let it reach over the sheet."""
+    drawing = appearance.get("/N")
+    if set(appearance.keys()) != {"/N"} or not isinstance(drawing, pikepdf.Stream):
+        return False
+    box = list(drawing["/BBox"])
+    is_box = len(box) == 4 and all(isinstance(each, int | Decimal) for each in box)
+    return bool(drawing["/Subtype"] == "/Form" and is_box and box[0] != box[2] and box[1] != box[3])
 
 
 def _is_form(first: Any, second: Any) -> bool:
@@ -132,8 +151,9 @@ def _is_timestamp(field: Any) -> bool:
     """Whether a field is a document timestamp, and nothing that shows or acts."""
     if not isinstance(field, pikepdf.Dictionary) or not set(field.keys()) <= OF_TIMESTAMP:
         return False
-    box, value = [float(each) for each in field.get("/Rect", ())], field.get("/V", _NONE)
-    return value.get("/Type") == "/DocTimeStamp" and "/ByteRange" in value and box[:2] == box[2:]
+    box, value = [float(each) for each in field["/Rect"]], field.get("/V", _NONE)
+    is_field = field["/Subtype"] == "/Widget" and field["/FT"] == "/Sig"  # a note shows, however small its box
+    return is_field and value.get("/Type") == "/DocTimeStamp" and "/ByteRange" in value and box[:2] == box[2:]
 
 
 def _same_but(first: Any, second: Any, keys: set[str]) -> bool:

@@ -355,11 +355,128 @@ OF_PDF = (
 )
 
 
+# --- what a signature adds, by hand: the revision behind the end of a PDF --------------------------------------------------
+
+DRAWING = b"/Type /XObject /Subtype /Form /BBox [0 0 9 9]"
+OVER = b"1 1 1 rg -999 -999 9999 9999 re f"
+START = b"startxref\n%d\n%%%%EOF\n"
+
+
+def _stream(data: bytes, told: bytes = b"") -> bytes:
+    return b"<< /Length %d %b >>\nstream\n%b\nendstream" % (len(data), told, data)
+
+
+class _Report:
+    """The objects of a report that forgeries change."""
+
+    def __init__(self, content: bytes) -> None:
+        with pikepdf.open(io.BytesIO(content)) as pdf:
+            field, sheet = pdf.Root.AcroForm.Fields[0], pdf.pages[0].obj
+            self.content, self.size = content, int(pdf.trailer.Size)
+            self.named = b"/Root %d 0 R /Info %d 0 R" % (pdf.Root.objgen[0], pdf.trailer.Info.objgen[0])
+            self.field, self.sheet = field.objgen[0], sheet.objgen[0]
+            self.contents, self.painted = sheet.Contents.objgen[0], _stream(OVER)
+            self.written = _stream(sheet.Contents.read_raw_bytes(), b"/Filter /FlateDecode")
+            former = field.unparse(resolved=True).removesuffix(b">>")
+            value = b"<< /Type /Sig /ByteRange [0 0 0 0] /Contents <00> >>"
+            self.signed = re.sub(rb"(?<=/N )\d+ 0 R", b"%d 0 R" % self.size, former) + b"/V %b >>" % value
+            self.annotated = re.sub(
+                rb"/Annots \[[^]]*", rb"\g<0> %d 0 R " % (self.size + 1), sheet.unparse(resolved=True)
+            )
+        self.former = int(re.findall(rb"startxref\s+(\d+)", content)[-1])
+
+    def revision(
+        self,
+        objects: dict[int, bytes] | None = None,
+        *,
+        drawing: bytes = DRAWING,
+        hidden: bytes = b"",
+        told: bytes = b"",
+        start: bytes = START,
+    ) -> bytes:
+        """The report with its first field signed, these objects, some that no table names, and more that the table tells."""
+        whole, places = self.content + hidden, dict[int, int]()
+        for number, written in {self.field: self.signed, self.size: _stream(OVER, drawing), **(objects or {})}.items():
+            places[number] = len(whole) + 1
+            whole += b"\n%d 0 obj\n%b\nendobj\n" % (number, written)
+        place = len(whole)
+        places[number := max(places) + 1] = place
+        rows = b"".join(b"\x01" + each.to_bytes(4, "big") for each in places.values())
+        index = b" ".join(b"%d 1" % each for each in places)
+        table = b"/Type /XRef /W [1 4 0] /Index [%b] /Size %d /Prev %d %b " % (
+            index,
+            number + 1,
+            self.former,
+            self.named,
+        )
+        return whole + b"%d 0 obj\n%b\nendobj\n" % (number, _stream(rows, table + told)) + start % place
+
+    def hidden(self, head: bytes) -> bytes:
+        return b"\n%b\n%b\nendobj\n" % (head % self.contents, self.painted)
+
+
+def signed_by_hand(content: bytes) -> bytes:
+    """With a signature as it may be added, but that nobody has signed."""
+    return _Report(content).revision()
+
+
+def _hides(head: bytes) -> Callable[[bytes], bytes]:
+    def change(content: bytes) -> bytes:
+        report = _Report(content)
+        return report.revision(hidden=report.hidden(head))
+
+    return change
+
+
+def _noted(content: bytes) -> bytes:
+    report = _Report(content)
+    note = b"<< /Type /Annot /Subtype /Text /FT /Sig /T (Approved) /Rect [99 99 99 99] /V << /Type /DocTimeStamp /ByteRange [0 0 0 0] >> >>"
+    return report.revision({report.sheet: report.annotated, report.size + 1: note})
+
+
+def _taken_back(content: bytes) -> bytes:
+    report = _Report(content)
+    later = _Report(report.revision({report.contents: report.painted}))
+    later.signed = report.signed
+    return later.revision({report.contents: report.written})
+
+
+def _packed(content: bytes) -> bytes:
+    """A stream that holds the first sheet with other contents; its table tells of the stream alone."""
+    report = _Report(content)
+    head = b"%d 0 " % report.contents
+    held = _stream(head + b"[]", b"/Type /ObjStm /N 1 /First %d" % len(head))
+    return report.revision({report.size + 1: held})
+
+
+def _of_revision(**options: Any) -> Callable[[bytes], bytes]:
+    return lambda content: _Report(content).revision(**options)
+
+
+SEARCHED = "contents that only a program finds which searches the file for objects"
+OF_REVISION = (
+    Forgery("a drawing of a signature without a box: some programs let it reach over the sheet", _of_revision(drawing=b"/Subtype /Form"), PAGES),
+    Forgery("the same, with a box that is none", _of_revision(drawing=b"/Subtype /Form /BBox << >>"), PAGES),
+    Forgery("a note on a sheet that is called a document timestamp", _noted, PAGES),
+    Forgery("contents of a sheet in one revision, taken back in the next", _taken_back, PAGES),
+    Forgery(f"{SEARCHED}, under a number of 21 figures", _hides(b"%021d 0 obj"), PAGES),
+    Forgery(f"{SEARCHED}, with white space of its own", _hides(b"%d\x0b0\xffobj"), PAGES),
+    Forgery(f"{SEARCHED}, with a sign or a point", _hides(b"+%d 0. obj"), PAGES),
+    Forgery(f"{SEARCHED}, with a comment", _hides(b"%d 0 %%x\nobj"), PAGES),
+    Forgery(f"{SEARCHED}, in a stream whose objects no table names", _packed, PAGES),
+    Forgery("where the last table stands, in letters that some programs do not take", _of_revision(start=b"startxref\x0b\n%d\n%%%%EOF\n"), PAGES),
+    Forgery("the same, further from the end than some programs look", _of_revision(start=START + b"%%" + 1002 * b" "), PAGES),
+    Forgery("a second table that a first one names (hybrid files)", _of_revision(told=b"/XRefStm 9 "), PAGES),
+)  # fmt: skip
+"""Each is a signature as it may be added, with something beside that a program may show."""
+
+
 # --- docs/trust.md --------------------------------------------------------------------------------------------------------
 
 OF_SIGNED = (
     ("any of these, before somebody signs it by another program (`sign` refuses it)", PAGES),
     ("any of these, after it was signed", "✗ signature"),
+    *((each.way, each.line) for each in OF_REVISION),
     ("a field that grows over the sheet where it is shown small, by another program that signs", PAGES),
     ("a byte of what was signed", "✗ signature"),
     ("signed by a certificate that was not valid then, or is not now and no timestamp proves it", "✗ signature"),

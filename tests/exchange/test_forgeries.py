@@ -42,11 +42,13 @@ from tests.exchange.forgeries import (
     OF_PAGE,
     OF_PDF,
     OF_RESULTS,
+    OF_REVISION,
     TRUST,
     Forgery,
     added,
     page,
     painted,
+    signed_by_hand,
     with_two_contents,
 )
 from tests.exchange.reports import page_with, run
@@ -291,6 +293,13 @@ def test_contents_that_only_some_readers_show_are_no_signature(small_report: Pat
     whole = (small_report / "small.pdf").read_bytes()
     assert only_signed(whole, added(lambda root: root["/Pages"]["/Kids"][0])(whole))
     assert not only_signed(whole, with_two_contents(whole))
+
+
+@pytest.mark.parametrize("forgery", OF_REVISION, ids=lambda each: each.way)
+def test_what_is_added_beside_a_signature_is_found(small_report: Path, forgery: Forgery) -> None:
+    whole = (small_report / "small.pdf").read_bytes()
+    assert only_signed(whole, signed_by_hand(whole))
+    assert not only_signed(whole, forgery.change(whole))
 
 
 @pytest.mark.parametrize(("flags", "holds"), [(4 | 128, True), (4 | 8, False), (4 | 16, False)])
