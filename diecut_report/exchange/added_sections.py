@@ -24,9 +24,9 @@ _TABLE_END = re.compile(rb"[\r\n]*endstream[\r\n ]+endobj[\r\n ]*")
 _OBJECT = re.compile(rb"(?<!end)obj")
 _GAP = rb"[\0-\x20\x7f-\xff]"  # with all that any program takes for white space
 _NUMBER = rb"[0-9+.-]+"
-_HEAD = re.compile(
-    rb"(?:(?:\A|[\r\n])%b*(?:%b)?|%b%b+%b)%b*\Z" % (_GAP, _NUMBER, _NUMBER, _GAP, _NUMBER, _GAP)
-)  # a number may stand behind a comment
+_HEAD = re.compile(  # a number may stand behind a comment; one with a backslash is a letter of a text
+    rb"(?:(?:\A|[\r\n])%b*(?:%b)?|(?<![\\0-9+.-])%b%b+%b)%b*\Z" % (_GAP, _NUMBER, _NUMBER, _GAP, _NUMBER, _GAP)
+)
 _TRAILER = re.compile(rb"trailer" + _GAP + rb"*<<")
 
 

@@ -302,6 +302,12 @@ def test_what_is_added_beside_a_signature_is_found(small_report: Path, forgery: 
     assert not only_signed(whole, forgery.change(whole))
 
 
+def test_a_reason_in_any_words_is_no_object(small_report: Path, private: ec.EllipticCurvePrivateKey) -> None:
+    whole = (small_report / "small.pdf").read_bytes()
+    reason = "Revision 7, 5 objections (trailer: 0 obj)"
+    assert only_signed(whole, signed_elsewhere(whole, private, certified(private), reason=reason))
+
+
 @pytest.mark.parametrize(("flags", "holds"), [(4 | 128, True), (4 | 8, False), (4 | 16, False)])
 def test_a_signed_field_does_not_grow_over_its_sheet(
     small_report: Path, private: ec.EllipticCurvePrivateKey, flags: int, holds: bool
