@@ -8,7 +8,7 @@ import signal
 import threading
 import time
 from collections.abc import Iterator
-from contextlib import contextmanager
+from contextlib import contextmanager, nullcontext
 from types import FrameType
 
 from diecut_report.text.phrases import Phrase
@@ -29,16 +29,27 @@ class TooLong(Exception):
     """Report code of a plugin that does not come back, as any other exception that it raises."""
 
 
+class Escaped(Exception):
+    """Report what a plugin raises to leave the program (SystemExit, BaseException), which it may not; that is its cause."""
+
+
 @contextmanager
 def in_time() -> Iterator[None]:
-    """Raise TooLong where what runs within takes longer than PATIENCE, with the trace of where it was; who asked for a limit of his own keeps it."""
-    if getattr(_limited, "is_so", False):
-        yield
-        return
+    """Raise TooLong where what runs within takes longer than PATIENCE, with the trace of where it was; who asked for a limit of his own keeps it.
+
+    Whatever a plugin raises comes out as an Exception, but for KeyboardInterrupt, which is the user's.
+    """
+    is_limited = getattr(_limited, "is_so", False)
     try:
-        with limited(PATIENCE):
+        with nullcontext() if is_limited else limited(PATIENCE):
             yield
-    except Overran as cause:
+    except (Exception, KeyboardInterrupt):
+        raise
+    except BaseException as cause:
+        if not isinstance(cause, Overran):
+            raise Escaped from cause
+        if is_limited:
+            raise
         words = Phrase("it did not come back within {seconds} s; let its loops end", seconds=f"{PATIENCE:g}")
         raise TooLong(words).with_traceback(cause.__traceback__) from cause
 

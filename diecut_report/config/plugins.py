@@ -34,7 +34,7 @@ from diecut_report.formulas.formula import FormulaError
 from diecut_report.mechanism.mechanism import CONTRACT, Mechanism
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.text.phrases import Phrase, joined, phrase
-from diecut_report.time_limit import in_time
+from diecut_report.time_limit import Escaped, in_time
 
 # Modules of plugins that are not installed: those of single files and folders, and those of a package in its project.
 
@@ -257,7 +257,7 @@ class Discovery:
                 with in_time():
                     origin.load()
                 self.extended[origin.kind] = module_hash(origin.file())
-            except (Exception, SystemExit) as cause:
+            except Exception as cause:
                 raise UserError(
                     Problem(Phrase("This extension cannot be loaded: {said}.", said=said(cause)), origin.told)
                 ) from cause
@@ -294,7 +294,7 @@ def _loaded(origin: Origin) -> Mechanism | PluginError:
         with in_time():
             found = origin.load()
         digest = module_hash(origin.file())
-    except (Exception, SystemExit) as cause:
+    except Exception as cause:
         words = "it cannot be loaded from {told}: {said}"
         error = PluginError(
             Phrase(words, told=origin.told, said=said(cause)) + beside(origin.file(), cause), origin.kind
@@ -339,6 +339,8 @@ def said(cause: BaseException) -> str:
     """An exception of a plugin in one line: its type, its text, and the last file and line of the plugin that led to it."""
     if isinstance(cause, Misdeclared):  # tells its own place
         return str(cause)
+    if isinstance(cause, Escaped) and cause.__cause__:
+        cause = cause.__cause__
     frames = [f for f in traceback.extract_tb(cause.__traceback__) if not f.filename.startswith("<")]
     own = [f for f in frames if not _is_foreign(Path(f.filename))] or frames
     tells_place = isinstance(cause, SyntaxError | FormulaError) or getattr(cause, "tells_place", False)

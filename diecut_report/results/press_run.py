@@ -329,7 +329,7 @@ class Run:
         except SelfTestFailed as fault:
             self.self_tests[name] = fault.checks
             self._broke(instance, fault, str(fault))
-        except (Exception, SystemExit, GeneratorExit) as cause:
+        except Exception as cause:
             self._broke(instance, cause)
 
     def _made(self, instance: Instance, mechanism: Mechanism, block: Block) -> Calculation:
@@ -359,7 +359,7 @@ class Run:
                 self.comparisons[case.name] = compared(case, self.calculations, self.chosen_units(""))
         except Uncomparable as fault:
             self.problems.append(self._uncomparable(fault))
-        except (Exception, SystemExit) as cause:
+        except Exception as cause:
             error = PluginError(said(cause), case.comparison.mechanism.kind, case.name)
             error.__cause__ = cause
             self.errors[case.name] = error

@@ -174,6 +174,8 @@ STEPS = {
     "computed": "Computed(id='x', symbol='x', description='X', function=lambda r: 1 / 0, takes=('radius',), method='m')",
     "a curve without values": "Value(id='x', symbol='x', unit='mm', description='X', formula=root)",
     "sys.exit": "Computed(id='x', symbol='x', description='X', function=lambda r: exit(5), takes=('radius',), method='m')",
+    "BaseException": "Computed(id='x', symbol='x', description='X', function=lambda r: (_ for _ in ()).throw(BaseException('no')),"
+    " takes=('radius',), method='m')",
     "no text": "Words(id='w', function=lambda r: 5, takes=('radius',)), "
     "Require(id='q', condition=bind(wrong, radius='radius'), key='radius', message='is {w}')",
     "a clash": "Clash(id='x', function=lambda r: 1 / 0, takes=('radius',), key='radius', message='m')",

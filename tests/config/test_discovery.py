@@ -160,6 +160,8 @@ def test_a_broken_plugin_names_its_file_and_the_cause(kind: str, words: str) -> 
     ("text", "words"),
     [
         ("import sys\nsys.exit(1)\n", "SystemExit: 1 (bad.py:2)"),
+        ("raise BaseException('no')\n", "BaseException: no (bad.py:1)"),
+        ("raise GeneratorExit('no')\n", "GeneratorExit: no (bad.py:1)"),
         ("def f(:\n", "SyntaxError: invalid syntax (bad.py, line 1)"),
         ("x = 1\n", "AttributeError: there is no MECHANISM in it"),
     ],
