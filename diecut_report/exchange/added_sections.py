@@ -30,7 +30,7 @@ _HEAD = re.compile(  # a number may stand behind a comment; one with a backslash
 _TRAILER = re.compile(rb"trailer" + _GAP + rb"*<<")
 
 
-class Revision(NamedTuple):
+class AddedRevision(NamedTuple):
     """Hold the file up to the end of a revision, the number of its table, where its objects stand, and those that streams of it hold."""
 
     content: bytes
@@ -50,7 +50,7 @@ class Revision(NamedTuple):
         )
 
 
-def revisions(before: bytes, after: bytes) -> Iterator[Revision]:
+def revisions(before: bytes, after: bytes) -> Iterator[AddedRevision]:
     """Give what was added behind ``before``, revision by revision; ValueError where programs may read it in several ways."""
     begin, former = len(before), int(_START.findall(before)[-1])
     starts = list(_START.finditer(after, begin))
@@ -62,7 +62,7 @@ def revisions(before: bytes, after: bytes) -> Iterator[Revision]:
         begin, former = start.end(), int(start[1])
 
 
-def _revision(whole: bytes, begin: int, start: re.Match[bytes], former: int) -> Revision:
+def _revision(whole: bytes, begin: int, start: re.Match[bytes], former: int) -> AddedRevision:
     """The last revision of a file, which has what was added from ``begin`` on."""
     place = int(start[1])
     number, told, data = _table(whole, place, start.start())
@@ -73,7 +73,7 @@ def _revision(whole: bytes, begin: int, start: re.Match[bytes], former: int) -> 
         _require(begin <= at <= place and whole[at - 1] in b"\r\n" and whole.startswith(b"%d 0 obj" % each, at))
     known = {at + len(f"{each} 0 ") - begin for each, at in placed.items()}
     _require(not _has_other_objects(whole[begin:], known))
-    return Revision(whole, number, placed, packed)
+    return AddedRevision(whole, number, placed, packed)
 
 
 def _table(whole: bytes, place: int, stop: int) -> tuple[int, Any, bytes]:

@@ -11,7 +11,7 @@ from typing import Any
 import pikepdf
 
 from diecut_report.exchange import pdf_attachments
-from diecut_report.exchange.added_sections import Revision, revisions
+from diecut_report.exchange.added_sections import AddedRevision, revisions
 from diecut_report.exchange.carried import MOST_RESULTS
 from diecut_report.exchange.pdf_attachments import bounded
 
@@ -45,7 +45,7 @@ def only_signed(before: bytes, after: bytes) -> bool:
         return False
 
 
-def _is_signing(old: pikepdf.Pdf, revision: Revision) -> bool:
+def _is_signing(old: pikepdf.Pdf, revision: AddedRevision) -> bool:
     with _opened(revision.content) as new:
         same = not new.is_encrypted and all(
             old.trailer.get(key, _NONE).objgen == new.trailer.get(key, _NONE).objgen for key in ("/Root", "/Info")
