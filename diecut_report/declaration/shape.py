@@ -5,6 +5,7 @@ from __future__ import annotations
 import ast
 import re
 from collections.abc import Iterable, Iterator, Mapping
+from keyword import iskeyword
 from pathlib import Path
 from typing import Any
 
@@ -26,6 +27,7 @@ from diecut_report.standards.tables import StandardTable
 from diecut_report.text.phrases import Phrase, phrase
 
 ID = re.compile(r"[A-Za-z_]\w*(\.\w+)*")
+RESERVED = ("inputs", "checks")
 HOLDS = {
     "chapters": Chapter,
     "checks": Check,
@@ -98,6 +100,13 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
 def _of_step(step: Step) -> Iterator[str]:
     if not ID.fullmatch(step.id):
         yield phrase("is not an id; write letters, digits and underscores")
+    elif step.id in RESERVED or iskeyword(
+        step.id
+    ):  # inputs.KEY and checks.ID are names; a formula takes a step as its argument
+        yield Phrase(
+            "has a name that is reserved; choose another one than {reserved} or a word of Python",
+            reserved=", ".join(RESERVED),
+        )
     if step.digits < 1:
         yield Phrase("has digits={digits}; at least one digit is printed", digits=repr(step.digits))
     yield from _ids(step, "needs", "lacks")

@@ -26,6 +26,8 @@ SILENT = (
     load("a step with the name of a count", THROW, THROW.replace('"throw"', '"release_count"'), "release",
          "release_count as the number of its crossings"),
     load("a step with the name of a crossing", THROW, THROW.replace('"throw"', '"release_2"'), "release", "release_2 as one of its crossings"),
+    load("a step called inputs", THROW, THROW.replace('"throw"', '"inputs"'), "step inputs", "reserved"),
+    load("a step called by a word of Python", THROW, THROW.replace('"throw"', '"lambda"'), "step lambda", "reserved"),
     load("a period in degrees", PERIOD, "period=360", "step angle", "the period 360", r"2 \* np\.pi"),
     load("a phase between bare degrees", THROW, 'discharge.phase("falling", "moving", "Falls", "angle", (100, 160))\n' + THROW, "phase falling",
          "goes to 100, a number without a unit", "by its id"),
