@@ -63,6 +63,48 @@ def _between(state: Array, least: Array) -> Array:
     return found
 
 
+# Places in many brackets at once by looking closer and closer: for what is no smooth function.
+
+
+PARTS, ROUNDS = 16, 15  # of a bracket, and how often it is looked at: down to the rounding of a place
+
+
+def first(holds: Function, low: Array, high: Array, parts: int = PARTS, rounds: int = ROUNDS) -> tuple[Array, Array]:
+    """Return the neighbouring places (brackets,) in each bracket of which the second is the first where something holds.
+
+    ``holds`` is asked at places (brackets, points); at the high end it is taken to hold, at the low one not to.
+    """
+    each = np.arange(len(low))
+    for _ in range(rounds if len(low) else 0):
+        places = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, parts + 1)
+        places[:, -1] = high  # to the last bit
+        found = holds(places, each)[:, 1:]
+        found[:, -1] = True
+        index = found.argmax(axis=1)
+        low, high = places[each, index], places[each, index + 1]
+    return low, high
+
+
+def least(
+    function: Function, low: Array, high: Array, parts: int = PARTS, rounds: int = ROUNDS,
+    goes_on: Callable[[Array], bool] | None = None,
+) -> tuple[Array, Array]:  # fmt: skip
+    """Return where a function of places (brackets, points) is least in each bracket, and its value there.
+
+    It is looked at as long as ``goes_on`` says of its values, by default so many times.
+    """
+    each, place, value = np.arange(len(low)), low, np.full(len(low), np.nan)
+    for _ in range(rounds if len(low) else 0):
+        places = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, parts + 1)
+        values = function(places, each)
+        best = values.argmin(axis=1)
+        place, value = places[each, best], values[each, best]
+        if goes_on is not None and not goes_on(values):
+            break
+        low, high = places[each, np.maximum(best - 1, 0)], places[each, np.minimum(best + 1, parts)]
+    return place, value
+
+
 # Chebyshev series of many pieces at many places, in blocks that stay in the processor's cache.
 
 
