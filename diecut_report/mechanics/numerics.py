@@ -1,4 +1,7 @@
-"""Roots in many brackets at once, each by few evaluations (Chandrupatla, Advances in Engineering Software 28 (1997), 145–149)."""
+"""Roots and least values in many brackets at once, and series of Chebyshev polynomials.
+
+Roots of smooth functions take few evaluations (Chandrupatla, Advances in Engineering Software 28 (1997), 145–149).
+"""
 
 from __future__ import annotations
 
@@ -93,16 +96,47 @@ def least(
 
     It is looked at as long as ``goes_on`` says of its values, by default so many times.
     """
-    each, place, value = np.arange(len(low)), low, np.full(len(low), np.nan)
-    for _ in range(rounds if len(low) else 0):
+    places, values = looks(function, low, high, parts, rounds, goes_on)
+    each, best = np.arange(len(low)), values.argmin(axis=1)
+    return places[each, best], values[each, best]
+
+
+def looks(
+    function: Function, low: Array, high: Array, parts: int = PARTS, rounds: int = ROUNDS,
+    goes_on: Callable[[Array], bool] | None = None,
+) -> tuple[Array, Array]:  # fmt: skip
+    """Return the equally spaced places (brackets, parts + 1) of the last look at where a function is least, and its values there."""
+    each = np.arange(len(low))
+    for number in range(rounds):
         places = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, parts + 1)
-        values = function(places, each)
-        best = values.argmin(axis=1)
-        place, value = places[each, best], values[each, best]
-        if goes_on is not None and not goes_on(values):
+        values = np.broadcast_to(function(places, each), places.shape)
+        if number + 1 == rounds or not len(low) or (goes_on is not None and not goes_on(values)):
             break
+        best = values.argmin(axis=1)
         low, high = places[each, np.maximum(best - 1, 0)], places[each, np.minimum(best + 1, parts)]
-    return place, value
+    return places, values
+
+
+def vertex(places: Array, values: Array) -> Array:
+    """Return where a parabola through the least of values at equally spaced places (rows, points) and its neighbours is lowest.
+
+    It is at most half a spacing from the least; the place of the least itself where that is the first or the last.
+    """
+    row, best = np.arange(len(values)), values.argmin(axis=1)
+    inner = np.clip(best, 1, values.shape[1] - 2)
+    before, here, after = (values[row, inner + step] for step in (-1, 0, 1))
+    bend = before - 2 * here + after
+    found = np.where((bend > 0) & (best == inner), (before - after) / (2 * np.where(bend > 0, bend, 1.0)), 0.0)
+    lowest: Array = places[row, best] + np.clip(found, -0.5, 0.5) * (places[:, 1] - places[:, 0])
+    return lowest
+
+
+def in_rows(places: Array, row: Array, count: int) -> Array:
+    """Return places as rows (count, most), each in its row (ascending), NaN behind them."""
+    number = np.bincount(row, minlength=count)
+    found = np.full((count, int(number.max(initial=0))), np.nan)
+    found[row, np.arange(len(row)) - (np.cumsum(number) - number)[row]] = places
+    return found
 
 
 # Chebyshev series of many pieces at many places, in blocks that stay in the processor's cache.

@@ -100,7 +100,8 @@ def crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     first, last = (run[np.flatnonzero(np.diff(variant, **ends))] for ends in ({"prepend": -1}, {"append": calc.count}))
     at_start = np.zeros(calc.count, dtype=bool)
     at_start[pieces.variant[first // points]] = sign[first] != sign[last]
-    return _rows_of(places, rows, calc.count, at_start), worst
+    found = numerics.in_rows(places, rows, calc.count)
+    return np.sort(np.concatenate([found, np.where(at_start, 0.0, np.nan)[:, None]], axis=1), axis=1), worst
 
 
 def all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
@@ -149,17 +150,7 @@ def dips(calc: Calculation, curve: str) -> Array:
     side, own = np.sign(heights[piece, k])[:, None], table.curves([curve], piece)
     low, high = (pieces.point(piece, k + i) for i in (0, 2))
     place, depth = numerics.least(lambda x, row: side[row] * own.at(x, row)[0], low, high, rounds=DIP_LOOKS)
-    places = np.where(depth < 0, place, np.nan)
-    return _rows_of(places, pieces.variant[piece], calc.count, np.zeros(calc.count, dtype=bool))
-
-
-def _rows_of(places: Array, rows: Array, count: int, at_start: Array) -> Array:
-    """Places found for all variants together, put into one row for each variant, ascending, NaN at the end."""
-    per_row = np.bincount(rows, minlength=count)
-    table = np.full((count, max(int(per_row.max(initial=0)), 0) + 1), np.nan)
-    table[rows, np.arange(len(rows)) - np.repeat(np.cumsum(per_row) - per_row, per_row)] = places
-    table[at_start, -1] = 0.0
-    return np.sort(table, axis=1)
+    return numerics.in_rows(np.where(depth < 0, place, np.nan), pieces.variant[piece], calc.count)
 
 
 def accumulate(calc: Calculation, step: Accumulated) -> Array:
