@@ -6,6 +6,7 @@ Roots of smooth functions take few evaluations (Chandrupatla, Advances in Engine
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 
@@ -79,7 +80,7 @@ def first(holds: Function, low: Array, high: Array, parts: int = PARTS, rounds: 
     """
     each = np.arange(len(low))
     for _ in range(rounds if len(low) else 0):
-        places = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, parts + 1)
+        places = low[:, None] + (high - low)[:, None] * _even(parts)
         places[:, -1] = high  # to the last bit
         found = holds(places, each)[:, 1:]
         found[:, -1] = True
@@ -108,13 +109,19 @@ def looks(
     """Return the equally spaced places (brackets, parts + 1) of the last look at where a function is least, and its values there."""
     each = np.arange(len(low))
     for number in range(rounds):
-        places = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, parts + 1)
+        places = low[:, None] + (high - low)[:, None] * _even(parts)
         values = np.broadcast_to(function(places, each), places.shape)
         if number + 1 == rounds or not len(low) or (goes_on is not None and not goes_on(values)):
             break
         best = values.argmin(axis=1)
         low, high = places[each, np.maximum(best - 1, 0)], places[each, np.minimum(best + 1, parts)]
     return places, values
+
+
+@cache
+def _even(parts: int) -> Array:
+    found: Array = np.linspace(0, 1, parts + 1)
+    return found
 
 
 def vertex(places: Array, values: Array) -> Array:

@@ -11,7 +11,7 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import FormulaError, evaluate
-from diecut_report.formulas.tree import Node, substitute, symbols, walk
+from diecut_report.formulas.tree import APPLY, Node, substitute, symbols, walk
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.names import Bound, bound
 from diecut_report.mechanism.steps import Accumulated, Choice, Derivative, Step, Value
@@ -69,9 +69,13 @@ class BranchCondition:
             tuple(dict.fromkeys(inner for _, inner in found)) if FLATTENING.intersection(op for op, _ in found) else ()
         )
 
-    def side(self, known: Known, x: Array) -> Array:
-        """Return at places whether a comparison holds, or what a function that takes steps gives; of what has no value infinity."""
-        return np.nan_to_num(self.value(self.node, known, x), nan=np.inf)
+    def sides(self, known: Known, x: Array) -> tuple[Array, Array]:
+        """Return at places whether a comparison holds, or what a function that takes steps gives (infinity for no value), and the gap."""
+        if self.node.op != "cmp":
+            return np.nan_to_num(self.value(self.node, known, x), nan=np.inf), self.value(self.gap, known, x)
+        left, right = (evaluate(part, partial(self._leaf, known)) for part in self.node.args[1:])
+        holds = APPLY[self.node.args[0]](left, right)
+        return np.broadcast_to(holds, x.shape), np.broadcast_to(left - right, x.shape)
 
     def value(self, part: Node, known: Known, x: Array) -> Array:
         """Return a part of the formula at places."""

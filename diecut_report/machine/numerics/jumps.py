@@ -180,9 +180,9 @@ class _Machines:
     def where_changes(self, condition: BranchCondition) -> Brackets:
         """Return where a condition changes inside a piece: neighbouring places before and after."""
         if condition.meaning not in self.changes:
-            side = condition.side(self.on_grid.__getitem__, self.x)
+            side, gap = condition.sides(self.on_grid.__getitem__, self.x)
             row, k = _nonzero(side[:, 1:] != side[:, :-1])
-            found = [(row, self.x[row, k], self.x[row, k + 1]), *self._hidden(condition, side)]
+            found = [(row, self.x[row, k], self.x[row, k + 1]), *self._hidden(condition, side, gap)]
             row, low, high = (np.concatenate(columns) for columns in zip(*found, strict=True))
             before = self._side(condition, low[:, None], row) if len(row) else low[:, None]
             low, high = numerics.first(lambda x, own: self._side(condition, x, row[own]) != before[own], low, high)
@@ -190,19 +190,18 @@ class _Machines:
             self.changes[condition.meaning] = row[inner], low[inner], high[inner]
         return self.changes[condition.meaning]
 
-    def _hidden(self, condition: BranchCondition, side: Array) -> Iterator[Brackets]:
+    def _hidden(self, condition: BranchCondition, side: Array, gap: Array) -> Iterator[Brackets]:
         """Where a condition changes and changes back between two points of the grid: it is asked where that may be."""
-        for row, k, place in filter(lambda asked: len(asked[0]), self._asked(condition, side)):
+        for row, k, place in filter(lambda asked: len(asked[0]), self._asked(condition, side, gap)):
             here = self._side(condition, place[:, None], row)[:, 0]
             for beside in self._neighbours(k):
                 other = np.flatnonzero(here != side[row, beside])
                 ends = np.sort([place[other], self.x[row[other], beside[other]]], axis=0)
                 yield row[other], ends[0], ends[1]
 
-    def _asked(self, condition: BranchCondition, side: Array) -> Iterator[tuple[Array, Array, Array]]:
+    def _asked(self, condition: BranchCondition, side: Array, gap: Array) -> Iterator[tuple[Array, Array, Array]]:
         """Rows, points of the grid and a place near each: where the gap is nearest to zero, and the arguments of functions that level off
         are least, greatest or nearest to zero."""
-        gap = condition.value(condition.gap, self.on_grid.__getitem__, self.x)
         row, k = _dips(gap, side, self.search.pieces.intervals)
         sign = np.sign(gap[row, k])[:, None]
         yield self._least(condition, condition.gap, row, k, lambda values: sign * values, _may_reach)
@@ -230,7 +229,7 @@ class _Machines:
         return condition.value(part, self._known(condition, x, row), x)
 
     def _side(self, condition: BranchCondition, x: Array, row: Array) -> Array:
-        return condition.side(self._known(condition, x, row), x)
+        return condition.sides(self._known(condition, x, row), x)[0]
 
     def _known(self, condition: BranchCondition, x: Array, row: Array) -> Callable[[str], Array]:
         return self.at(x, row, [name for name in condition.names if name in self.calc.curves]).__getitem__
@@ -274,8 +273,11 @@ def _lowest(values: Array) -> tuple[Array, Array]:
     """Points of the grid, by row and number, that are no higher than those beside them, and lower than one of them."""
     falls, rises = values[:, 1:] <= values[:, :-1], values[:, :-1] <= values[:, 1:]
     is_low = np.concatenate([rises[:, :1], falls[:, :-1] & rises[:, 1:], falls[:, -1:]], axis=1)
-    is_flat = np.concatenate([falls[:, :1], rises[:, :-1] & falls[:, 1:], rises[:, -1:]], axis=1)
-    return _nonzero(is_low & ~is_flat)
+    row, k = _nonzero(is_low)
+    last = values.shape[1] - 1
+    beside = values[row, np.where(k > 0, k - 1, 1)], values[row, np.where(k < last, k + 1, last - 1)]
+    is_lower = values[row, k] < np.maximum(*beside)
+    return row[is_lower], k[is_lower]
 
 
 def _dips(gap: Array, side: Array, intervals: int) -> tuple[Array, Array]:
