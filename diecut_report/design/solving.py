@@ -15,6 +15,7 @@ from diecut_report.design.inputs import DesignInput, is_stepped
 from diecut_report.design.machines import VariedMachines, proved, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.formulas import Array
+from diecut_report.mechanics import numerics
 from diecut_report.text.phrases import Phrase
 
 # Roots, limits and extremes of a function of one number that is calculated for many numbers at once, each call being dear.
@@ -31,8 +32,7 @@ AROUND = np.array([-1e-2, -1e-4, 0.0, 1e-4, 1e-2])
 ROUNDS = 20
 CLOSE = 1e-9  # relative width at which a bracket is closed
 JUMP = 1e-2  # share of a bracket's first difference that is left in one so narrow: the function jumps there
-ZOOM = np.linspace(0, 1, 11)
-ZOOMS = 6
+PARTS, ZOOMS = 10, 6  # of the neighbourhood of the greatest value, and how often it is looked at closer
 EIGHTHS, HALF = np.arange(1, 8) / 8, np.array([0.5])  # of a pair of neighbours
 HALVED = 5  # how often the distances of such neighbours are halved at most
 MOST_CELLS = 12  # such ends that are looked at closer
@@ -108,22 +108,17 @@ def _crossing(low: Array, high: Array, first: float) -> Crossing:
 
 def greatest(function: Function, x: Array, values: Array) -> tuple[float, float]:
     """Return where a function is greatest and its value there, refined from values at ascending numbers, of which some are not NaN."""
-    last = None
-    for _ in range(ZOOMS):
-        best = int(np.nanargmax(values))
-        low, high = x[max(best - 1, 0)], x[min(best + 1, len(x) - 1)]
-        if not high > low or x[best] == last:  # again the same end
-            break
-        last = x[best] if best in (0, len(x) - 1) else None
-        places = np.unique(
-            np.concatenate([low + (high - low) * ZOOM[1:-1], x[[max(best - 1, 0), best, min(best + 1, len(x) - 1)]]])
-        )
-        known = dict(zip(x, values, strict=True))
-        new = np.array([place for place in places if place not in known])
-        known |= dict(zip(new, function(new), strict=True)) if len(new) else {}
-        x, values = places, np.array([known[place] for place in places])
     best = int(np.nanargmax(values))
-    return float(x[best]), float(values[best])
+    low, high = x[max(best - 1, 0)], x[min(best + 1, len(x) - 1)]
+    rounds = ZOOMS if high > low else 1
+    place, depth = numerics.least(
+        lambda at, _: np.nan_to_num(-function(at[0]), nan=np.inf)[None],
+        np.array([low]),
+        np.array([high]),
+        PARTS,
+        rounds,
+    )
+    return (float(place[0]), float(-depth[0])) if -depth[0] > values[best] else (float(x[best]), float(values[best]))
 
 
 def looked_closer(function: Function, x: Array, values: Array, rounds: int = 1) -> tuple[Array, Array]:

@@ -14,8 +14,7 @@ from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.machine.curve_samples import CurveSampler, CurveStep, SampledCurve
 from diecut_report.machine.numerics.curves import MANY, Curves, several
-from diecut_report.machine.numerics.domain import Domain, Inside, RecentPlaces, SharedPlaces
-from diecut_report.machine.numerics.jumps import PieceSeries
+from diecut_report.machine.numerics.domain import Domain, Inside, PieceSeries, RecentPlaces, SharedPlaces
 from diecut_report.machine.numerics.samples import SampleCache
 from diecut_report.mechanism.chapters import in_form, taken
 from diecut_report.mechanism.inputs import Extremes, Meta, Quantity, fields, texts_given

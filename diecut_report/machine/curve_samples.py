@@ -10,8 +10,7 @@ from typing import Any, Protocol
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.machine.numerics.domain import Domain, Inside
-from diecut_report.machine.numerics.jumps import PieceSeries
+from diecut_report.machine.numerics.domain import Domain, Inside, PieceSeries
 from diecut_report.mechanism.names import Binding, Bound, bound
 from diecut_report.mechanism.part_steps import ComputedCurve
 from diecut_report.mechanism.steps import Accumulated, Choice, Derivative, FromCurve, Value

@@ -1,8 +1,12 @@
-"""Roots in many brackets at once, each by few evaluations (Chandrupatla, Advances in Engineering Software 28 (1997), 145–149)."""
+"""Roots and least values in many brackets at once, and series of Chebyshev polynomials.
+
+Roots of smooth functions take few evaluations (Chandrupatla, Advances in Engineering Software 28 (1997), 145–149).
+"""
 
 from __future__ import annotations
 
 from collections.abc import Callable
+from functools import cache
 
 import numpy as np
 
@@ -60,6 +64,85 @@ def _between(state: Array, least: Array) -> Array:
     trusted = (phi**2 < xi) & ((1 - phi) ** 2 < 1 - xi)
     share = fa / (fb - fa) * fc / (fb - fc) + (c - a) / (b - a) * fa / (fc - fa) * fb / (fc - fb)
     found: Array = np.clip(np.where(trusted, share, 0.5), least, 1 - least)
+    return found
+
+
+# Places in many brackets at once by looking closer and closer: for what is no smooth function.
+
+
+PARTS, ROUNDS = 16, 15  # of a bracket, and how often it is looked at: down to the rounding of a place
+
+
+def first(holds: Function, low: Array, high: Array, parts: int = PARTS, rounds: int = ROUNDS) -> tuple[Array, Array]:
+    """Return the neighbouring places (brackets,) in each bracket of which the second is the first where something holds.
+
+    ``holds`` is asked at places (brackets, points); at the high end it is taken to hold, at the low one not to.
+    """
+    each = np.arange(len(low))
+    for _ in range(rounds if len(low) else 0):
+        places = low[:, None] + (high - low)[:, None] * _even(parts)
+        places[:, -1] = high  # to the last bit
+        found = holds(places, each)[:, 1:]
+        found[:, -1] = True
+        index = found.argmax(axis=1)
+        low, high = places[each, index], places[each, index + 1]
+    return low, high
+
+
+def least(
+    function: Function, low: Array, high: Array, parts: int = PARTS, rounds: int = ROUNDS,
+    goes_on: Callable[[Array], bool] | None = None,
+) -> tuple[Array, Array]:  # fmt: skip
+    """Return where a function of places (brackets, points) is least in each bracket, and its value there.
+
+    It is looked at as long as ``goes_on`` says of its values, by default so many times.
+    """
+    places, values = looks(function, low, high, parts, rounds, goes_on)
+    each, best = np.arange(len(low)), values.argmin(axis=1)
+    return places[each, best], values[each, best]
+
+
+def looks(
+    function: Function, low: Array, high: Array, parts: int = PARTS, rounds: int = ROUNDS,
+    goes_on: Callable[[Array], bool] | None = None,
+) -> tuple[Array, Array]:  # fmt: skip
+    """Return the equally spaced places (brackets, parts + 1) of the last look at where a function is least, and its values there."""
+    each = np.arange(len(low))
+    for number in range(rounds):
+        places = low[:, None] + (high - low)[:, None] * _even(parts)
+        values = np.broadcast_to(function(places, each), places.shape)
+        if number + 1 == rounds or not len(low) or (goes_on is not None and not goes_on(values)):
+            break
+        best = values.argmin(axis=1)
+        low, high = places[each, np.maximum(best - 1, 0)], places[each, np.minimum(best + 1, parts)]
+    return places, values
+
+
+@cache
+def _even(parts: int) -> Array:
+    found: Array = np.linspace(0, 1, parts + 1)
+    return found
+
+
+def vertex(places: Array, values: Array) -> Array:
+    """Return where a parabola through the least of values at equally spaced places (rows, points) and its neighbours is lowest.
+
+    It is at most half a spacing from the least; the place of the least itself where that is the first or the last.
+    """
+    row, best = np.arange(len(values)), values.argmin(axis=1)
+    inner = np.clip(best, 1, values.shape[1] - 2)
+    before, here, after = (values[row, inner + step] for step in (-1, 0, 1))
+    bend = before - 2 * here + after
+    found = np.where((bend > 0) & (best == inner), (before - after) / (2 * np.where(bend > 0, bend, 1.0)), 0.0)
+    lowest: Array = places[row, best] + np.clip(found, -0.5, 0.5) * (places[:, 1] - places[:, 0])
+    return lowest
+
+
+def in_rows(places: Array, row: Array, count: int) -> Array:
+    """Return places as rows (count, most), each in its row (ascending), NaN behind them."""
+    number = np.bincount(row, minlength=count)
+    found = np.full((count, int(number.max(initial=0))), np.nan)
+    found[row, np.arange(len(row)) - (np.cumsum(number) - number)[row]] = places
     return found
 
 

@@ -9,11 +9,11 @@ import numpy as np
 from numpy.typing import NDArray
 
 from diecut_report.api import Curve, formula
+from diecut_report.mechanics.numerics import first
 
 Array = NDArray[np.float64]
 TURN = 2 * np.pi
-ZOOMS = 8
-ACROSS = np.linspace(0, 1, 33)  # places of a closer look
+PARTS, LOOKS_CLOSER = 32, 8  # of a bracket, and how often it is looked at closer
 LOOKS = 181  # places of a stroke at which its speed is looked at
 INNER = ("displacement", "velocity", "stroke", "dead_center_outer", "dead_center_inner")
 
@@ -44,14 +44,8 @@ def _at(curve: Curve, angle: Array) -> Array:
 
 
 def _first(passed: Callable[[Array], NDArray[np.bool_]], low: Array, high: Array) -> Array:
-    """The angle from which a condition holds that does not hold at the low one: looked at closer and closer."""
-    for _ in range(ZOOMS):
-        angles = low + (high - low) * ACROSS
-        there = passed(angles)
-        there[:, -1] = True
-        first = np.maximum(np.argmax(there, axis=1)[:, None], 1)
-        low, high = (np.take_along_axis(angles, each, axis=1) for each in (first - 1, first))
-    return high
+    """The angle from which a condition holds that does not hold at the low one."""
+    return first(lambda angles, _: passed(angles), low[:, 0], high[:, 0], PARTS, LOOKS_CLOSER)[1][:, None]
 
 
 def _speed_at(displacement: Curve, velocity: Curve, start: Array, end: Array, place: Array) -> Array:

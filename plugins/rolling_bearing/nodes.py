@@ -9,10 +9,11 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 from numpy.typing import NDArray
 
+from diecut_report.mechanics.numerics import in_rows, narrowed
+
 Array = NDArray[Any]
 ORDER = 8  # places within a piece: polynomials up to twice that less one are integrated exactly
 STILL = 1e-9  # share of the greatest value that is none
-HALVINGS = 45
 
 
 def _places() -> tuple[Array, Array, Array, Array]:
@@ -62,24 +63,21 @@ def crossings(nodes: Nodes, values: Array) -> Array:
     scale = np.max(np.abs(flat(values)), axis=1)[:, None, None]
     known = np.where(np.abs(values) <= STILL * scale, 0.0, values)
     variant, piece, place = np.nonzero(np.sign(known[:, :, :-1]) != np.sign(known[:, :, 1:]))
-    count = np.bincount(variant, minlength=len(values))
-    found = np.full((len(values), int(np.max(count, initial=0))), np.nan)
     start, width = nodes.share[variant, piece, 0], nodes.share[variant, piece, -1] - nodes.share[variant, piece, 0]
-    order = np.arange(len(variant)) - np.repeat(np.cumsum(count) - count, count)
-    found[variant, order] = start + width * _zeros(known[variant, piece], place)
-    return found
+    return in_rows(start + width * _zeros(known[variant, piece], place), variant, len(values))
 
 
 def _zeros(values: Array, place: Array) -> Array:
-    """Where the polynomial through values (rows, places) is zero, in [0, 1] and from a place to the next, by halving."""
+    """Where the polynomial through values (rows, places) is zero, in [0, 1] and from a place to the next."""
     rows = np.arange(len(values))
-    low, high, before = PLACES[place], PLACES[place + 1], values[rows, place]
-    for _ in range(HALVINGS):
-        middle = (low + high) / 2
-        terms = BARYCENTRIC / (middle[:, None] - PLACES)
-        inside = np.sum(terms * values, axis=1) * np.sum(terms, axis=1)
-        is_before = inside * before > 0
-        low, high = np.where(is_before, middle, low), np.where(is_before, high, middle)
-    rest = np.where(before == 0, PLACES[place], PLACES[place + 1])
-    found: Array = np.where((before == 0) | (values[rows, place + 1] == 0), rest, (low + high) / 2)
+    ends, heights = PLACES[[place, place + 1]], np.stack([values[rows, place], values[rows, place + 1]])
+    found: Array = np.where(heights[0] == 0, ends[0], ends[1])
+    rows = rows[(heights != 0).all(axis=0)]
+
+    def polynomial(x: Array, row: Array) -> Array:
+        terms = BARYCENTRIC / (x[:, None] - PLACES)
+        height: Array = np.sum(terms * values[rows[row]], axis=1) / np.sum(terms, axis=1)
+        return height
+
+    found[rows], _ = narrowed(polynomial, ends[0, rows], ends[1, rows], heights[:, rows])
     return found

@@ -10,14 +10,17 @@ import pytest
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.numerics.jumps import jumping
+from diecut_report.machine.numerics.conditions import conditions_of
 from diecut_report.machine.numerics.samples import JUMP
 from tests.configs import ON_ARRAYS
 from tests.machine.test_compiled import EXAMPLES_AT_HAND, axes, machines, stem
 
 
 def jumps(calc: Calculation, axis: str) -> frozenset[str]:
-    return jumping(tuple(calc.curves.items()), axis)
+    known = tuple(calc.curves.items())
+    return frozenset(
+        name for name in calc.curves if calc.axis[name] == axis and conditions_of(known, axis, name).may_jump
+    )
 
 
 @pytest.mark.parametrize("path", EXAMPLES_AT_HAND, ids=stem)

@@ -13,6 +13,7 @@ import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from diecut_report.formulas import Array
+from diecut_report.mechanics import numerics
 
 INTERVALS = (
     64  # of the search grid in each smooth piece, where an abscissa declares none; they do not depend on n_points
@@ -200,6 +201,25 @@ class Domain:
     def widths(self) -> Array:
         """Return the width of each piece, shape (variants, pieces)."""
         return np.diff(self.edges, axis=1)
+
+
+@dataclass(frozen=True)
+class PieceSeries:
+    """Hold a curve as Chebyshev series: for each variant and smooth piece one over [-1, 1]."""
+
+    edges: Array  # (variants, pieces + 1)
+    series: Array  # (order, variants, pieces)
+
+    def values(self, x: Array, middle: Array, rows: Array | None) -> Array:
+        """Return values at x (rows, points), each in the piece that its middle lies in; rows are variants (default all)."""
+        known = np.arange(len(self.edges)) if rows is None else rows
+        edges = self.edges if len(self.edges) == 1 else self.edges[known]
+        piece = piece_of(edges, np.broadcast_to(middle, (len(x), np.shape(middle)[-1])))  # one a row, or one a place
+        variant = np.broadcast_to(known[:, None] if len(self.edges) > 1 else 0, piece.shape)
+        start, end = self.edges[variant, piece], self.edges[variant, piece + 1]
+        place = (2 * x - start - end) / np.where(end > start, end - start, 1)
+        terms = self.series.reshape(len(self.series), -1)
+        return numerics.at_places(terms, variant * self.series.shape[2] + piece, place)
 
 
 # The places at which curves were asked for last: who takes several curves of a machine asks for each at the same places.

@@ -2,216 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from functools import cache, lru_cache
+from collections.abc import Sequence
+from functools import cache
 from typing import NamedTuple
 
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.tree import Node, symbols
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.numerics.curves import MANY, Curves
 from diecut_report.machine.numerics.domain import SMALLEST
-from diecut_report.machine.numerics.jumps import nonzero, parts
 from diecut_report.machine.numerics.samples import CachedPieces
-
-# Where a condition may hold in a window that its difference does not show between the points of the search grid.
-#
-# A difference such as ``exp(-((φ - φ_0)/w)²) - 1/2`` is the same at all points but for a place between two of them: nothing dips. What
-# goes into such functions does show the place. So each of their arguments is followed to where it comes nearest to zero
-# and to where it turns, and there the condition is asked. What curves do that a condition takes is not looked into.
-
-
-FLATTENING = {"exp", "tanh", "arctan", "minimum", "maximum", "clip", "/", "^"}  # what levels off, or has a corner
-ROUNDS, PARTS = (
-    17,
-    16,
-)  # how often a place is looked for in so many parts of what is left: down to the rounding of a place
-
-Value = Callable[[Node, Array, Array], Array]  # of a part of a condition, at places (rows, points) of some rows
-Cells = tuple[Array, Array, Array]  # rows, and the two places (rows,) between which something is sought
-
-
-@lru_cache(maxsize=4096)
-def arguments(node: Node, varying: frozenset[str]) -> tuple[Node, ...]:
-    """Return what goes into the functions of a condition where one of them levels off in what varies; nothing for all other conditions."""
-    inner = [(_name(part), each) for side in parts(node) for part in _walk(side) for each in _taken(part)]
-    found = [(name, each) for name, each in inner if varying.intersection(symbols(each))]
-    return tuple(dict.fromkeys(each for _, each in found)) if FLATTENING.intersection(name for name, _ in found) else ()
-
-
-def _walk(node: Node) -> Iterator[Node]:
-    yield node
-    for part in parts(node):
-        yield from _walk(part)
-
-
-def _name(node: Node) -> str:
-    return str(node.args[0]) if node.op == "call" else node.op
-
-
-def _taken(node: Node) -> Iterator[Node]:
-    """What a function takes, or by how much two of its arguments differ: where they are equal is a corner."""
-    match node:
-        case Node("call", ("minimum" | "maximum" | "clip", first, *others)):
-            yield from (Node("-", (first, other)) for other in others)
-        case Node("call", (_, *taken)):
-            yield from taken
-        case Node("/", (_, below)):
-            yield below
-        case Node("^", (base, _)):
-            yield base
-
-
-def places(of: tuple[Node, ...], x: Array, value: Value) -> Iterator[Cells]:
-    """Give, of each row with places ``x`` (rows, points), where one of these parts is least, greatest or nearest to zero, and the points beside."""
-    every = np.arange(len(x))
-    for argument in of:
-        with np.errstate(all="ignore"):
-            on_grid = value(argument, x, every)
-            for size in (np.abs, np.positive, np.negative):
-                row, k = _lowest(size(on_grid))
-                low, high = x[row, np.maximum(k - 1, 0)], x[row, np.minimum(k + 1, x.shape[1] - 1)]
-                place = _least(lambda at, own, part=argument, by=size: by(value(part, at, own)), row, low, high)  # type: ignore[misc]
-                yield row, k, place
-
-
-def _lowest(values: Array) -> tuple[Array, Array]:
-    """Points of the grid, by row and number, that are no higher than those beside them, and lower than one of them."""
-    falls, rises = values[:, 1:] <= values[:, :-1], values[:, :-1] <= values[:, 1:]
-    is_low = np.concatenate([rises[:, :1], falls[:, :-1] & rises[:, 1:], falls[:, -1:]], axis=1)
-    is_flat = np.concatenate([falls[:, :1], rises[:, :-1] & falls[:, 1:], rises[:, -1:]], axis=1)
-    return nonzero(is_low & ~is_flat)
-
-
-def _least(size: Callable[[Array, Array], Array], row: Array, low: Array, high: Array) -> Array:
-    """Where a size is least between two places."""
-    each = np.arange(len(row))
-    for _ in range(ROUNDS):
-        at = low[:, None] + (high - low)[:, None] * np.linspace(0, 1, PARTS + 1)
-        least = size(at, row).argmin(axis=1)
-        low, high = at[each, np.maximum(least - 1, 0)], at[each, np.minimum(least + 1, PARTS)]
-    found: Array = (low + high) / 2
-    return found
-
-
-# Least values in many brackets at once, by few evaluations (Brent).
-
-
-GOLDEN = (3 - 5**0.5) / 2
-COARSE = (
-    0.02  # share of a bracket to which the least value of a smooth function is searched before a polynomial tells it
-)
-BRACKETING_FOLLOWS = (
-    1e-12  # share of a function's size by which it may be off the polynomial that tells its least value
-)
-MOST = 100  # evaluations in one bracket
-
-Function = Callable[[Array, Array], Array]  # of places and the rows of their brackets
-
-
-def smooth_minimum(
-    function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float
-) -> tuple[Array, Array]:
-    """Find the minimum as ``minimum`` does; where the function is smooth, the place is far more exact than its values could tell by themselves."""
-    place, depth = minimum(function, low, centre, high, depths, COARSE)
-    place, depth, is_smooth = _at_vertex(function, low, place, high, depth)
-    rest = np.flatnonzero(~is_smooth)
-    if len(rest):
-        place[rest], depth[rest] = minimum(
-            lambda x, row: function(x, rest[row]), low[rest], centre[rest], high[rest], depths[:, rest], share
-        )
-    return place, depth
-
-
-def _at_vertex(function: Function, low: Array, place: Array, high: Array, depth: Array) -> tuple[Array, Array, Array]:
-    """Place and value at the vertex of the polynomial through five places about each, and whether the function follows it."""
-    step = np.minimum((high - low) / 32, np.minimum(place - low, high - place) / 2)
-    around = place + step * np.array([[-2.0], [-1.0], [1.0], [2.0]])
-    row = np.arange(len(place))
-    values = function(around.ravel(), np.tile(row, 4)).reshape(4, -1) - depth
-    even, odd = values[:2] + values[:1:-1], values[:1:-1] - values[:2]  # of the outer and of the inner places
-    first, third = (8 * odd[1] - odd[0]) / 12, (odd[0] - 2 * odd[1]) / 12
-    second, fourth = (16 * even[1] - even[0]) / 24, (even[0] - 4 * even[1]) / 24
-    s = -first / (2 * second)
-    for _ in range(3):
-        s = s - (first + s * (2 * second + s * (3 * third + s * 4 * fourth))) / (
-            2 * second + s * (6 * third + s * 12 * fourth)
-        )
-    expected = s * (first + s * (second + s * (third + s * fourth)))
-    s = np.where(np.abs(s) <= 2, s, 0)
-    vertex = place + s * step
-    found = function(vertex, row)
-    size = np.abs(depth) + np.abs(values).max(axis=0)
-    follows: Array = (
-        (np.abs(found - depth - expected) <= BRACKETING_FOLLOWS * size)
-        & (found <= depth + BRACKETING_FOLLOWS * size)
-        & (step > 0)
-    )
-    return np.where(follows, vertex, place), np.where(follows, found, depth), follows
-
-
-def minimum(
-    function: Function, low: Array, centre: Array, high: Array, depths: Array, share: float
-) -> tuple[Array, Array]:
-    """Return the place and the value of the least value in brackets low < centre < high, to a share of each.
-
-    ``depths`` are the known values at the three, of shape (3, brackets), the middle one not above the others.
-    """
-    best, value = centre.copy(), depths[1].copy()
-    row = np.arange(len(centre))
-    nearer = depths[0] <= depths[2]
-    second, third = np.where(nearer, low, high), np.where(nearer, high, low)
-    state = np.stack([low, high, centre, second, third, depths[1], *np.where(nearer, depths[::2], depths[::-2]),
-                      high - low, high - low, share * (high - low)])  # fmt: skip
-    for _ in range(MOST):
-        a, b, x, w, v, fx, fw, fv, last, before, least = state
-        going = np.abs(x - (a + b) / 2) > 2 * least - (b - a) / 2
-        if not going.all():
-            best[row[~going]], value[row[~going]] = x[~going], fx[~going]
-            state, row = state[:, going], row[going]
-            if not len(row):
-                break
-            a, b, x, w, v, fx, fw, fv, last, before, least = state
-        step, earlier = _step(a, b, x, w, v, fx, fw, fv, last, before, least)
-        place = x + step
-        state = _bracketing_taken(state, place, function(place, row), step, earlier)
-    best[row], value[row] = state[2], state[5]
-    return best, value
-
-
-def _step(a: Array, b: Array, x: Array, w: Array, v: Array, fx: Array, fw: Array, fv: Array,
-          last: Array, before: Array, least: Array) -> tuple[Array, Array]:  # fmt: skip
-    """The next step from x, to the top of the parabola through the three best places or into the longer part."""
-    r, q = (x - w) * (fx - fv), (x - v) * (fx - fw)
-    p, q = (x - v) * q - (x - w) * r, 2 * (q - r)
-    p, q = np.where(q > 0, -p, p), np.abs(q)
-    longer = np.where(x >= (a + b) / 2, a - x, b - x)
-    fits = (np.abs(p) < np.abs(q * before / 2)) & (p > q * (a - x)) & (p < q * (b - x))
-    step = np.where(fits, p / np.where(q == 0, 1, q), GOLDEN * longer)
-    at_end = fits & ((x + step - a < 2 * least) | (b - x - step < 2 * least))
-    step = np.where(at_end, np.copysign(least, (a + b) / 2 - x), step)
-    return np.where(np.abs(step) < least, np.copysign(least, step), step), np.where(fits, last, longer)
-
-
-def _bracketing_taken(state: Array, u: Array, fu: Array, step: Array, earlier: Array) -> Array:
-    """The brackets with one more place."""
-    a, b, x, w, v, fx, fw, fv, _, _, least = state
-    better = fu <= fx
-    second = ~better & ((fu <= fw) | (w == x))
-    third = ~better & ~second & ((fu <= fv) | (v == x) | (v == w))
-    inner = np.where(better, x, u)  # the place that becomes an end
-    left = np.where(better, u >= x, u < x)
-    return np.stack([
-        np.where(left, inner, a), np.where(left, b, inner), np.where(better, u, x),
-        np.where(better, x, np.where(second, u, w)),
-        np.where(better | second, w, np.where(third, u, v)),
-        np.where(better, fu, fx), np.where(better, fx, np.where(second, fu, fw)),
-        np.where(better | second, fw, np.where(third, fu, fv)),
-        step, earlier, least,
-    ])  # fmt: skip
-
+from diecut_report.mechanics import numerics
+from diecut_report.mechanics.numerics import Function
 
 # Extremes of smooth curves by the polynomial through the points of the search grid about each, proved by the curve itself.
 
@@ -326,11 +129,12 @@ def _value(powers: Array, x: Array) -> Array:
     return found
 
 
-PLACE_TOLERANCE = 1e-6  # of an extreme's place, as a share of its bracket; its value errs by the square of it
 SAME_HEIGHT = 1e-9  # share of an extreme within which two places reach the same, as far as rounding lets tell
 FEW = 2048  # places up to which all curves are evaluated together
 PLATEAU = 1e-11  # share of an extreme within which neighbouring points of the grid lie on a plateau
-APPROACH = 12  # steps by which an end of a piece is approached, each a quarter of the one before
+COARSE = 2  # closer looks before a polynomial tells the place, if the curve is smooth there
+NEAR = 128  # share of the bracket between the places that this polynomial goes through
+SMOOTH = 1e-12  # share of a curve's size by which it may be off this polynomial
 
 
 Wanted = tuple[str, float]  # a curve, and 1 for its greatest or -1 for its least value
@@ -537,48 +341,47 @@ def _refined(depth_of: Function, seen: Candidates, pieces: CachedPieces) -> Cand
 
 
 def _searched(depth_of: Function, seen: Candidates, rising: Array) -> Candidates:
-    """The candidates, of which these were searched in their brackets; at a piece's end within its first interval."""
-    low, centre, high, depths = _brackets(
-        Candidates(*(column[rising] for column in seen)), lambda x, row: depth_of(x, rising[row])
-    )
-    is_inner = (depths[1] <= depths[0]) & (depths[1] <= depths[2]) & (low < centre) & (centre < high)
-    is_inner &= ~_stands(seen, rising, depths[1])
-    low, centre, high, depths = (part[..., is_inner] for part in (low, centre, high, depths))
-    inner = rising[is_inner]
-    if not len(inner):
-        return seen
-    found, depth = smooth_minimum(lambda x, row: depth_of(x, inner[row]), low, centre, high, depths, PLACE_TOLERANCE)
-    better = -depth >= seen.height[inner]
-    place, height = seen.place.copy(), seen.height.copy()
-    place[inner] = np.where(better, found, place[inner])
-    height[inner] = np.where(better, -depth, height[inner])
-    return seen._replace(place=place, height=height)
+    """The candidates, of which these were looked at closer and closer between their neighbours on the grid."""
+
+    def depths(x: Array, row: Array) -> Array:
+        return depth_of(x.ravel(), rising[row].repeat(x.shape[1])).reshape(x.shape)
+
+    low, high = seen.left[rising], seen.right[rising]
+    found, depth = numerics.least(depths, low, high, rounds=COARSE)
+    found, depth, is_smooth = _at_vertex(lambda x, row: depth_of(x, rising[row]), found, high - low, depth)
+    rest = np.flatnonzero(~is_smooth)
+    if len(rest):
+        found[rest], depth[rest] = numerics.least(lambda x, row: depths(x, rest[row]), low[rest], high[rest])
+    is_end = (seen.place[rising] == low) | (
+        seen.place[rising] == high
+    )  # what begins at rest rises from there by rounding alone
+    rounding = np.where(is_end, ALIKE * np.abs(seen.around[rising]).max(axis=1), 0.0)
+    better = np.flatnonzero(-depth > seen.height[rising] + rounding)
+    seen.place[rising[better]], seen.height[rising[better]] = found[better], -depth[better]
+    return seen
 
 
-def _stands(seen: Candidates, rising: Array, depths: Array) -> Array:
-    """Which candidates are ends of pieces that nothing near them rises above but by rounding: what begins at rest rises from there."""
-    place, heights = seen.place[rising], seen.around[rising]
-    is_end = (place == seen.left[rising]) | (place == seen.right[rising])
-    found: Array = is_end & (-depths <= seen.height[rising] + ALIKE * np.abs(heights).max(axis=1))
-    return found
+def _at_vertex(function: Function, place: Array, width: Array, depth: Array) -> tuple[Array, Array, Array]:
+    """Place and value at the vertex of the polynomial through five places about each, and whether the function follows it.
 
-
-def _brackets(seen: Candidates, depth_of: Function) -> tuple[Array, Array, Array, Array]:
-    """Three places about each candidate, its neighbours on the grid and itself, and the depths there, (3, candidates).
-
-    At a piece's end a peak may hide between the end and the next point: there the deepest of places that come nearer and
-    nearer to the end, between its neighbours among these.
+    There the place is far more exact than the values could tell by themselves.
     """
-    at_end = np.flatnonzero((seen.place == seen.left) | (seen.place == seen.right))
-    left, centre, right = seen.left.copy(), seen.place.copy(), seen.right.copy()
-    if len(at_end):
-        end = seen.place[at_end, None]
-        inward = (seen.left + seen.right)[at_end, None] - 2 * end
-        places = end + inward * np.concatenate([[1.0], 4.0 ** -np.arange(1, APPROACH), [0.0]])
-        rows = np.repeat(at_end, places.shape[1])
-        best = np.argmin(depth_of(places.ravel(), rows).reshape(places.shape)[:, 1:-1], axis=1) + 1
-        row = np.arange(len(at_end))
-        around = np.stack([places[row, best + 1], places[row, best - 1]])
-        left[at_end], right[at_end], centre[at_end] = around.min(axis=0), around.max(axis=0), places[row, best]
-    every = np.arange(len(centre))
-    return left, centre, right, depth_of(np.concatenate([left, centre, right]), np.tile(every, 3)).reshape(3, -1)
+    step = width / NEAR
+    around = place + step * np.array([[-2.0], [-1.0], [1.0], [2.0]])
+    row = np.arange(len(place))
+    values = function(around.ravel(), np.tile(row, 4)).reshape(4, -1) - depth
+    even, odd = values[:2] + values[:1:-1], values[:1:-1] - values[:2]  # of the outer and of the inner places
+    first, third = (8 * odd[1] - odd[0]) / 12, (odd[0] - 2 * odd[1]) / 12
+    second, fourth = (16 * even[1] - even[0]) / 24, (even[0] - 4 * even[1]) / 24
+    s = -first / (2 * second)
+    for _ in range(3):
+        s = s - (first + s * (2 * second + s * (3 * third + s * 4 * fourth))) / (
+            2 * second + s * (6 * third + s * 12 * fourth)
+        )
+    expected = s * (first + s * (second + s * (third + s * fourth)))
+    s = np.where(np.abs(s) <= 2, s, 0)
+    vertex = place + s * step
+    found = function(vertex, row)
+    size = np.abs(depth) + np.abs(values).max(axis=0)
+    follows: Array = (np.abs(found - depth - expected) <= SMOOTH * size) & (found <= depth + SMOOTH * size)
+    return np.where(follows, vertex, place), np.where(follows, found, depth), follows

@@ -1,205 +1,324 @@
-"""Which curves may jump inside a smooth piece's rounding: where a condition on places decides, the very end may be on the wrong side."""
+"""Jumps of curves inside their smooth pieces: where the conditions in their formulas change, and what the curves do there.
+
+A condition is held as its gap, which changes its sign where the condition changes. Where that happens between two points of the search
+grid, or the gap comes near to zero between them, the place is found; a condition on the abscissa itself has a straight gap, so that no
+window is too narrow. Here the flags of pieces are taken at each place, not at the middle of its piece: a curve is sound where it does
+not move as a condition changes, and is the same with the flags of the very place. A change at the end of a piece is no fault.
+"""
 
 from __future__ import annotations
 
-from collections.abc import Iterator
-from dataclasses import dataclass
-from functools import lru_cache
-from typing import Any
+from collections.abc import Callable, Hashable, Iterator, Mapping, Sequence
+from functools import cache
+from typing import NamedTuple
+from weakref import proxy
 
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.formulas.formula import FormulaError
-from diecut_report.formulas.tree import Node, substitute
-from diecut_report.machine.numerics.domain import piece_of
+from diecut_report.formulas.tree import Node
+from diecut_report.machine.calculation import Calculation
+from diecut_report.machine.curve_samples import CurveSampler
+from diecut_report.machine.numerics.conditions import BranchCondition, CurveConditions, conditions_of, is_flag
+from diecut_report.machine.numerics.curves import BLOCK, MANY, flags_of
+from diecut_report.machine.numerics.domain import shares
+from diecut_report.machine.numerics.samples import PIECE
 from diecut_report.mechanics import numerics
-from diecut_report.mechanism.names import Binding, bound
-from diecut_report.mechanism.steps import Accumulated, Choice, Derivative, Step, Value
 
-STEPWISE = {"sign", "ceil", "floor", "round"}  # functions that jump themselves
-
-
-@lru_cache(maxsize=256)
-def jumping(curves: tuple[tuple[str, Step], ...], axis: str) -> frozenset[str]:
-    """Return the curves over an abscissa whose formulas hold a condition that may change from place to place within a smooth piece."""
-    return frozenset(_Curves(dict(curves), axis).found())
-
-
-class _Curves:
-    def __init__(self, curves: dict[str, Step], axis: str) -> None:
-        self.curves, self.axis = curves, axis
-        self.known: dict[str | float, bool] = {axis: False}
-
-    def found(self) -> Iterator[str]:
-        return (name for name in self.curves if self._jumps(name))
-
-    def _jumps(self, name: str | float) -> bool:
-        if name not in self.known:
-            self.known[name] = self._declared(self.curves[str(name)]) if self._varies(name) else False
-        return self.known[name]
-
-    def _varies(self, name: str | float) -> bool:
-        """Whether a quantity varies within a piece: flags of pieces and numbers do not."""
-        return name == self.axis or (name in self.curves and not getattr(self.curves[str(name)], "per_piece", False))
-
-    def _declared(self, step: Step) -> bool:
-        match step:
-            case Value(formula=part):
-                return self._formula(part, condition=False)
-            case Choice(cases=cases):
-                return any(self._formula(c.value, condition=False) for c in cases) or any(
-                    self._formula(c.condition, condition=True) for c in cases if c.condition is not None
-                )
-            case Accumulated() | Derivative():
-                return False  # polynomials, piece by piece
-        return True
-
-    def _formula(self, part: Any, *, condition: bool) -> bool:
-        """Whether a formula jumps; of a condition, whether it may change."""
-        link = bound(_binding(part))
-        names = [name for name in link.names.values() if self._varies(name)]
-        try:
-            tree = link.formula.tree
-        except FormulaError:  # it is called as it is
-            return bool(names)
-        varying = {parameter for parameter, name in link.names.items() if self._varies(name)}
-        return (
-            any(self._jumps(name) for name in names) or (condition and bool(names)) or _decides(expanded(tree), varying)
-        )
-
-
-def _binding(part: Any) -> Binding:
-    assert not isinstance(part, str), "a curve has no texts"
-    found: Binding = part
-    return found
-
-
-def expanded(node: Node) -> Node:
-    """Return a tree with the expressions of formulas in the place of the names by which they are printed."""
-    if node.op == "apply":
-        called, *args = node.args
-        given = dict(zip(called.formula.parameters, map(expanded, args), strict=True))
-        return substitute(expanded(called.formula.tree), given)
-    return Node(node.op, tuple(_expanded(part) for part in node.args))
-
-
-def _expanded(part: Any) -> Any:
-    if isinstance(part, Node):
-        return expanded(part)
-    return tuple(map(_expanded, part)) if isinstance(part, tuple) else part
-
-
-def _decides(node: Node, varying: set[str]) -> bool:
-    """Whether a part of a formula compares, or takes a step, by what varies."""
-    if node.op == "cmp" or (node.op == "call" and node.args[0] in STEPWISE):
-        return any(name in varying for name in _symbols(node))
-    return any(_decides(part, varying) for part in parts(node))
-
-
-def _symbols(node: Node) -> Iterator[str]:
-    if node.op == "sym":
-        yield node.args[0]
-    for part in parts(node):
-        yield from _symbols(part)
-
-
-def parts(node: Node) -> Iterator[Node]:
-    """Give the nodes that a node is made of."""
-    for part in node.args:
-        if isinstance(part, Node):
-            yield part
-        elif isinstance(part, tuple):
-            yield from parts(Node("cases", part))
-
-
-# How near a decision is to changing, on the points of the search grid: where it dips, and where it only begins at the end of a piece.
-
-
+BESIDE = 1e-6  # share of the period within which a place is the end of its piece: what only touches there is decided by the root of rounding
+INSET = 1e-9  # share of the period by which the search begins inside a piece, so that rounding decides no condition
+JUMP = 1e-9  # share of a curve's greatest value by which it moves at a jump
+FLAT = 0.1  # of a gap: where it moves by less about its least value, it does not reach zero
 NEAR = 5  # points of the grid that tell how a gap runs from the end of its piece to the next point
 BETWEEN = np.array([1 / 16, 1 / 4, 1 / 2])  # places from the end to the next point where it is looked at
 ALIKE = 0.01  # of a gap: where the points beside the end tell it by so much, there is no bend between
-FLAT = 0.1  # of a gap: where it moves by less about its least value that is not nothing
-SOME = 5  # points of a piece at which a curve is held against its flag that varies in it
+
+Brackets = tuple[Array, Array, Array]  # rows, and the two places (rows,) between which a condition changes
 
 
-def lowest(gap: Array, is_change: Array) -> tuple[Array, Array]:
-    """Return points of the grid, by row and number, where a gap is lower than beside it by as much as itself, and no change is beside it."""
-    falls, rises = gap[:, 1:] <= gap[:, :-1], gap[:, :-1] <= gap[:, 1:]
+class JumpFault(NamedTuple):
+    """Hold a curve that jumps: the condition that changes there (None where a flag of the piece varies without a jump), and the place (SI)."""
+
+    curve: str
+    condition: BranchCondition | None
+    place: float
+
+
+def faults(calc: Calculation, curve: str) -> Iterator[tuple[int, JumpFault]]:
+    """Give the first jump of a curve inside a smooth piece of each machine (its variant) that has one and is not impossible already."""
+    axis = calc.axis[curve]
+    search = calc.searches.get(axis)
+    if search is None or not search.holds():
+        search = calc.searches[axis] = _Search(calc, axis)
+    if curve not in search.searched:
+        search.searched.add(curve)
+        yield from ((variant, found) for variant, found in search.faults(curve) if variant not in calc.flaws)
+
+
+class _Search:
+    """What is known of the jumps of curves over an abscissa with its present pieces."""
+
+    def __init__(self, calc: Calculation, axis: str) -> None:
+        self.calc: Calculation = proxy(calc)
+        self.axis = axis
+        self.searched: set[str] = set()
+        self.beside_ends: dict[str, Array] = {}  # curves at the first and last places of the search
+        self.pieces = pieces = calc.table(axis).pieces()
+        own = np.flatnonzero(~np.isin(pieces.variant, list(calc.flaws)))
+        size = max(1, BLOCK // (pieces.intervals + 1))
+        starts = np.flatnonzero(np.diff(pieces.variant[own], prepend=-1))
+        cuts = starts[np.diff(starts // size, prepend=0) > 0]  # no machine in two parts, each of which fits a cache
+        inset = np.minimum(INSET * pieces.period, pieces.width * shares(pieces.intervals)[1] / 2)
+        self.ends = np.stack([pieces.left + inset, pieces.right - inset], axis=1)
+        self.machines = [_Machines(self, rows) for rows in np.split(own, cuts) if len(rows)]
+
+    def holds(self) -> bool:
+        """Return whether the smooth pieces are still the same: a cut beside an edge leaves them."""
+        now = self.calc.table(self.axis).pieces()
+        return now is self.pieces or all(
+            np.array_equal(getattr(now, name), getattr(self.pieces, name)) for name in PIECE
+        )
+
+    def conditions(self, curve: str) -> CurveConditions:
+        """Return the conditions that a curve follows from."""
+        return conditions_of(tuple(self.calc.curves.items()), self.axis, curve)
+
+    def varies(self, name: str) -> bool:
+        """Return whether a quantity varies within a piece."""
+        return name == self.axis or (name in self.calc.curves and not is_flag(self.calc.curves[name]))
+
+    def faults(self, curve: str) -> Iterator[tuple[int, JumpFault]]:
+        """Give the first jump of a curve of each machine that has one."""
+        known = self.conditions(curve)
+        if known.direct or known.of_flags or known.varies_by_flag:
+            self._prepare(curve)
+            for machines in self.machines:
+                yield from machines.faults(curve, known).items()
+
+    def coming(self, curve: str) -> list[str]:
+        """Return the curve, and those that will be asked for."""
+        return [
+            curve,
+            *(each for each in self.calc.ahead.get(self.axis, ()) if each in self.calc.curves and each != curve),
+        ]
+
+    def _prepare(self, curve: str) -> None:
+        """Compute what the conditions of this curve and of the coming ones take, all together, as most of it is a part of them."""
+        names = dict.fromkeys(name for each in self.coming(curve) for name in self.conditions(each).names)
+        if new := [name for name in names if name not in self.beside_ends]:
+            table = self.calc.table(self.axis)
+            table.on_grid([*new, curve])
+            self.beside_ends |= zip(new, table.curves(new).at(self.ends), strict=True)
+
+
+class _Machines:
+    """The smooth pieces of some machines, a row each, and the search grid in them."""
+
+    def __init__(self, search: _Search, own: Array) -> None:
+        self.search: _Search = proxy(search)
+        self.calc, self.axis, self.own, pieces = search.calc, search.axis, own, search.pieces
+        self.variant, self.left, self.right = pieces.variant[own], pieces.left[own], pieces.right[own]
+        self.near = BESIDE * np.broadcast_to(pieces.period, pieces.variant.shape)[own]
+        self.x = pieces.grid(own)
+        self.x[:, [0, -1]] = search.ends[own]
+        self.changes: dict[Hashable, Brackets] = {}
+        self.by_own_flags: dict[bytes, dict[str, Array]] = {}  # for rows, curves at the inner points of the grid
+        self.on_grid = _GridSampler(self)
+
+    def faults(self, curve: str, known: CurveConditions) -> dict[int, JumpFault]:
+        """Return the first jump of a curve of each machine that has one."""
+        changes = {condition: self.where_changes(condition) for condition in (*known.direct, *known.of_flags)}
+        changes = {condition: brackets for condition, brackets in changes.items() if len(brackets[0])}
+        varying = self.varying(known)
+        found: dict[int, JumpFault] = {}
+        if changes or len(varying):
+            heights = self.calc.table(self.axis).on_grid([curve])[0][self.own]
+            for row, condition, place in self._moved(curve, changes, varying, heights):
+                found.setdefault(int(self.variant[row]), JumpFault(curve, condition, place))
+        return found
+
+    def _moved(
+        self, curve: str, changes: Mapping[BranchCondition, Brackets], varying: Array, heights: Array
+    ) -> Iterator[tuple[int, BranchCondition | None, float]]:
+        """Give where a curve moves as a condition changes, and where it is another one with the flags of the very place."""
+        moves = self._moves(heights)
+        for condition, (row, low, high) in changes.items():
+            before, after = (self.at(x[:, None], row, [curve]).over(curve)[:, 0] for x in (low, high))
+            reported = condition if any(map(self.search.varies, condition.names)) else None
+            for i in np.flatnonzero(np.abs(after - before) > moves[row]):
+                yield row[i], reported, float(high[i])
+        if len(varying):
+            x, near = self.x[varying, 1:-1], self.near[varying, None]
+            apart = np.abs(self._with_own_flags(curve, x, varying) - heights[varying, 1:-1]) > moves[varying, None]
+            apart &= (x - self.left[varying, None] > near) & (self.right[varying, None] - x > near)
+            for i, k in np.argwhere(apart):
+                yield varying[i], None, float(x[i, k])
+
+    def _with_own_flags(self, curve: str, x: Array, row: Array) -> Array:
+        """A curve at places with the flags of the very places, computed together with those that will be asked for."""
+        known = self.by_own_flags.setdefault(row.tobytes(), {})
+        if curve not in known:
+            names = [each for each in self.search.coming(curve) if self.varying(self.search.conditions(each)).size]
+            sampler = self.at(x, row, names)
+            known |= {name: sampler.over(name) for name in names}
+        return known[curve]
+
+    def _moves(self, heights: Array) -> Array:
+        """By how much a curve moves at a jump in the machine of each piece."""
+        greatest = np.zeros(self.calc.count)
+        np.fmax.at(greatest, self.variant, np.fmax.reduce(np.abs(heights), axis=1))
+        found: Array = JUMP * greatest[self.variant]
+        return found
+
+    def varying(self, known: CurveConditions) -> Array:
+        """Return in which pieces flags may vary that a curve follows from."""
+        if known.varies_by_flag:
+            return np.arange(len(self.own))
+        rows = [self.where_changes(condition)[0] for condition in known.of_flags]
+        return np.unique(np.concatenate(rows)) if rows else np.arange(0)
+
+    def where_changes(self, condition: BranchCondition) -> Brackets:
+        """Return where a condition changes inside a piece: neighbouring places before and after."""
+        if condition.meaning not in self.changes:
+            side, gap = condition.sides(self.on_grid.__getitem__, self.x)
+            row, k = _nonzero(side[:, 1:] != side[:, :-1])
+            found = [(row, self.x[row, k], self.x[row, k + 1]), *self._hidden(condition, side, gap)]
+            row, low, high = (np.concatenate(columns) for columns in zip(*found, strict=True))
+            before = self._side(condition, low[:, None], row) if len(row) else low[:, None]
+            low, high = numerics.first(lambda x, own: self._side(condition, x, row[own]) != before[own], low, high)
+            inner = (high - self.left[row] > self.near[row]) & (self.right[row] - low > self.near[row])
+            self.changes[condition.meaning] = row[inner], low[inner], high[inner]
+        return self.changes[condition.meaning]
+
+    def _hidden(self, condition: BranchCondition, side: Array, gap: Array) -> Iterator[Brackets]:
+        """Where a condition changes and changes back between two points of the grid: it is asked where that may be."""
+        for row, k, place in filter(lambda asked: len(asked[0]), self._asked(condition, side, gap)):
+            here = self._side(condition, place[:, None], row)[:, 0]
+            for beside in self._neighbours(k):
+                other = np.flatnonzero(here != side[row, beside])
+                ends = np.sort([place[other], self.x[row[other], beside[other]]], axis=0)
+                yield row[other], ends[0], ends[1]
+
+    def _asked(self, condition: BranchCondition, side: Array, gap: Array) -> Iterator[tuple[Array, Array, Array]]:
+        """Rows, points of the grid and a place near each: where the gap is nearest to zero, and the arguments of functions that level off
+        are least, greatest or nearest to zero."""
+        row, k = _dips(gap, side, self.search.pieces.intervals)
+        sign = np.sign(gap[row, k])[:, None]
+        yield self._least(condition, condition.gap, row, k, lambda values: sign * values, _may_reach)
+        for part in condition.arguments(self.search.varies):
+            values = condition.value(part, self.on_grid.__getitem__, self.x)
+            for size in (np.abs, np.positive, np.negative):
+                yield self._least(condition, part, *_lowest(size(values)), size)
+
+    def _least(
+        self, condition: BranchCondition, part: Node, row: Array, k: Array, size: Callable[[Array], Array],
+        goes_on: Callable[[Array], bool] | None = None,
+    ) -> tuple[Array, Array, Array]:  # fmt: skip
+        """Where the size of a part of a condition is least near points of the grid."""
+        low, high = (self.x[row, each] for each in self._neighbours(k))
+        place, _ = numerics.least(
+            lambda x, own: size(self._value(condition, part, x, row[own])), low, high, goes_on=goes_on
+        )
+        return row, k, place
+
+    def _neighbours(self, k: Array) -> tuple[Array, Array]:
+        return np.maximum(k - 1, 0), np.minimum(k + 1, self.x.shape[1] - 1)
+
+    def _value(self, condition: BranchCondition, part: Node, x: Array, row: Array) -> Array:
+        """A part of a condition at places (rows, points) of these pieces."""
+        return condition.value(part, self._known(condition, x, row), x)
+
+    def _side(self, condition: BranchCondition, x: Array, row: Array) -> Array:
+        return condition.sides(self._known(condition, x, row), x)[0]
+
+    def _known(self, condition: BranchCondition, x: Array, row: Array) -> Callable[[str], Array]:
+        return self.at(x, row, [name for name in condition.names if name in self.calc.curves]).__getitem__
+
+    def at(self, x: Array, row: Array, curves: Sequence[str]) -> CurveSampler:
+        """Return curves at places (rows, points) of these pieces, with the flags of the very places; of many machines they are compiled."""
+        found = self.calc.sampler_of(self.axis, x, x, self.variant[row])
+        if self.calc.count >= MANY and x.size:
+            values = flags_of(self.calc, self.axis, tuple(curves), x.ravel(), self.variant[row].repeat(x.shape[1]))
+            found.known |= {name: each.reshape(x.shape) for name, each in zip(curves, values, strict=True)}
+        return found
+
+
+class _GridSampler(CurveSampler):
+    """Curves on the search grid of some machines, where most are known, with the flags of the very places."""
+
+    def __init__(self, machines: _Machines) -> None:
+        super().__init__(machines.calc, machines.axis, machines.x, machines.x, machines.variant)
+        self.machines: _Machines = proxy(machines)
+
+    def _compute(self, name: str) -> Array:
+        machines, step = self.machines, self.owner.curves.get(name)
+        if step is None or is_flag(step):
+            return super()._compute(name)
+        search = machines.search
+        found: Array = machines.calc.table(self.axis).on_grid([name])[0][machines.own]
+        found[:, [0, -1]] = search.beside_ends[name][machines.own]
+        row = machines.varying(search.conditions(name))
+        if len(row):
+            found[row] = machines.at(self.x[row], row, [name]).over(name)
+        return found
+
+
+def _nonzero(marks: Array) -> tuple[Array, Array]:
+    """Rows and columns of marks (rows, columns) of which few are set."""
+    row, k = np.divmod(np.flatnonzero(marks), marks.shape[1])
+    return row, k
+
+
+def _lowest(values: Array) -> tuple[Array, Array]:
+    """Points of the grid, by row and number, that are no higher than those beside them, and lower than one of them."""
+    falls, rises = values[:, 1:] <= values[:, :-1], values[:, :-1] <= values[:, 1:]
     is_low = np.concatenate([rises[:, :1], falls[:, :-1] & rises[:, 1:], falls[:, -1:]], axis=1)
-    row, k = nonzero(is_low)
-    last = gap.shape[1] - 1
+    row, k = _nonzero(is_low)
+    last = values.shape[1] - 1
+    beside = values[row, np.where(k > 0, k - 1, 1)], values[row, np.where(k < last, k + 1, last - 1)]
+    is_lower = values[row, k] < np.maximum(*beside)
+    return row[is_lower], k[is_lower]
+
+
+def _dips(gap: Array, side: Array, intervals: int) -> tuple[Array, Array]:
+    """Such points where the size of a gap is lower than beside it by as much as itself, without a change of the condition beside it."""
+    size, last = np.abs(gap), gap.shape[1] - 1
+    row, k = _lowest(size)
     before, after = np.where(k > 0, k - 1, 1), np.where(k < last, k + 1, last - 1)
-    here = gap[row, k]
-    changed = (is_change[row, k - 1] & (k > 0)) | (is_change[row, np.minimum(k, last - 1)] & (k < last))
-    found = (2 * here <= np.maximum(gap[row, before], gap[row, after])) & (here > 0) & ~changed
-    return row[found], k[found]
+    found = (2 * size[row, k] <= np.maximum(size[row, before], size[row, after])) & (
+        side[row, before] == side[row, after]
+    )
+    found &= side[row, k] == side[row, after]
+    row, k = row[found], k[found]
+    for end, inwards in ((0, gap), (last, gap[:, ::-1])):
+        at_end = np.flatnonzero(k == end)
+        rising = _rises(inwards[row[at_end], :NEAR], intervals)
+        row, k = np.delete(row, at_end[rising]), np.delete(k, at_end[rising])
+    return row, k
 
 
-def rises(gap: Array, places: Array) -> Array:
-    """Return whether gaps (rows, points) near the end of a piece have their least size at the end, by the polynomial through them.
+def _rises(gap: Array, intervals: int) -> Array:
+    """Whether gaps (rows, NEAR) at the first points of pieces are least at the end, by the polynomial through them.
 
     The points without the end must tell the gap there: no bend hides between the end and the next point.
     """
-    inner, beside = _weights_beside_end(tuple(places.tolist()))
-    tells = np.abs(gap[:, 1:] @ inner - gap[:, :1]) <= ALIKE * np.abs(gap[:, 1:2])
-    between = gap @ beside
+    at_end, between = (gap @ each.T for each in _beside_end(intervals))
+    tells = np.abs(at_end - gap[:, :1]) <= ALIKE * np.abs(gap[:, 1:2])
     rising = (np.abs(between) >= np.abs(gap[:, :1])) & ((between > 0) == (gap[:, 1:2] > 0))
     found: Array = (tells & rising).all(axis=1)
     return found
 
 
-@lru_cache(maxsize=16)
-def _weights_beside_end(places: tuple[float, ...]) -> tuple[Array, Array]:
-    """What the places of a grid count at its end, without that, and between the end and the next place."""
-    points = np.array(places)
-    return _weights(points[1:], points[:1]), _weights(points, points[1] * BETWEEN)
+@cache
+def _beside_end(intervals: int) -> tuple[Array, Array]:
+    """What points of the grid count at the end of a piece, without that, and between the end and the next point."""
+    points = shares(intervals)[:NEAR] / shares(intervals)[1]
+    inner, every = (np.linalg.inv(np.vander(known)) for known in (points[1:], points))
+    return np.hstack([np.zeros((1, 1)), np.vander([0.0], NEAR - 1) @ inner]), np.vander(BETWEEN, NEAR) @ every
 
 
-def _weights(points: Array, places: Array) -> Array:
-    """What each point counts at other places in the polynomial through all, (points, places)."""
-    parts = [np.prod([(places - other) / (own - other) for other in points if other != own], axis=0) for own in points]
-    return np.stack(parts)
-
-
-def nonzero(marks: Array) -> tuple[Array, Array]:
-    """Return rows and columns of marks (rows, columns) of which few are set."""
-    row, k = np.divmod(np.flatnonzero(marks), marks.shape[1])
-    return row, k
-
-
-def some(apart: Array) -> Array:
-    """Return of the points that are apart in each piece (rows, all) some, from the first to the last (rows, SOME)."""
-    count = apart.sum(axis=1)
-    rank = np.round(np.linspace(0, 1, SOME) * (count[:, None] - 1)).astype(int)
-    found: Array = np.nonzero(apart)[1][np.cumsum(count)[:, None] - count[:, None] + rank]
-    return found
-
-
-def may_reach(gap: Array, least: Array) -> Array:
-    """Return whether gaps (rows, places) may come down to nothing between their places: they turn back, and are not flat yet."""
-    turns = (least > 0) & (least < gap.shape[1] - 1)
-    found: Array = turns & (np.ptp(gap, axis=1) > FLAT * gap.min(axis=1))
-    return found
-
-
-# Running integrals and derivatives of curves, as Chebyshev series of their smooth pieces.
-
-
-@dataclass(frozen=True)
-class PieceSeries:
-    """Hold a curve as Chebyshev series: for each variant and smooth piece one over [-1, 1]."""
-
-    edges: Array  # (variants, pieces + 1)
-    series: Array  # (order, variants, pieces)
-
-    def values(self, x: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values at x (rows, points), each in the piece that its middle lies in; rows are variants (default all)."""
-        known = np.arange(len(self.edges)) if rows is None else rows
-        edges = self.edges if len(self.edges) == 1 else self.edges[known]
-        piece = piece_of(edges, np.broadcast_to(middle, (len(x), np.shape(middle)[-1])))  # one a row, or one a place
-        variant = np.broadcast_to(known[:, None] if len(self.edges) > 1 else 0, piece.shape)
-        start, end = self.edges[variant, piece], self.edges[variant, piece + 1]
-        place = (2 * x - start - end) / np.where(end > start, end - start, 1)
-        terms = self.series.reshape(len(self.series), -1)
-        return numerics.at_places(terms, variant * self.series.shape[2] + piece, place)
+def _may_reach(gap: Array) -> bool:
+    """Whether any of gaps (rows, places), above zero at their ends, may come down to zero between their places and has not yet."""
+    least = gap.min(axis=1)
+    turns = (least < gap[:, 0]) & (least < gap[:, -1]) & (least > 0)
+    return bool((turns & (np.ptp(gap, axis=1) > FLAT * least)).any())

@@ -7,9 +7,7 @@ from numpy.polynomial import chebyshev
 
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.numerics import extremes
-from diecut_report.machine.numerics.domain import SMALLEST, grid_weights, nodes_of
-from diecut_report.machine.numerics.jumps import PieceSeries
+from diecut_report.machine.numerics.domain import SMALLEST, PieceSeries, grid_weights, nodes_of
 from diecut_report.mechanics import numerics
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.names import bound
@@ -21,7 +19,7 @@ INTEGRAL_TOLERANCE = 1e-11
 SAMPLE_TOLERANCE = 1e-8
 NEGLIGIBLE = 1e-17  # share of the greatest Chebyshev coefficient below which the last ones are left out
 ROUNDING = 1e-14  # share of a difference's terms that may be rounding
-DIP_TOLERANCE = 1e-8  # of the place of a dip, as a share of its bracket
+DIP_LOOKS = 9  # closer and closer at a dip: to 1e-8 of its bracket
 SEARCHES = 5  # for crossings, each on a finer grid
 NOISE = 1e-10  # share of a curve's greatest value below which its sign is rounding
 
@@ -102,7 +100,8 @@ def crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     first, last = (run[np.flatnonzero(np.diff(variant, **ends))] for ends in ({"prepend": -1}, {"append": calc.count}))
     at_start = np.zeros(calc.count, dtype=bool)
     at_start[pieces.variant[first // points]] = sign[first] != sign[last]
-    return _rows_of(places, rows, calc.count, at_start), worst
+    found = numerics.in_rows(places, rows, calc.count)
+    return np.sort(np.concatenate([found, np.where(at_start, 0.0, np.nan)[:, None]], axis=1), axis=1), worst
 
 
 def all_crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
@@ -131,18 +130,8 @@ def _roots(calc: Calculation, curve: str, k: Array) -> tuple[Array, Array]:
     piece, k = np.divmod(k, heights.shape[1])
     ends = np.stack([k, k + 1])
     low, high = pieces.point(piece, ends)
-    return numerics.narrowed(_height_in(calc, curve, piece), low, high, heights[piece, ends])
-
-
-def _height_in(calc: Calculation, curve: str, piece: Array) -> extremes.Function:
-    """A curve at places in the pieces given."""
-
-    owned = calc.table(calc.axis[curve]).curves([curve], piece)
-
-    def height(x: Array, row: Array) -> Array:
-        return owned.at(x[:, None], row)[0][:, 0]
-
-    return height
+    own = table.curves([curve], piece)
+    return numerics.narrowed(lambda x, row: own.at(x[:, None], row)[0][:, 0], low, high, heights[piece, ends])
 
 
 def dips(calc: Calculation, curve: str) -> Array:
@@ -158,21 +147,10 @@ def dips(calc: Calculation, curve: str) -> Array:
     piece, k = piece[near], k[near]
     if not len(piece):
         return np.full((calc.count, 0), np.nan)
-    depths = np.abs(np.stack([heights[piece, k + i] for i in range(3)]))
-    side, height = np.sign(heights[piece, k]), _height_in(calc, curve, piece)
-    low, centre, high = (pieces.point(piece, k + i) for i in range(3))
-    place, depth = extremes.minimum(lambda x, row: side[row] * height(x, row), low, centre, high, depths, DIP_TOLERANCE)
-    places = np.where(depth < 0, place, np.nan)
-    return _rows_of(places, pieces.variant[piece], calc.count, np.zeros(calc.count, dtype=bool))
-
-
-def _rows_of(places: Array, rows: Array, count: int, at_start: Array) -> Array:
-    """Places found for all variants together, put into one row for each variant, ascending, NaN at the end."""
-    per_row = np.bincount(rows, minlength=count)
-    table = np.full((count, max(int(per_row.max(initial=0)), 0) + 1), np.nan)
-    table[rows, np.arange(len(rows)) - np.repeat(np.cumsum(per_row) - per_row, per_row)] = places
-    table[at_start, -1] = 0.0
-    return np.sort(table, axis=1)
+    side, own = np.sign(heights[piece, k])[:, None], table.curves([curve], piece)
+    low, high = (pieces.point(piece, k + i) for i in (0, 2))
+    place, depth = numerics.least(lambda x, row: side[row] * own.at(x, row)[0], low, high, rounds=DIP_LOOKS)
+    return numerics.in_rows(np.where(depth < 0, place, np.nan), pieces.variant[piece], calc.count)
 
 
 def accumulate(calc: Calculation, step: Accumulated) -> Array:

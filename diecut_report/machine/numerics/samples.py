@@ -11,9 +11,9 @@ from weakref import proxy
 import numpy as np
 
 from diecut_report.formulas import Array
+from diecut_report.machine.numerics.conditions import conditions_of
 from diecut_report.machine.numerics.curves import Curves, VariantRows, flags_of
 from diecut_report.machine.numerics.domain import Domain, nodes_of, shares
-from diecut_report.machine.numerics.jumps import jumping
 
 INSIDE = 2e-14  # share of the period by which places at a piece's end are moved inwards, so that rounding decides no condition
 SIZED = 4  # of so many points of a piece one tells how great a curve is there
@@ -184,7 +184,8 @@ class SampleCache:
     def _evaluated(self, names: Sequence[str], row: Rows, places: Places) -> list[Array]:
         pieces, x = self._pieces, places(self._pieces, row)
         found = self.curves(names, row).at(x)
-        jump = [name for name in names if name in jumping(tuple(self.calc.curves.items()), self.axis)]
+        known = tuple(self.calc.curves.items())
+        jump = [name for name in names if conditions_of(known, self.axis, name).may_jump]
         ends = x[:, [0, -1]]
         inside = pieces.inside(ends, row)
         if jump and (ends != inside).any():

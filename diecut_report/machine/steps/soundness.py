@@ -14,10 +14,10 @@ from diecut_report.formulas import Array
 from diecut_report.formulas.formula import formula
 from diecut_report.formulas.tree import Node, substitute, written
 from diecut_report.machine.calculation import Calculation, Impossible, Side, Unproven
-from diecut_report.machine.numerics import extremes, switching
-from diecut_report.machine.numerics.decisions import Decision
+from diecut_report.machine.numerics import extremes, jumps
+from diecut_report.machine.numerics.conditions import BranchCondition
 from diecut_report.machine.numerics.domain import shares
-from diecut_report.machine.numerics.switching import JumpFault
+from diecut_report.machine.numerics.jumps import JumpFault
 from diecut_report.machine.printing.substitution import filled
 from diecut_report.machine.steps import plain_code
 from diecut_report.mechanism.checks import Check
@@ -35,7 +35,7 @@ def require(calc: Calculation, asking: str, curve: str) -> None:
     """Refuse a single machine whose curve jumps elsewhere than at its breakpoints; mark such variants. ``asking`` asks for the curve."""
     if curve not in calc.curves:
         return
-    for variant, found in switching.faults(calc, curve):
+    for variant, found in jumps.faults(calc, curve):
         words = _words(calc, found)
         if calc.count == 1:
             raise Unproven(words, calc.curves[curve].at)
@@ -48,12 +48,12 @@ def _words(calc: Calculation, found: JumpFault) -> str:
     place = f"{axis.symbol} = {told(found.place, axis.unit)}"
     where = f"{curve.description} ({curve.id}, {Path(curve.at).name})"
     fix = Phrase("declare that place among the breakpoints of {id}, above what asks for the curve", id=axis.id)
-    if found.decision is None:
+    if found.condition is None:
         return (Phrase("{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at "
 "{place}: it would be that of the middle of the piece; {fix}, or take per_piece away", where=where, place=place, fix=fix))  # fmt: skip
-    step, link = found.decision.step, found.decision.link
+    step, link = found.condition.step, found.condition.link
     name = Phrase("the formula {name}", name=link.formula.__name__) if isinstance(step, Value) else phrase("the choice")
-    decided = written(_in_symbols(calc, found.decision))
+    decided = written(_in_symbols(calc, found.condition))
     of = (
         phrase("its formula")
         if step.id == curve.id
@@ -69,14 +69,14 @@ def _words(calc: Calculation, found: JumpFault) -> str:
     )
 
 
-def _in_symbols(calc: Calculation, decision: Decision) -> Node:
+def _in_symbols(calc: Calculation, condition: BranchCondition) -> Node:
     """What decides, with the symbols of the quantities."""
-    names = decision.link.names
+    names = condition.link.names
     shown = {
         parameter: Node("sym", (calc.step_or_input(name).symbol,)) if isinstance(name, str) else Node("num", (f"{name:g}",))
         for parameter, name in names.items()
     }  # fmt: skip
-    return substitute(decision.node, shown)
+    return substitute(condition.node, shown)
 
 
 # Where a curve is not smooth inside a smooth piece though no condition tells it: an angle that wraps, a pole, a corner.

@@ -12,10 +12,11 @@ from typing import Any
 import numpy as np
 
 from diecut_report.formulas import Array
+from diecut_report.mechanics import numerics
 
 Number = Any  # a number, or a column of one for each machine
 EVERY = np.pi / 720  # rad of the main shaft between the places that are looked at first
-ACROSS = np.linspace(-1, 1, 33)  # places of a closer look, in steps about one
+ACROSS = 32  # parts of a closer look
 CLOSE = 1e-13  # of the period, to which the least height is searched
 TOGETHER = 32  # machines that are looked at together first, as each takes many places
 
@@ -133,14 +134,12 @@ def _candidates(height: Heights, shares: Array, period: Array, machines: Array) 
 def _closer(height: Heights, machine: Array, angle: Array, step: Array, period: Array) -> LeastClearance:
     """Look closer about all places at once, until the steps are small."""
     found = LeastClearance(np.full(len(period), np.inf), np.zeros(len(period)))
-    width, whole = step[machine], period[machine]
-    lowest = np.full(len(machine), np.inf)
-    while len(machine) and (width >= CLOSE * whole).any():
-        around = angle[:, None] + width[:, None] * ACROSS
-        heights = height(around % whole[:, None], machine)
-        best = np.argmin(heights, axis=1)[:, None]
-        angle, lowest = (np.take_along_axis(each, best, axis=1)[:, 0] for each in (around, heights))
-        width = width * 2 / (len(ACROSS) - 1)
-    for place in np.argsort(-lowest, kind="stable"):  # the lowest of a machine comes last
-        found.height[machine[place]], found.angle[machine[place]] = lowest[place], angle[place] % whole[place]
+    whole, width = period[machine], step[machine]
+    if len(machine):
+        rounds = 1 + int(np.log(np.max(width / whole) / CLOSE) / np.log(ACROSS / 2))
+        angle, lowest = numerics.least(
+            lambda x, own: height(x % whole[own, None], machine[own]), angle - width, angle + width, ACROSS, rounds
+        )
+        for place in np.argsort(-lowest, kind="stable"):  # the lowest of a machine comes last
+            found.height[machine[place]], found.angle[machine[place]] = lowest[place], angle[place] % whole[place]
     return found

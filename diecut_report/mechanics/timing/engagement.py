@@ -15,15 +15,15 @@ from numpy.polynomial import legendre
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import formula
 from diecut_report.formulas.tree import as_number
-from diecut_report.mechanics.numerics import root
-from diecut_report.mechanics.timing.shaft_curves import NARROW, NODES, TO_SERIES, WEIGHTS, PieceRows, vertices
+from diecut_report.mechanics import numerics
+from diecut_report.mechanics.timing.shaft_curves import NARROW, NODES, TO_SERIES, WEIGHTS, PieceRows
 
 TURN = 2 * np.pi
 AT = 1e-9  # rad from a dead centre that is none
 LOOKS = 240  # places of a turn at which the end of a slip is looked for
 STARTS = 40  # engagement angles that are tried over a turn
 ZOOMS = 3  # times that the worst of them is looked at closer
-ACROSS = np.linspace(-1, 1, 9)  # places of a closer look
+ACROSS = 8  # parts of a closer look
 PIECES = 3  # of a slip, in which its time is integrated
 CLOSE = 1e-14  # rad to which the end of a slip is known
 _SHARES = ((np.arange(PIECES)[:, None] + (NODES + 1) / 2) / PIECES).ravel()
@@ -96,15 +96,18 @@ def slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, engageme
 def worst_slip(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch) -> Slip:
     """Return the engagements from rest with the greatest heat, of all crank angles."""
     machines = np.arange(len(clutch.torque))
-    angles = np.tile(np.linspace(0, TURN, STARTS, endpoint=False), (len(machines), 1))
-    width = TURN / STARTS
-    for zoom in range(1 + ZOOMS):
+
+    def head_start(angles: Array, _: Array) -> Array:
+        """By how much less than nothing the driven side lags behind."""
         driven, time = _slips(inertia, dead_centers, clutch, angles)
-        heats = np.nan_to_num(clutch.speed[:, None] * time - driven)
-        best = angles[machines, np.argmax(heats, axis=1)]
-        if zoom < ZOOMS:
-            angles, width = best[:, None] + width * ACROSS, width * (ACROSS[1] - ACROSS[0])
-    return slip(inertia, dead_centers, clutch, (best + width * vertices(heats)) % TURN)
+        lag: Array = np.nan_to_num(clutch.speed[:, None] * time - driven)
+        return -lag
+
+    starts = np.tile(np.linspace(0, TURN, STARTS, endpoint=False), (len(machines), 1))
+    best = starts[machines, head_start(starts, machines).argmin(axis=1)]
+    width = TURN / STARTS
+    angle = numerics.vertex(*numerics.looks(head_start, best - width, best + width, ACROSS, ZOOMS))
+    return slip(inertia, dead_centers, clutch, angle % TURN)
 
 
 def _slips(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch, starts: Array) -> tuple[Array, Array]:
@@ -128,7 +131,7 @@ def _driven_angles(inertia: Inertia, dead_centers: Array, clutch: SlippingClutch
         felt = inertia((begins[slip] + driven)[:, None], row)[:, 0]
         return np.asarray(clutch.net[row] * driven - felt * clutch.speed[row] ** 2 / 2)
 
-    found = root(missing, low.ravel(), high.ravel(), CLOSE)
+    found = numerics.root(missing, low.ravel(), high.ravel(), CLOSE)
     ended = np.where(np.isfinite(found), found, high.ravel()).reshape(starts.shape)
     return np.where(clutch.net[:, None] > 0, ended, np.nan)
 

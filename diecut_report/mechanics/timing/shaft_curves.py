@@ -29,7 +29,6 @@ LOOK = np.linspace(-1, 1, 41)  # where a piece is looked at before its greatest 
 _LOOK_VALUES = legendre.legvander(LOOK, COUNT)
 NARROW = 1e-12  # a piece that is no wider holds nothing
 BESIDE = 1e-11  # as near as a place is to an edge that it is taken to be on
-CLOSER = np.linspace(-1, 1, 17)
 TO_CHEBYSHEV = numerics.of_legendre(COUNT + 1)
 RESOLVED = 1e-12  # of the greatest coefficient, below which a term is nothing
 LOOKS = 3  # each makes the place of an extreme closer by 1/8; a parabola through the last ones does the rest
@@ -183,29 +182,15 @@ class PieceRows:
         np.minimum.at(lows, self.machine, looks.min(axis=1))
         near = tops - 1e-2 * (tops - lows)
         piece = np.flatnonzero(looks.max(axis=1) >= near[self.machine])
-        place, width = LOOK[np.argmax(looks[piece], axis=1)], 2 / (len(LOOK) - 1)
-        for _ in range(LOOKS):
-            around = np.clip(place, width - 1, 1 - width)[:, None] + width * CLOSER
-            found = sign * self._in_pieces(piece[:, None], around)
-            best = np.argmax(found, axis=1)[:, None]
-            place, width = np.take_along_axis(around, best, axis=1)[:, 0], width / 8
-            np.maximum.at(tops, self.machine[piece], np.take_along_axis(found, best, axis=1)[:, 0])
-        vertex = place + width * vertices(found)
-        np.maximum.at(tops, self.machine[piece], sign * self._in_pieces(piece[:, None], vertex[:, None])[:, 0])
+        width = 2 / (len(LOOK) - 1)
+        place = np.clip(LOOK[np.argmax(looks[piece], axis=1)], width - 1, 1 - width)
+        closer, found = numerics.looks(
+            lambda x, own: -sign * self._in_pieces(piece[own, None], x), place - width, place + width, rounds=LOOKS
+        )
+        vertex = numerics.vertex(closer, found)
+        highest = np.maximum(-found.min(axis=1), sign * self._in_pieces(piece[:, None], vertex[:, None])[:, 0])
+        np.maximum.at(tops, self.machine[piece], highest)
         return tops
-
-
-def vertices(heights: Array) -> Array:
-    """Return where a parabola through the greatest of equally spaced values (rows, places) and its neighbours is highest.
-
-    It is counted in their spacing from the greatest, at most half of it; 0 where the greatest is the first or the last.
-    """
-    best = np.argmax(heights, axis=1)
-    inner = np.clip(best, 1, heights.shape[1] - 2)
-    before, here, after = (heights[np.arange(len(heights)), inner + step] for step in (-1, 0, 1))
-    bend = before - 2 * here + after
-    found = np.where((bend < 0) & (best == inner), (before - after) / (2 * np.where(bend < 0, bend, -1.0)), 0.0)
-    return np.clip(found, -0.5, 0.5)
 
 
 # What is read from curves over a turn of many machines at once: where they change their sign, and their range.
@@ -218,8 +203,7 @@ Curve = Callable[[Array, Array, Array], Array]
 
 TURN_SAMPLES_PIECES = 16  # of a turn, at least
 TURN_SAMPLES_COUNT = 12  # Gauss–Legendre places in a piece
-TURN_SAMPLES_NODES = np.polynomial.legendre.leggauss(TURN_SAMPLES_COUNT)[0]
-SHARES = (np.concatenate([[-1.0], TURN_SAMPLES_NODES, [1.0]]) + 1) / 2
+SHARES = (np.concatenate([[-1.0], legendre.leggauss(TURN_SAMPLES_COUNT)[0], [1.0]]) + 1) / 2
 ACROSS = np.linspace(0, 1, 17)  # places of a closer look
 TURN_SAMPLES_LOOKS = 4  # each makes a bracket narrower by 1/16, or by 1/8 about an extreme
 
@@ -267,7 +251,7 @@ class TurnSamples:
             first = np.argmax(_changes(self._values(closer, piece)), axis=1)
             each = np.arange(len(piece))
             low, high = closer[each, first], closer[each, first + 1]
-        return in_rows((low + high) / 2, self._pieces[0][piece], len(self.breakpoints))
+        return numerics.in_rows((low + high) / 2, self._pieces[0][piece], len(self.breakpoints))
 
     @property
     def range(self) -> Array:
@@ -284,21 +268,13 @@ class TurnSamples:
         spread = np.ptp(values) if len(values) else 0.0
         piece = np.flatnonzero((sign * values).max(axis=1) >= tops[machine] - 1e-2 * spread)
         place, width = places[piece, best[piece]], (high - low)[piece] / 4
-        for _ in range(TURN_SAMPLES_LOOKS):
-            closer = np.clip(place[:, None] + width[:, None] * (2 * ACROSS - 1), low[piece, None], high[piece, None])
-            found = sign * self._values(closer, piece)
-            top = np.argmax(found, axis=1)[:, None]
-            place, width = np.take_along_axis(closer, top, axis=1)[:, 0], width / 8
-            np.maximum.at(tops, machine[piece], np.take_along_axis(found, top, axis=1)[:, 0])
+        ends = low[piece, None], high[piece, None]
+        _, lows = numerics.least(
+            lambda x, own: -sign * self._values(np.clip(x, *ends), piece[own]),
+            place - width, place + width, rounds=TURN_SAMPLES_LOOKS,
+        )  # fmt: skip
+        np.maximum.at(tops, machine[piece], -lows)
         return tops[:, None]
-
-
-def in_rows(places: Array, machine: Array, count: int) -> Array:
-    """Return places as rows of their machines (ascending), shape (machines, most), NaN behind them."""
-    number = np.bincount(machine, minlength=count)
-    found = np.full((count, int(number.max(initial=0))), np.nan)
-    found[machine, np.arange(len(machine)) - (np.cumsum(number) - number)[machine]] = places
-    return found
 
 
 def _changes(values: Array) -> Array:

@@ -6,7 +6,8 @@ import numpy as np
 import pytest
 
 from diecut_report.formulas import Array
-from diecut_report.mechanics.timing.shaft_curves import PieceRows, vertices
+from diecut_report.mechanics.numerics import vertex
+from diecut_report.mechanics.timing.shaft_curves import PieceRows
 
 
 def test_a_machine_without_values_leaves_those_behind_it_alone() -> None:
@@ -24,8 +25,8 @@ def test_a_machine_without_values_leaves_those_behind_it_alone() -> None:
 
 @pytest.mark.parametrize("bend", [0.3, 1.0, 40.0])
 def test_the_vertex_of_a_parabola_is_found_between_its_samples(bend: float) -> None:
-    tops = np.array([[3.4], [2.7], [5.0]])
-    heights = -bend * (np.arange(9) - tops) ** 2
-    assert vertices(heights) == pytest.approx([0.4, -0.3, 0.0], abs=1e-12)
-    ends = -bend * (np.arange(9) - np.array([[-1.2], [9.3]])) ** 2
-    assert (vertices(ends) == 0).all()  # the greatest is the first or the last
+    places = np.tile(np.arange(9.0), (3, 1))
+    lows = np.array([[3.4], [2.7], [5.0]])
+    assert vertex(places, bend * (places - lows) ** 2) == pytest.approx(lows[:, 0], abs=1e-12)
+    ends = bend * (places[:2] - np.array([[-1.2], [9.3]])) ** 2
+    assert vertex(places[:2], ends).tolist() == [0, 8]  # the least is the first or the last
