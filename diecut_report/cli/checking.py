@@ -37,7 +37,7 @@ from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.loader import SHOWN, is_study
 from diecut_report.config.loader import SHOWN as STANDARD_INPUT
 from diecut_report.config.plugins import Discovery
-from diecut_report.errors import TOLD, PluginError, Problem, UserError
+from diecut_report.errors import TOLD, PluginError, Problem, UserError, refusal
 from diecut_report.results.conclusion import conclusion, doubtful_kinds, is_open
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
@@ -340,8 +340,7 @@ def _write(
         made = compared(in_language(found, spoken_catalogues(discovery)))
         contents = dict(pages.files(made, folder, formats, compared(found)))
     if kept := set(contents) & set(files):
-        words = Phrase("{file} is one of the configurations, and is not overwritten.", file=min(kept))
-        raise UserError(Problem(words))
+        raise refusal("{file} is one of the configurations, and is not overwritten.", file=min(kept))
     write_all(contents, keep=files[0])
     if not quiet:
         tell_written(contents)

@@ -238,9 +238,8 @@ def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
             said(Phrase("{name}: {fault}", name=name, fault=fault)), param_hint="--tolerance"
         ) from None
     if value <= 0:
-        raise click.BadParameter(
-            say("{name}: {size} is not above zero", name=name, size=size), param_hint="--tolerance"
-        )
+        words = "{name}: {size} is not above zero"
+        raise click.BadParameter(say(words, name=name, size=size), param_hint="--tolerance")
     return design, value
 
 

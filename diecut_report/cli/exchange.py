@@ -32,7 +32,7 @@ from diecut_report.cli.output import (
 from diecut_report.cli.plugins import template_option
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
 from diecut_report.text.translation import said, say, speaking
@@ -318,8 +318,8 @@ def sign(
     out = target or report
     for given in filter(None, (key, cert)):
         if out.exists() and given.exists() and out.samefile(given):
-            words = phrase("This is the key or its certificate; it would be written over. Choose another file with -o.")
-            raise UserError(Problem(words, str(out)))
+            words = "This is the key or its certificate; it would be written over. Choose another file with -o."
+            raise refusal(words, out)
     found = signing_key(key, cert, _password)
     signed(
         Signing(report, out, field, reason),
@@ -334,10 +334,17 @@ def _require_as_made(report: Path, asked: HeldAgainst, discovery: Discovery, qui
     carried, found = verified(report, asked, discovery, quiet)
     if not found.holds:
         faults = [line for line in verification_lines(carried, found) if line.startswith(("✗", " "))]
-        words = phrase(
-            "The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:"
+        raise UserError(
+            [
+                Problem(
+                    phrase(
+                        "The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:"
+                    ),
+                    str(report),
+                ),
+                *map(Problem, faults),
+            ]
         )
-        raise UserError([Problem(words, str(report)), *map(Problem, faults)])
 
 
 def _password() -> bytes:
@@ -345,10 +352,9 @@ def _password() -> bytes:
     if given is not None:
         return given.encode()
     if not sys.stdin or not sys.stdin.isatty():
-        words = Phrase(
-            "The key has a password. Set the variable {password}, or run the command on a terminal, which asks for it.",
-            password=PASSWORD,
+        words = (
+            "The key has a password. Set the variable {password}, or run the command on a terminal, which asks for it."
         )
-        raise UserError(Problem(words))
+        raise refusal(words, password=PASSWORD)
     asked: str = click.prompt(say("Password of the key"), hide_input=True, err=True)
     return asked.encode()

@@ -61,7 +61,7 @@ from diecut_report.cli.output import (
 from diecut_report.cli.plugins import check_plugin, new, new_plugin, template_option
 from diecut_report.cli.study import batch, take, variants
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
-from diecut_report.errors import PluginError, Problem, Unwritable, UserError
+from diecut_report.errors import PluginError, Unwritable, UserError, refusal
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import said, say, speak, speaking
@@ -317,7 +317,7 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
             with without_output():
                 found[name] = discovery.mechanism(name)
         except (UnknownKind, DuplicateKind) as fault:
-            raise UserError(Problem(str(fault))) from None
+            raise refusal(str(fault)) from None
         except PluginError as error:
             tell([str(error)])
             broken[name] = error.message

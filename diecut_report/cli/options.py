@@ -12,7 +12,7 @@ import click
 from diecut_report.cli.output import tell
 from diecut_report.config.loader import SHOWN, load_standard_input
 from diecut_report.config.yaml import Tree
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.errors import nearest, refusal
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import say
 
@@ -93,8 +93,7 @@ def from_standard_input() -> Tree:
     """Return what standard input holds; UserError where the command has read it already."""
     meta = click.get_current_context().meta
     if meta.get(READ):
-        words = phrase("Standard input has been read already; give - once, and files beside it.")
-        raise UserError(Problem(words, SHOWN))
+        raise refusal("Standard input has been read already; give - once, and files beside it.", SHOWN)
     meta[READ] = True
     return load_standard_input()
 
@@ -126,23 +125,16 @@ def detail_given(_: click.Context, __: click.Parameter, given: str | None) -> st
 
     if given is None or given in DETAILS:
         return given
-    raise click.BadParameter(
-        say(
-            "{given} is not a detail{nearest}; known: {known}.",
-            given=repr(given),
-            nearest=nearest(given, DETAILS),
-            known=", ".join(DETAILS),
-        )
-    )
+    words = "{given} is not a detail{nearest}; known: {known}."
+    raise click.BadParameter(say(words, given=repr(given), nearest=nearest(given, DETAILS), known=", ".join(DETAILS)))
 
 
 def only_given(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
     """Return the mechanisms that are asked for; BadParameter where none is named."""
     names = tuple(dict.fromkeys(part.strip() for part in (given or "").split(",") if part.strip()))
     if given is not None and not names:
-        raise click.BadParameter(
-            say("no mechanism is named; give names of the configuration, with commas: drive,clutch.")
-        )
+        words = "no mechanism is named; give names of the configuration, with commas: drive,clutch."
+        raise click.BadParameter(say(words))
     return names
 
 

@@ -341,9 +341,8 @@ def emit(text: str) -> bool:
         from diecut_report.files import reason
 
         _close_output()
-        raise Unwritable(
-            Problem(Phrase("Standard output cannot be written: {reason}", reason=reason(error)))
-        ) from error
+        words = "Standard output cannot be written: {reason}"
+        raise Unwritable(Problem(Phrase(words, reason=reason(error)))) from error
     return True
 
 

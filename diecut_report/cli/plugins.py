@@ -31,7 +31,7 @@ from diecut_report.cli.output import (
 )
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery, DuplicateKind
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 from diecut_report.text.translation import said, say, speaking, spoken_language
 
@@ -90,8 +90,7 @@ def _list(discovery: Discovery) -> int:
 def _refuse_existing(file: Path) -> None:
     """Refuse a file that is there; a device or a pipe is written into."""
     if os.path.lexists(file) and (file.is_file() or file.is_symlink() or file.is_dir()):
-        words = phrase("This is there already; it is not written over. Choose another name, or give --force.")
-        raise UserError(Problem(words, str(file)))
+        raise refusal("This is there already; it is not written over. Choose another name, or give --force.", file)
 
 
 def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]:

@@ -48,22 +48,11 @@ def lacking(catalogues: Catalogues, kinds: Iterable[str]) -> list[str]:
 def _lacking(kind: str, catalogues: Catalogues) -> str:
     own, language = catalogues.of(kind), catalogues.language
     if own is None:
-        return Phrase(
-            "The plugin of {kind} has no catalogue locale/{language}.po; its words stay English.",
-            kind=repr(kind),
-            language=language,
-        )
+        words = "The plugin of {kind} has no catalogue locale/{language}.po; its words stay English."
+        return Phrase(words, kind=repr(kind), language=language)
     count = len(own.missing)
-    return (
-        Phrase(
-            "The catalogue {language} of the plugin of {kind} lacks {count} texts, which stay English.",
-            language=language,
-            kind=repr(kind),
-            count=count,
-        )
-        if count
-        else ""
-    )
+    words = "The catalogue {language} of the plugin of {kind} lacks {count} texts, which stay English."
+    return Phrase(words, language=language, kind=repr(kind), count=count) if count else ""
 
 
 def _incomplete(kind: str, catalogues: Catalogues, file: str) -> Problem | None:

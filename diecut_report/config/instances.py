@@ -23,7 +23,7 @@ from diecut_report.mechanism.names import FromPress, Text
 from diecut_report.mechanism.part_steps import ComputedCurve, PartNames
 from diecut_report.mechanism.steps import PREFIX, Step, part_result
 from diecut_report.quantities.units import UnitError, kind_name, unit
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import MessageError, Phrase, phrase
 
 # What blocks take from the user's own tables: an entry that is named gives its keys, with what they rest on.
 
@@ -140,20 +140,10 @@ class _Taker:
         known = self.tables.names(table)
         if not known:
             file = phrase("in a file that materials: names")
-            return Phrase(
-                "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}",
-                name=told(name),
-                table=table,
-                name_2=name,
-                file=file,
-            )
-        return Phrase(
-            "is {name}{nearest}; {table} has {known}",
-            name=told(name),
-            nearest=nearest(name, known),
-            table=table,
-            known=", ".join(known[:NAMED]),
-        )
+            words = "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}"
+            return Phrase(words, name=told(name), table=table, name_2=name, file=file)
+        words = "is {name}{nearest}; {table} has {known}"
+        return Phrase(words, name=told(name), nearest=nearest(name, known), table=table, known=", ".join(known[:NAMED]))
 
     def _judge(self, model: type[Block], rule: FromTable) -> None:
         """Judge all entries of a table by the block that may take them, whether it does or not."""
@@ -178,13 +168,14 @@ def _faults(model: type[Block], rule: FromTable, entry: Entry) -> Iterator[Probl
     place, known = ConfigPlace(entry.tree, entry.path), list(rule.gives.values())
     for key in entry.keys:
         if key not in known:
-            words = Phrase(
+            yield place.problem(
+                (key,),
                 "is an unknown key{nearest}. An entry of {table} has {text}.",
+                at_key=True,
                 nearest=nearest(key, known),
                 table=rule.table,
                 text=", ".join([SOURCE, *known]),
             )
-            yield place.problem((key,), words, at_key=True)
     for own, theirs in rule.gives.items():
         if theirs in entry.keys:
             field = keys_of(model)[own].field
@@ -260,7 +251,7 @@ class Target:
         return f"“{self.path}”" if self.expression else f"${{{self.path}}}"
 
 
-class Unresolved(LookupError):
+class Unresolved(MessageError, LookupError):
     """A reference that stands for nothing, in words."""
 
 
@@ -373,19 +364,13 @@ class Instance:
         if phase in self.declared_steps:
             chapter, step = self.declared_steps[phase]
             missing = [key for key in (*chapter.needs, *step.needs) if key not in self.given]
-            return Phrase(
-                "is there only if {missing} is given in {name}.", missing=" and ".join(missing), name=self.name
-            )
+            words = "is there only if {missing} is given in {name}."
+            return Phrase(words, missing=" and ".join(missing), name=self.name)
         name, known = phase.removeprefix(PREFIX), [each.removeprefix(PREFIX) for each in self.phases]
         near = nearest(name, known)
         told = Phrase(" Known: {known}.", known=", ".join(known)) if known else phrase(" Its kind has none.")
-        return Phrase(
-            "names no phase: {name} has no phase {name_2}{near}.{told}",
-            name=self.name,
-            name_2=repr(name),
-            near=near,
-            told=("" if near else told),
-        )
+        words = "names no phase: {name} has no phase {name_2}{near}.{told}"
+        return Phrase(words, name=self.name, name_2=repr(name), near=near, told=("" if near else told))
 
     @cached_property
     def rows(self) -> dict[str, str]:
@@ -465,11 +450,8 @@ def faults(given: Any, instances: Mapping[str, Instance | None], place: ConfigPl
     if given is None:
         return
     if not isinstance(given, dict):
-        words = Phrase(
-            "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}",
-            given=told(given),
-        )
-        yield place.problem((UNITS,), words)
+        words = "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}"
+        yield place.problem((UNITS,), words, given=told(given))
         return
     for key, chosen in given.items():
         wanted = wanted_units(key, instances)
@@ -486,28 +468,17 @@ def wanted_units(key: Any, instances: Mapping[str, Instance | None]) -> tuple[st
     name, dot, quantity = str(key).partition(".")
     if not dot:
         near = nearest(name, DIMENSIONS)
-        return Phrase(
-            "is not a dimension{near}; give MECHANISM.QUANTITY, or one of: {dimensions}",
-            near=near,
-            dimensions=", ".join(DIMENSIONS),
-        )
+        words = "is not a dimension{near}; give MECHANISM.QUANTITY, or one of: {dimensions}"
+        return Phrase(words, near=near, dimensions=", ".join(DIMENSIONS))
     instance = instances.get(name)
     if instance is None:
         known = [each for each, found in instances.items() if found is not None]
-        return Phrase(
-            "names {name}, which is not there{nearest}; known: {known}",
-            name=name,
-            nearest=nearest(name, known),
-            known=", ".join(known),
-        )
+        words = "names {name}, which is not there{nearest}; known: {known}"
+        return Phrase(words, name=name, nearest=nearest(name, known), known=", ".join(known))
     units = _units(instance)
     if quantity not in units:
-        return Phrase(
-            "names {quantity}, which is not a quantity of {name} with a number{nearest}",
-            quantity=quantity,
-            name=name,
-            nearest=nearest(quantity, units),
-        )
+        words = "names {quantity}, which is not a quantity of {name} with a number{nearest}"
+        return Phrase(words, quantity=quantity, name=name, nearest=nearest(quantity, units))
     return units[quantity]
 
 
@@ -529,19 +500,11 @@ def _unit_fault(chosen: Any, wanted: tuple[str, ...]) -> str:
     try:
         found = unit(chosen)
     except UnitError as error:
-        return Phrase(
-            "{error} Give a unit of {kind_name}, such as {wanted}.",
-            error=error,
-            kind_name=kind_name(unit(wanted[0])),
-            wanted=wanted[0],
-        )
+        words = "{error} Give a unit of {kind_name}, such as {wanted}."
+        return Phrase(words, error=error, kind_name=kind_name(unit(wanted[0])), wanted=wanted[0])
     if found.si not in {unit(each).si for each in wanted}:
-        return Phrase(
-            "is a unit of {kind_name}; one of {kind_name_2} is needed, such as {wanted}",
-            kind_name=kind_name(found),
-            kind_name_2=kind_name(unit(wanted[0])),
-            wanted=wanted[0],
-        )
+        words = "is a unit of {kind_name}; one of {kind_name_2} is needed, such as {wanted}"
+        return Phrase(words, kind_name=kind_name(found), kind_name_2=kind_name(unit(wanted[0])), wanted=wanted[0])
     return ""
 
 

@@ -18,7 +18,7 @@ from diecut_report.config.references import Linker, linked, ordered
 from diecut_report.config.source_hashes import plugin_hash, program_hash
 from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
 from diecut_report.config.yaml import MAX_BYTES, KeyPath, Tree, read, seeming_latin, too_much
-from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
 from diecut_report.files import standard_input
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput
@@ -88,20 +88,11 @@ def partner_fault(partner: Partner, name: Any, kinds: Kinds) -> str:
     wanted = " or ".join(partner.kinds)
     if not isinstance(name, str) or name not in kinds:
         near = nearest(name, kinds) if isinstance(name, str) else ""
-        return Phrase(
-            "is {name}; the name of a mechanism of kind {wanted} is needed{near}. Known: {kinds}.",
-            name=told(name),
-            wanted=wanted,
-            near=near,
-            kinds=", ".join(kinds),
-        )
+        words = "is {name}; the name of a mechanism of kind {wanted} is needed{near}. Known: {kinds}."
+        return Phrase(words, name=told(name), wanted=wanted, near=near, kinds=", ".join(kinds))
     if kinds[name] not in partner.kinds:
-        return Phrase(
-            "is {name}, of kind {kinds}; the name of a mechanism of kind {wanted} is needed.",
-            name=name,
-            kinds=kinds[name],
-            wanted=wanted,
-        )
+        words = "is {name}, of kind {kinds}; the name of a mechanism of kind {wanted} is needed."
+        return Phrase(words, name=name, kinds=kinds[name], wanted=wanted)
     return ""
 
 
@@ -154,7 +145,7 @@ def refuse_study(tree: Tree) -> None:
         command = "optimise" if "optimise" in tree.data else "batch"
         words = "This is a study: calculate it with diecut-report {command} {file}, or give its base, {base}"
         base = PurePath(tree.file).parent / str(tree.data.get("base", "…"))
-        raise UserError(Problem(Phrase(words, command=command, file=tree.file, base=base), tree.file))
+        raise refusal(words, tree.file, command=command, file=tree.file, base=base)
 
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
@@ -316,13 +307,15 @@ class _ConfigReader:
         if fault:
             self.problems.append(place.problem((), fault, at_key=True))
         elif not isinstance(body, dict):
-            self.problems.append(
-                place.problem((), Phrase("is {body}; a block of keys with its kind is needed", body=told(body)))
-            )
+            words = "is {body}; a block of keys with its kind is needed"
+            self.problems.append(place.problem((), words, body=told(body)))
         elif not isinstance(body.get("kind"), str):
             words = Phrase("is missing. Give one of: {origins}.", origins=", ".join(self.discovery.origins))
-            given = Phrase("is {kind}; the name of a kind is needed", kind=told(body.get("kind")))
-            self.problems.append(place.problem(("kind",), given) if "kind" in body else place.absent(("kind",), words))
+            self.problems.append(
+                place.problem(("kind",), "is {kind}; the name of a kind is needed", kind=told(body.get("kind")))
+                if "kind" in body
+                else place.absent(("kind",), words)
+            )
         else:
             self._of_kind(name, body["kind"], {key: value for key, value in body.items() if key != "kind"}, place)
 

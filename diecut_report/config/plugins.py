@@ -29,7 +29,7 @@ from typing import Any
 from diecut_report import __version__
 from diecut_report.config import yaml
 from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin
-from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.errors import PluginError, nearest, refusal
 from diecut_report.formulas.formula import FormulaError
 from diecut_report.mechanism.mechanism import CONTRACT, Mechanism
 from diecut_report.mechanism.names import Misdeclared
@@ -147,9 +147,7 @@ def announced(folder: Path, group: str) -> dict[str, tuple[str, str]]:
         found = told.get("entry-points", {}).get(group, {})
         places = {kind: str(place).partition(":") for kind, place in found.items()}
     except (tomllib.TOMLDecodeError, AttributeError) as error:
-        raise UserError(
-            Problem(Phrase("This project of a package cannot be read: {error}", error=error), str(project))
-        ) from None
+        raise refusal("This project of a package cannot be read: {error}", project, error=error) from None
     return {kind: (_source(folder, module), attribute) for kind, (module, _, attribute) in places.items()}
 
 
@@ -258,9 +256,7 @@ class Discovery:
                     origin.load()
                 self.extended[origin.kind] = module_hash(origin.file())
             except (Exception, SystemExit) as cause:
-                raise UserError(
-                    Problem(Phrase("This extension cannot be loaded: {said}.", said=said(cause)), origin.told)
-                ) from cause
+                raise refusal("This extension cannot be loaded: {said}.", origin.told, said=said(cause)) from cause
 
     def mechanism(self, kind: str) -> Mechanism:
         """The mechanism of a kind.
@@ -396,9 +392,7 @@ def _extensions(folder: Path) -> Iterator[Origin]:
 def in_folder(folder: Path) -> Iterator[Origin]:
     """Yield the kinds of a folder of plugins, or of the project of a package; UserError where there is no such folder."""
     if not folder.is_dir():
-        raise UserError(
-            Problem(phrase("There is no such folder of plugins. Check the name given with --plugins."), str(folder))
-        )
+        raise refusal("There is no such folder of plugins. Check the name given with --plugins.", folder)
     if (folder / LIST).is_file():
         yield from _in_files(folder, _listed(folder))
     elif kinds := announced(folder, GROUP):
@@ -427,9 +421,7 @@ def _names_in(folder: Path) -> list[str]:
 def _listed(folder: Path) -> dict[str, tuple[str, str]]:
     tree = yaml.load(folder / LIST)
     if not isinstance(tree.data, dict) or not all(isinstance(value, str) for value in tree.data.values()):
-        raise UserError(
-            Problem(phrase("A list of kinds is needed, each as KIND: FILE.py or KIND: FILE.py:ATTRIBUTE."), tree.file)
-        )
+        raise refusal("A list of kinds is needed, each as KIND: FILE.py or KIND: FILE.py:ATTRIBUTE.", tree.file)
     found = {}
     for kind, place in tree.data.items():
         name, _, attribute = place.partition(":")

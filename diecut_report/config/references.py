@@ -88,8 +88,8 @@ class Linker:
         ):
             return None
         if isinstance(meta, CurveInput) and declared(instance.model, key):
-            raise Unresolved(Phrase("“{strip}” calculates a number; a curve is needed here, and is referred to whole",
-                strip=text.strip()))  # fmt: skip
+            words = "“{strip}” calculates a number; a curve is needed here, and is referred to whole"
+            raise Unresolved(words, strip=text.strip())
         terms: dict[str, Target] = {}
         try:
             found = read_expression(text, lambda name: self._term(name, terms))
@@ -109,9 +109,9 @@ class Linker:
         if target.is_broken:
             raise _BrokenTerm
         if target.is_curve:
-            raise ConditionError(Phrase("{name} is a curve; single numbers are needed to calculate with.", name=name))
+            raise ConditionError("{name} is a curve; single numbers are needed to calculate with.", name=name)
         if target.unit is None:
-            raise ConditionError(Phrase("{name} is not a number; numbers and quantities are needed to calculate with.", name=name))  # fmt: skip
+            raise ConditionError("{name} is not a number; numbers and quantities are needed to calculate with.", name=name)  # fmt: skip
         meta = declared(self._of(target).model, target.key) if target.key else None
         return Name(name, "number", target.unit, meta.unit if isinstance(meta, Quantity) else "")
 
@@ -126,10 +126,8 @@ class Linker:
         if isinstance(meta, CurveInput) and not target.is_broken:
             single = target.unit is not None and not target.is_curve
             if not single or unit(str(target.unit)).kind != unit(meta.unit).kind:
-                raise Unresolved(
-                    Phrase("${{path}} is not a single quantity in {pretty}, as the other values are", path=target.path, pretty=pretty(
-                        meta.unit))
-                )  # fmt: skip
+                raise Unresolved("${{path}} is not a single quantity in {pretty}, as the other values are", path=target.path, pretty=pretty(
+                        meta.unit))  # fmt: skip
         return target
 
     def _from_press(self, instance: Instance) -> None:
@@ -148,9 +146,14 @@ class Linker:
     def _no_default(self, instance: Instance, slot: Slot, default: FromPress) -> Problem:
         assert isinstance(slot.meta, Quantity)
         field, key = default.path.removeprefix(f"{PRESS}."), slot.key[-1]
-        message = (Phrase("{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}.", key=key,
-            field=field, text=pretty(slot.meta.unit) or phrase("a number"), path=default.path))  # fmt: skip
-        return instance.place.absent(slot.key, message)
+        return instance.place.absent(
+            slot.key,
+            "{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}.",
+            key=key,
+            field=field,
+            text=pretty(slot.meta.unit) or phrase("a number"),
+            path=default.path,
+        )
 
     # --- what a path stands for --------------------------------------------------------------------------------------
 
@@ -158,24 +161,23 @@ class Linker:
         """What a reference stands for; Unresolved in words where it stands for nothing."""
         match = WHOLE.fullmatch(text.strip())
         if match is None:
-            raise Unresolved(
-                Phrase("“{text}” mixes a reference with text; a reference stands for a whole value, as in ${press.name}.", text=text)
-            )  # fmt: skip
+            words = "“{text}” mixes a reference with text; a reference stands for a whole value, as in ${press.name}."
+            raise Unresolved(words, text=text)
         path = match[1].strip()
         name, *rest = path.split(".")
         if name not in self.instances:
             if seeming := seeming_latin(name):
                 raise Unresolved(f"${{{path}}}: {seeming}")
             near = nearest(name, self.instances)
-            raise Unresolved(Phrase("${{path}}: there is no mechanism {name}{near}. Known: {instances}.", path=path, name=repr(name),
-                near=near, instances=', '.join(self.instances)))  # fmt: skip
+            words = "${{path}}: there is no mechanism {name}{near}. Known: {instances}."
+            raise Unresolved(words, path=path, name=repr(name), near=near, instances=", ".join(self.instances))
         instance = self.instances[name]
         if instance is None:
             return Target(path, name, is_broken=True)
         if not rest or not all(rest):
             example = next(iter(_known(instance)), "output")
-            raise Unresolved(Phrase("${{path}} names no value; add an output or input, as in ${{name}.{example}}.", path=path, name=name,
-                example=example))  # fmt: skip
+            words = "${{path}} names no value; add an output or input, as in ${{name}.{example}}."
+            raise Unresolved(words, path=path, name=name, example=example)
         if rest[0] == PHASES and len(rest) > 1:
             return self._phase(path, instance, ".".join(rest))
         return self._result(path, instance, ".".join(rest)) or self._input(path, instance, rest)
@@ -196,17 +198,23 @@ class Linker:
                 self.links[node] = Target(slot.value, slot.value, result="", is_broken=is_broken, is_mechanism=True)
             else:
                 self.unresolved.add(node)
-                words = Phrase("there is no mechanism {value}{nearest}. Known: {known}.", value=repr(slot.value), nearest=nearest(
-                    slot.value, known), known=', '.join(known))  # fmt: skip
-                self.problems.append(instance.place.problem(slot.key, words))
+                self.problems.append(
+                    instance.place.problem(
+                        slot.key,
+                        "there is no mechanism {value}{nearest}. Known: {known}.",
+                        value=repr(slot.value),
+                        nearest=nearest(slot.value, known),
+                        known=", ".join(known),
+                    )
+                )
 
     def _result(self, path: str, instance: Instance, result: str) -> Target | None:
         if result in instance.results:
             si, many = instance.results[result]
             home = instance.rows.get(result)
             if home:
-                raise Unresolved(Phrase("${{path}} has a value for each of {home}; refer to one, as in ${{path}.0}.", path=path,
-                    home=home))  # fmt: skip
+                words = "${{path}} has a value for each of {home}; refer to one, as in ${{path}.0}."
+                raise Unresolved(words, path=path, home=home)
             return Target(path, instance.name, result=result, unit=si, is_curve=many)
         part = named(result, instance.declared)
         if part and part.role == "part" and part.id in instance.results and instance.results[part.id][1]:
@@ -219,27 +227,26 @@ class Linker:
         name = ".".join(part for part in key if isinstance(part, str))
         if isinstance(meta, type):
             inner = ", ".join(meta.model_fields)
-            raise Unresolved(Phrase("${{path}} is a block or a list; refer to one of its values ({inner}).", path=path, inner=inner))  # fmt: skip
+            words = "${{path}} is a block or a list; refer to one of its values ({inner})."
+            raise Unresolved(words, path=path, inner=inner)
         if meta is None:
             raise Unresolved(self._unknown(path, instance, ".".join(parts)))
         _check_index(path, instance.data, key)
         if name in instance.model.spread and name not in instance.data:
             single = ", ".join(instance.model.spread[name])
-            raise Unresolved(Phrase("${{path}} is a list; refer to one of its values ({single}).", path=path, single=single))  # fmt: skip
+            raise Unresolved("${{path}} is a list; refer to one of its values ({single}).", path=path, single=single)
         if name not in instance.given:
-            raise Unresolved(Phrase("${{path}} is not given; it is optional. Give {path}, or write the value itself here.", path=path))  # fmt: skip
+            words = "${{path}} is not given; it is optional. Give {path}, or write the value itself here."
+            raise Unresolved(words, path=path)
         held = (
             [text for _, text in texts(instance.data.get(name)) if "${" in text] if isinstance(meta, CurveInput) else []
         )
         if held and isinstance(instance.data[name], list):
-            raise Unresolved(
-                Phrase("${{path}} is a list that holds references itself ({held}), and cannot be referred to; write its values here.",
-                    path=path, held=held[0])
-            )  # fmt: skip
+            words = "${{path}} is a list that holds references itself ({held}), and cannot be referred to; write its values here."
+            raise Unresolved(words, path=path, held=held[0])
         if isinstance(meta, Varying) and _varies(instance.data, key):
-            raise Unresolved(
-                Phrase("${{path}} is not a single number, but may vary over a cycle; write here what it is given as.", path=path)
-            )  # fmt: skip
+            words = "${{path}} is not a single number, but may vary over a cycle; write here what it is given as."
+            raise Unresolved(words, path=path)
         si = unit(meta.unit).si if isinstance(meta, Quantity | CurveInput) else None
         return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
 
@@ -288,9 +295,7 @@ def _varies(data: Any, key: KeyPath) -> bool:
 def _check_index(path: str, data: Any, key: KeyPath) -> None:
     for part in key:
         if isinstance(part, int) and isinstance(data, list) and part >= len(data):
-            raise Unresolved(
-                Phrase("${{path}}: the list has {count} entries, counted from 0.", path=path, count=len(data))
-            )
+            raise Unresolved("${{path}}: the list has {count} entries, counted from 0.", path=path, count=len(data))
         known = part in data if isinstance(data, dict) else isinstance(data, list) and isinstance(part, int)
         data = data[part] if known else None
 
@@ -322,11 +327,8 @@ def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node,
     instance = instances[str(loop[0][0])]
     assert instance is not None, "a mechanism without a model has no links"
     told = [text for before, text in zip(["", *shown], [*shown, shown[0]], strict=True) if text != before]
-    message = Phrase(
-        "refers to itself: {told}. Give one of these inputs a value of its own.",
-        told=" → ".join(told if len(told) > 1 else 2 * told),
-    )
-    return instance.place.problem(loop[0][1:], message)
+    words = "refers to itself: {told}. Give one of these inputs a value of its own."
+    return instance.place.problem(loop[0][1:], words, told=" → ".join(told if len(told) > 1 else 2 * told))
 
 
 def _path(link: Target, node: Node) -> str:

@@ -18,7 +18,7 @@ from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, meta_of, nested
 from diecut_report.mechanism.names import Pending, Text
 from diecut_report.quantities.units import pretty
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase, message, phrase
 from diecut_report.time_limit import in_time
 
 SHOWN = 60  # characters of a given text that a message repeats
@@ -59,18 +59,20 @@ class ConfigPlace:
         tree, path = self.stands(key)
         return tree.typed(path)
 
-    def problem(self, key: KeyPath, message: str, *, at_key: bool = False, within: int | None = None) -> Problem:
+    def problem(
+        self, key: KeyPath, template: str, /, *, at_key: bool = False, within: int | None = None, **values: object
+    ) -> Problem:
         """A problem of the value at ``key`` below this block (or of the key itself, or of a letter ``within`` its text)."""
         tree, path = self.stands(key)
         line, column = tree.key_position(path) if at_key else tree.position(path)
         column += tree.offset(path, within) if within else 0
-        return Problem(message, tree.file, line, column, ".".join(map(str, path)))
+        return Problem(message(template, values), tree.file, line, column, ".".join(map(str, path)))
 
-    def absent(self, key: KeyPath, message: str) -> Problem:
+    def absent(self, key: KeyPath, template: str, /, **values: object) -> Problem:
         """A problem of a key that is not there; its place is the key of the block where it belongs."""
         tree, home = self.stands(key[:-1]) if self.elsewhere else (self.tree, (*self.root, *key[:-1]))
         line, column = tree.key_position(home)
-        return Problem(message, tree.file, line, column, ".".join(map(str, (*home, *key[-1:]))))
+        return Problem(message(template, values), tree.file, line, column, ".".join(map(str, (*home, *key[-1:]))))
 
 
 def spread_out(
@@ -86,23 +88,11 @@ def spread_out(
         again = [name for name in single if found.get(name) is not None]
         if len(values) != len(single):
             count = {0: phrase("no values"), 1: "1 value"}.get(len(values), f"{len(values)} values")
-            problems.append(
-                place.problem(
-                    (key,),
-                    Phrase(
-                        "has {given}; give one for all, or {count}: for {single}",
-                        given=count,
-                        count=len(single),
-                        single=", ".join(single),
-                    ),
-                )
-            )
+            words = "has {given}; give one for all, or {count}: for {single}"
+            problems.append(place.problem((key,), words, given=count, count=len(single), single=", ".join(single)))
         elif again:
-            words = Phrase(
-                "is a list for all of them, but {again} is given beside it; give the list, or single keys",
-                again=" and ".join(again),
-            )
-            problems.append(place.problem((key,), words))
+            words = "is a list for all of them, but {again} is given beside it; give the list, or single keys"
+            problems.append(place.problem((key,), words, again=" and ".join(again)))
         else:
             found |= dict(zip(single, values, strict=True))
             place = replace(place, listed={**place.listed, **{(name,): (key, i) for i, name in enumerate(single)}})
@@ -226,14 +216,11 @@ class _Fault:
         home = declared(self.model, self.key[:-1]) if len(self.key) > 1 else self.model
         known = list(home.model_fields) if isinstance(home, type) else []
         if self.given is None and re.match(r"\d", str(self.key[-1])):
-            words = phrase("YAML parts entries within braces at each comma; write a decimal point, as in {gap: 0.5 mm}")
-            return Phrase("is what a decimal comma leaves behind it: {words}.", words=words)
+            comma = phrase("YAML parts entries within braces at each comma; write a decimal point, as in {gap: 0.5 mm}")
+            return Phrase("is what a decimal comma leaves behind it: {words}.", words=comma)
         own = ["kind"] if self.place.root[:1] == ("mechanisms",) and len(self.key) == 1 else []
-        return Phrase(
-            "is an unknown key{nearest}. Known keys: {own}.",
-            nearest=nearest(str(self.key[-1]), known),
-            own=", ".join(own + known),
-        )
+        words = "is an unknown key{nearest}. Known keys: {own}."
+        return Phrase(words, nearest=nearest(str(self.key[-1]), known), own=", ".join(own + known))
 
     def _options(self) -> list[str]:
         expected = str(self.context["expected"]).replace(" or ", ", ")
@@ -243,9 +230,8 @@ class _Fault:
     def _choice(self) -> str:
         choices = self._options()
         near = nearest(self.given, choices) if isinstance(self.given, str) and self.given not in choices else ""
-        return Phrase(
-            "is {given}{near}; allowed: {choices}", given=told(self.given), near=near, choices=", ".join(choices)
-        )
+        words = "is {given}{near}; allowed: {choices}"
+        return Phrase(words, given=told(self.given), near=near, choices=", ".join(choices))
 
     def _other(self) -> str:
         if isinstance(self.given, Pending):
@@ -385,27 +371,22 @@ class BasisReader:
 
     def _faults(self, unit: str, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
         if given.get("value") is None:
-            words = Phrase(
-                "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone",
-                unit=unit,
-            )
-            yield self.place.problem(key, words.replace("10 1,", "10,"))
+            words = "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone"
+            yield self.place.problem(key, Phrase(words, unit=unit).replace("10 1,", "10,"))
         for name in given:
             if name not in KEYS:
-                words = Phrase(
+                yield self.place.problem(
+                    (*key, name),
                     "is an unknown key{nearest}. A quantity that stands as a block has {keys}.",
+                    at_key=True,
                     nearest=nearest(name, KEYS),
                     keys=", ".join(KEYS),
                 )
-                yield self.place.problem((*key, name), words, at_key=True)
         basis, note = given.get("basis"), given.get("note")
         if "basis" in given and basis not in BASES:
             near = nearest(basis, BASES) if isinstance(basis, str) else ""
-            yield self.place.problem(
-                (*key, "basis"),
-                Phrase("is {basis}{near}; allowed: {bases}", basis=told(basis), near=near, bases=", ".join(BASES)),
-            )
+            words = "is {basis}{near}; allowed: {bases}"
+            yield self.place.problem((*key, "basis"), words, basis=told(basis), near=near, bases=", ".join(BASES))
         if note is not None and not isinstance(note, str):
-            yield self.place.problem(
-                (*key, "note"), Phrase("is {note}; a text is needed, in quotes where it is a number", note=told(note))
-            )
+            words = "is {note}; a text is needed, in quotes where it is a number"
+            yield self.place.problem((*key, "note"), words, note=told(note))

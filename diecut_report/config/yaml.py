@@ -103,12 +103,8 @@ def seeming_latin(name: str) -> str:
     if not strange or not meant.isascii():
         return ""
     told = ", ".join(f"“{letter}” ({unicodedata.name(letter).lower()})" for letter in dict.fromkeys(strange))
-    return Phrase(
-        "“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}.",
-        name=name,
-        told=told,
-        meant=meant,
-    )
+    words = "“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}."
+    return Phrase(words, name=name, told=told, meant=meant)
 
 
 def hidden(text: str) -> str:
@@ -240,8 +236,9 @@ def read(path: Path, raw: bytes | None = None) -> Tree:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        words = phrase("The file is not UTF-8 text. Give a YAML file, saved as UTF-8.")
-        raise UserError(Problem(words, str(path), line)) from error
+        raise UserError(
+            Problem(phrase("The file is not UTF-8 text. Give a YAML file, saved as UTF-8."), str(path), line)
+        ) from error
     return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
 
 
@@ -255,8 +252,8 @@ def _parse(text: str, file: str, sha256: str) -> Tree:
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
         advice = phrase("Write it without.") if control[0] > " " else phrase("This is not YAML text. Give a text file.")
-        message = Phrase("The control character U+{ord} stands here. {advice}", ord=f"{ord(control[0]):04X}", advice=advice)  # fmt: skip
-        raise UserError(Problem(message, file, *place))
+        words = "The control character U+{ord} stands here. {advice}"
+        raise UserError(Problem(Phrase(words, ord=f"{ord(control[0]):04X}", advice=advice), file, *place))
     builder = _Builder(file)
     try:
         root = builder.build(yaml.parse(text, Loader=LOADER))
@@ -412,10 +409,8 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
     root = tree.root
     for path, value in values.items():
         if isinstance(value, str) and (found := hidden(value)):
-            words = Phrase(
-                "The value that is to stand here holds the invisible character {found}; it is not taken.", found=found
-            )
-            raise UserError(Problem(words, tree.file, path=".".join(map(str, path))))
+            words = "The value that is to stand here holds the invisible character {found}; it is not taken."
+            raise UserError(Problem(Phrase(words, found=found), tree.file, path=".".join(map(str, path))))
         root = _with_value(root, path, value)
     text = f"# {heading}\n{as_text(root)}"
     return Tree(root, tree.file, text, hashlib.sha256(text.encode()).hexdigest(), name)
@@ -497,44 +492,24 @@ def too_much(tree: Tree) -> list[Problem]:
 def _excess(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
     match data:
         case str() if len(data) > MAX_TEXT:
-            yield (
-                path,
-                Phrase(
-                    "has {count} characters; at most {max_text} are allowed. Shorten it.",
-                    count=len(data),
-                    max_text=MAX_TEXT,
-                ),
-            )
+            words = "has {count} characters; at most {max_text} are allowed. Shorten it."
+            yield (path, Phrase(words, count=len(data), max_text=MAX_TEXT))
         case dict():
             if path == ("mechanisms",) and len(data) > MAX_MECHANISMS:
-                yield (
-                    path,
-                    Phrase(
-                        "has {count} mechanisms; at most {max_mechanisms} are allowed. Split the configuration.",
-                        count=len(data),
-                        max_mechanisms=MAX_MECHANISMS,
-                    ),
-                )
+                words = "has {count} mechanisms; at most {max_mechanisms} are allowed. Split the configuration."
+                yield (path, Phrase(words, count=len(data), max_mechanisms=MAX_MECHANISMS))
                 return
             for key, part in data.items():
                 if len(key) > MAX_TEXT:
-                    yield (
-                        (*path, key),
-                        Phrase(
-                            "is a key of {count} characters; at most {max_text} are allowed. Shorten it.",
-                            count=len(key),
-                            max_text=MAX_TEXT,
-                        ),
-                    )
+                    words = "is a key of {count} characters; at most {max_text} are allowed. Shorten it."
+                    yield ((*path, key), Phrase(words, count=len(key), max_text=MAX_TEXT))
                 else:
                     yield from _excess(part, (*path, key))
         case list():
             most = MAX_PARTS if any(isinstance(part, dict | list) for part in data) else MAX_CURVE_VALUES
             if len(data) > most:
-                yield (
-                    path,
-                    Phrase("has {count} entries; at most {most} are allowed. Give fewer.", count=len(data), most=most),
-                )
+                words = "has {count} entries; at most {most} are allowed. Give fewer."
+                yield (path, Phrase(words, count=len(data), most=most))
                 return
             for index, part in enumerate(data):
                 yield from _excess(part, (*path, index))

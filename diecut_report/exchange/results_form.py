@@ -12,10 +12,10 @@ from typing import Annotated, Any, Literal, NoReturn
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
-from diecut_report.config.own_tables import MOST as MOST_TABLES
+from diecut_report.config.own_tables import MAX_FILES as MOST_TABLES
 from diecut_report.config.yaml import CONTROL
 from diecut_report.errors import MAX_TEXT, TOLD, Problem, UserError
-from diecut_report.pictures import MOST as MOST_OF_PICTURE
+from diecut_report.pictures import MAX_BYTES as MOST_OF_PICTURE
 from diecut_report.pictures import media_type
 from diecut_report.results.form import FORM_VERSION, SCHEMA_VERSION
 from diecut_report.text.phrases import Phrase, phrase

@@ -23,7 +23,7 @@ from dataclasses import dataclass
 from typing import NoReturn
 
 from diecut_report.quantities.units import DIMENSIONS, Kind, Unit, kind_name, si_text, unit
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase, message, phrase
 
 # The words of a condition, or of an expression, where each stands, and the error that tells of a fault there.
 
@@ -65,9 +65,9 @@ _SORTS = {"reference": "name", "quantity": "text", "number": "number", "sign": "
 class ConditionError(ValueError):
     """Report a condition that cannot be used: words that say why and what to write instead; ``place`` counts its letters from 0."""
 
-    def __init__(self, words: str, place: int | None = None) -> None:
-        super().__init__(words)
-        self.words, self.place = words, place
+    def __init__(self, template: str, place: int | None = None, /, **values: object) -> None:
+        self.words, self.place = message(template, values), place
+        super().__init__(self.words)
 
     def __str__(self) -> str:
         where = "" if self.place is None else Phrase(" (At character {place}.)", place=self.place + 1)
@@ -98,10 +98,8 @@ def calculation(given: str) -> list[Token]:
         token, end = _calculated(given, place)
         found.append(token)
         if len(found) > MOST_WORDS:
-            raise ConditionError(
-                Phrase("the expression has more than {most_words} words. Write it shorter.", most_words=MOST_WORDS),
-                place,
-            )
+            words = "the expression has more than {most_words} words. Write it shorter."
+            raise ConditionError(words, place, most_words=MOST_WORDS)
         place = _past_blanks(given, end)
     return [*found, Token("end", phrase("the end"), len(given))]
 
@@ -111,11 +109,8 @@ def _calculated(given: str, place: int) -> tuple[Token, int]:
     if match is None:
         raise _not_allowed(given, place, CALCULATED)
     if match["comma"]:
-        words = Phrase(
-            "“{match}” holds a comma; write a decimal point, or a blank after a comma that parts two values.",
-            match=match[0],
-        )
-        raise ConditionError(words, place)
+        words = "“{match}” holds a comma; write a decimal point, or a blank after a comma that parts two values."
+        raise ConditionError(words, place, match=match[0])
     if match["word"]:
         return _function(match, given)
     text = f"${{{match['path'].strip()}}}" if match["reference"] else match[0]
@@ -126,17 +121,17 @@ def _calculated(given: str, place: int) -> tuple[Token, int]:
 def _not_allowed(given: str, place: int, allowed: str) -> ConditionError:
     """What tells of letters that are no word, with what may stand there."""
     letters = repr(given[place : place + 10])
-    return ConditionError(
-        Phrase("{given} is not allowed here; allowed: {allowed}.", given=letters, allowed=allowed), place
-    )
+    return ConditionError("{given} is not allowed here; allowed: {allowed}.", place, given=letters, allowed=allowed)
 
 
 def _function(match: re.Match[str], given: str) -> tuple[Token, int]:
     """Return a word, which is a function or a fault."""
     if not given[match.end() :].lstrip().startswith("("):
-        advice = phrase("a value of the configuration stands as ${NAME.KEY}, a unit behind its number")
         raise ConditionError(
-            Phrase("{match} is not expected here; {advice}.", match=repr(match[0]), advice=advice), match.start()
+            "{match} is not expected here; {advice}.",
+            match.start(),
+            match=repr(match[0]),
+            advice=phrase("a value of the configuration stands as ${NAME.KEY}, a unit behind its number"),
         )
     return Token(
         "function", match[0].lower() if match[0].lower() in FUNCTIONS else match[0], match.start()
@@ -146,12 +141,8 @@ def _function(match: re.Match[str], given: str) -> tuple[Token, int]:
 def tokens(given: str, known: Collection[str]) -> list[Token]:
     """Split a condition into its words, the end among them; known names are taken whole, whatever they are made of."""
     if len(given) > MOST_LETTERS:
-        words = Phrase(
-            "the condition has {count} characters; at most {most_letters} are allowed. Write several conditions.",
-            count=len(given),
-            most_letters=MOST_LETTERS,
-        )
-        raise ConditionError(words)
+        words = "the condition has {count} characters; at most {most_letters} are allowed. Write several conditions."
+        raise ConditionError(words, count=len(given), most_letters=MOST_LETTERS)
     whole = re.compile("(" + "|".join(map(re.escape, sorted(known, key=len, reverse=True))) + r")(?![\w.])")
     found, place = [], _past_blanks(given, 0)
     while place < len(given):
@@ -159,10 +150,8 @@ def tokens(given: str, known: Collection[str]) -> list[Token]:
         token, end = (_known(name), name.end()) if name else _token(given, place, known)
         found.append(token)
         if len(found) > MOST_WORDS:
-            words = Phrase(
-                "the condition has more than {most_words} words. Write several conditions.", most_words=MOST_WORDS
-            )
-            raise ConditionError(words, place)
+            words = "the condition has more than {most_words} words. Write several conditions."
+            raise ConditionError(words, place, most_words=MOST_WORDS)
         place = _past_blanks(given, end)
     return [*found, Token("end", phrase("the end"), len(given))]
 
@@ -181,13 +170,8 @@ def _token(given: str, place: int, known: Collection[str]) -> tuple[Token, int]:
     if match is None:
         raise _not_allowed(given, place, ALLOWED)
     if match["quantity"]:
-        words = Phrase(
-            "“{quantity}”: put a quantity in quotes: '{value} {unit}'.",
-            quantity=match["quantity"],
-            value=match["value"],
-            unit=match["unit"],
-        )
-        raise ConditionError(words, place)
+        words = "“{quantity}”: put a quantity in quotes: '{value} {unit}'."
+        raise ConditionError(words, place, quantity=match["quantity"], value=match["value"], unit=match["unit"])
     return _sorted(match, given, known), match.end()
 
 
@@ -269,7 +253,7 @@ class _GrammarWriter:
     def pieces(self) -> list[str]:
         """The Python text of each word; the end has an empty one."""
         if self.next.sort == "end":
-            raise ConditionError(phrase("the condition is empty; write a comparison."), 0)
+            raise ConditionError("the condition is empty; write a comparison.", 0)
         is_operand_next = True
         while self.next.sort != "end":
             is_operand_next = self._before_value() if is_operand_next else self._after_value()
@@ -283,12 +267,11 @@ class _GrammarWriter:
         self.at += 1
 
     def _lack(self) -> NoReturn:
-        raise ConditionError(
-            Phrase("{operand} is missing before {shown}.", operand=OPERAND, shown=self.next.shown), self.next.place
-        )
+        words = "{operand} is missing before {shown}."
+        raise ConditionError(words, self.next.place, operand=OPERAND, shown=self.next.shown)
 
     def _unexpected(self) -> ConditionError:
-        return ConditionError(Phrase("{shown} is not expected here.", shown=self.next.shown), self.next.place)
+        return ConditionError("{shown} is not expected here.", self.next.place, shown=self.next.shown)
 
     def _is(self, *wanted: str) -> bool:
         return self.next.sort in ("keyword", "sign") and self.next.text in wanted
@@ -315,9 +298,7 @@ class _GrammarWriter:
     def _opened(self, sort: str, bracket: str) -> bool:
         self.open.append(_Bracket(sort))
         if len(self.open) > DEEPEST + 1:
-            raise ConditionError(
-                phrase("brackets stand too deep in each other. Write several conditions."), self.next.place
-            )
+            raise ConditionError("brackets stand too deep in each other. Write several conditions.", self.next.place)
         self._write(bracket)
         return True
 
@@ -349,7 +330,7 @@ class _GrammarWriter:
             self.written.append("")
             self.at += 1
             if not self._is("in", "between", "like"):
-                raise ConditionError(phrase("'in', 'between' or 'like' is missing after 'not'."), self.next.place)
+                raise ConditionError("'in', 'between' or 'like' is missing after 'not'.", self.next.place)
         if self._is("between"):
             self.open[-1].waiting += 1
             self._write("is " + negated)
@@ -373,10 +354,8 @@ class _GrammarWriter:
 
     def _need(self, wanted: str) -> None:
         if not self._is(wanted):
-            raise ConditionError(
-                Phrase("{wanted} is missing before {shown}.", wanted=repr(wanted), shown=self.next.shown),
-                self.next.place,
-            )
+            words = "{wanted} is missing before {shown}."
+            raise ConditionError(words, self.next.place, wanted=repr(wanted), shown=self.next.shown)
 
     def _comma(self) -> None:
         self._decided()
@@ -388,7 +367,7 @@ class _GrammarWriter:
         self._decided()
         closed = self.open.pop()
         if by == "end" and closed.sort != "whole":
-            raise ConditionError(Phrase("')' is missing before {shown}.", shown=self.next.shown), self.next.place)
+            raise ConditionError("')' is missing before {shown}.", self.next.place, shown=self.next.shown)
         if by == ")" and closed.sort == "whole":
             raise self._unexpected()
         if by == ")":
@@ -396,10 +375,8 @@ class _GrammarWriter:
 
     def _decided(self) -> None:
         if self.open[-1].waiting:
-            raise ConditionError(
-                Phrase("'and' is missing before {shown}: write between … and ….", shown=self.next.shown),
-                self.next.place,
-            )
+            words = "'and' is missing before {shown}: write between … and …."
+            raise ConditionError(words, self.next.place, shown=self.next.shown)
 
 
 # The kinds of quantities in conditions and expressions, in words.

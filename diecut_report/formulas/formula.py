@@ -172,12 +172,11 @@ def instead(node: ast.AST, value: object) -> str:
         case ast.Call(func=ast.Name(id=name) | ast.Attribute(value=ast.Name(id="math"), attr=name)) if name in OF_NUMPY:
             return Phrase("write np.{of_numpy}, which takes arrays too", of_numpy=OF_NUMPY[name])
         case ast.Name(id=name) if isinstance(value, int | float) and not isinstance(value, bool):
-            return Phrase(
+            words = (
                 "write the number itself, or bind it: bind(…, {name}={value}), or make it one of the constants, "
-                "Constant(value, symbol, unit), which are printed with their symbols",
-                name=name,
-                value=format(value, "g"),
+                "Constant(value, symbol, unit), which are printed with their symbols"
             )
+            return Phrase(words, name=name, value=format(value, "g"))
     return LISTED
 
 
@@ -303,9 +302,8 @@ class _BodyReader:
                     continue  # the docstring
                 case _:
                     raise self._refuse(statement)
-        raise FormulaError(
-            Phrase("{place}: formula {name} returns nothing", place=self.owner.place, name=self.owner.__name__)
-        )
+        words = "{place}: formula {name} returns nothing"
+        raise FormulaError(Phrase(words, place=self.owner.place, name=self.owner.__name__))
 
     def _statements(self) -> list[ast.stmt]:
         try:

@@ -14,7 +14,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.design.inputs import DesignChoice, DesignInput
 from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, refusal
 from diecut_report.live.session import LiveMachine, LiveSession
 from diecut_report.machine.figure_views import shown_figures
 from diecut_report.quantities.plausible import plausible
@@ -25,7 +25,7 @@ from diecut_report.report.text import Catalogue, figure_translated, quantity, ti
 from diecut_report.results.checks import NOT_CHECKED
 from diecut_report.results.press_run import Tell
 from diecut_report.study.execution.press_batch import untold
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import catalogues_spoken, localised, said, say, spoken_language
 
 # What a live page gets of a session, as plain data: verdict, faults, and of each mechanism its inputs, checks and key numbers.
@@ -226,7 +226,7 @@ class Pictures:
     def figure(self, machine: LiveMachine, mechanism: str, index: int) -> Data:
         """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""
         if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figure_titles(mechanism)):
-            raise UserError(Problem(Phrase("There is no figure {n} of {name}.", n=index, name=repr(mechanism))))
+            raise refusal("There is no figure {n} of {name}.", n=index, name=repr(mechanism))
         figure = _pictures_of_run_shown(machine, mechanism, index)
         known = self._drawn.get((mechanism, index))
         if known is None or known[0] is not figure:
@@ -240,7 +240,7 @@ def _pictures_of_run_shown(machine: LiveMachine, mechanism: str, index: int) -> 
     declared = shown_figures(machine.run.calculations[mechanism])[index]
     found = next((figure for figure in machine.run.figures(mechanism) if figure["id"] == declared.id), None)
     if found is None:
-        raise UserError(Problem(Phrase("{title}: there is nothing of this machine to show.", title=declared.title)))
+        raise refusal("{title}: there is nothing of this machine to show.", title=declared.title)
     return found
 
 
@@ -261,9 +261,7 @@ def _drawn(figure: Data, curves: Data, mechanism: str, index: int) -> Data:
             return {"plot": readings}
         return {"svg": render(figure, curves, words, f"{mechanism}-{index}").text}
     except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
-        raise UserError(
-            Problem(Phrase("This figure cannot be drawn: {reason}", reason=f"{type(cause).__name__}: {cause}"))
-        ) from cause
+        raise refusal("This figure cannot be drawn: {reason}", reason=f"{type(cause).__name__}: {cause}") from cause
 
 
 # The words that the script of the live page says, by the names that it has for them; they come with the page as data.
@@ -354,7 +352,7 @@ def effect(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
     """
     asked = machine.inputs.get(name)
     if asked is None:
-        raise UserError(Problem(Phrase("{name} is not a number that the file gives.", name=repr(name))))
+        raise refusal("{name} is not a number that the file gives.", name=repr(name))
     places = _places(asked)
     moved = narrowed(machine.config, downstream(machine.config, asked.asked.instance))
     found = varied(moved, {asked.asked: places}, len(places), tell=tell)

@@ -25,10 +25,10 @@ from starlette.routing import Route
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 from watchfiles import awatch
 
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, UserError, refusal
 from diecut_report.live.page import Pictures, assets, effect, page, page_data
 from diecut_report.live.session import LiveMachine, LiveReports, LiveSession, in_time
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import said, say
 
 # What the live page asks for and is told: an application of Starlette around one session, which one thread works on.
@@ -429,5 +429,5 @@ def _bound(port: int) -> socket.socket:
         is_taken = error.errno == errno.EADDRINUSE
         why = phrase("another program has it") if is_taken else (error.strerror or f"{error.errno}")
         words = "The port {port} of this machine cannot be had: {why}. Leave --port out, and a free one is taken."
-        raise UserError(Problem(Phrase(words, port=port, why=why))) from error
+        raise refusal(words, port=port, why=why) from error
     return found

@@ -20,7 +20,7 @@ from diecut_report.config.plugins import Discovery, Origin, said
 from diecut_report.declaration import faults, faults_at_load
 from diecut_report.declaration.dimensions import at_place, by_id
 from diecut_report.declaration.formula_checks import doubts, forms, idle_inputs, printing, quantities
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.files import content, write_all
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Impossible, Unproven
@@ -430,8 +430,7 @@ LARGEST = 10_000_000  # bytes of a catalogue
 def refuse_own(origin: Origin) -> None:
     """Refuse to write into catalogues of the program itself: UserError says why."""
     if origin.is_own:
-        words = "{kind} comes with the program, whose catalogues are made by its own tool."
-        raise UserError(Problem(Phrase(words, kind=origin.kind)))
+        raise refusal("{kind} comes with the program, whose catalogues are made by its own tool.", kind=origin.kind)
 
 
 def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatalogue]:

@@ -156,11 +156,8 @@ def _nudged(value: Any, draw: np.random.Generator) -> Any:
 def _refused_alone(why: str, together: Calculation, i: int) -> str:
     if i in together.flaws:
         other = phrase(together.flaws[i][1])
-        return Phrase(
-            "a machine is refused alone ({why}), and among others for another reason ({other})",
-            why=phrase(why),
-            other=other,
-        )
+        words = "a machine is refused alone ({why}), and among others for another reason ({other})"
+        return Phrase(words, why=phrase(why), other=other)
     return Phrase("a machine is refused alone ({why}), and calculated among others", why=phrase(why))
 
 

@@ -13,7 +13,7 @@ from typing import Any
 
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind, in_folder
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.testing.contract import TITLES, WORST_LAST, ContractTest, TriedRule, refuse_own, write_missing
 from diecut_report.text.phrases import Counted, Phrase, joined
@@ -198,18 +198,16 @@ def meant(asked: str, folders: Sequence[Path]) -> tuple[FolderFirst, list[str]]:
     place = Path(asked)
     if not place.is_dir():
         if place.suffix or "/" in asked:
-            raise UserError(
-                Problem(Phrase("There is no such folder of plugins: give a folder, or the name of a kind."), asked)
-            )
+            raise refusal("There is no such folder of plugins: give a folder, or the name of a kind.", asked)
         known = FolderFirst(None, folders)
         if asked not in known.origins:
-            raise UserError(Problem(_unknown(known, asked)))
+            raise refusal(_unknown(known, asked))
         return known, [asked]
     for folder in (place, place / PLUGINS):
         if folder.is_dir() and (own := (known := FolderFirst(folder, folders)).own_kinds):
             return known, list(own)
     words = "There is no plugin in this folder: a plugin is NAME.py, or a folder NAME with an __init__.py."
-    raise UserError(Problem(Phrase(words), asked))
+    raise refusal(words, asked)
 
 
 def _unknown(known: Discovery, kind: str) -> str:
@@ -240,8 +238,7 @@ def checked(
         return
     machines, refused = (named_machines(configs, kind, known), []) if configs else machines_beside(origin, known)
     if configs and not machines:
-        words = Phrase("There is no mechanism of the kind {kind} in it.", kind=repr(kind))
-        raise UserError(Problem(words, str(configs[0])))
+        raise refusal("There is no mechanism of the kind {kind} in it.", configs[0], kind=repr(kind))
     config, name = machines[0] if machines else (None, "")
     test = ContractTest(found.mechanism, known, config, name, language, refused)
     if write_po:

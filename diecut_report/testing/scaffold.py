@@ -14,7 +14,7 @@ from pathlib import Path
 
 from diecut_report import __version__
 from diecut_report.config.plugins import EXTENSION, Discovery
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import refusal
 from diecut_report.files import write_all
 from diecut_report.text.phrases import Phrase
 
@@ -35,7 +35,7 @@ def scaffold(name: str, folder: Path, *, as_package: bool, like: str = "parts") 
     refuse_name(name)
     if folder.exists() or folder.is_symlink():
         words = "There is something of this name already, and it is not written over. Name another folder with -o."
-        raise UserError(Problem(Phrase(words), str(folder)))
+        raise refusal(words, folder)
     made = {
         folder / place: content.encode() for place, content in contents(name, as_package=as_package, like=like).items()
     }
@@ -47,7 +47,7 @@ def refuse_name(name: str) -> None:
     """Refuse what cannot be the name of a kind: UserError says why, and what may."""
     words = _wrong(name)
     if words:
-        raise UserError(Problem(words))
+        raise refusal(words)
 
 
 def _wrong(name: str) -> str:
@@ -61,9 +61,8 @@ def _wrong(name: str) -> str:
         return Phrase("{name} is reserved and cannot be the name of a kind; choose another one.", name=repr(name))
     known = Discovery().origins.get(name, [])
     if known:
-        return Phrase(
-            "There is a kind {name} already, from {origin}; choose another name.", name=repr(name), origin=known[0].told
-        )
+        words = "There is a kind {name} already, from {origin}; choose another name."
+        return Phrase(words, name=repr(name), origin=known[0].told)
     return ""
 
 

@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from diecut_report.config.loader import load_config
-from diecut_report.config.own_tables import MOST
+from diecut_report.config.own_tables import MAX_FILES
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema
 from diecut_report.config.yaml import MAX_BYTES
@@ -214,7 +214,7 @@ def test_a_faulty_entry_is_told_once(tmp_path: Path) -> None:
         ("3", "materials: is 3; the name of a YAML file is needed"),
         ("[steels.yaml, [4]]", "materials.1: is a list; the name of a YAML file is needed"),
         ("[steels.yaml, again.yaml]", "stands in steels.yaml too"),
-        (str(["steels.yaml"] * (MOST + 1)), f"at most {MOST} are allowed"),
+        (str(["steels.yaml"] * (MAX_FILES + 1)), f"at most {MAX_FILES} are allowed"),
     ],
 )
 def test_a_file_that_cannot_be_a_table_is_refused(tmp_path: Path, name: str, words: str) -> None:
