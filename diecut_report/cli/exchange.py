@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from collections.abc import Iterator
@@ -13,23 +12,32 @@ from typing import TYPE_CHECKING, Any, NamedTuple
 import click
 
 from diecut_report.cli import checking, output
-from diecut_report.cli.options import formats_of, output_file, source
+from diecut_report.cli.options import (
+    formats_of,
+    here_option,
+    path_of,
+    report_formats,
+    source,
+    strict_option,
+    target_option,
+    template_option,
+)
 from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
     PLUGIN_BROKE,
     HelpfulCommand,
     Progress,
+    as_json,
     as_lines,
     asked_language,
     common,
-    emit,
     emit_lines,
+    emit_or_write,
     tell,
     tell_written,
     without_output,
 )
-from diecut_report.cli.plugins import template_option
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import Problem, UserError, refusal
@@ -110,19 +118,9 @@ def _value(value: object) -> str:
     return text if len(text) <= 80 else f"{text[:80]}…"
 
 
-Data = dict[str, Any]
-path_of = click.Path(path_type=Path)
-
-
-def _drawn() -> tuple[str, ...]:
-    from diecut_report.pipeline import DRAWN
-
-    return DRAWN
-
-
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
-@click.option("-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here).")
+@here_option
 @common
 def extract(report: Path, folder: Path, folders: tuple[Path, ...], quiet: bool) -> int:
     """Take the configuration and the results out of a REPORT (PDF or HTML), as NAME.yaml and NAME.json."""
@@ -195,17 +193,17 @@ def verified(
 
 @click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
 @click.argument("results", metavar="RESULTS.json", type=path_of)
-@click.option("-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here).")
+@here_option
 @click.option(
     "--format",
     "formats",
     metavar="LIST",
     default="html,pdf",
-    callback=formats_of(_drawn),
+    callback=formats_of(lambda: report_formats()[:-1]),
     help="html,pdf (default), also docx,xlsx.",
 )
 @template_option
-@checking.strict_option
+@strict_option
 @common
 def render(
     results: Path,
@@ -237,7 +235,7 @@ def render(
 @click.option(
     "--format", "form", default="text", type=click.Choice(["text", "json", "html"]), help="text, json or html."
 )
-@click.option("-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output.")
+@target_option
 @click.option("--all", "all_rows", is_flag=True, help="Show as text all that changed, not the most important alone.")
 @common
 def diff(
@@ -256,30 +254,24 @@ def diff(
         found = changes(sides[0][0], sides[1][0])
         text = _changes(found, [results for results, _ in sides], discovery, form, all_rows)
     tell(str(error) for _, broken in sides for error in broken)
-    if target is None:
-        emit(text)
-    else:
-        from diecut_report.files import write_all
-
-        write_all({target: text.encode(errors="backslashreplace")}, keep=new)
+    emit_or_write(text, target, new)
     is_broken = any(broken for _, broken in sides) or sides[1][0]["status"] == "error"
     return checking.exit_code(sides[1][0], is_broken=is_broken, is_strict=False)
 
 
-def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, all_rows: bool) -> str:
+def _changes(
+    found: dict[str, Any], sides: list[dict[str, Any]], discovery: Discovery, form: str, all_rows: bool
+) -> str:
     """The changes in a format: as JSON neutral, as a page in the language that is asked for, else in that of the new project."""
     old, new = sides
     if form == "json":
-        return json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-    from diecut_report.exchange.rendering import lines, said_changes
+        return as_json(found, indent=1)
+    from diecut_report.exchange.rendering import lines, page, said_changes
 
     if form == "html":
-        from diecut_report.exchange.rendering import page
-
         with speaking(asked_language() or new["project"].get("language") or SOURCE_LANGUAGE):
             return page(said_changes(found, old, new, spoken_catalogues(discovery)))
-    told = said_changes(found, old, new, spoken_catalogues(discovery))
-    return as_lines(lines(told, all_rows=all_rows))
+    return as_lines(lines(said_changes(found, old, new, spoken_catalogues(discovery)), all_rows=all_rows))
 
 
 # The command that signs a report. A password comes from a prompt or from the environment, never from the command line.

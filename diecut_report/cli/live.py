@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING
 
 import click
 
-from diecut_report.cli.options import DASH
+from diecut_report.cli.options import DASH, config_argument
 from diecut_report.cli.output import PASSED, HelpfulCommand, asked_language, common, emit, tell, without_output
 from diecut_report.config import yaml
 from diecut_report.config.catalogues import catalogues_of
@@ -29,7 +29,7 @@ if TYPE_CHECKING:
 
 
 @click.command(cls=HelpfulCommand)
-@click.argument("config", type=click.Path(path_type=Path))
+@config_argument
 @click.option("--port", metavar="N", type=click.IntRange(0, 65535), default=0, help="The port (default: a free one).")
 @click.option("--open/--no-open", "is_opened", default=True, help="Whether to open the page in the browser.")
 @common

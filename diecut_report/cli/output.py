@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import inspect
 import io
+import json
 import os
 import re
 import sys
@@ -303,11 +304,8 @@ def shown(text: str, kept: str = "\n\t") -> str:
     """The text with all that is active on a terminal, or invisible, as an escape, but for the ends of lines and tabs."""
     if text.isascii() and text.isprintable():
         return text
-    return "".join(ascii(each)[1:-1] if each not in kept and _is_active(each) else each for each in text)
-
-
-def _is_active(letter: str) -> bool:
-    return category(letter) in _ACTIVE or INVISIBLE.match(letter) is not None
+    active = {each for each in {*text} - {*kept} if category(each) in _ACTIVE or INVISIBLE.match(each)}
+    return "".join(ascii(each)[1:-1] if each in active else each for each in text)
 
 
 def in_line(text: str) -> str:
@@ -323,6 +321,26 @@ def as_lines(lines: Iterable[str]) -> str:
 def emit_lines(lines: Iterable[str]) -> bool:
     """What was asked for as lines."""
     return emit(as_lines(lines))
+
+
+def emit_json(data: Any, indent: int = 2) -> None:
+    """What was asked for as JSON."""
+    emit(as_json(data, indent))
+
+
+def as_json(data: Any, indent: int = 2) -> str:
+    """Return plain data as JSON."""
+    return json.dumps(data, indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def emit_or_write(text: str, target: Path | None, keep: Path) -> None:
+    """What was asked for: on standard output, or in the file that is named, which is not ``keep``."""
+    if target is None:
+        emit(text)
+        return
+    from diecut_report.files import write_all
+
+    write_all({target: text.encode(errors="backslashreplace")}, keep, through=True)
 
 
 def emit(text: str) -> bool:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import webbrowser
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli import output
-from diecut_report.cli.options import output_file
+from diecut_report.cli.options import json_option, output_file, path_of
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -23,6 +22,7 @@ from diecut_report.cli.output import (
     asked_language,
     common,
     emit,
+    emit_json,
     emit_lines,
     tell,
     tell_problems,
@@ -37,7 +37,6 @@ from diecut_report.text.translation import said, say, speaking, spoken_language
 
 if TYPE_CHECKING:
     from diecut_report.config.drafting import Draft
-    from diecut_report.report.pages.firm_templates import HouseStyle
     from diecut_report.testing.plugin_page import CheckedPlugin
 
 
@@ -144,8 +143,6 @@ STATES = {
     "broke": phrase("broke"),
 }
 
-path_of = click.Path(path_type=Path)
-
 
 @click.command("new-plugin", cls=HelpfulCommand)
 @click.argument("name")
@@ -178,7 +175,7 @@ def new_plugin(
 @click.argument("plugin", metavar="NAME|DIR")
 @click.option("--config", "configs", metavar="FILE", multiple=True, type=path_of,
               help="A configuration with machines to try it on (default: those that lie beside the plugin).")  # fmt: skip
-@click.option("--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json.")
+@json_option
 @click.option(
     "-o",
     "page",
@@ -216,7 +213,7 @@ def check_plugin(
                 if isinstance(each, CheckedPlugin):
                     found.append(each)
     if form == "json":
-        emit(json.dumps([each.data for each in found], indent=2, ensure_ascii=False) + "\n")
+        emit_json([each.data for each in found])
     else:
         emit_lines(line for each in found for line in _lines(each))
     for each in found:
@@ -267,24 +264,3 @@ def _write_pages(pages: Mapping[Path, bytes], configs: tuple[Path, ...], quiet: 
         tell_written(pages)
     for page in pages if is_shown else ():
         webbrowser.open(page.resolve().as_uri())
-
-
-# The option ``--template`` of all commands that set a report: the folder of a firm's own templates.
-
-
-def _read(_: click.Context, __: click.Parameter, given: Path | None) -> HouseStyle | None:
-    if given is None:
-        return None
-    from diecut_report.firm_folder import house_style
-
-    return house_style(given)
-
-
-template_option = click.option(
-    "--template",
-    "house",
-    metavar="DIR",
-    type=click.Path(path_type=Path),
-    callback=_read,
-    help="A folder with templates of your own, which override blocks of HTML and PDF.",
-)

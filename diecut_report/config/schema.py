@@ -181,12 +181,7 @@ def _reference() -> Schema:
 
 def _curve(meta: CurveInput) -> Schema:
     ways = "A reference to a curve" + ("" if meta.referred else ", or its values over a turn")
-    values = {
-        "type": "array",
-        "minItems": 4,
-        "maxItems": MAX_CURVE_VALUES,
-        "items": {"type": ["number", "string"]},
-    }
+    values = {"type": "array", "minItems": 4, "maxItems": MAX_CURVE_VALUES, "items": {"type": ["number", "string"]}}
     allowed = [_reference()] if meta.referred else [_reference(), values]
     said = f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}."
     return {"description": said, "anyOf": [*allowed, _stated(allowed)]}

@@ -163,13 +163,7 @@ def own_table(
 
 
 def own_series(
-    *,
-    title: str,
-    unit: str,
-    values: Sequence[float],
-    sources: Sequence[str],
-    left_out: str = "",
-    only_source: str = "",
+    *, title: str, unit: str, values: Sequence[float], sources: Sequence[str], left_out: str = "", only_source: str = ""
 ) -> StandardSeries:
     """Return a standard series that an author brings, checked as ``own_table`` checks; its values ascend."""
     _texts(title, sources, only_source)

@@ -92,20 +92,7 @@ def test_a_designer_begins_changes_a_number_and_has_a_report(tmp_path: Path, cap
     assert "velocity: {value: 0.6 m/s, basis: assumed}" in text
     file.write_text(text.replace("velocity: {value: 0.6 m/s, basis: assumed}", "velocity: 0.65 m/s"), "utf-8")
     assert (
-        main(
-            [
-                "report",
-                "-o",
-                str(tmp_path / "no"),
-                str(file),
-                "-o",
-                str(out),
-                "--format",
-                "json",
-                "--detail",
-                "brief",
-            ]
-        )
+        main(["report", "-o", str(tmp_path / "no"), str(file), "-o", str(out), "--format", "json", "--detail", "brief"])
         == 0
     )
     results = json.loads((out / "my_press.json").read_text("utf-8"))

@@ -158,12 +158,7 @@ def test_an_alias_repeats_the_value_and_points_to_where_it_is_written() -> None:
 
 def test_every_duplicate_key_is_reported_with_the_line_of_the_first() -> None:
     found = problems("a: 1\nb: {c: 1, c: 2}\na: 3\na: {d: 1, d: 2}\n")
-    assert [(p.line, p.column, p.path) for p in found] == [
-        (2, 11, "b.c"),
-        (3, 1, "a"),
-        (4, 1, "a"),
-        (4, 11, "a.d"),
-    ]
+    assert [(p.line, p.column, p.path) for p in found] == [(2, 11, "b.c"), (3, 1, "a"), (4, 1, "a"), (4, 11, "a.d")]
     assert found[1].message == "The key 'a' stands here again; it is first in line 1. Remove one of the two."
 
 

@@ -60,8 +60,7 @@ def test_digits_and_unit_say_what_is_meant(quantity: str, declared: str, text: s
 
 
 @pytest.mark.parametrize(
-    ("degrees", "text"),
-    [(38.84648, "38.85"), (356.8784, "356.88"), (0.123456, "0.123"), (180.0, "180")],
+    ("degrees", "text"), [(38.84648, "38.85"), (356.8784, "356.88"), (0.123456, "0.123"), (180.0, "180")]
 )
 def test_a_place_has_no_more_digits_than_mean_something(degrees: float, text: str) -> None:
     assert place_shown(math.radians(degrees), "deg") == {"text": text, "unit": "deg"}

@@ -12,15 +12,7 @@ import pytest
 
 ROOT = Path(__file__).parents[2] / "diecut_report"
 ERRORS = {"Problem", "BadParameter", "UsageError"}
-REPORTING = {
-    "_report",
-    "refuse",
-    "mark",
-    "_reason",
-    "fault",
-    "_fault",
-    "tell",
-}  # these take a message among others
+REPORTING = {"_report", "refuse", "mark", "_reason", "fault", "_fault", "tell"}  # these take a message among others
 MAKING = {
     "Phrase",
     "phrase",
