@@ -10,7 +10,17 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 from pydantic import create_model
 
 from diecut_report.config.own_tables import SOURCE, Entry, OwnTables
-from diecut_report.config.validation import NAMED, Basis, BasisReader, ConfigPlace, keys_of, told, validate
+from diecut_report.config.validation import (
+    NAMED,
+    Basis,
+    BasisReader,
+    ConfigPlace,
+    blocks,
+    copied,
+    keys_of,
+    told,
+    validate,
+)
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, nearest
 from diecut_report.formulas.condition_parts import Expression
@@ -60,7 +70,10 @@ class Taken:
 def taken(model: type[Block], data: Mapping[str, Any], place: ConfigPlace, tables: OwnTables) -> Taken:
     """Return the data of a block with the keys of the entries that it names, and what all of it rests on."""
     taker = _Taker(place, tables)
-    found = taker.block(model, data, ())
+    found = copied(dict(data))
+    for own_model, block, key in reversed(list(blocks(model, found))):
+        for rule in own_model.from_tables:
+            taker.take(own_model, rule, block, key)
     stands = {key: (entry.tree, (*entry.path, theirs)) for key, (entry, theirs) in taker.found.items()}
     own = replace(place, elsewhere={**place.elsewhere, **stands}, named=taker.known)
     stated = BasisReader.read(model, found, own)
@@ -100,32 +113,19 @@ class _Taker:
     known: dict[KeyPath, tuple[str, ...]] = field(default_factory=dict)
     gives: dict[KeyPath, tuple[KeyPath, ...]] = field(default_factory=dict)
 
-    def block(self, model: type[Block], data: Mapping[str, Any], key: KeyPath) -> dict[str, Any]:
-        known = keys_of(model)
-        made = {
-            name: self._inner(known[name].block, part, (*key, name)) if name in known else part
-            for name, part in data.items()
-        }
-        for rule in model.from_tables:
-            self._take(model, rule, made, key)
-        return made
-
-    def _inner(self, model: type[Block] | None, given: Any, key: KeyPath) -> Any:
-        if model is None:
-            return given
-        if isinstance(given, list):
-            return [self._inner(model, part, (*key, index)) for index, part in enumerate(given)]
-        return self.block(model, given, key) if isinstance(given, dict) else given
-
-    def _take(self, model: type[Block], rule: FromTable, made: dict[str, Any], key: KeyPath) -> None:
+    def take(self, model: type[Block], rule: FromTable, made: dict[str, Any], key: KeyPath) -> None:
         self._judge(model, rule)
         self.known[(*key, rule.key)] = tuple(self.tables.names(rule.table))
         self.gives[(*key, rule.key)] = tuple((*key, own) for own in rule.gives)
         given = made.get(rule.key)
         name = given if isinstance(given, str) else self.place.typed((*key, rule.key)) if given is not None else None
         entry = self.tables.entries.get(rule.table, {}).get(name or "")
+        annotation = keys_of(model)[rule.key].field.annotation
+        has_texts = any(
+            get_origin(part) is Literal for part in (annotation, *get_args(annotation))
+        )  # which the model judges
         if entry is None:
-            if name is not None and not _has_texts(model, rule.key):
+            if name is not None and not has_texts:
                 self.problems.append(self.place.problem((*key, rule.key), self._unknown(rule.table, name)))
             return
         del made[rule.key]
@@ -152,15 +152,6 @@ class _Taker:
             if mark not in self.tables.judged:
                 self.tables.judged.add(mark)
                 self.tables.problems += _faults(model, rule, entry)
-
-
-def _has_texts(model: type[Block], key: str) -> bool:
-    """Whether a key has texts of its own, so that the model judges what is none of them."""
-    return any(get_origin(part) is Literal for part in _parts(keys_of(model)[key].field.annotation))
-
-
-def _parts(annotation: Any) -> tuple[Any, ...]:
-    return (annotation, *get_args(annotation))
 
 
 def _faults(model: type[Block], rule: FromTable, entry: Entry) -> Iterator[Problem]:
@@ -414,7 +405,7 @@ def substituted(
     instance: Instance, links: Mapping[Node, Target], value: Callable[[Node, Target], Any]
 ) -> dict[str, Any]:
     """The data of an instance with what stands in for its references; defaults of the press are left to ``value`` too."""
-    data: dict[str, Any] = _copied(instance.data)
+    data: dict[str, Any] = copied(instance.data)
     for node, target in links.items():
         if node[0] != instance.name:
             continue
@@ -423,12 +414,6 @@ def substituted(
             home = home[part]
         home[node[-1]] = value(node, target)
     return data
-
-
-def _copied(data: Any) -> Any:
-    if isinstance(data, dict):
-        return {key: _copied(part) for key, part in data.items()}
-    return [_copied(part) for part in data] if isinstance(data, list) else data
 
 
 # The units in which a report shows its quantities: ``report: {units: {length: m, drive.crank_speed: rad/s}}``.

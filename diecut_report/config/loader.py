@@ -6,7 +6,7 @@ import re
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
 from pathlib import Path, PurePath
-from typing import Any, get_args
+from typing import Any
 
 from diecut_report.config import instances, yaml
 from diecut_report.config.instances import Instance, Node, Target, substituted
@@ -16,8 +16,8 @@ from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.references import Linker, linked, ordered
 from diecut_report.config.source_hashes import plugin_hash, program_hash
-from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
-from diecut_report.config.yaml import MAX_BYTES, KeyPath, Tree, read, seeming_latin, too_much
+from diecut_report.config.validation import ConfigPlace, as_typed, declared, spread_out, told, validate
+from diecut_report.config.yaml import MAX_BYTES, Tree, read, seeming_latin, too_much
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
 from diecut_report.files import standard_input
 from diecut_report.mechanism.chapters import in_form
@@ -73,7 +73,9 @@ def _offered(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances
         name = data.get(partner.key) or only(partner, kinds)
         if partner_fault(partner, name, kinds) or (instance := instances[str(name)]) is None:
             continue
-        found |= {partner.key: str(name)} | dict(_references(partner, instance))
+        known = instance.given | instance.results.keys()
+        found |= {partner.key: str(name)}
+        found |= {key: f"${{{instance.name}.{taken}}}" for key, taken in partner.takes.items() if taken in known}
     return found
 
 
@@ -106,12 +108,6 @@ def free_name(kind: str, instances: Instances) -> str:
     """Return a name for what runs by itself: its kind, with a number where a mechanism is called so."""
     names = (kind, *(f"{kind}_{number}" for number in range(2, len(instances) + 3)))
     return next(name for name in names if name not in instances)
-
-
-def _references(partner: Partner, instance: Instance) -> Iterator[tuple[str, str]]:
-    for key, name in partner.takes.items():
-        if name in instance.results or name in instance.given:
-            yield key, f"${{{instance.name}.{name}}}"
 
 
 # A configuration or a study from standard input.
@@ -269,15 +265,11 @@ class _ConfigReader:
             self.instances.setdefault(name, None)
             self._mechanism(name, body, ConfigPlace(self.tree, (home, name)))
         for kind in BY_THEMSELVES:
-            self._by_itself(kind)
+            if kind not in self.kinds.values() and is_called_for(self.discovery.mechanism(kind), self.kinds):
+                own_name = free_name(kind, self.instances)
+                self._of_kind(own_name, kind, {}, ConfigPlace(self.tree, ("mechanisms", own_name)))
         for name in self.with_partners:
             self._take_from_partners(name)
-
-    def _by_itself(self, kind: str) -> None:
-        if kind in self.kinds.values() or not is_called_for(self.discovery.mechanism(kind), self.kinds):
-            return
-        name = free_name(kind, self.instances)
-        self._of_kind(name, kind, {}, ConfigPlace(self.tree, ("mechanisms", name)))
 
     def _take_from_partners(self, name: str) -> None:
         """Add to a block what its partners give it, when these are known."""
@@ -360,25 +352,6 @@ def _name_fault(name: str) -> str:
     return ""
 
 
-def as_typed(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = ()) -> Any:
-    """The data with its texts as they were typed: a document number 0012 or a date stays as it is."""
-    if not isinstance(data, dict):
-        return data
-    typed = dict(data)
-    for name, given in data.items():
-        known = keys_of(model).get(name)
-        if known is None or given is None:
-            continue
-        annotation, own = known.field.annotation, (*key, name)
-        if known.block and isinstance(given, list):
-            typed[name] = [as_typed(known.block, part, place, (*own, index)) for index, part in enumerate(given)]
-        elif known.block:
-            typed[name] = as_typed(known.block, given, place, own)
-        elif str in (annotation, *get_args(annotation)) and not isinstance(given, dict | list):
-            typed[name] = place.typed(own)
-    return typed
-
-
 def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
     """What is wrong with the values of the press and the mechanisms, as far as it can be known without calculating.
 
@@ -391,24 +364,21 @@ def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
             continue
         written = {node: target for node, target in linker.links.items() if not target.is_default} | unresolved
         data = substituted(instance, written, lambda node, target, own=instance: _pending(own, node, target))  # type: ignore[misc]
+        # a text, and what a broken plugin would give, can be judged only when it is known
         left_open = {
             node[1:]
             for node, target in written.items()
-            if node[0] == instance.name and _is_open(instance, node, target)
+            if node[0] == instance.name and (target.is_broken or _is_text(instance, node, target))
         }
         try:
             problems += validate(instance.model, data, instance.place, left_open)[1]
         except PluginError as error:
-            named = PluginError(error.message, reader.kinds.get(instance.name, ""), instance.name)
-            named.__cause__ = error.__cause__
-            reader.broken[instance.name] = named
+            reader.broken[instance.name] = _of_instance(error, reader.kinds.get(instance.name, ""), instance.name)
     return problems
 
 
-def _is_open(instance: Instance, node: Node, target: Target) -> bool:
-    """Whether a value can be judged only when it is known: a text, or what a broken plugin would give."""
-    is_text = isinstance(declared(instance.model, node[1:]), Text) and target.unit is None and not target.phase_unit
-    return target.is_broken or is_text
+def _is_text(instance: Instance, node: Node, target: Target) -> bool:
+    return isinstance(declared(instance.model, node[1:]), Text) and target.unit is None and not target.phase_unit
 
 
 def _pending(instance: Instance, node: Node, target: Target) -> Any:

@@ -100,8 +100,9 @@ def _local_modules_loaded(name: str, file: Path) -> ModuleType:
     return module
 
 
-def attribute_of(module: ModuleType, name: str) -> Any:
-    """Return what stands under a name in a module; AttributeError in words where there is none."""
+def _attribute(name: str, module_of: Callable[..., ModuleType], *given: Any) -> Any:
+    """Return what stands under a name in the module that is loaded; AttributeError in words where there is none."""
+    module = module_of(*given)
     if not hasattr(module, name):
         raise AttributeError(Phrase("there is no {name} in it", name=name))
     return getattr(module, name)
@@ -245,7 +246,19 @@ class Discovery:
 
     @cached_property
     def _extensions(self) -> list[Origin]:
-        return [*_installed_extensions(), *(origin for folder in self._folders for origin in _extensions(folder))]
+        found = [
+            Origin(
+                entry.name,
+                Phrase("{name} of an installed package", name=entry.name),
+                entry.load,
+                partial(file_of, entry.module),
+            )
+            for entry in entry_points(group=EXTENSIONS)
+        ]
+        files = (file for folder in self._folders for file in sorted(folder.glob(f"{EXTENSION}*.py")))
+        return found + [
+            Origin(file.stem, str(file), partial(module_of_file, file), partial(Path, file)) for file in files
+        ]
 
     def extend(self) -> None:
         """Run what adds to the registries, once; UserError where it cannot be run."""
@@ -265,7 +278,10 @@ class Discovery:
         """
         origin = self._only_origin(kind)
         if kind not in self._loaded:
-            self._loaded[kind] = _loaded(origin)
+            try:
+                self._loaded[kind] = _loaded(origin)
+            except PluginError as error:
+                self._loaded[kind] = error
         found = self._loaded[kind]
         if isinstance(found, PluginError):
             raise found
@@ -284,32 +300,31 @@ class Discovery:
         return origins[0]
 
 
-def _loaded(origin: Origin) -> Mechanism | PluginError:
+def _loaded(origin: Origin) -> Mechanism:
+    """Load a mechanism; PluginError where it cannot be loaded, or where what it declares cannot be."""
     try:
         refuse_other_contract(origin.file)
         with in_time():
             found = origin.load()
         digest = module_hash(origin.file())
     except (Exception, SystemExit) as cause:
-        words = "it cannot be loaded from {told}: {said}"
-        error = PluginError(
-            Phrase(words, told=origin.told, said=said(cause)) + beside(origin.file(), cause), origin.kind
-        )
-        error.__cause__ = cause
-        return error
+        words = Phrase("it cannot be loaded from {told}: {said}", told=origin.told, said=said(cause))
+        raise PluginError(words + beside(origin.file(), cause), origin.kind) from cause
     if not isinstance(found, Mechanism):
-        words = "{told} gives a {name}, where a Mechanism is needed"
-        return PluginError(Phrase(words, told=origin.told, name=type(found).__name__), origin.kind)
+        words = Phrase(
+            "{told} gives a {name}, where a Mechanism is needed", told=origin.told, name=type(found).__name__
+        )
+        raise PluginError(words, origin.kind)
     if found.kind != origin.kind:
-        words = "{told} gives the kind {kind}; name it {wanted} there"
         named = {"told": origin.told, "kind": repr(found.kind), "wanted": repr(origin.kind)}
-        return PluginError(Phrase(words, named), origin.kind)
+        raise PluginError(Phrase("{told} gives the kind {kind}; name it {wanted} there", named), origin.kind)
     note_plugin(found, digest, None if origin.is_own else origin.file())
-    return found if origin.is_own else _sound(origin, found)
+    if not origin.is_own:
+        _judge_declarations(origin, found)
+    return found
 
 
-def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
-    """A mechanism of which nothing that it declares is wrong."""
+def _judge_declarations(origin: Origin, mechanism: Mechanism) -> None:
     from diecut_report.config import model as press_defaults
     from diecut_report.declaration import faults_at_load
     from diecut_report.declaration.formula_checks import faults_of_formulas
@@ -317,18 +332,14 @@ def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
     try:
         found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
     except Exception as cause:
-        words = "what {told} declares cannot be read: {said}"
-        error = PluginError(Phrase(words, told=origin.told, said=said(cause)), origin.kind)
-        error.__cause__ = cause
-        return error
-    if not found:
-        for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
-            note_check(each, faults_of_formulas(each))
-        return mechanism
-    head = Phrase("{told} declares what cannot be", told=origin.told)
-    return PluginError(
-        joined([head, found[0]], ": ") if len(found) == 1 else joined([head + ":", *found], "\n  "), origin.kind
-    )
+        words = Phrase("what {told} declares cannot be read: {said}", told=origin.told, said=said(cause))
+        raise PluginError(words, origin.kind) from cause
+    if found:
+        head = Phrase("{told} declares what cannot be", told=origin.told)
+        lines = joined([head, found[0]], ": ") if len(found) == 1 else joined([head + ":", *found], "\n  ")
+        raise PluginError(lines, origin.kind)
+    for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
+        note_check(each, faults_of_formulas(each))
 
 
 def said(cause: BaseException) -> str:
@@ -362,9 +373,12 @@ def _built_in() -> Iterator[Origin]:
     package = import_module(GROUP)
     for kind in _names_in(Path(package.__path__[0])):
         name = f"{GROUP}.{kind}"
-        yield Origin(
-            kind, phrase("the program itself"), partial(_of_module, name), partial(_file_of_module, name), is_own=True
-        )
+        load, file = partial(_attribute, ATTRIBUTE, import_module, name), partial(_file_of_module, name)
+        yield Origin(kind, phrase("the program itself"), load, file, is_own=True)
+
+
+def _file_of_module(name: str) -> Path:
+    return Path(str(sys.modules[name].__file__))
 
 
 def _installed() -> Iterator[Origin]:
@@ -374,19 +388,8 @@ def _installed() -> Iterator[Origin]:
             if entry.dist
             else phrase("an installed package")
         )
-        load = entry.load if entry.attr else partial(_of_module, entry.module)
+        load = entry.load if entry.attr else partial(_attribute, ATTRIBUTE, import_module, entry.module)
         yield Origin(entry.name, package, load, partial(file_of, entry.module))
-
-
-def _installed_extensions() -> Iterator[Origin]:
-    for entry in entry_points(group=EXTENSIONS):
-        told = Phrase("{name} of an installed package", name=entry.name)
-        yield Origin(entry.name, told, entry.load, partial(file_of, entry.module))
-
-
-def _extensions(folder: Path) -> Iterator[Origin]:
-    for file in sorted(folder.glob(f"{EXTENSION}*.py")):
-        yield Origin(file.stem, str(file), partial(module_of_file, file), partial(Path, file))
 
 
 def in_folder(folder: Path) -> Iterator[Origin]:
@@ -396,7 +399,13 @@ def in_folder(folder: Path) -> Iterator[Origin]:
     if (folder / LIST).is_file():
         yield from _in_files(folder, _listed(folder))
     elif kinds := announced(folder, GROUP):
-        yield from (_in_project(folder, kind, *place) for kind, place in kinds.items())
+        for kind, (
+            name,
+            attribute,
+        ) in kinds.items():  # whose modules import each other by its name, as where it is installed
+            file, source = _file_of(folder, name), source_of(folder, name)
+            load = partial(_attribute, attribute or ATTRIBUTE, module_of_project, file, source)
+            yield Origin(kind, str(file), load, partial(Path, file))
     else:
         yield from _in_files(folder, {name: (name, ATTRIBUTE) for name in _names_in(folder)})
 
@@ -404,13 +413,7 @@ def in_folder(folder: Path) -> Iterator[Origin]:
 def _in_files(folder: Path, listed: Mapping[str, tuple[str, str]]) -> Iterator[Origin]:
     for kind, (name, attribute) in listed.items():
         file = _file_of(folder, name)
-        yield Origin(kind, str(file), partial(_of_file, file, attribute), partial(Path, file))
-
-
-def _in_project(folder: Path, kind: str, name: str, attribute: str) -> Origin:
-    """A kind of the project of a package, whose modules import each other by its name, as where it is installed."""
-    file, source = _file_of(folder, name), source_of(folder, name)
-    return Origin(kind, str(file), partial(_of_project, file, source, attribute or ATTRIBUTE), partial(Path, file))
+        yield Origin(kind, str(file), partial(_attribute, attribute, module_of_file, file), partial(Path, file))
 
 
 def _names_in(folder: Path) -> list[str]:
@@ -432,19 +435,3 @@ def _listed(folder: Path) -> dict[str, tuple[str, str]]:
 def _file_of(folder: Path, name: str) -> Path:
     package = folder / name / "__init__.py"
     return package if package.is_file() else folder / f"{name}.py"
-
-
-def _of_module(name: str) -> Any:
-    return attribute_of(import_module(name), ATTRIBUTE)
-
-
-def _file_of_module(name: str) -> Path:
-    return Path(str(sys.modules[name].__file__))
-
-
-def _of_file(file: Path, attribute: str) -> Any:
-    return attribute_of(module_of_file(file), attribute)
-
-
-def _of_project(file: Path, source: Path, attribute: str) -> Any:
-    return attribute_of(module_of_project(file, source), attribute)

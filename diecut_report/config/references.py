@@ -112,13 +112,9 @@ class Linker:
             raise ConditionError("{name} is a curve; single numbers are needed to calculate with.", name=name)
         if target.unit is None:
             raise ConditionError("{name} is not a number; numbers and quantities are needed to calculate with.", name=name)  # fmt: skip
-        meta = declared(self._of(target).model, target.key) if target.key else None
-        return Name(name, "number", target.unit, meta.unit if isinstance(meta, Quantity) else "")
-
-    def _of(self, target: Target) -> Instance:
         instance = self.instances[target.instance]
-        assert instance is not None, "a target without a model is marked as broken"
-        return instance
+        meta = declared(instance.model, target.key) if target.key and instance else None
+        return Name(name, "number", target.unit, meta.unit if isinstance(meta, Quantity) else "")
 
     def _within_curve(self, instance: Instance, key: KeyPath, target: Target) -> Target:
         """The values of a curve given as a list are not inputs of their own, so their kind is judged here."""
@@ -179,13 +175,11 @@ class Linker:
             words = "${{path}} names no value; add an output or input, as in ${{name}.{example}}."
             raise Unresolved(words, path=path, name=name, example=example)
         if rest[0] == PHASES and len(rest) > 1:
-            return self._phase(path, instance, ".".join(rest))
+            phase = ".".join(rest)
+            if phase not in instance.phases:
+                raise Unresolved(f"${{{path}}} {instance.no_phase(phase)}")
+            return Target(path, name, result=phase, phase_unit=instance.phases[phase])
         return self._result(path, instance, ".".join(rest)) or self._input(path, instance, rest)
-
-    def _phase(self, path: str, instance: Instance, phase: str) -> Target:
-        if phase not in instance.phases:
-            raise Unresolved(f"${{{path}}} {instance.no_phase(phase)}")
-        return Target(path, instance.name, result=phase, phase_unit=instance.phases[phase])
 
     def _named(self, instance: Instance) -> None:
         """What is taken whole by its name."""
@@ -322,18 +316,15 @@ def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Targe
 
 
 def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node, Target], loop: list[Node]) -> Problem:
-    shown = [".".join(map(str, node)) if len(node) > 1 else _path(links[before], node)
-             for before, node in zip([loop[-1], *loop], loop, strict=False)]  # fmt: skip
+    shown = []
+    for before, node in zip([loop[-1], *loop], loop, strict=False):
+        calculation = (single.path for single in links[before].single if single.node == node) if len(node) == 1 else ()
+        shown.append(next(iter(calculation), ".".join(map(str, node))))
     instance = instances[str(loop[0][0])]
     assert instance is not None, "a mechanism without a model has no links"
     told = [text for before, text in zip(["", *shown], [*shown, shown[0]], strict=True) if text != before]
     words = "refers to itself: {told}. Give one of these inputs a value of its own."
     return instance.place.problem(loop[0][1:], words, told=" → ".join(told if len(told) > 1 else 2 * told))
-
-
-def _path(link: Target, node: Node) -> str:
-    """The path by which a link names a calculation."""
-    return next(single.path for single in link.single if single.node == node)
 
 
 # The text of a configuration with other values in some of its places; all else stays as it is, byte for byte.
@@ -381,7 +372,11 @@ def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: boo
         typed = tree.typed(path)
         if typed is not None and "${" in typed and not over_references:
             raise UserError(_problem(tree, path, EXPRESSION))
-        edits.append(_new_key(tree, spans, path, value) if typed is None else _other(tree, spans, path, value))
+        if typed is None:
+            edits.append(_new_key(tree, spans, path, value))
+        else:
+            span = spans[tree.position(path)]
+            edits.append((span.start, span.start + len(tree.text[span.start : span.end].rstrip()), value))
     text = tree.text
     for start, end, new in sorted(edits, reverse=True):
         text = text[:start] + new + text[end:]
@@ -414,17 +409,14 @@ def _spans(text: str) -> dict[tuple[int, int], _Span]:
     return found
 
 
-def _other(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, value: str) -> tuple[int, int, str]:
-    """The piece of the text that holds a scalar, and what takes its place."""
-    span = spans[tree.position(path)]
-    ending = len(tree.text[span.start : span.end]) - len(tree.text[span.start : span.end].rstrip())
-    return span.start, span.end - ending, value
-
-
 def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, value: str) -> tuple[int, int, str]:
     """Where a new key goes: behind the first single value of its block, in a line of its own or, within braces, in the same one."""
     home, key = path[:-1], path[-1]
-    for name in _keys(tree.data, home):
+    data = tree.data
+    for part in home:  # nothing where there is no block
+        known = part in data if isinstance(data, dict) else isinstance(data, list) and int(part) < len(data)
+        data = data[part] if known else None
+    for name in data if isinstance(data, dict) else ():
         before = (*home, name)
         span, key_span = spans.get(tree.position(before)), spans.get(tree.key_position(before))
         if (
@@ -436,24 +428,10 @@ def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, 
             continue
         if span.in_flow:
             return span.end, span.end, f", {key}: {value}"
-        line_end = _line_end(tree.text, span.end)
+        line_end = span.end + len(tree.text[span.end :].partition("\n")[0].removesuffix("\r"))
         break_ = "\r\n" if "\r\n" in tree.text else "\n"
         return line_end, line_end, f"{break_}{' ' * key_span.column}{key}: {value}"
     raise UserError(_problem(tree, path, NO_HOME))
-
-
-def _line_end(text: str, place: int) -> int:
-    end = text.find("\n", place)
-    end = len(text) if end < 0 else end
-    return end - 1 if text[:end].endswith("\r") else end
-
-
-def _keys(data: Any, home: KeyPath) -> Iterator[str]:
-    """The keys of the block at a path; none where there is no block."""
-    for key in home:
-        known = key in data if isinstance(data, dict) else isinstance(data, list) and int(key) < len(data)
-        data = data[key] if known else None
-    yield from data if isinstance(data, dict) else ()
 
 
 def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
@@ -514,10 +492,15 @@ def _any_moved(instances: Mapping[str, Instance | None], linker: Linker) -> bool
 
 def _moved(instance: Instance, linker: Linker) -> bool:
     """Lay curves under their own keys; return whether there were any."""
+    curves = {
+        node[1]
+        for node, target in linker.links.items()
+        if node[0] == instance.name and len(node) == 2 and target.is_curve
+    }
     found = [
         (key, curve)
         for key, curve in instance.model.curve_keys.items()
-        if instance.data.get(curve) is None and _is_curve(instance, key, linker)
+        if instance.data.get(curve) is None and (key in curves or isinstance(instance.data.get(key), list))
     ]
     for key, curve in found:
         instance.data[curve] = instance.data.pop(key)
@@ -526,8 +509,3 @@ def _moved(instance: Instance, linker: Linker) -> bool:
     if found:
         instance.forget()
     return bool(found)
-
-
-def _is_curve(instance: Instance, key: str, linker: Linker) -> bool:
-    target = linker.links.get((instance.name, key))
-    return isinstance(instance.data.get(key), list) or (target is not None and target.is_curve)

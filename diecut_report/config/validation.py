@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
@@ -116,19 +116,13 @@ def validate(
         raise PluginError(words, instance=str(place.root[-1])) from cause
 
 
-def _choices(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = ()) -> Iterator[Problem]:
+def _choices(model: type[Block], data: Any, place: ConfigPlace) -> Iterator[Problem]:
     """What is wrong with inputs of which one group is needed, in a block and the blocks in it."""
-    if not isinstance(data, dict):
-        return
-    given = [name for name, value in data.items() if value is not None and not (isinstance(value, list) and not value)]
-    texts = {name: data.get(name, field.default) for name, field in model.model_fields.items()}
-    for fault in filter(None, (rule.fault(given) for rule in model.one_of if rule.is_asked(texts))):
-        yield place.problem(key, fault, at_key=True)
-    for name, (_, _, block, is_list) in keys_of(model).items():
-        if block and name in data:
-            parts = enumerate(data[name]) if is_list and isinstance(data[name], list) else [(None, data[name])]
-            for index, part in parts:
-                yield from _choices(block, part, place, (*key, name) if index is None else (*key, name, index))
+    for own, block, key in blocks(model, data):
+        given = [name for name, value in block.items() if value not in (None, [])]
+        texts = {name: block.get(name, field.default) for name, field in own.model_fields.items()}
+        for fault in filter(None, (rule.fault(given) for rule in own.one_of if rule.is_asked(texts))):
+            yield place.problem(key, fault, at_key=True)
 
 
 class ModelKey(NamedTuple):
@@ -148,6 +142,37 @@ def keys_of(model: type[Block]) -> dict[str, ModelKey]:
         block, is_list = nested(declared_as.annotation) or (None, False)
         found[name] = ModelKey(declared_as, meta_of(model, name), block, is_list)
     return found
+
+
+def blocks(model: type[Block], data: Any, key: KeyPath = ()) -> Iterator[tuple[type[Block], dict[str, Any], KeyPath]]:
+    """Yield a block and all blocks that stand in it, each with its model and its key."""
+    if not isinstance(data, dict):
+        return
+    yield model, data, key
+    for name, (_, _, block, is_list) in keys_of(model).items():
+        if block and name in data:
+            given = data[name]
+            parts = enumerate(given) if is_list and isinstance(given, list) else [(None, given)]
+            for index, part in parts:
+                yield from blocks(block, part, (*key, name) if index is None else (*key, name, index))
+
+
+def copied(data: Any) -> Any:
+    """Return plain data with dicts and lists of its own."""
+    if isinstance(data, dict):
+        return {key: copied(part) for key, part in data.items()}
+    return [copied(part) for part in data] if isinstance(data, list) else data
+
+
+def as_typed(model: type[Block], data: Any, place: ConfigPlace) -> Any:
+    """Return the data with its texts as they were typed: a document number 0012 or a date stays as it is."""
+    typed = copied(data)
+    for own, block, key in blocks(model, typed):
+        for name in block.keys() & keys_of(own).keys():
+            annotation = keys_of(own)[name].field.annotation
+            if str in (annotation, *get_args(annotation)) and not isinstance(block[name], dict | list | None):
+                block[name] = place.typed((*key, name))
+    return typed
 
 
 def declared(model: type[Block], key: KeyPath) -> Meta | type[Block] | None:
@@ -234,37 +259,27 @@ class _Fault:
         return Phrase(words, given=told(self.given), near=near, choices=", ".join(choices))
 
     def _other(self) -> str:
-        if isinstance(self.given, Pending):
-            number = Phrase(
-                "is a {text} in {unit}",
-                text=(phrase("curve") if self.given.is_curve else phrase("number")),
-                unit=self.given.unit,
-            )
-            return Phrase(
-                "${{path}} {number}; {needed} is needed here",
-                path=self.given.path,
-                number=(number if self.given.unit else phrase("is a text")),
-                needed=self._text() or self._needed(),
-            )
-        if self.given is None:
-            return Phrase("has no value; {needed} is needed, or remove the key", needed=self._needed())
-        return Phrase("is {given}; {needed} is needed", given=told(self.given), needed=self._needed())
-
-    def _text(self) -> str | None:
-        """A text that is needed, with what it says; None where something else is."""
         meta = declared(self.model, self.key) if self.key else None
-        if not self.type.startswith("string") or not isinstance(meta, Text):
-            return None
-        return Phrase("a text ({description})", description=phrase(meta.description))
+        if isinstance(self.given, Pending):
+            number = phrase("is a text")
+            if self.given.unit:
+                what = phrase("curve") if self.given.is_curve else phrase("number")
+                number = Phrase("is a {text} in {unit}", text=what, unit=self.given.unit)
+            needed: str = self._needed(meta)
+            if self.type.startswith("string") and isinstance(meta, Text):
+                needed = Phrase("a text ({description})", description=phrase(meta.description))
+            words = "${{path}} {number}; {needed} is needed here"
+            return Phrase(words, path=self.given.path, number=number, needed=needed)
+        if self.given is None:
+            return Phrase("has no value; {needed} is needed, or remove the key", needed=self._needed(meta))
+        return Phrase("is {given}; {needed} is needed", given=told(self.given), needed=self._needed(meta))
 
-    def _needed(self) -> str:
+    def _needed(self, meta: Meta | type[Block] | None) -> str:
         kinds = {"bool": phrase("true or false"), "int": phrase("a whole number"), "float": phrase("a number"),
                  "string": phrase("a text"), "list": phrase("a list"), "dict": phrase("a block of keys"),
                  "model": phrase("a block of keys")}  # fmt: skip
-        known = kinds.get(self.type.split("_")[0])
-        if known:
+        if known := kinds.get(self.type.split("_")[0]):
             return known
-        meta = declared(self.model, self.key) if self.key else None
         if isinstance(meta, Text):
             return Phrase("another value ({description})", description=phrase(meta.description))
         return phrase("another value")
@@ -326,36 +341,13 @@ class BasisReader:
     @staticmethod
     def read(model: type[Block], data: Mapping[str, Any], place: ConfigPlace) -> BasisReader:
         """Return what the data of a block say."""
-        reader = BasisReader(place)
-        reader.data = reader._block(model, data, ())
+        reader = BasisReader(place, copied(dict(data)))
+        for own, block, key in list(blocks(model, reader.data)):
+            for name, (_, meta, _, _) in keys_of(own).items():
+                given = block.get(name)
+                if isinstance(given, dict) and (unit := _unit_of(meta, given)):
+                    block[name] = reader._stated(unit, given, (*key, name))
         return reader
-
-    def _block(self, model: type[Block], data: Mapping[str, Any], key: KeyPath) -> dict[str, Any]:
-        known = keys_of(model)
-        return {
-            name: self._value(known[name], given, (*key, name)) if name in known else given
-            for name, given in data.items()
-        }
-
-    def _value(self, known: Any, given: Any, key: KeyPath) -> Any:
-        if known.block and isinstance(given, list):
-            return [self._inner(known.block, part, (*key, index)) for index, part in enumerate(given)]
-        if known.block:
-            return self._inner(known.block, given, key)
-        if (
-            isinstance(known.meta, Varying)
-            and known.meta.extremes
-            and {"min", "max"} & set(given if isinstance(given, dict) else ())
-        ):
-            return given
-        if isinstance(known.meta, Quantity | CurveInput) and isinstance(given, dict):
-            return self._stated(known.meta.unit, given, key)
-        if isinstance(known.meta, Text) and isinstance(given, dict) and "value" in given:
-            return self._stated("1", given, key)
-        return given
-
-    def _inner(self, model: type[Block], given: Any, key: KeyPath) -> Any:
-        return self._block(model, given, key) if isinstance(given, dict) else given
 
     def _stated(self, unit: str, given: dict[str, Any], key: KeyPath) -> Any:
         """The value of a quantity that stands as a block; the block itself where it is not one."""
@@ -390,3 +382,12 @@ class BasisReader:
         if note is not None and not isinstance(note, str):
             words = "is {note}; a text is needed, in quotes where it is a number"
             yield self.place.problem((*key, "note"), words, note=told(note))
+
+
+def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:
+    """The unit of a value that stands as a block; nothing where the block is something else."""
+    if isinstance(meta, Varying) and meta.extremes and {"min", "max"} & given.keys():
+        return ""
+    if isinstance(meta, Quantity | CurveInput):
+        return meta.unit
+    return "1" if isinstance(meta, Text) and "value" in given else ""

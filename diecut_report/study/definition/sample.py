@@ -12,9 +12,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, create_model
 
-from diecut_report.config.loader import Config, as_typed
+from diecut_report.config.loader import Config
 from diecut_report.config.model import ConfigDocument
-from diecut_report.config.validation import ConfigPlace, told, validate
+from diecut_report.config.validation import ConfigPlace, as_typed, told, validate
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.mechanism.inputs import Block, Quantity
