@@ -229,9 +229,10 @@ class Origin:
 
 
 class Discovery:
-    """The kinds that are known here: built in, installed, and in the given folders."""
+    """The kinds that are known here: built in, installed, and in the given folders; ``first`` stand before others of their name."""
 
-    def __init__(self, folders: Iterable[Path] = ()) -> None:
+    def __init__(self, folders: Iterable[Path] = (), first: Iterable[Origin] = ()) -> None:
+        self._first = {origin.kind: [origin] for origin in first}
         self._folders = tuple({folder.resolve(): folder for folder in folders}.values())
         self._loaded: dict[str, Mechanism | PluginError] = {}
         self.extended: dict[str, str] = {}  # the extensions that were run, with the hashes of their code
@@ -242,7 +243,7 @@ class Discovery:
         found: dict[str, list[Origin]] = {}
         for origin in [*_built_in(), *_installed(), *(o for folder in self._folders for o in in_folder(folder))]:
             found.setdefault(origin.kind, []).append(origin)
-        return dict(sorted(found.items()))
+        return dict(sorted(found.items())) | self._first
 
     @cached_property
     def _extensions(self) -> list[Origin]:
@@ -287,12 +288,15 @@ class Discovery:
             raise found
         return found
 
+    def unknown(self, kind: str) -> Phrase:
+        """Return what is said of a kind that nothing gives."""
+        words = "{kind} is not a known kind{nearest}. Known: {known}."
+        return Phrase(words, kind=repr(kind), nearest=nearest(kind, self.origins), known=", ".join(self.origins))
+
     def _only_origin(self, kind: str) -> Origin:
         origins = self.origins.get(kind)
         if not origins:
-            near = nearest(kind, self.origins)
-            words = "{kind} is not a known kind{nearest}. Known: {known}."
-            raise UnknownKind(Phrase(words, kind=repr(kind), nearest=near, known=", ".join(self.origins)))
+            raise UnknownKind(self.unknown(kind))
         if len(origins) > 1:
             places = joined((origin.told for origin in origins), " and from ")
             words = "The kind {kind} comes from {places}. Remove or rename one of them."

@@ -64,13 +64,11 @@ def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str])
         "conclusion": said(run.summary["conclusion"]),
         "is_open": run.is_open,
         "start": {"status": start.run.status, "summary": start.run.summary},
-        "mechanisms": [_mechanism(name, machine, start, edits) for name in _names(machine)],
+        "mechanisms": [
+            _mechanism(name, machine, start, edits)
+            for name in (PRESS, *(each for each in machine.config.instances if each != PRESS))
+        ],
     }
-
-
-def _names(machine: LiveMachine) -> Iterator[str]:
-    yield PRESS
-    yield from (name for name in machine.config.instances if name != PRESS)
 
 
 def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str]) -> Data:
@@ -119,11 +117,7 @@ def _inputs(name: str, machine: LiveMachine) -> list[DesignInput | DesignChoice]
 
 def _choice(asked: DesignChoice, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
     first = start.choices.get(asked.name)
-    return {
-        "name": asked.name,
-        "path": asked.asked.path,
-        "text": _told(asked.asked.meta.description, kind),
-        "symbol": asked.asked.meta.symbol,
+    return _named(asked, asked.asked.meta, kind) | {
         "unit": "",
         "typed": edits.get(asked.name) or asked.typed,
         "start": first.typed if first else "",
@@ -136,11 +130,7 @@ def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str
     low, high = slider(asked)
     own = unit(asked.unit)
     first = start.inputs.get(asked.name)
-    return {
-        "name": asked.name,
-        "path": asked.asked.path,
-        "text": _told(asked.meta.description, kind),
-        "symbol": asked.meta.symbol,
+    return _named(asked, asked.meta, kind) | {
         "unit": "" if asked.unit == "1" else asked.unit,
         "value": _plain(own.from_si(asked.today)),
         "typed": edits.get(asked.name) or asked.typed(asked.today),
@@ -149,6 +139,11 @@ def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str
         "high": _plain(own.from_si(high)),
         "whole": asked.is_whole,
     }
+
+
+def _named(asked: DesignInput | DesignChoice, meta: Any, kind: str) -> Data:
+    text = _told(meta.description, kind)
+    return {"name": asked.name, "path": asked.asked.path, "text": text, "symbol": meta.symbol}
 
 
 def slider(asked: DesignInput) -> tuple[float, float]:

@@ -34,7 +34,7 @@ from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
 from diecut_report.testing import machines
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
-from diecut_report.testing.machines import Keys, MachineCase, WithMechanism, configured, one_of, unlike
+from diecut_report.testing.machines import Keys, MachineCase, configured, one_of, unlike, with_mechanism
 from diecut_report.testing.plugin_words import PluginWords
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, built_in, file_beside, languages
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
@@ -165,7 +165,6 @@ TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are
 FAR = 400  # machines of which each is far from the example
 TIMED, TIMED_ALONE = 1000, 5  # variants whose time is measured; where they are slow, so few
 LONGEST = 600.0  # seconds of a rule: a plugin may never come back
-DECLARED = ("declaration", "dimensions", "printed", "inputs", "doubts")
 
 
 @dataclass
@@ -193,24 +192,14 @@ class ContractTest:
 
     def tried(self) -> Iterator[TriedRule]:
         """Yield each rule with what was found; what needs a sound declaration or a machine is not tried without."""
-        first = self.tried_alone("declaration")
-        yield first
-        if first.status != "pass":
-            yield from self._left(list(TITLES)[1:])
-            return
-        for id in DECLARED[1:]:
-            yield self.tried_alone(id)
-        rest = list(TITLES)[len(DECLARED) :]
-        example = self.tried_alone("example")
-        yield example
-        if example.status != "pass":
-            yield from self._left(rest[1:])
-            return
-        for id in rest[1:]:
-            yield self.tried_alone(id)
-
-    def _left(self, ids: Iterable[str]) -> Iterator[TriedRule]:
-        yield from (TriedRule(id, "not_tried", phrase("not tried before what is above holds")) for id in ids)
+        is_tried = True
+        for id in TITLES:
+            if is_tried:
+                found = self.tried_alone(id)
+                is_tried = found.status == "pass" or id not in ("declaration", "example")
+                yield found
+            else:
+                yield TriedRule(id, "not_tried", phrase("not tried before what is above holds"))
 
     def tried_alone(self, id: str) -> TriedRule:
         """Return what one rule finds; where the plugin breaks in it, that is its fault."""
@@ -235,9 +224,9 @@ class ContractTest:
             "steps: {steps}, checks: {checks}, figures: {figures}", steps=len(self.mechanism.steps),
             checks=len(self.mechanism.checks), figures=len(self.mechanism.figures),
         )  # fmt: skip
-        tried = (
-            faults if _is_built_in(self.mechanism) else faults_at_load
-        )  # what comes with the program imports itself by its name
+        own = built_in(self.mechanism.kind)
+        is_built_in = own is not None and Path(self.mechanism.at).is_relative_to(own.parent)
+        tried = faults if is_built_in else faults_at_load  # what comes with the program imports itself by its name
         return rule("declaration", told, map(str, tried(self.mechanism)))
 
     def dimensions(self) -> TriedRule:
@@ -379,9 +368,11 @@ class ContractTest:
     def _as_given(self, language: str) -> str:
         """Which sources a report in a language leaves as they are."""
         found = self.words.sources_as_given(language)
-        named = "; ".join(found[:TOLD])
+        if not found:
+            return ""
         more = Counted(len(found) - TOLD, " and {n} other", " and {n} others") if len(found) > TOLD else ""
-        return (found and Phrase("; sources that stay as they are given: {named}{more}", named=named, more=more)) or ""
+        words = "; sources that stay as they are given: {named}{more}"
+        return Phrase(words, named="; ".join(found[:TOLD]), more=more)
 
     def speed(self) -> TriedRule:
         """Tell how long a thousand variants take, as far as the mechanism itself is concerned."""
@@ -398,11 +389,6 @@ class ContractTest:
         return rule("speed", _seconds(time.process_time() - began), [])
 
 
-def _is_built_in(mechanism: Mechanism) -> bool:
-    own = built_in(mechanism.kind)
-    return own is not None and Path(mechanism.at).is_relative_to(own.parent)
-
-
 def _seconds(time_taken: float) -> str:
     return Phrase("{seconds} s", seconds=f"{time_taken:.2g}")
 
@@ -416,7 +402,7 @@ def check_contract(
     The inputs are as for ``calculate``: take some that give as much of the mechanism as may be, also its optional inputs.
     """
     config = configured(mechanism, inputs, press, others, plugins)
-    test = ContractTest(mechanism, WithMechanism(mechanism, map(Path, plugins)), config, mechanism.kind)
+    test = ContractTest(mechanism, with_mechanism(mechanism, map(Path, plugins)), config, mechanism.kind)
     broken = [each for each in test.tried() if each.status in ("fail", "broke")]
     assert not broken, "\n".join(f"{each.title}: {fault}" for each in broken for fault in each.short_list)
 
@@ -435,19 +421,12 @@ def refuse_own(origin: Origin) -> None:
 
 def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatalogue]:
     """Write the entries that a plugin's catalogues lack, and mark those as obsolete that nothing says; what was changed, by the file."""
-    found = {file: made for file, made in _changed(test, origin.file()) if made.added or made.obsolete}
+    found, words = {}, test.words
+    for language in (each for each in languages() if each != SOURCE_LANGUAGE):
+        file = file_beside(origin.file(), language)
+        there = content(file, LARGEST, phrase("a catalogue of texts")) if file.is_file() else None
+        made = changed(there, language, test.mechanism.kind, words.untranslated(language), words.unused(language))
+        if made.added or made.obsolete:
+            found[file] = made
     write_all({file: made.content for file, made in found.items()}, keep=None)
     return found
-
-
-def _changed(test: ContractTest, code: Path) -> Iterator[tuple[Path, ChangedCatalogue]]:
-    """Each catalogue as it is to be."""
-    for language in languages():
-        if language != SOURCE_LANGUAGE:
-            file = file_beside(code, language)
-            there = content(file, LARGEST, phrase("a catalogue of texts")) if file.is_file() else None
-            words = test.words
-            yield (
-                file,
-                changed(there, language, test.mechanism.kind, words.untranslated(language), words.unused(language)),
-            )
