@@ -3,8 +3,9 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import chain, count
 from pathlib import Path, PurePath
 from typing import Any
 
@@ -104,10 +105,9 @@ def is_called_for(mechanism: Mechanism, kinds: Kinds) -> bool:
     return sum(kind in wanted for kind in kinds.values()) >= FEWEST
 
 
-def free_name(kind: str, instances: Instances) -> str:
-    """Return a name for what runs by itself: its kind, with a number where a mechanism is called so."""
-    names = (kind, *(f"{kind}_{number}" for number in range(2, len(instances) + 3)))
-    return next(name for name in names if name not in instances)
+def free_name(name: str, taken: Container[str]) -> str:
+    """Return a name that is not taken: this one, with a number from the second on."""
+    return next(each for each in chain([name], (f"{name}_{number}" for number in count(2))) if each not in taken)
 
 
 # A configuration or a study from standard input.
@@ -295,19 +295,17 @@ class _ConfigReader:
         self.instances[name] = Instance(name, form, typed, own.place, mechanism, own.bases, own)
 
     def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
-        fault = _name_fault(name)
+        fault = name_fault(name)
         if fault:
             self.problems.append(place.problem((), fault, at_key=True))
         elif not isinstance(body, dict):
             words = "is {body}; a block of keys with its kind is needed"
             self.problems.append(place.problem((), words, body=told(body)))
         elif not isinstance(body.get("kind"), str):
-            words = Phrase("is missing. Give one of: {origins}.", origins=", ".join(self.discovery.origins))
-            self.problems.append(
-                place.problem(("kind",), "is {kind}; the name of a kind is needed", kind=told(body.get("kind")))
-                if "kind" in body
-                else place.absent(("kind",), words)
-            )
+            origins, given = ", ".join(self.discovery.origins), told(body.get("kind"))
+            absent = place.absent(("kind",), "is missing. Give one of: {origins}.", origins=origins)
+            wrong = place.problem(("kind",), "is {kind}; the name of a kind is needed", kind=given)
+            self.problems.append(wrong if "kind" in body else absent)
         else:
             self._of_kind(name, body["kind"], {key: value for key, value in body.items() if key != "kind"}, place)
 
@@ -342,7 +340,8 @@ def _of_instance(error: DuplicateKind | PluginError, kind: str, name: str) -> Pl
     return named
 
 
-def _name_fault(name: str) -> str:
+def name_fault(name: str) -> str:
+    """Return why a mechanism cannot have this name; nothing where it can."""
     if seeming := seeming_latin(name):
         return seeming
     if name in RESERVED:

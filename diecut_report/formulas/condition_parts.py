@@ -311,7 +311,7 @@ def _kind(part: ConditionPart) -> str:
 # Reads a condition: what Python parsed becomes a tree, each part judged as it joins the others.
 
 
-DEEPEST = 100  # levels of a tree
+MAX_DEPTH = 100  # levels of a tree
 Find = Callable[[str], Name]
 """What a name stands for; ConditionError in words where it stands for nothing."""
 _ARITHMETIC: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
@@ -342,9 +342,9 @@ class ConditionReader:
         return replace(found, exact=True) if self.exact else found
 
     def _part(self, at: ast.expr, depth: int) -> ConditionPart:
-        if depth > DEEPEST:
+        if depth > MAX_DEPTH:
             words = "the condition is nested deeper than {deepest} levels. Write several conditions."
-            raise ConditionError(words, self._place(at), deepest=DEEPEST)
+            raise ConditionError(words, self._place(at), deepest=MAX_DEPTH)
         match at:
             case ast.Name():
                 return self._leaf(at)
@@ -518,17 +518,13 @@ def read_expression(text: str, find: Find) -> Expression:
         whole = parsed_words(calculation(text))
         made = quantity(ConditionReader(whole, find, exact=True).part(whole.body, 0))
     except ConditionError as fault:
-        raise ConditionError(_of_expression(fault.words), fault.place) from None
+        text_of_fault: str = fault.words  # which tells of conditions
+        for of_condition, of_expression in WORDS:
+            text_of_fault = text_of_fault.replace(of_condition, of_expression)
+        raise ConditionError(text_of_fault, fault.place) from None
     if not names(made.node):
         raise ConditionError("the expression refers to nothing; write the value itself.", 0)
     return Expression(text.strip(), made.node, made.kind)
-
-
-def _of_expression(words: str) -> str:
-    """Words of the grammar, which tell of conditions."""
-    for of_condition, of_expression in WORDS:
-        words = words.replace(of_condition, of_expression)
-    return words
 
 
 def _faults(node: Node, value_of: Callable[[str], Any]) -> Iterator[str]:

@@ -18,7 +18,7 @@ from __future__ import annotations
 import ast
 import re
 from bisect import bisect_right
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from typing import NoReturn
 
@@ -28,7 +28,7 @@ from diecut_report.text.phrases import Phrase, message, phrase
 # The words of a condition, or of an expression, where each stands, and the error that tells of a fault there.
 
 
-MOST_LETTERS, MOST_WORDS, DEEPEST = 20_000, 400, 40  # of a condition; brackets in each other
+MAX_LENGTH, MAX_WORDS, MAX_BRACKETS = 20_000, 400, 40  # of a condition; brackets in each other
 KEYWORDS = ("and", "or", "not", "in", "is", "null", "between", "like", "true", "false")
 FUNCTIONS = ("abs", "min", "max", "sqrt")
 ALLOWED = (
@@ -93,13 +93,17 @@ class Token:
 
 def calculation(given: str) -> list[Token]:
     """Split an expression of a configuration into its words, the end among them: references are names, quantities texts."""
-    found, place = [], _past_blanks(given, 0)
+    too_long = phrase("the expression has more than {most_words} words. Write it shorter.")
+    return _split(given, lambda place: _calculated(given, place), too_long)
+
+
+def _split(given: str, word_at: Callable[[int], tuple[Token, int]], too_long: str) -> list[Token]:
+    found, place = list[Token](), _past_blanks(given, 0)
     while place < len(given):
-        token, end = _calculated(given, place)
+        token, end = word_at(place)
         found.append(token)
-        if len(found) > MOST_WORDS:
-            words = "the expression has more than {most_words} words. Write it shorter."
-            raise ConditionError(words, place, most_words=MOST_WORDS)
+        if len(found) > MAX_WORDS:
+            raise ConditionError(too_long, place, most_words=MAX_WORDS)
         place = _past_blanks(given, end)
     return [*found, Token("end", phrase("the end"), len(given))]
 
@@ -112,7 +116,10 @@ def _calculated(given: str, place: int) -> tuple[Token, int]:
         words = "“{match}” holds a comma; write a decimal point, or a blank after a comma that parts two values."
         raise ConditionError(words, place, match=match[0])
     if match["word"]:
-        return _function(match, given)
+        if not given[match.end() :].lstrip().startswith("("):
+            advice = phrase("a value of the configuration stands as ${NAME.KEY}, a unit behind its number")
+            raise ConditionError("{match} is not expected here; {advice}.", place, match=repr(match[0]), advice=advice)
+        return _worded(match[0], place, is_called=True), match.end()
     text = f"${{{match['path'].strip()}}}" if match["reference"] else match[0]
     sort = next(sort for group, sort in _SORTS.items() if match[group])
     return Token(sort, text, place), match.end()
@@ -124,45 +131,23 @@ def _not_allowed(given: str, place: int, allowed: str) -> ConditionError:
     return ConditionError("{given} is not allowed here; allowed: {allowed}.", place, given=letters, allowed=allowed)
 
 
-def _function(match: re.Match[str], given: str) -> tuple[Token, int]:
-    """Return a word, which is a function or a fault."""
-    if not given[match.end() :].lstrip().startswith("("):
-        raise ConditionError(
-            "{match} is not expected here; {advice}.",
-            match.start(),
-            match=repr(match[0]),
-            advice=phrase("a value of the configuration stands as ${NAME.KEY}, a unit behind its number"),
-        )
-    return Token(
-        "function", match[0].lower() if match[0].lower() in FUNCTIONS else match[0], match.start()
-    ), match.end()
-
-
 def tokens(given: str, known: Collection[str]) -> list[Token]:
     """Split a condition into its words, the end among them; known names are taken whole, whatever they are made of."""
-    if len(given) > MOST_LETTERS:
+    if len(given) > MAX_LENGTH:
         words = "the condition has {count} characters; at most {most_letters} are allowed. Write several conditions."
-        raise ConditionError(words, count=len(given), most_letters=MOST_LETTERS)
+        raise ConditionError(words, count=len(given), most_letters=MAX_LENGTH)
     whole = re.compile("(" + "|".join(map(re.escape, sorted(known, key=len, reverse=True))) + r")(?![\w.])")
-    found, place = [], _past_blanks(given, 0)
-    while place < len(given):
-        name = whole.match(given, place) if known else None
-        token, end = (_known(name), name.end()) if name else _token(given, place, known)
-        found.append(token)
-        if len(found) > MOST_WORDS:
-            words = "the condition has more than {most_words} words. Write several conditions."
-            raise ConditionError(words, place, most_words=MOST_WORDS)
-        place = _past_blanks(given, end)
-    return [*found, Token("end", phrase("the end"), len(given))]
+
+    def word_at(place: int) -> tuple[Token, int]:
+        if name := whole.match(given, place) if known else None:
+            return _worded(name[0], place, is_called=False), name.end()
+        return _token(given, place, known)
+
+    return _split(given, word_at, phrase("the condition has more than {most_words} words. Write several conditions."))
 
 
 def _past_blanks(given: str, place: int) -> int:
     return len(given) - len(given[place:].lstrip())
-
-
-def _known(match: re.Match[str]) -> Token:
-    word = match[0].lower()
-    return Token("keyword", word, match.start()) if word in KEYWORDS else Token("name", match[0], match.start())
 
 
 def _token(given: str, place: int, known: Collection[str]) -> tuple[Token, int]:
@@ -172,21 +157,16 @@ def _token(given: str, place: int, known: Collection[str]) -> tuple[Token, int]:
     if match["quantity"]:
         words = "“{quantity}”: put a quantity in quotes: '{value} {unit}'."
         raise ConditionError(words, place, quantity=match["quantity"], value=match["value"], unit=match["unit"])
-    return _sorted(match, given, known), match.end()
-
-
-def _sorted(match: re.Match[str], given: str, known: Collection[str]) -> Token:
-    """Return the word of a match, with its sort."""
-    text, place = match[0], match.start()
+    text = match[0]
     if match["quoted"]:
         inside = text[1:-1].replace(text[0] * 2, text[0])
-        return Token("name" if text[0] == '"' and inside in known else "text", inside, place)
+        return Token("name" if text[0] == '"' and inside in known else "text", inside, place), match.end()
     if match["word"]:
-        return _worded(text, place, given[match.end() :].lstrip().startswith("("))
-    return Token("name" if match["path"] else "number" if match["number"] else "sign", text, place)
+        return _worded(text, place, is_called=given[match.end() :].lstrip().startswith("(")), match.end()
+    return Token("name" if match["path"] else "number" if match["number"] else "sign", text, place), match.end()
 
 
-def _worded(text: str, place: int, is_called: bool) -> Token:
+def _worded(text: str, place: int, *, is_called: bool) -> Token:
     lower = text.lower()
     if lower in KEYWORDS:
         return Token("keyword", lower, place)
@@ -297,7 +277,7 @@ class _GrammarWriter:
 
     def _opened(self, sort: str, bracket: str) -> bool:
         self.open.append(_Bracket(sort))
-        if len(self.open) > DEEPEST + 1:
+        if len(self.open) > MAX_BRACKETS + 1:
             raise ConditionError("brackets stand too deep in each other. Write several conditions.", self.next.place)
         self._write(bracket)
         return True
@@ -313,7 +293,10 @@ class _GrammarWriter:
         elif (sign := _SIGNS.get(word.text, word.text)) in _JOINING and word.sort == "sign":
             self._write(sign)
         elif self._is(","):
-            self._comma()
+            self._decided()
+            if self.open[-1].sort not in ("call", "list"):
+                raise self._unexpected()
+            self._write(",")
         elif self._is(")"):
             self._close(")")
             return False
@@ -356,12 +339,6 @@ class _GrammarWriter:
         if not self._is(wanted):
             words = "{wanted} is missing before {shown}."
             raise ConditionError(words, self.next.place, wanted=repr(wanted), shown=self.next.shown)
-
-    def _comma(self) -> None:
-        self._decided()
-        if self.open[-1].sort not in ("call", "list"):
-            raise self._unexpected()
-        self._write(",")
 
     def _close(self, by: str) -> None:
         self._decided()

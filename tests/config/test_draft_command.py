@@ -62,7 +62,7 @@ def test_all_that_is_wrong_is_told_at_once_and_nothing_is_written(tmp_path: Path
     err = capfd.readouterr().err
     assert "'cluch' is not a known kind (did you mean 'clutch'?)" in err
     assert (
-        "'1x' is not a name" in err
+        "“1x” is not a name" in err
         and "the name 'press' is reserved" in err
         and "the name 'a' is given to several" in err
     )
