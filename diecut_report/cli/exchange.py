@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
@@ -140,15 +140,6 @@ previous_option = click.option(
 )
 
 
-class HeldAgainst(NamedTuple):
-    """What a report is held against beside its configuration."""
-
-    house: HouseStyle | None = None
-    previous: Path | None = None
-    trusted: Path | None = None
-    pages: bool = True
-
-
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
 @click.option("--numbers", is_flag=True, help="Hold the results alone against it, not the pages, which takes longer.")
@@ -164,14 +155,15 @@ def verify(
 
     Exit codes: 0 everything agrees, 1 something does not or is not proved, 2 the report cannot be read, 3 a plugin broke.
     """
-    carried, found = verified(report, HeldAgainst(house, previous, trust, not numbers), Discovery(folders), quiet)
+    carried, found = verified(report, Discovery(folders), quiet, house, previous, trust, pages=not numbers)
     tell(str(error) for error in found.broken)
     emit_lines(verification_lines(carried, found))
     return PLUGIN_BROKE if found.broken else PASSED if found.holds else CHECK_FAILED
 
 
 def verified(
-    report: Path, asked: HeldAgainst, discovery: Discovery, quiet: bool
+    report: Path, discovery: Discovery, quiet: bool, house: HouseStyle | None, previous: Path | None,
+    trusted: Path | None = None, *, pages: bool = True,
 ) -> tuple[CarriedResults, Verification]:  # fmt: skip
     """Return what a report carries, and what was found of it."""
     from diecut_report.design.advised import followed
@@ -184,10 +176,8 @@ def verified(
 
     carried, parts = carried_results(report), ReportParts(moves, followed, influenced)
     with Progress(quiet) as progress, without_output():
-        given = None if asked.previous is None else source(asked.previous, discovery)
-        former = None if given is None else side(given, discovery, progress)[0]
-        found = judged(carried, discovery, progress, parts, pages=asked.pages, trusted=asked.trusted, house=asked.house,
-                       previous=former)  # fmt: skip
+        former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
+        found = judged(carried, discovery, progress, parts, pages=pages, trusted=trusted, house=house, previous=former)
     return carried, found
 
 
@@ -312,31 +302,21 @@ def sign(
         if out.exists() and given.exists() and out.samefile(given):
             words = "This is the key or its certificate; it would be written over. Choose another file with -o."
             raise refusal(words, out)
-    found = signing_key(key, cert, _password)
-    signed(
-        Signing(report, out, field, reason),
-        found,
-        lambda words: None if quiet else tell([f"{out}: " + phrase(words)]),
-        lambda: _require_as_made(report, HeldAgainst(house, previous), Discovery(folders), quiet),
-    )
+
+    def require_as_made() -> None:
+        carried, found = verified(report, Discovery(folders), quiet, house, previous)
+        if not found.holds:
+            faults = [line for line in verification_lines(carried, found) if line.startswith(("✗", " "))]
+            words = phrase(
+                "The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:"
+            )
+            raise UserError([Problem(words, str(report)), *map(Problem, faults)])
+
+    def told(words: str) -> None:
+        tell([] if quiet else [f"{out}: " + phrase(words)])
+
+    signed(Signing(report, out, field, reason), signing_key(key, cert, _password), told, require_as_made)
     return PASSED
-
-
-def _require_as_made(report: Path, asked: HeldAgainst, discovery: Discovery, quiet: bool) -> None:
-    carried, found = verified(report, asked, discovery, quiet)
-    if not found.holds:
-        faults = [line for line in verification_lines(carried, found) if line.startswith(("✗", " "))]
-        raise UserError(
-            [
-                Problem(
-                    phrase(
-                        "The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:"
-                    ),
-                    str(report),
-                ),
-                *map(Problem, faults),
-            ]
-        )
 
 
 def _password() -> bytes:

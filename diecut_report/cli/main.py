@@ -63,6 +63,7 @@ from diecut_report.cli.output import (
 )
 from diecut_report.cli.plugins import check_plugin, new, new_plugin
 from diecut_report.cli.study import batch, take, variants
+from diecut_report.config.model import DETAILS
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.errors import PluginError, Unwritable, UserError, refusal
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
@@ -221,7 +222,7 @@ def program() -> None:
 @click.option(
     "--detail",
     metavar="DETAIL",
-    shell_complete=output.details,
+    shell_complete=output.one_of(lambda: DETAILS),
     callback=read_detail,
     help="brief, standard or full, in place of the configuration's (standard).",
 )

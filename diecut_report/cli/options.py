@@ -11,6 +11,7 @@ import click
 
 from diecut_report.cli.output import tell
 from diecut_report.config.loader import SHOWN, load_standard_input
+from diecut_report.config.model import DETAILS
 from diecut_report.config.yaml import Tree
 from diecut_report.errors import nearest, refusal
 from diecut_report.text.phrases import Phrase, phrase
@@ -73,8 +74,6 @@ def report_formats() -> tuple[str, ...]:
 
 def read_detail(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
     """Return the detail that is asked for; BadParameter where there is no such one."""
-    from diecut_report.config.model import DETAILS
-
     if given is None or given in DETAILS:
         return given
     words, near = "{given} is not a detail{nearest}; known: {known}.", nearest(given, DETAILS)

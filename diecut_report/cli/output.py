@@ -20,7 +20,6 @@ from unicodedata import category
 import click
 from click.shell_completion import CompletionItem
 
-from diecut_report.config.model import DETAILS, PRESS
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import INVISIBLE
 from diecut_report.errors import TOLD, PluginError, Problem, Unwritable, UserError
@@ -111,30 +110,21 @@ def kinds(context: click.Context, _: click.Parameter, begun: str) -> list[Comple
     return [CompletionItem(kind, help=_title(discovery, kind)) for kind in discovery.origins if kind.startswith(begun)]
 
 
-def mechanisms(context: click.Context, _: click.Parameter, begun: str) -> list[CompletionItem]:
+def mechanisms(context: click.Context, _: click.Parameter, begun: str) -> list[str]:
     """Complete names of mechanisms, parted by commas."""
     before, comma, last = begun.rpartition(",")
-    names = (config.kinds for config in _config(context))
-    return _items((f"{before}{comma}{name}" for found in names for name in found), f"{before}{comma}{last}")
+    names = (name for config in _config(context) for name in config.kinds)
+    return [f"{before}{comma}{name}" for name in names if name.startswith(last)]
 
 
-def inputs(context: click.Context, _: click.Parameter, begun: str) -> list[CompletionItem]:
+def inputs(context: click.Context, _: click.Parameter, begun: str) -> list[str]:
     """Complete the path of an input that is a number: drive.crank_length."""
-    return _items((path for config in _config(context) for path in _numbers(config)), begun)
+    return [path for config in _config(context) for path in _numbers(config) if path.startswith(begun)]
 
 
-def spoken(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
-    """Complete a language."""
-    return _items(languages(), begun)
-
-
-def details(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
-    """Complete how much a report holds."""
-    return _items(DETAILS, begun)
-
-
-def _items(known: Iterable[str], begun: str) -> list[CompletionItem]:
-    return [CompletionItem(text) for text in known if text.startswith(begun)]
+def one_of(known: Callable[[], Iterable[str]]) -> Callable[[click.Context, click.Parameter, str], list[str]]:
+    """Return what completes one of these texts."""
+    return lambda _context, _option, begun: [text for text in known() if text.startswith(begun)]
 
 
 def _discovery(context: click.Context) -> Discovery:
@@ -174,8 +164,7 @@ def _numbers(config: Config) -> Iterator[str]:
     for name, instance in config.instances.items():
         for slot in instance.slots if instance else ():
             if isinstance(slot.meta, Quantity) and (slot.is_given or slot.value is not None):
-                home = PRESS if name == PRESS else name
-                yield ".".join(map(str, (home, *slot.key)))
+                yield ".".join(map(str, (name, *slot.key)))
 
 
 # The language of the command line: that of its messages, and the one that is asked for documents.
@@ -229,7 +218,7 @@ def language_option(command: Command) -> Command:
         expose_value=False,
         callback=_language,
         help=words,
-        shell_complete=spoken,
+        shell_complete=one_of(languages),
     )
     return option(command)
 
@@ -333,7 +322,7 @@ def as_json(data: Any, indent: int = 2) -> str:
     return json.dumps(data, indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
 
 
-def emit_or_write(text: str, target: Path | None, keep: Path) -> None:
+def emit_or_write(text: str, target: Path | None, keep: Path | None = None) -> None:
     """What was asked for: on standard output, or in the file that is named, which is not ``keep``."""
     if target is None:
         emit(text)

@@ -21,9 +21,9 @@ from diecut_report.cli.output import (
     HelpfulCommand,
     asked_language,
     common,
-    emit,
     emit_json,
     emit_lines,
+    emit_or_write,
     tell,
     tell_problems,
     tell_written,
@@ -66,7 +66,7 @@ def new(kinds: tuple[str, ...], file: Path | None, force: bool, folders: tuple[P
         with without_output():
             made = draft(kinds, discovery, file.name if file else "my_press.yaml")
             problems = _problems(made, str(file or SHOWN), discovery)
-        _give(made, file)
+        emit_or_write(made.text, file)
         tell(_told(made, None if quiet else file))
     tell_problems(problems)
     return CHECK_FAILED if problems else PASSED
@@ -108,28 +108,16 @@ def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]
     return ()
 
 
-def _give(made: Draft, file: Path | None) -> None:
-    if file is None:
-        emit(made.text)
-        return
-    from diecut_report.files import write_all
-
-    write_all({file: made.text.encode()}, keep=file.parent, through=True)
-
-
 def _told(made: Draft, file: Path | None) -> Iterator[str]:
     """Say what was added, and what no example tells."""
     if file is not None:
         yield Phrase("written: {path}", path=file)
-    for new_one, asking in made.added:
-        words = "added: {name} ({kind}), which {asking} cannot be without"
-        yield say(words, name=new_one.name, kind=new_one.kind, asking=asking.name)
+    words = "added: {name} ({kind}), which {asking} cannot be without"
+    yield from (say(words, name=new.name, kind=new.kind, asking=asking.name) for new, asking in made.added)
     if made.guessed:
-        words = "no example tells these; put in your own: {keys}"
-        yield say(words, keys=", ".join(made.guessed))
+        yield say("no example tells these; put in your own: {keys}", keys=", ".join(made.guessed))
     if made.open:
-        words = "these take a reference that only you can give: {keys}"
-        yield say(words, keys=", ".join(made.open))
+        yield say("these take a reference that only you can give: {keys}", keys=", ".join(made.open))
 
 
 # The commands of plugin authors: ``new-plugin`` writes a mechanism that runs, ``check-plugin`` judges one.
