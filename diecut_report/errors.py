@@ -11,7 +11,7 @@ from diecut_report.text.phrases import Phrase, joined, message
 # Every error that a user can see.
 
 
-TOLD = 20  # problems of a file that are told, so that the message itself stays short
+MAX_SHOWN = 20  # problems of a file that are told, so that the message itself stays short
 
 
 @dataclass(frozen=True)

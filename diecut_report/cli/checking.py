@@ -44,7 +44,7 @@ from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.loader import SHOWN, is_study
 from diecut_report.config.loader import SHOWN as STANDARD_INPUT
 from diecut_report.config.plugins import Discovery
-from diecut_report.errors import TOLD, PluginError, Problem, UserError, refusal
+from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, refusal
 from diecut_report.results.conclusion import conclusion, doubtful_kinds, is_open
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
@@ -179,7 +179,7 @@ def exit_code(results: Data, *, is_broken: bool, is_strict: bool) -> int:
     return PASSED if is_whole and not is_doubtful and not any(found[status] for status in counted) else CHECK_FAILED
 
 
-def told(results: Data, discovery: Discovery | None = None) -> list[Line]:
+def verdict_lines(results: Data, discovery: Discovery | None = None) -> list[Line]:
     """Return the checks that do not pass, in words, the worst first, and the verdict on all; in the language that is spoken.
 
     ``discovery`` knows where plugins of others have their words.
@@ -356,10 +356,10 @@ def counted(counts: Mapping[str, int]) -> list[str]:
 
 def _passed_over(files: Mapping[Path, str]) -> Iterator[str]:
     """Tell which files of folders are not configurations, the first of many."""
-    for path, why in islice(files.items(), TOLD):
+    for path, why in islice(files.items(), MAX_SHOWN):
         yield Phrase("{file}: passed over: {why}", file=path, why=why)
-    if len(files) > TOLD:
-        yield Counted(len(files) - TOLD, "and {n} more file is passed over", "and {n} more files are passed over")
+    if len(files) > MAX_SHOWN:
+        yield Counted(len(files) - MAX_SHOWN, "and {n} more file is passed over", "and {n} more files are passed over")
 
 
 def _code(verdicts: Sequence[Verdict], strict: bool) -> int:

@@ -214,7 +214,7 @@ def render(
     tell((*told(lost), *outcome.warnings))
     if not quiet:
         tell_written(outcome.written)
-        tell(checking.told(outcome.results, discovery))
+        tell(checking.verdict_lines(outcome.results, discovery))
     is_broken = bool(lost) or outcome.results["status"] == "error"
     return checking.exit_code(outcome.results, is_broken=is_broken, is_strict=strict)
 

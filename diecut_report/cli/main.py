@@ -287,7 +287,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
             with without_output():
                 mechanism = discovery.mechanism(kind)
             title = said(mechanism.title, kind)
-            lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].told)]
+            lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].label)]
             lines += [
                 say("    source {id}: {citation}", id=source.id, citation=phrase(source.citation))
                 for source in mechanism.sources
@@ -345,5 +345,5 @@ def _verdict(outcome: ReportOutcome, discovery: Discovery, quiet: bool, strict: 
     tell(str(error) for error in outcome.broken)
     tell(outcome.warnings)
     if not quiet:
-        tell(checking.told(outcome.results, discovery))
+        tell(checking.verdict_lines(outcome.results, discovery))
     return checking.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)

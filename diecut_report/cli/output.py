@@ -22,7 +22,7 @@ from click.shell_completion import CompletionItem
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import INVISIBLE
-from diecut_report.errors import TOLD, PluginError, Problem, Unwritable, UserError
+from diecut_report.errors import MAX_SHOWN, PluginError, Problem, Unwritable, UserError
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, languages
 from diecut_report.text.phrases import Counted, Phrase, phrase
 from diecut_report.text.translation import know_all_plugins, said, say, say_counted, speak, spoken_language
@@ -230,7 +230,7 @@ INTERRUPTED, FAULT, UNWRITABLE = (
     74,
 )  # as shells and sysexits have it: Ctrl-C, a fault of the program, of writing
 COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "not_checked": "36", "pass": "32"}
-LETTERS, END = 2_000, 500  # of a message, and of its end where it is longer
+MAX_MESSAGE, MESSAGE_END = 2_000, 500  # of a message, and of its end where it is longer
 # what may make a terminal do something, end a line, show a text as another one, or stand in it unseen
 _ACTIVE = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
 
@@ -251,7 +251,7 @@ def tell(lines: Iterable[Line]) -> None:
     It cannot leave its line but for lines that are indented.
     """
     for line in lines:
-        click.echo("".join(map(_told, (line,) if isinstance(line, str) else line)), err=True)
+        click.echo("".join(map(_printable, (line,) if isinstance(line, str) else line)), err=True)
 
 
 def tell_written(paths: Iterable[Path]) -> None:
@@ -263,12 +263,12 @@ def tell_problems(problems: Sequence[Problem]) -> None:
     """What is wrong with a file: the first problems, and how many more there are."""
     unreadable = know_all_plugins()  # of whose inputs the problems tell
     problems = [*problems, *(fault for fault in unreadable if fault not in problems)]
-    tell(str(problem) for problem in problems[:TOLD])
-    if len(problems) > TOLD:
+    tell(str(problem) for problem in problems[:MAX_SHOWN])
+    if len(problems) > MAX_SHOWN:
         tell(
             [
                 Counted(
-                    len(problems) - TOLD,
+                    len(problems) - MAX_SHOWN,
                     "{n} more problem of the same run is not shown; fix these first.",
                     "{n} more problems of the same run are not shown; fix these first.",
                 )
@@ -276,17 +276,17 @@ def tell_problems(problems: Sequence[Problem]) -> None:
         )
 
 
-def _told(text: str) -> str:
+def _printable(text: str) -> str:
     return text if isinstance(text, Coloured) else re.sub(r"\n(?! )", "\n    ", shown(cut(said(text))))
 
 
 def cut(text: str) -> str:
     """The text, without its middle where it is very long."""
-    if len(text) <= LETTERS:
+    if len(text) <= MAX_MESSAGE:
         return text
-    left_out = len(text) - LETTERS
+    left_out = len(text) - MAX_MESSAGE
     middle = say_counted(left_out, "[…{n} more letter…]", "[…{n} more letters…]")
-    return f"{text[: LETTERS - END]} {middle} {text[-END:]}"
+    return f"{text[: MAX_MESSAGE - MESSAGE_END]} {middle} {text[-MESSAGE_END:]}"
 
 
 def shown(text: str, kept: str = "\n\t") -> str:

@@ -67,7 +67,7 @@ def new(kinds: tuple[str, ...], file: Path | None, force: bool, folders: tuple[P
             made = draft(kinds, discovery, file.name if file else "my_press.yaml")
             problems = _problems(made, str(file or SHOWN), discovery)
         emit_or_write(made.text, file)
-        tell(_told(made, None if quiet else file))
+        tell(_draft_messages(made, None if quiet else file))
     tell_problems(problems)
     return CHECK_FAILED if problems else PASSED
 
@@ -108,7 +108,7 @@ def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]
     return ()
 
 
-def _told(made: Draft, file: Path | None) -> Iterator[str]:
+def _draft_messages(made: Draft, file: Path | None) -> Iterator[str]:
     """Say what was added, and what no example tells."""
     if file is not None:
         yield Phrase("written: {path}", path=file)
@@ -218,11 +218,11 @@ def check_plugin(
 def _lines(found: CheckedPlugin) -> Iterator[str]:
     """What was found, a line for each rule, below it its faults."""
     version = f" {found.mechanism.version}" if found.mechanism else ""
-    yield say("{kind}{version}, from {origin}", kind=found.kind, version=version, origin=found.told)
+    yield say("{kind}{version}, from {origin}", kind=found.kind, version=version, origin=found.origin)
     if found.error:
         yield f"  {say('broke')}: {said(found.error)}"
     for rule in found.rules:
-        told = f": {said(rule.told)}" if rule.told else ""
+        told = f": {said(rule.summary)}" if rule.summary else ""
         yield f"  {said(STATES[rule.status])}  {said(rule.title)}{told}"
         yield from (f"      {said(fault)}" for fault in rule.short_list)
 

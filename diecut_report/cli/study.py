@@ -101,13 +101,13 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
         tell([Phrase(words, folder=target)])
         return INTERRUPTED
     if not quiet:
-        tell(_told(outcome, target))
+        tell(_outcome_lines(outcome, target))
     tell(told_plugins({}, outcome.broken, outcome.doubtful, outcome.broken_reports))
     is_failed = outcome.is_failed or (strict and (bool(outcome.doubtful) or is_doubtful(target)))
     return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if is_failed else PASSED
 
 
-def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
+def _outcome_lines(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     from diecut_report.study.definition.constraints import why_dropped
 
     counts = outcome.counts

@@ -102,7 +102,7 @@ def _is_allowed(meta: Quantity, size: float) -> bool:
 
 
 UNBROKEN = "\N{NO-BREAK SPACE}"  # where a line is not to end; a plain space in the file
-WIDTH, WIDEST, LEAST = 150, 66, 60  # letters of a line, of its code at most, of a comment at least
+LINE_WIDTH, MAX_CODE_WIDTH, MIN_COMMENT_WIDTH = 150, 66, 60  # letters
 
 
 @dataclass(frozen=True)
@@ -122,7 +122,7 @@ class DraftLine:
 
 def laid_out(lines: Sequence[DraftLine]) -> Iterator[str]:
     """Yield the lines of a block, their comments below each other; a long comment goes on in the next lines."""
-    lengths = [len(line.text) for line in lines if line.comment and len(line.text) <= WIDEST]
+    lengths = [len(line.text) for line in lines if line.comment and len(line.text) <= MAX_CODE_WIDTH]
     column = max(lengths, default=0) + 2
     for line in lines:
         yield from _with_comment(line, column)
@@ -132,7 +132,7 @@ def remarks(text: str, indent: int = 0) -> Iterator[str]:
     """Yield a text as lines of comment."""
     for paragraph in text.split("\n"):
         head = " " * indent + "# "
-        yield from (f"{head}{part}" for part in wrap(paragraph, WIDTH - len(head), break_long_words=False) or [""])
+        yield from (f"{head}{part}" for part in wrap(paragraph, LINE_WIDTH - len(head), break_long_words=False) or [""])
 
 
 def _with_comment(line: DraftLine, column: int) -> Iterator[str]:
@@ -140,7 +140,9 @@ def _with_comment(line: DraftLine, column: int) -> Iterator[str]:
         yield line.text
         return
     start = max(column, len(line.text) + 2)
-    parts = wrap(line.comment, max(LEAST, WIDTH - start - 2), break_long_words=False, break_on_hyphens=False)
+    parts = wrap(
+        line.comment, max(MIN_COMMENT_WIDTH, LINE_WIDTH - start - 2), break_long_words=False, break_on_hyphens=False
+    )
     heads = (line.text.ljust(start), *(" " * start for _ in parts[1:]))
     yield from (f"{head}# {part}".replace(UNBROKEN, " ") for head, part in zip(heads, parts, strict=True))
 

@@ -11,14 +11,14 @@ from pydantic import create_model
 
 from diecut_report.config.own_tables import SOURCE, Entry, OwnTables
 from diecut_report.config.validation import (
-    NAMED,
+    MAX_NAMED,
     Basis,
     BasisReader,
     ConfigPlace,
     blocks,
     copied,
     keys_of,
-    told,
+    quoted,
     validate,
 )
 from diecut_report.config.yaml import KeyPath
@@ -141,9 +141,11 @@ class _Taker:
         if not known:
             file = phrase("in a file that materials: names")
             words = "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}"
-            return Phrase(words, name=told(name), table=table, name_2=name, file=file)
+            return Phrase(words, name=quoted(name), table=table, name_2=name, file=file)
         words = "is {name}{nearest}; {table} has {known}"
-        return Phrase(words, name=told(name), nearest=nearest(name, known), table=table, known=", ".join(known[:NAMED]))
+        return Phrase(
+            words, name=quoted(name), nearest=nearest(name, known), table=table, known=", ".join(known[:MAX_NAMED])
+        )
 
     def _judge(self, model: type[Block], rule: FromTable) -> None:
         """Judge all entries of a table by the block that may take them, whether it does or not."""
@@ -436,7 +438,7 @@ def faults(given: Any, instances: Mapping[str, Instance | None], place: ConfigPl
         return
     if not isinstance(given, dict):
         words = "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}"
-        yield place.problem((UNITS,), words, given=told(given))
+        yield place.problem((UNITS,), words, given=quoted(given))
         return
     for key, chosen in given.items():
         wanted = wanted_units(key, instances)

@@ -17,7 +17,7 @@ from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.references import Linker, linked, ordered
 from diecut_report.config.source_hashes import plugin_hash, program_hash
-from diecut_report.config.validation import ConfigPlace, as_typed, declared, spread_out, told, validate
+from diecut_report.config.validation import ConfigPlace, as_typed, declared, quoted, spread_out, validate
 from diecut_report.config.yaml import MAX_BYTES, Tree, read, seeming_latin, too_much
 from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
 from diecut_report.files import standard_input
@@ -92,7 +92,7 @@ def partner_fault(partner: Partner, name: Any, kinds: Kinds) -> str:
     if not isinstance(name, str) or name not in kinds:
         near = nearest(name, kinds) if isinstance(name, str) else ""
         words = "is {name}; the name of a mechanism of kind {wanted} is needed{near}. Known: {kinds}."
-        return Phrase(words, name=told(name), wanted=wanted, near=near, kinds=", ".join(kinds))
+        return Phrase(words, name=quoted(name), wanted=wanted, near=near, kinds=", ".join(kinds))
     if kinds[name] not in partner.kinds:
         words = "is {name}, of kind {kinds}; the name of a mechanism of kind {wanted} is needed."
         return Phrase(words, name=name, kinds=kinds[name], wanted=wanted)
@@ -300,9 +300,9 @@ class _ConfigReader:
             self.problems.append(place.problem((), fault, at_key=True))
         elif not isinstance(body, dict):
             words = "is {body}; a block of keys with its kind is needed"
-            self.problems.append(place.problem((), words, body=told(body)))
+            self.problems.append(place.problem((), words, body=quoted(body)))
         elif not isinstance(body.get("kind"), str):
-            origins, given = ", ".join(self.discovery.origins), told(body.get("kind"))
+            origins, given = ", ".join(self.discovery.origins), quoted(body.get("kind"))
             absent = place.absent(("kind",), "is missing. Give one of: {origins}.", origins=origins)
             wrong = place.problem(("kind",), "is {kind}; the name of a kind is needed", kind=given)
             self.problems.append(wrong if "kind" in body else absent)
@@ -347,7 +347,7 @@ def name_fault(name: str) -> str:
     if name in RESERVED:
         return Phrase("the name {name} is reserved. Choose another one.", name=repr(name))
     if not NAME.fullmatch(name):
-        return Phrase("{name} is not a name: a letter, then letters, digits, _ and - are allowed.", name=told(name))
+        return Phrase("{name} is not a name: a letter, then letters, digits, _ and - are allowed.", name=quoted(name))
     return ""
 
 

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from diecut_report.config import yaml
 from diecut_report.config.model import texts
-from diecut_report.config.validation import ConfigPlace, told
+from diecut_report.config.validation import ConfigPlace, quoted
 from diecut_report.config.yaml import KeyPath, Tree, printable, too_much
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import content
@@ -119,25 +119,25 @@ def _entries(tree: Tree, problems: list[Problem]) -> Iterator[Entry]:
     data, place = tree.data, ConfigPlace(tree)
     if not isinstance(data, dict):
         words = "The file holds {data}; it needs a source and tables, as in steels: {NAME: {…}}."
-        problems.append(Problem(Phrase(words, data=told(data)), tree.file))
+        problems.append(Problem(Phrase(words, data=quoted(data)), tree.file))
         return
     for key, text in texts(data):
         if "${" in text:
-            problems.append(place.problem(key, "is {text}; a table holds values, and no references", text=told(text)))
+            problems.append(place.problem(key, "is {text}; a table holds values, and no references", text=quoted(text)))
     if data.get(VERSION, 1) != 1:
-        problems.append(place.problem((VERSION,), "is {data}; the number 1 is needed", data=told(data[VERSION])))
+        problems.append(place.problem((VERSION,), "is {data}; the number 1 is needed", data=quoted(data[VERSION])))
     common = _source(data, (), place, problems)
     for table, rows in data.items():
         if table in (SOURCE, VERSION):
             continue
         if not isinstance(rows, dict):
             words = "is {rows}; entries by their names are needed, as in {table}: {NAME: {…}}"
-            problems.append(place.problem((table,), words, rows=told(rows), table=table))
+            problems.append(place.problem((table,), words, rows=quoted(rows), table=table))
             continue
         for name, keys in rows.items():
             path = (table, name)
             if not isinstance(keys, dict):
-                problems.append(place.problem(path, "is {keys}; a block of keys is needed", keys=told(keys)))
+                problems.append(place.problem(path, "is {keys}; a block of keys is needed", keys=quoted(keys)))
             elif source := _source(keys, path, place, problems) or common:
                 yield Entry(name, {key: each for key, each in keys.items() if key != SOURCE}, source, tree, path)
             else:
@@ -149,7 +149,7 @@ def _source(data: Mapping[str, Any], path: KeyPath, place: ConfigPlace, problems
     given = data.get(SOURCE)
     if SOURCE in data and (not isinstance(given, str) or not given.strip()):
         words = "is {given}; a text is needed that says where the numbers are from"
-        problems.append(place.problem((*path, SOURCE), words, given=told(given)))
+        problems.append(place.problem((*path, SOURCE), words, given=quoted(given)))
         return None
     return given
 
@@ -158,11 +158,11 @@ def name_fault(name: Any) -> str:
     """Return what is wrong with the name of a file of tables; "" where it leads to a YAML file beside the configuration or below."""
     if not isinstance(name, str):
         words = "is {name}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names"
-        return Phrase(words, name=told(name))
+        return Phrase(words, name=quoted(name))
     if fault := place_fault(name, phrase("tables lie")):
         return fault
     if PurePosixPath(name).suffix not in (".yaml", ".yml"):
-        return Phrase("is {name}; a YAML file is needed, such as my_steels.yaml", name=told(name))
+        return Phrase("is {name}; a YAML file is needed, such as my_steels.yaml", name=quoted(name))
     return ""
 
 
@@ -171,7 +171,7 @@ def place_fault(name: str, lie: str) -> str:
     windows = PureWindowsPath(name)
     if windows.is_absolute() or windows.drive or PurePosixPath(name).is_absolute() or ".." in windows.parts:
         words = "is {name}; {lie} beside the configuration or in a folder below it: give a name without a folder above"
-        return Phrase(words, name=told(name), lie=lie)
+        return Phrase(words, name=quoted(name), lie=lie)
     return ""
 
 
@@ -208,11 +208,11 @@ def logo_of(config: Tree, find: Find | None) -> tuple[Logo | None, list[Problem]
     except UserError as error:
         return None, list(error.problems)
     except PictureFault as fault:
-        return None, [place.problem(KEY, "{name} {fault}", name=told(name), fault=fault)]
+        return None, [place.problem(KEY, "{name} {fault}", name=quoted(name), fault=fault)]
 
 
 def logo_fault(name: object) -> str:
     """Return what is wrong with the name of a logo; "" where it leads to a file beside the configuration or below."""
     if not isinstance(name, str) or not name.strip():
-        return Phrase("is {name}; the name of a PNG or SVG file is needed, such as logo.svg", name=told(name))
+        return Phrase("is {name}; the name of a PNG or SVG file is needed, such as logo.svg", name=quoted(name))
     return place_fault(name, phrase("a logo lies"))

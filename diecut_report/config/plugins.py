@@ -222,7 +222,7 @@ class Origin:
     """Where a kind comes from, in words, and how its mechanism is loaded from there."""
 
     kind: str
-    told: str
+    label: str
     load: Callable[[], Any]
     file: Callable[[], Path]  # of the module, when it is loaded
     is_own: bool = False  # of the program itself, whose declarations its tests check
@@ -270,7 +270,7 @@ class Discovery:
                     origin.load()
                 self.extended[origin.kind] = module_hash(origin.file())
             except (Exception, SystemExit) as cause:
-                raise refusal("This extension cannot be loaded: {said}.", origin.told, said=said(cause)) from cause
+                raise refusal("This extension cannot be loaded: {said}.", origin.label, said=said(cause)) from cause
 
     def mechanism(self, kind: str) -> Mechanism:
         """The mechanism of a kind.
@@ -298,7 +298,7 @@ class Discovery:
         if not origins:
             raise UnknownKind(self.unknown(kind))
         if len(origins) > 1:
-            places = joined((origin.told for origin in origins), " and from ")
+            places = joined((origin.label for origin in origins), " and from ")
             words = "The kind {kind} comes from {places}. Remove or rename one of them."
             raise DuplicateKind(Phrase(words, kind=repr(kind), places=places))
         return origins[0]
@@ -312,15 +312,15 @@ def _loaded(origin: Origin) -> Mechanism:
             found = origin.load()
         digest = module_hash(origin.file())
     except (Exception, SystemExit) as cause:
-        words = Phrase("it cannot be loaded from {told}: {said}", told=origin.told, said=said(cause))
+        words = Phrase("it cannot be loaded from {told}: {said}", told=origin.label, said=said(cause))
         raise PluginError(words + beside(origin.file(), cause), origin.kind) from cause
     if not isinstance(found, Mechanism):
         words = Phrase(
-            "{told} gives a {name}, where a Mechanism is needed", told=origin.told, name=type(found).__name__
+            "{told} gives a {name}, where a Mechanism is needed", told=origin.label, name=type(found).__name__
         )
         raise PluginError(words, origin.kind)
     if found.kind != origin.kind:
-        named = {"told": origin.told, "kind": repr(found.kind), "wanted": repr(origin.kind)}
+        named = {"told": origin.label, "kind": repr(found.kind), "wanted": repr(origin.kind)}
         raise PluginError(Phrase("{told} gives the kind {kind}; name it {wanted} there", named), origin.kind)
     note_plugin(found, digest, None if origin.is_own else origin.file())
     if not origin.is_own:
@@ -336,10 +336,10 @@ def _judge_declarations(origin: Origin, mechanism: Mechanism) -> None:
     try:
         found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
     except Exception as cause:
-        words = Phrase("what {told} declares cannot be read: {said}", told=origin.told, said=said(cause))
+        words = Phrase("what {told} declares cannot be read: {said}", told=origin.label, said=said(cause))
         raise PluginError(words, origin.kind) from cause
     if found:
-        head = Phrase("{told} declares what cannot be", told=origin.told)
+        head = Phrase("{told} declares what cannot be", told=origin.label)
         lines = joined([head, found[0]], ": ") if len(found) == 1 else joined([head + ":", *found], "\n  ")
         raise PluginError(lines, origin.kind)
     for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):

@@ -21,8 +21,8 @@ from diecut_report.quantities.units import pretty
 from diecut_report.text.phrases import Phrase, message, phrase
 from diecut_report.time_limit import in_time
 
-SHOWN = 60  # characters of a given text that a message repeats
-NAMED = 20  # entries of a table that a message names
+MAX_QUOTED = 60  # characters of a given text that a message repeats
+MAX_NAMED = 20  # entries of a table that a message names
 
 
 @dataclass(frozen=True)
@@ -250,13 +250,13 @@ class _Fault:
     def _options(self) -> list[str]:
         expected = str(self.context["expected"]).replace(" or ", ", ")
         choices = [choice.strip("'") for choice in expected.split(", ")]
-        return [*choices, *self.place.named.get(self.key, ())[:NAMED]]
+        return [*choices, *self.place.named.get(self.key, ())[:MAX_NAMED]]
 
     def _choice(self) -> str:
         choices = self._options()
         near = nearest(self.given, choices) if isinstance(self.given, str) and self.given not in choices else ""
         words = "is {given}{near}; allowed: {choices}"
-        return Phrase(words, given=told(self.given), near=near, choices=", ".join(choices))
+        return Phrase(words, given=quoted(self.given), near=near, choices=", ".join(choices))
 
     def _other(self) -> str:
         meta = declared(self.model, self.key) if self.key else None
@@ -272,7 +272,7 @@ class _Fault:
             return Phrase(words, path=self.given.path, number=number, needed=needed)
         if self.given is None:
             return Phrase("has no value; {needed} is needed, or remove the key", needed=self._needed(meta))
-        return Phrase("is {given}; {needed} is needed", given=told(self.given), needed=self._needed(meta))
+        return Phrase("is {given}; {needed} is needed", given=quoted(self.given), needed=self._needed(meta))
 
     def _needed(self, meta: Meta | type[Block] | None) -> str:
         kinds = {"bool": phrase("true or false"), "int": phrase("a whole number"), "float": phrase("a number"),
@@ -285,7 +285,7 @@ class _Fault:
         return phrase("another value")
 
 
-def told(given: Any) -> str:
+def quoted(given: Any) -> str:
     """A given value in a message: texts in quotes and cut where they are long, lists and blocks named only."""
     match given:
         case None:
@@ -293,7 +293,7 @@ def told(given: Any) -> str:
         case bool():
             return str(given).lower()
         case str():
-            return f"“{given}”" if len(given) <= SHOWN else f"“{given[: SHOWN - 1]}…”"
+            return f"“{given}”" if len(given) <= MAX_QUOTED else f"“{given[: MAX_QUOTED - 1]}…”"
         case list():
             return phrase("a list")
         case dict():
@@ -378,10 +378,10 @@ class BasisReader:
         if "basis" in given and basis not in BASES:
             near = nearest(basis, BASES) if isinstance(basis, str) else ""
             words = "is {basis}{near}; allowed: {bases}"
-            yield self.place.problem((*key, "basis"), words, basis=told(basis), near=near, bases=", ".join(BASES))
+            yield self.place.problem((*key, "basis"), words, basis=quoted(basis), near=near, bases=", ".join(BASES))
         if note is not None and not isinstance(note, str):
             words = "is {note}; a text is needed, in quotes where it is a number"
-            yield self.place.problem((*key, "note"), words, note=told(note))
+            yield self.place.problem((*key, "note"), words, note=quoted(note))
 
 
 def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:

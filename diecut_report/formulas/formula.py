@@ -180,10 +180,8 @@ def instead(node: ast.AST, value: object) -> str:
     return LISTED
 
 
-GREAT, SHORT = (
-    1e5,
-    4,
-)  # a number from which zeros are not counted, and letters of what then stands before the power of ten
+PLAIN_BELOW = 1e5  # numbers from here on are printed as a power of ten
+MAX_MANTISSA_LENGTH = 4  # letters before the power of ten, less than these
 
 
 class Formula:
@@ -428,10 +426,10 @@ class _BodyReader:
 def _literal(value: float) -> str:
     """A number of a formula's body as it is printed: a great power of ten as such, not with its zeros and a decimal."""
     text = repr(value)
-    if not text.endswith(".0") or abs(value) < GREAT:
+    if not text.endswith(".0") or abs(value) < PLAIN_BELOW:
         return text
     mantissa, power = f"{Decimal(value).normalize():e}".split("e")
-    return f"{mantissa}e{int(power)}" if len(mantissa) < SHORT else f"{value:.0f}"
+    return f"{mantissa}e{int(power)}" if len(mantissa) < MAX_MANTISSA_LENGTH else f"{value:.0f}"
 
 
 # Computing a tree as it is printed.

@@ -32,7 +32,7 @@ from diecut_report.text.translation import catalogues_spoken, localised, said, s
 
 
 Data = dict[str, Any]
-TOLD = 20  # faults that the page shows
+MAX_FAULTS = 20  # faults that the page shows
 REACH = 0.5  # of its size, to each side of a value: where a slider ends unless the input ends before
 WHOLE_REACH = 10  # to each side of a whole number
 STEPS = 200  # of a slider
@@ -45,8 +45,8 @@ def page_data(session: LiveSession) -> Data:
         "serial": session.serial,
         "file": session.file.name,
         "edits": dict(session.edits),
-        "faults": [_fault(problem) for problem in session.faults[:TOLD]],
-        "more_faults": max(0, len(session.faults) - TOLD),
+        "faults": [_fault(problem) for problem in session.faults[:MAX_FAULTS]],
+        "more_faults": max(0, len(session.faults) - MAX_FAULTS),
         "machine": None if machine is None or start is None else _machine(machine, start, session.edits),
     }
 
@@ -99,11 +99,11 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
         "skipped": not is_there,
         "checks": [_check(each, kind, before.get(each["id"])) for each in run.checks.get(name, ()) if each["class"] != "numerical"],
         "outputs": list(_outputs(name, kind, machine, start)) if is_there else [],
-        "figures": [_told(title, kind) for title in run.figure_titles(name)] if is_there else [],
+        "figures": [_text(title, kind) for title in run.figure_titles(name)] if is_there else [],
     }  # fmt: skip
 
 
-def _told(text: object, kind: str) -> str:
+def _text(text: object, kind: str) -> str:
     """A text of a plugin of this kind as the page shows it."""
     return tidy(localised(said(text if isinstance(text, str) else "", kind)))
 
@@ -142,7 +142,7 @@ def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str
 
 
 def _named(asked: DesignInput | DesignChoice, meta: Any, kind: str) -> Data:
-    text = _told(meta.description, kind)
+    text = _text(meta.description, kind)
     return {"name": asked.name, "path": asked.asked.path, "text": text, "symbol": meta.symbol}
 
 
@@ -171,12 +171,12 @@ def _check(check: Mapping[str, Any], kind: str, before: Mapping[str, Any] | None
     ratio = check.get("utilisation")
     return {
         "id": check["id"],
-        "title": _told(check["title"], kind),
+        "title": _text(check["title"], kind),
         "class": check["class"],
         "status": check["status"],
         "utilisation": ratio if isinstance(ratio, int | float) and math.isfinite(ratio) else None,
-        "message": _told(check.get("message"), kind),
-        "advice": _told(check.get("advice"), kind),
+        "message": _text(check.get("message"), kind),
+        "advice": _text(check.get("advice"), kind),
         "start_status": before["status"] if before else "",
         "start_utilisation": before.get("utilisation") if before else None,
     }
@@ -188,7 +188,7 @@ def _outputs(name: str, kind: str, machine: LiveMachine, start: LiveMachine) -> 
         first = before.get(key)
         yield {
             "id": key,
-            "text": _told(output["description"], kind),
+            "text": _text(output["description"], kind),
             "symbol": output["symbol"],
             "shown": _shown(output),
             "start": "" if first is None else _shown(first),

@@ -274,7 +274,7 @@ HEADERS = {
     "cross-origin-resource-policy": "same-origin",
     "cache-control": "no-store",
 }
-LARGEST = 200_000  # bytes of what a page sends
+MAX_BODY_BYTES = 200_000  # bytes of what a page sends
 READING = ("GET", "HEAD")
 BODY_SECONDS = 10.0  # within which each part of what a page sends has to come
 
@@ -317,7 +317,7 @@ class Guard:
             return 0 if scope["method"] in READING and (is_own or is_opened) else 403
         if origin not in {f"http://{host}" for host in self.hosts}:
             return 403
-        return 413 if int(headers.get("content-length") or 0) > LARGEST else 0
+        return 413 if int(headers.get("content-length") or 0) > MAX_BODY_BYTES else 0
 
 
 class _BoundedBody:
@@ -335,7 +335,7 @@ class _BoundedBody:
             return self._broken_off()
         self.taken += len(message.get("body", b""))
         self.is_whole = not message.get("more_body", False)
-        return self._broken_off() if self.taken > LARGEST else message
+        return self._broken_off() if self.taken > MAX_BODY_BYTES else message
 
     def _broken_off(self) -> Message:
         self.is_whole = self.is_broken_off = True

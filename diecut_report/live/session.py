@@ -27,8 +27,8 @@ from diecut_report.time_limit import PATIENCE as SESSION_PATIENCE
 from diecut_report.time_limit import Overran, limited
 
 Data = dict[str, Any]
-LONGEST = 100  # letters of a number that is typed on the page
-MOST_EDITS = 1_000
+MAX_TYPED_LENGTH = 100  # letters of a number that is typed on the page
+MAX_EDITS = 1_000
 
 
 @dataclass(frozen=True)
@@ -99,8 +99,8 @@ class LiveSession:
         """Take values of the page, as typed, by the names of their inputs; UserError where one is not a value of its input."""
         machine = self._changeable()
         taken = {name: self._judged(machine, name, typed.strip()) for name, typed in changes.items()}
-        if len(self.edits.keys() | taken.keys()) > MOST_EDITS:
-            raise refusal("At most {n} numbers can be changed before they are written to the file.", n=MOST_EDITS)
+        if len(self.edits.keys() | taken.keys()) > MAX_EDITS:
+            raise refusal("At most {n} numbers can be changed before they are written to the file.", n=MAX_EDITS)
         for name, typed in taken.items():
             self._places[name] = (machine.inputs.get(name) or machine.choices[name]).stands
             self.edits[name] = typed
@@ -144,8 +144,8 @@ class LiveSession:
         if asked is None:
             raise refusal("{name} is not a number that the file gives.", name=repr(name))
         try:
-            if len(typed) > LONGEST:
-                raise UnitError("has more than {n} letters", n=LONGEST)
+            if len(typed) > MAX_TYPED_LENGTH:
+                raise UnitError("has more than {n} letters", n=MAX_TYPED_LENGTH)
             parse_quantity(typed, asked.meta.unit)
         except UnitError as fault:
             raise UserError(Problem(str(fault), str(self.file), path=asked.asked.path)) from None
@@ -210,7 +210,7 @@ def _chosen(asked: DesignChoice, typed: str) -> str:
     """One of the values that a choice has; UserError with them where it is another."""
     if typed not in asked.options:
         words = "{given} is not a value of {name}; allowed: {options}."
-        raise refusal(words, given=repr(typed[:LONGEST]), name=asked.name, options=", ".join(asked.options))
+        raise refusal(words, given=repr(typed[:MAX_TYPED_LENGTH]), name=asked.name, options=", ".join(asked.options))
     return typed
 
 

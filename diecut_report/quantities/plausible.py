@@ -99,7 +99,7 @@ class Plausible:
     @property
     def told(self) -> str:
         """The range in words: ``1 µm to 100 m``."""
-        return Phrase("{told} to {told_2}", told=_told(self.least), told_2=_told(self.most))
+        return Phrase("{told} to {told_2}", told=_size_text(self.least), told_2=_size_text(self.most))
 
 
 def without_rounding(values: Any, unit_text: str) -> Any:
@@ -111,7 +111,7 @@ def without_rounding(values: Any, unit_text: str) -> Any:
     return np.where(np.abs(values) < NOTHING * plausible(unit_text).ends[0], 0.0, values)[()]
 
 
-def _told(text: str) -> str:
+def _size_text(text: str) -> str:
     number, own = number_and_unit(text)
     return f"{float(number):.7g} {pretty(own or '1')}".rstrip()
 

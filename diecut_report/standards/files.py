@@ -68,7 +68,7 @@ def table_beside(plugin: str, name: str) -> StandardTable:
         wrong = error.errors()[0]
         key = str(wrong["loc"][0]) if wrong["loc"] else ""
         place = f"{file.name}:{keys[key]}" if key in keys else file.name
-        told = _told(key, wrong["type"], is_csv=file.suffix == ".csv")
+        told = _key_fault(key, wrong["type"], is_csv=file.suffix == ".csv")
         raise _of_file(Phrase("{place}: {fault}", place=place, fault=told)) from error
     except _OddLine as odd:
         raise _of_file(Phrase("{place}: {fault}", place=f"{file.name}:{odd.line}", fault=odd.words)) from None
@@ -85,7 +85,7 @@ class _OddLine(Exception):
         self.line, self.words = line, words
 
 
-def _told(key: str, kind: str, *, is_csv: bool) -> str:
+def _key_fault(key: str, kind: str, *, is_csv: bool) -> str:
     """What is wrong with a key of a table, and what it must be."""
     if not key:
         return phrase("it is not written as a table: title, sources and rows are needed")

@@ -46,7 +46,7 @@ from diecut_report.time_limit import Overran, limited
 
 RuleStatus = Literal["pass", "note", "not_tried", "fail", "broke"]
 WORST_LAST = ("pass", "not_tried", "note", "fail", "broke")
-TOLD = 5  # faults of a rule that a short list tells
+MAX_LISTED = 5  # faults of a rule that a short list tells
 TITLES = {
     "declaration": phrase("Declarations"),
     "dimensions": phrase("Dimensions of formulas"),
@@ -73,7 +73,7 @@ class TriedRule:
 
     id: str
     status: RuleStatus
-    told: str = ""
+    summary: str = ""
     faults: tuple[str, ...] = ()
 
     @property
@@ -84,18 +84,18 @@ class TriedRule:
     @property
     def short_list(self) -> tuple[str, ...]:
         """Return the first faults, and how many more there are."""
-        left = len(self.faults) - TOLD
+        left = len(self.faults) - MAX_LISTED
         if left <= 0:
             return self.faults
         if self.status == "note":
-            return (*self.faults[:TOLD], Counted(left, "{n} more note", "{n} more notes"))
-        return (*self.faults[:TOLD], Counted(left, "{n} more fault", "{n} more faults"))
+            return (*self.faults[:MAX_LISTED], Counted(left, "{n} more note", "{n} more notes"))
+        return (*self.faults[:MAX_LISTED], Counted(left, "{n} more fault", "{n} more faults"))
 
 
-def rule(id: str, told: str, faults: Iterable[str], otherwise: RuleStatus = "fail") -> TriedRule:
+def rule(id: str, summary: str, faults: Iterable[str], otherwise: RuleStatus = "fail") -> TriedRule:
     """Return a rule that passes where there is no fault; of many faults the first thousand."""
     found = tuple(dict.fromkeys(islice(faults, 1000)))
-    return TriedRule(id, otherwise if found else "pass", told, found)
+    return TriedRule(id, otherwise if found else "pass", summary, found)
 
 
 # Checks whose verdict is the same for every machine that was tried: can they fail, or hold, at all?
@@ -115,7 +115,7 @@ def constant(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str,
         tried += AT_ONCE
         if time.process_time() - began > CONSTANT_VERDICTS_LONGEST or all(len(held) == 2 for held in found.values()):
             break
-    yield from ((id, _told(held.pop(), tried)) for id, held in found.items() if len(held) == 1)
+    yield from ((id, _constant_verdict(held.pop(), tried)) for id, held in found.items() if len(held) == 1)
 
 
 def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str, set[bool]]]:
@@ -132,7 +132,7 @@ def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str
             yield check.id, set(judgement.governing(judgement.held)[rows].tolist())
 
 
-def _told(holds: bool, count: int) -> Phrase:
+def _constant_verdict(holds: bool, count: int) -> Phrase:
     words = (
         "holds in all of {n} machines far from the example; make sure that it can fail"
         if holds
@@ -164,7 +164,7 @@ def _varied(machine: MachineCase, count: int, seed: int) -> dict[str, Array]:
 TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
 FAR = 400  # machines of which each is far from the example
 TIMED, TIMED_ALONE = 1000, 5  # variants whose time is measured; where they are slow, so few
-LONGEST = 600.0  # seconds of a rule: a plugin may never come back
+MAX_RULE_SECONDS = 600.0  # seconds of a rule: a plugin may never come back
 
 
 @dataclass
@@ -205,11 +205,13 @@ class ContractTest:
         """Return what one rule finds; where the plugin breaks in it, that is its fault."""
         tried: Callable[[], TriedRule] = getattr(self, id)
         try:
-            with limited(LONGEST), warnings.catch_warnings():
+            with limited(MAX_RULE_SECONDS), warnings.catch_warnings():
                 warnings.simplefilter("ignore", RuntimeWarning)  # of NumPy: what comes out is judged, not on the way
                 return tried()
         except Overran as cause:
-            words = Phrase("it did not come back within {seconds} s ({said})", seconds=f"{LONGEST:g}", said=said(cause))
+            words = Phrase(
+                "it did not come back within {seconds} s ({said})", seconds=f"{MAX_RULE_SECONDS:g}", said=said(cause)
+            )
             return rule(id, "", [words], "broke")
         except UserError as refused:
             return rule(id, "", [str(problem) for problem in refused.problems])
@@ -316,7 +318,7 @@ class ContractTest:
         assert self.config is not None
         found = TriedExtremes(self.config, self.name, self.discovery)
         faults = [at_place(self.mechanism, input_of(path), words) for path, words in found.faults()]
-        return rule("hostile", found.told, faults)
+        return rule("hostile", found.summary, faults)
 
     def figures(self) -> TriedRule:
         """Try whether all figures are drawn, and set the chapter."""
@@ -370,9 +372,9 @@ class ContractTest:
         found = self.words.sources_as_given(language)
         if not found:
             return ""
-        more = Counted(len(found) - TOLD, " and {n} other", " and {n} others") if len(found) > TOLD else ""
+        more = Counted(len(found) - MAX_LISTED, " and {n} other", " and {n} others") if len(found) > MAX_LISTED else ""
         words = "; sources that stay as they are given: {named}{more}"
-        return Phrase(words, named="; ".join(found[:TOLD]), more=more)
+        return Phrase(words, named="; ".join(found[:MAX_LISTED]), more=more)
 
     def speed(self) -> TriedRule:
         """Tell how long a thousand variants take, as far as the mechanism itself is concerned."""
@@ -410,7 +412,7 @@ def check_contract(
 # Writes into a plugin's catalogues the texts that they lack, to be translated, and marks those that nothing says any more.
 
 
-LARGEST = 10_000_000  # bytes of a catalogue
+MAX_CATALOGUE_BYTES = 10_000_000  # bytes of a catalogue
 
 
 def refuse_own(origin: Origin) -> None:
@@ -424,7 +426,7 @@ def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatal
     found, words = {}, test.words
     for language in (each for each in languages() if each != SOURCE_LANGUAGE):
         file = file_beside(origin.file(), language)
-        there = content(file, LARGEST, phrase("a catalogue of texts")) if file.is_file() else None
+        there = content(file, MAX_CATALOGUE_BYTES, phrase("a catalogue of texts")) if file.is_file() else None
         made = changed(there, language, test.mechanism.kind, words.untranslated(language), words.unused(language))
         if made.added or made.obsolete:
             found[file] = made

@@ -302,7 +302,7 @@ def calculate(
     try:
         run = compute(configured(mechanism, inputs, press, others, plugins), lambda _: None)
     except UserError as error:
-        raise Refused(_told(problem, mechanism.kind) for problem in error.problems) from None
+        raise Refused(_problem_text(problem, mechanism.kind) for problem in error.problems) from None
     if run.errors:
         raise next(iter(run.errors.values()))
     if mechanism.kind in run.skipped:
@@ -335,7 +335,7 @@ def _plain(value: Any) -> Any:
     )
 
 
-def _told(problem: Problem, kind: str) -> str:
+def _problem_text(problem: Problem, kind: str) -> str:
     path = problem.path.removeprefix(f"mechanisms.{kind}").removeprefix(".")
     return f"{path}: {problem.message}" if path else problem.message
 

@@ -26,7 +26,7 @@ FOLDERS = (".", "examples", "configs")
 Machine = tuple[Config, str]
 LEVELS = 3  # folders above a plugin in which its examples are sought
 INSTALLED = "site-packages"
-LARGEST = 1_000_000  # bytes of a file that is looked through
+MAX_FILE_BYTES = 1_000_000  # bytes of a file that is looked through
 
 
 def named_machines(files: Iterable[Path], kind: str, discovery: Discovery) -> list[Machine]:
@@ -45,7 +45,11 @@ def machines_beside(origin: Origin, discovery: Discovery) -> tuple[list[Machine]
     refused: list[Problem] = []
     names_it = re.compile(rf"\bkind:\s*[\"']?{re.escape(origin.kind)}\b")
     for file in (file for folder in _folders(origin) for file in sorted(folder.glob("*.yaml"))):
-        if file.is_file() and file.stat().st_size < LARGEST and names_it.search(file.read_text("utf-8", "replace")):
+        if (
+            file.is_file()
+            and file.stat().st_size < MAX_FILE_BYTES
+            and names_it.search(file.read_text("utf-8", "replace"))
+        ):
             try:
                 found += named_machines([file], origin.kind, discovery)
             except UserError as error:  # of something else, which its user knows, if there is a sound one
@@ -101,10 +105,10 @@ def _merged(first: ContractTest, found: TriedRule, also: Sequence[tuple[Contract
             if fault not in found.faults
         ]
     status = max((found, *(own for _, own in also)), key=lambda each: WORST_LAST.index(each.status)).status
-    told = _machines([first, *(test for test, _ in also)]) if found.id == "example" and found.told else found.told
+    told = _machines([first, *(test for test, _ in also)]) if found.id == "example" and found.summary else found.summary
     if told and found.id != "example":
         told += Counted(len(also), "; on {n} other machine too", "; on {n} other machines too")
-    return replace(found, status=status, told=told, faults=tuple(faults))
+    return replace(found, status=status, summary=told, faults=tuple(faults))
 
 
 def _machines(tests: Sequence[ContractTest]) -> str:
@@ -130,7 +134,7 @@ class CheckedPlugin:
     """Hold what was found of a plugin: each rule of the contract, and its chapter as HTML."""
 
     kind: str
-    told: str
+    origin: str
     mechanism: Mechanism | None = None
     rules: list[TriedRule] = field(default_factory=list)
     page: str = ""
@@ -151,7 +155,7 @@ class CheckedPlugin:
             {
                 "rule": each.id,
                 "status": each.status,
-                "told": said(each.told),
+                "told": said(each.summary),
                 "faults": [said(fault) for fault in each.faults],
             }
             for each in self.rules
@@ -160,7 +164,7 @@ class CheckedPlugin:
         return {
             "kind": self.kind,
             "version": version,
-            "from": said(self.told),
+            "from": said(self.origin),
             "status": self.status,
             "rules": rules,
         } | error
@@ -195,7 +199,7 @@ def checked(
     With ``write_po`` the plugin's catalogues get the texts that they lack, and what nothing says is marked, before its words are tried.
     """
     origin = known.origins[kind][0]
-    found = CheckedPlugin(kind, origin.told)
+    found = CheckedPlugin(kind, origin.label)
     if write_po:
         refuse_own(origin)
     try:

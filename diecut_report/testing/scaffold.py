@@ -19,7 +19,7 @@ from diecut_report.files import write_all
 from diecut_report.text.phrases import Phrase
 
 RESERVED = ("press", "study", "kind", "kinds", "project", "report", "diecut_report")
-LONGEST = 40  # letters of a name, which stands in many files
+MAX_NAME_LENGTH = 40  # letters of a name, which stands in many files
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 ENDING = ".txt"  # of the templates here: they are no modules of the program
 LIKE = ("parts", "motion", "selection")
@@ -51,18 +51,18 @@ def refuse_name(name: str) -> None:
 
 
 def _wrong(name: str) -> str:
-    if not NAME.fullmatch(name) or len(name) > LONGEST:
+    if not NAME.fullmatch(name) or len(name) > MAX_NAME_LENGTH:
         words = (
             "{name} cannot be the name of a kind: give small letters a to z, digits and underscores, a letter first, "
             "at most {longest} in all, such as gripper_chain."
         )
-        return Phrase(words, name=repr(name), longest=LONGEST)
+        return Phrase(words, name=repr(name), longest=MAX_NAME_LENGTH)
     if keyword.iskeyword(name) or name in RESERVED or name.startswith(EXTENSION):
         return Phrase("{name} is reserved and cannot be the name of a kind; choose another one.", name=repr(name))
     known = Discovery().origins.get(name, [])
     if known:
         words = "There is a kind {name} already, from {origin}; choose another name."
-        return Phrase(words, name=repr(name), origin=known[0].told)
+        return Phrase(words, name=repr(name), origin=known[0].label)
     return ""
 
 

@@ -181,7 +181,10 @@ def _quantity(name: str, row: Data) -> QuantityFound:
 
 
 PRINTED = re.compile(r"\s*([+\-−]?\d+(?:\.\d*)?|[+\-−]?\.\d+)(?:e([+\-−]?\d+))?\s*(.*)", re.IGNORECASE)
-MORE, LEAST = 2, 5  # digits of our numbers in the table: so many more than are printed, and so many at least
+EXTRA_DIGITS, MIN_DIGITS = (
+    2,
+    5,
+)  # digits of our numbers in the table: so many more than are printed, and so many at least
 
 
 @dataclass(frozen=True)
@@ -231,7 +234,7 @@ class ComparedValue:
         """Our number with more digits than the printed one, so that a difference in its last digit is seen."""
         mantissa = re.split("e", self.printed, flags=re.IGNORECASE)[0]
         shown = len(re.sub(r"\D", "", mantissa).lstrip("0"))
-        return f"{self.ours:.{max(shown + MORE, LEAST)}g}"
+        return f"{self.ours:.{max(shown + EXTRA_DIGITS, MIN_DIGITS)}g}"
 
     def _off(self, unit: str) -> str:
         """The difference itself and, of a number that is not zero, as a share of it."""

@@ -157,7 +157,7 @@ def test_machines_are_tried_together_where_they_take_other_values_of_a_series(tm
     tried = contract(tmp_path, PICKED, odd("return wire_size * (1 + wire_size.std())")[1], PICKED_NAMES).tried_alone(
         "alone"
     )
-    assert tried.status == "fail" and "1 of 1 picks change" in tried.told
+    assert tried.status == "fail" and "1 of 1 picks change" in tried.summary
     assert any("odd: is " in fault and " among others, " in fault for fault in tried.faults)
 
 
@@ -241,7 +241,7 @@ def test_a_value_that_is_not_a_number_is_told(tmp_path: Path) -> None:
 
 def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     test = contract(tmp_path, *odd("while True: pass"))
-    monkeypatch.setattr("diecut_report.testing.contract.LONGEST", 0.2)
+    monkeypatch.setattr("diecut_report.testing.contract.MAX_RULE_SECONDS", 0.2)
     tried = test.tried_alone("example")
     assert (
         tried.status == "broke"
@@ -281,7 +281,7 @@ def test_sources_in_words_that_no_catalogue_has_are_told(tmp_path: Path) -> None
     change = ("    source=EN_13906,\n)\nsprings.total", '    source="theory of beams",\n)\nsprings.total')
     tried = contract(tmp_path, change).tried_alone("languages")
     assert tried.status == "pass"
-    assert tried.told == "en, uk; sources that stay as they are given: theory of beams"
+    assert tried.summary == "en, uk; sources that stay as they are given: theory of beams"
 
 
 def test_sources_in_functions_are_not_asked_for(tmp_path: Path) -> None:
@@ -313,7 +313,7 @@ def test_titles_of_standard_series_are_translated_by_the_program(tmp_path: Path)
 def test_what_came_of_extreme_values_is_told_in_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     test = contract(tmp_path)
     monkeypatch.setattr("diecut_report.testing.extreme_inputs.EXTREMES", 12)
-    told = test.tried_alone("hostile").told
+    told = test.tried_alone("hostile").summary
     assert re.fullmatch(
         r"an extreme value in the place of one input at a time: \d+ gave numbers, \d+ were refused in words; they are a sample of 142",
         told,
