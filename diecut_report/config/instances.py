@@ -11,9 +11,10 @@ from pydantic import create_model
 
 from diecut_report.config.own_tables import SOURCE, Entry, OwnTables
 from diecut_report.config.validation import (
+    BASES,
+    KEYS,
     MAX_NAMED,
     Basis,
-    BasisReader,
     ConfigPlace,
     blocks,
     copied,
@@ -27,7 +28,7 @@ from diecut_report.formulas.condition_parts import Expression
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.curve_inputs import CurveInput, FromTable
-from diecut_report.mechanism.inputs import Block, Meta, Quantity, fields, flatten, list_inputs, texts_given
+from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, fields, flatten, list_inputs, texts_given
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import FromPress, Text
 from diecut_report.mechanism.part_steps import ComputedCurve, PartNames
@@ -35,24 +36,53 @@ from diecut_report.mechanism.steps import PREFIX, Step, part_result
 from diecut_report.quantities.units import UnitError, kind_name, unit
 from diecut_report.text.phrases import MessageError, Phrase, phrase
 
-# What blocks take from the user's own tables: an entry that is named gives its keys, with what they rest on.
+# The data of a block as it counts: an entry of the user's own tables that is named gives its keys, with what they rest on.
 
 
 CATALOGUE = "catalogue"
 
 
-@dataclass(frozen=True)
-class Taken:
-    """Hold the data of a block with what its entries give, where that stands, and what it is from."""
+@dataclass
+class BlockData:
+    """Hold the data of a block with what entries of tables give, where that stands, and what its values rest on.
+
+    ``entries`` are those that give a key, ``naming`` the keys that may name an entry, each with the keys that it gives.
+    """
 
     data: dict[str, Any]
     place: ConfigPlace
-    bases: Mapping[KeyPath, Basis]
     tables: OwnTables
-    entries: Mapping[KeyPath, Entry]
-    problems: Sequence[Problem]
-    naming: Mapping[KeyPath, tuple[KeyPath, ...]]
-    """Keys that may name an entry, each with the keys that it gives."""
+    bases: dict[KeyPath, Basis] = field(default_factory=dict)
+    entries: dict[KeyPath, Entry] = field(default_factory=dict)
+    naming: dict[KeyPath, tuple[KeyPath, ...]] = field(default_factory=dict)
+    problems: list[Problem] = field(default_factory=list)
+
+    @staticmethod
+    def read(model: type[Block], data: Mapping[str, Any], place: ConfigPlace, tables: OwnTables) -> BlockData:
+        """Return the data of a block with the keys of the entries that it names, and what all of it rests on."""
+        found = BlockData(copied(dict(data)), place, tables)
+        for own, block, home in reversed(list(blocks(model, found.data))):
+            for rule in own.from_tables:
+                found._take(own, rule, block, home)
+        for own, block, home in list(blocks(model, found.data)):
+            for name, (_, meta, _, _) in keys_of(own).items():
+                key, given = (*home, name), block.get(name)
+                if isinstance(given, dict) and (unit := _unit_of(meta, given)):
+                    block[name] = found._value(unit, given, key)
+                if isinstance(meta, Quantity) and name in block:
+                    found._rest_on_entry(key)
+        return found
+
+    def anew(
+        self, model: type[Block], data: dict[str, Any], changed: Iterable[KeyPath], place: ConfigPlace
+    ) -> BlockData:
+        """Return the same for other data, whose keys ``changed``: what other entries gave before is left out."""
+        for key in (given for name in changed for given in self.naming.get(name, ()) if given in self.entries):
+            home: Any = data
+            for part in key[:-1]:
+                home = home[part]
+            home.pop(key[-1], None)
+        return BlockData.read(model, data, place, self.tables)
 
     @property
     def sources(self) -> dict[str, str]:
@@ -66,86 +96,30 @@ class Taken:
         """Return the names of entries that a key may have."""
         return self.place.named.get(key, ())
 
-
-def taken(model: type[Block], data: Mapping[str, Any], place: ConfigPlace, tables: OwnTables) -> Taken:
-    """Return the data of a block with the keys of the entries that it names, and what all of it rests on."""
-    taker = _Taker(place, tables)
-    found = copied(dict(data))
-    for own_model, block, key in reversed(list(blocks(model, found))):
-        for rule in own_model.from_tables:
-            taker.take(own_model, rule, block, key)
-    stands = {key: (entry.tree, (*entry.path, theirs)) for key, (entry, theirs) in taker.found.items()}
-    own = replace(place, elsewhere={**place.elsewhere, **stands}, named=taker.known)
-    stated = BasisReader.read(model, found, own)
-    entries = {key: entry for key, (entry, _) in taker.found.items()}
-    for key, entry in entries.items():
-        for each in _quantities(model, stated.data, key):
-            said = stated.bases.get(each, Basis())
-            stated.bases[each] = Basis(said.basis or CATALOGUE, said.note or entry.note)
-    return Taken(
-        stated.data, stated.place, stated.bases, tables, entries, (*taker.problems, *stated.problems), taker.gives
-    )
-
-
-def taken_anew(
-    model: type[Block], before: Taken, data: dict[str, Any], changed: Iterable[KeyPath], place: ConfigPlace
-) -> Taken:
-    """Return what a block takes whose keys ``changed``: what other entries gave before is left out."""
-    for key in changed:
-        for given in before.naming.get(key, ()):
-            if given in before.entries:
-                _left_out(data, given)
-    return taken(model, data, place, before.tables)
-
-
-def _left_out(data: Any, key: KeyPath) -> None:
-    for part in key[:-1]:
-        data = data[part]
-    data.pop(key[-1], None)
-
-
-@dataclass
-class _Taker:
-    place: ConfigPlace
-    tables: OwnTables
-    found: dict[KeyPath, tuple[Entry, str]] = field(default_factory=dict)
-    problems: list[Problem] = field(default_factory=list)
-    known: dict[KeyPath, tuple[str, ...]] = field(default_factory=dict)
-    gives: dict[KeyPath, tuple[KeyPath, ...]] = field(default_factory=dict)
-
-    def take(self, model: type[Block], rule: FromTable, made: dict[str, Any], key: KeyPath) -> None:
+    def _take(self, model: type[Block], rule: FromTable, block: dict[str, Any], home: KeyPath) -> None:
+        """Put the keys of the entry into the block that names it."""
         self._judge(model, rule)
-        self.known[(*key, rule.key)] = tuple(self.tables.names(rule.table))
-        self.gives[(*key, rule.key)] = tuple((*key, own) for own in rule.gives)
-        given = made.get(rule.key)
-        name = given if isinstance(given, str) else self.place.typed((*key, rule.key)) if given is not None else None
+        key, known = (*home, rule.key), self.tables.names(rule.table)
+        self.naming[key] = tuple((*home, own) for own in rule.gives)
+        self.place = replace(self.place, named={**self.place.named, key: tuple(known)})
+        given = block.get(rule.key)
+        name = given if isinstance(given, str) else self.place.typed(key) if given is not None else None
         entry = self.tables.entries.get(rule.table, {}).get(name or "")
-        annotation = keys_of(model)[rule.key].field.annotation
-        has_texts = any(
-            get_origin(part) is Literal for part in (annotation, *get_args(annotation))
-        )  # which the model judges
         if entry is None:
-            if name is not None and not has_texts:
-                self.problems.append(self.place.problem((*key, rule.key), self._unknown(rule.table, name)))
+            annotation = keys_of(model)[rule.key].field.annotation
+            has_texts = any(get_origin(part) is Literal for part in (annotation, *get_args(annotation)))
+            if name is not None and not has_texts:  # of which the model judges
+                self.problems.append(self.place.problem(key, _unknown_entry(rule.table, name, known)))
             return
-        del made[rule.key]
+        del block[rule.key]
         if rule.stands_for:
-            made[rule.key] = rule.stands_for
+            block[rule.key] = rule.stands_for
         for own, theirs in rule.gives.items():
-            if theirs in entry.keys and made.get(own) is None:
-                made[own] = entry.keys[theirs]
-                self.found[(*key, own)] = (entry, theirs)
-
-    def _unknown(self, table: str, name: str) -> str:
-        known = self.tables.names(table)
-        if not known:
-            file = phrase("in a file that materials: names")
-            words = "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}"
-            return Phrase(words, name=quoted(name), table=table, name_2=name, file=file)
-        words = "is {name}{nearest}; {table} has {known}"
-        return Phrase(
-            words, name=quoted(name), nearest=nearest(name, known), table=table, known=", ".join(known[:MAX_NAMED])
-        )
+            if theirs in entry.keys and block.get(own) is None:
+                block[own] = entry.keys[theirs]
+                self.entries[(*home, own)] = entry
+                stands = {(*home, own): (entry.tree, (*entry.path, theirs))}
+                self.place = replace(self.place, elsewhere={**self.place.elsewhere, **stands})
 
     def _judge(self, model: type[Block], rule: FromTable) -> None:
         """Judge all entries of a table by the block that may take them, whether it does or not."""
@@ -155,50 +129,84 @@ class _Taker:
                 self.tables.judged.add(mark)
                 self.tables.problems += _faults(model, rule, entry)
 
+    def _rest_on_entry(self, key: KeyPath) -> None:
+        """Let a quantity that comes from an entry rest on it, as far as the entry itself does not say."""
+        for length in range(1, len(key) + 1):
+            if entry := self.entries.get(key[:length]):
+                said = self.bases.get(key, Basis())
+                self.bases[key] = Basis(said.basis or CATALOGUE, said.note or entry.note)
+
+    def _value(self, unit: str, given: dict[str, Any], key: KeyPath) -> Any:
+        """The value of a quantity that stands as a block; the block itself where it is not one."""
+        faults = list(self._faults(unit, given, key))
+        self.problems += faults
+        if given.get("value") is None:
+            return 1.0 if faults else given  # what is wrong has been reported
+        listed = {**self.place.listed, key: (*self.place.inner(key), "value")}
+        self.place = replace(self.place, listed=listed)
+        if not faults:
+            self.bases[key] = Basis(given.get("basis") or "", given.get("note") or "")
+        return given["value"]
+
+    def _faults(self, unit: str, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
+        if given.get("value") is None:
+            words = "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone"
+            yield self.place.problem(key, Phrase(words, unit=unit).replace("10 1,", "10,"))
+        for name in given:
+            if name not in KEYS:
+                yield self.place.problem(
+                    (*key, name),
+                    "is an unknown key{nearest}. A quantity that stands as a block has {keys}.",
+                    at_key=True,
+                    nearest=nearest(name, KEYS),
+                    keys=", ".join(KEYS),
+                )
+        basis, note = given.get("basis"), given.get("note")
+        if "basis" in given and basis not in BASES:
+            near = nearest(basis, BASES) if isinstance(basis, str) else ""
+            words = "is {basis}{near}; allowed: {bases}"
+            yield self.place.problem((*key, "basis"), words, basis=quoted(basis), near=near, bases=", ".join(BASES))
+        if note is not None and not isinstance(note, str):
+            words = "is {note}; a text is needed, in quotes where it is a number"
+            yield self.place.problem((*key, "note"), words, note=quoted(note))
+
+
+def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:
+    """The unit of a value that stands as a block; nothing where the block is something else."""
+    if isinstance(meta, Varying) and meta.extremes and {"min", "max"} & given.keys():
+        return ""
+    if isinstance(meta, Quantity | CurveInput):
+        return meta.unit
+    return "1" if isinstance(meta, Text) and "value" in given else ""
+
+
+def _unknown_entry(table: str, name: str, known: Sequence[str]) -> str:
+    if not known:
+        file = phrase("in a file that materials: names")
+        words = "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}"
+        return Phrase(words, name=quoted(name), table=table, name_2=name, file=file)
+    words, listed = phrase("is {name}{nearest}; {table} has {known}"), ", ".join(known[:MAX_NAMED])
+    return Phrase(words, name=quoted(name), nearest=nearest(name, known), table=table, known=listed)
+
 
 def _faults(model: type[Block], rule: FromTable, entry: Entry) -> Iterator[Problem]:
     """What is wrong with the keys of an entry, as the block judges them."""
     place, known = ConfigPlace(entry.tree, entry.path), list(rule.gives.values())
     for key in entry.keys:
         if key not in known:
-            yield place.problem(
-                (key,),
-                "is an unknown key{nearest}. An entry of {table} has {text}.",
-                at_key=True,
-                nearest=nearest(key, known),
-                table=rule.table,
-                text=", ".join([SOURCE, *known]),
+            words, keys = (
+                phrase("is an unknown key{nearest}. An entry of {table} has {text}."),
+                ", ".join([SOURCE, *known]),
             )
+            yield place.problem((key,), words, at_key=True, nearest=nearest(key, known), table=rule.table, text=keys)
     for own, theirs in rule.gives.items():
         if theirs in entry.keys:
             field = keys_of(model)[own].field
             annotation: Any = Annotated[field.annotation, *field.metadata]
             form = create_model(model.__name__, __base__=Block, **{theirs: (annotation, ...)})  # type: ignore[call-overload]
-            stated = BasisReader.read(form, {theirs: entry.keys[theirs]}, place)
-            yield from stated.problems
-            yield from validate(form, stated.data, stated.place)[1]
-
-
-def _quantities(model: type[Block], data: Any, key: KeyPath, home: KeyPath = ()) -> Iterator[KeyPath]:
-    """The quantities at a key of a block, and in the blocks that stand there."""
-    name, *rest = key
-    known = keys_of(model)[str(name)]
-    part = data[name]
-    own = (*home, name)
-    if known.block is None:
-        if isinstance(known.meta, Quantity):
-            yield own
-        return
-    if rest and isinstance(part, list):
-        index, *rest = rest
-        part, own = part[int(index)], (*own, index)
-    if rest:
-        yield from _quantities(known.block, part, tuple(rest), own)
-        return
-    for at, inner in enumerate(part) if isinstance(part, list) else [(None, part)]:
-        for each in inner if isinstance(inner, dict) else ():
-            if each in keys_of(known.block):
-                yield from _quantities(known.block, inner, (each,), own if at is None else (*own, at))
+            made = BlockData.read(form, {theirs: entry.keys[theirs]}, place, OwnTables())
+            yield from made.problems
+            yield from validate(form, made.data, made.place)[1]
 
 
 # What references stand for.
@@ -278,7 +286,7 @@ class Instance:
 
     def __init__(
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None,
-        bases: Mapping[KeyPath, Basis] | None = None, own: Taken | None = None,
+        bases: Mapping[KeyPath, Basis] | None = None, own: BlockData | None = None,
     ) -> None:  # fmt: skip
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
         self.bases = bases or {}

@@ -10,8 +10,7 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from diecut_report.config import instances, yaml
-from diecut_report.config.instances import Instance, Node, Target, substituted
-from diecut_report.config.instances import taken as loader_taken
+from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
 from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings, texts, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
@@ -288,7 +287,7 @@ class _ConfigReader:
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
     ) -> None:
         data, place, problems = spread_out(model, data, place)
-        own = loader_taken(model, data, place, self.tables)
+        own = BlockData.read(model, data, place, self.tables)
         self.problems += [*problems, *own.problems]
         form = in_form(model, [key for key, value in own.data.items() if value is not None])
         typed = as_typed(form, own.data, own.place)

@@ -15,7 +15,7 @@ from diecut_report.config.plugins import said
 from diecut_report.config.yaml import KeyPath, Tree
 from diecut_report.errors import PluginError, Problem, nearest
 from diecut_report.mechanism.curve_inputs import CurveInput
-from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, meta_of, nested
+from diecut_report.mechanism.inputs import Block, Meta, Quantity, meta_of, nested
 from diecut_report.mechanism.names import Pending, Text
 from diecut_report.quantities.units import pretty
 from diecut_report.text.phrases import Phrase, message, phrase
@@ -327,67 +327,3 @@ def is_founded(basis: str, note: str) -> bool:
 def weakest(bases: Iterable[str]) -> str:
     """Return the weakest basis; nothing where there are none."""
     return min(bases, key=BASES.index, default="")
-
-
-@dataclass
-class BasisReader:
-    """Takes the blocks of quantities apart: ``data`` has their values, ``place`` where these stand, ``bases`` what they rest on."""
-
-    place: ConfigPlace
-    data: dict[str, Any] = field(default_factory=dict)
-    bases: dict[KeyPath, Basis] = field(default_factory=dict)
-    problems: list[Problem] = field(default_factory=list)
-
-    @staticmethod
-    def read(model: type[Block], data: Mapping[str, Any], place: ConfigPlace) -> BasisReader:
-        """Return what the data of a block say."""
-        reader = BasisReader(place, copied(dict(data)))
-        for own, block, key in list(blocks(model, reader.data)):
-            for name, (_, meta, _, _) in keys_of(own).items():
-                given = block.get(name)
-                if isinstance(given, dict) and (unit := _unit_of(meta, given)):
-                    block[name] = reader._stated(unit, given, (*key, name))
-        return reader
-
-    def _stated(self, unit: str, given: dict[str, Any], key: KeyPath) -> Any:
-        """The value of a quantity that stands as a block; the block itself where it is not one."""
-        faults = list(self._faults(unit, given, key))
-        self.problems += faults
-        if given.get("value") is None:
-            return 1.0 if faults else given  # what is wrong has been told
-        own = self.place.inner(key)
-        self.place = replace(self.place, listed={**self.place.listed, key: (*own, "value")})
-        if not faults:
-            self.bases[key] = Basis(given.get("basis") or "", given.get("note") or "")
-        return given["value"]
-
-    def _faults(self, unit: str, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
-        if given.get("value") is None:
-            words = "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone"
-            yield self.place.problem(key, Phrase(words, unit=unit).replace("10 1,", "10,"))
-        for name in given:
-            if name not in KEYS:
-                yield self.place.problem(
-                    (*key, name),
-                    "is an unknown key{nearest}. A quantity that stands as a block has {keys}.",
-                    at_key=True,
-                    nearest=nearest(name, KEYS),
-                    keys=", ".join(KEYS),
-                )
-        basis, note = given.get("basis"), given.get("note")
-        if "basis" in given and basis not in BASES:
-            near = nearest(basis, BASES) if isinstance(basis, str) else ""
-            words = "is {basis}{near}; allowed: {bases}"
-            yield self.place.problem((*key, "basis"), words, basis=quoted(basis), near=near, bases=", ".join(BASES))
-        if note is not None and not isinstance(note, str):
-            words = "is {note}; a text is needed, in quotes where it is a number"
-            yield self.place.problem((*key, "note"), words, note=quoted(note))
-
-
-def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:
-    """The unit of a value that stands as a block; nothing where the block is something else."""
-    if isinstance(meta, Varying) and meta.extremes and {"min", "max"} & given.keys():
-        return ""
-    if isinstance(meta, Quantity | CurveInput):
-        return meta.unit
-    return "1" if isinstance(meta, Text) and "value" in given else ""
