@@ -10,7 +10,6 @@ from typing import Any
 from diecut_report.config.draft_layout import (
     BlockWriter,
     DraftLine,
-    Explained,
     completed,
     laid_out,
     remarks,
@@ -274,7 +273,7 @@ def _press(mechanisms: Sequence[Drafted]) -> dict[str, Any]:
 
 
 def _block(name: str, words: str, model: type[Block], data: Mapping[str, Any]) -> Iterator[str]:
-    writer = BlockWriter(Explained())
+    writer = BlockWriter()
     off = list(writer.off(model, data))
     if model is Project:  # whose list of revisions stands in one line
         single = [key for key, known in keys_of(Project).items() if known.block is None]
@@ -291,7 +290,7 @@ def _mechanisms(mechanisms: Sequence[Drafted], values: Mapping[str, Mapping[str,
             yield ""
         yield from remarks(f"{said(each.mechanism.title, each.kind)}. {said(each.mechanism.summary, each.kind)}", 2)
         yield f"  {each.name}:"
-        writer = BlockWriter(Explained(each.kind, each.mechanism))
+        writer = BlockWriter(each.kind, each.mechanism)
         kind = DraftLine(0, f"kind: {typed(each.kind)}")
         body = [kind, *writer.lines(each.mechanism.inputs, values[each.name])]
         yield from laid_out(list(shifted(body, 4)))

@@ -363,8 +363,7 @@ class Instance:
     def no_phase(self, phase: str) -> str:
         """Why there is no such phase, in words."""
         if phase in self.declared_steps:
-            chapter, step = self.declared_steps[phase]
-            missing = [key for key in (*chapter.needs, *step.needs) if key not in self.given]
+            missing = self.missing(phase)
             words = "is there only if {missing} is given in {name}."
             return Phrase(words, missing=" and ".join(missing), name=self.name)
         name, known = phase.removeprefix(PREFIX), [each.removeprefix(PREFIX) for each in self.phases]
@@ -372,6 +371,11 @@ class Instance:
         told = Phrase(" Known: {known}.", known=", ".join(known)) if known else phrase(" Its kind has none.")
         words = "names no phase: {name} has no phase {name_2}{near}.{told}"
         return Phrase(words, name=self.name, name_2=repr(name), near=near, told=("" if near else told))
+
+    def missing(self, id: str) -> list[str]:
+        """Return the inputs that a step of the mechanism needs and that are not given."""
+        chapter, step = self.declared_steps[id]
+        return [key for key in (*chapter.needs, *step.needs) if key not in self.given]
 
     @cached_property
     def rows(self) -> dict[str, str]:

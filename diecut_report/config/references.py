@@ -20,7 +20,7 @@ import yaml
 
 from diecut_report.config.instances import Instance, Node, Slot, Target, Unresolved, default_of
 from diecut_report.config.model import PRESS, texts
-from diecut_report.config.validation import declared
+from diecut_report.config.validation import ConfigPlace, declared
 from diecut_report.config.yaml import LOADER, KeyPath, Tree, parse, seeming_latin
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.formulas.condition_parts import Name, read_expression
@@ -249,9 +249,8 @@ class Linker:
             return Phrase("${{path}} has several values; refer to one of them, as in ${{path}_1}.", path=path)
         left_out = named(name, instance.declared)
         if left_out and left_out.role in ("value", "place"):
-            section, step = instance.declared_steps[left_out.id]
-            missing = [n for n in (*section.needs, *step.needs) if n not in instance.given]
-            excess = [n for n in step.lacks if n in instance.given]
+            missing = instance.missing(left_out.id)
+            excess = [n for n in instance.declared[left_out.id].lacks if n in instance.given]
             words = (
                 Phrase("calculated only if {missing} is given", missing=" and ".join(missing))
                 if missing
@@ -371,7 +370,7 @@ def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: boo
     for path, value in values.items():
         typed = tree.typed(path)
         if typed is not None and "${" in typed and not over_references:
-            raise UserError(_problem(tree, path, EXPRESSION))
+            raise UserError(ConfigPlace(tree).problem(path, EXPRESSION))
         if typed is None:
             edits.append(_new_key(tree, spans, path, value))
         else:
@@ -431,7 +430,7 @@ def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, 
         line_end = span.end + len(tree.text[span.end :].partition("\n")[0].removesuffix("\r"))
         break_ = "\r\n" if "\r\n" in tree.text else "\n"
         return line_end, line_end, f"{break_}{' ' * key_span.column}{key}: {value}"
-    raise UserError(_problem(tree, path, NO_HOME))
+    raise UserError(ConfigPlace(tree).problem(path, NO_HOME))
 
 
 def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
@@ -446,7 +445,7 @@ def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
     if found.data != expected:
         shared = {tree.position(path) for path in _differing(found.data, expected)}
         culprit = next((path for path in values if tree.position(path) in shared), next(iter(values)))
-        raise UserError(_problem(tree, culprit, SHARED))
+        raise UserError(ConfigPlace(tree).problem(culprit, SHARED))
     found.name = tree.name
     return found
 
@@ -460,10 +459,6 @@ def _differing(one: Any, other: Any, path: KeyPath = ()) -> Iterator[KeyPath]:
     for key in one if isinstance(one, dict) else range(len(one)):
         if isinstance(one, list) or key in other:
             yield from _differing(one[key], other[key], (*path, key))
-
-
-def _problem(tree: Tree, path: KeyPath, words: str) -> Problem:
-    return Problem(words, tree.file, *tree.position(path), path=".".join(map(str, path)))
 
 
 # Keys that take a number or a curve: a value that is a curve stands under the key of the curve, wherever it was typed.
