@@ -20,7 +20,6 @@ from pathlib import Path
 from typing import Any
 
 from diecut_report.errors import MAX_QUANTITY
-from diecut_report.quantities.pint_registry import pint_registry
 from diecut_report.text.phrases import MessageError, Phrase, phrase
 
 # The usual spellings of units ("kg·m²", "kg m^2", "Nm", "m/s2") and the one that the program looks up ("kg*m**2").
@@ -215,9 +214,22 @@ _SI_PREFIX = "quetta|ronna|yotta|zetta|exa|peta|tera|giga|mega|kilo|hecto|dec[ai
 _MISTYPED = re.compile(rf"(?:{_SI_PREFIX})(?:minute|hour|day|week|month|year|inch|foot|percent)")  # 1/hh is a slip
 
 
+@cache
+def _pint_registry() -> Any:
+    """Pint's own definitions with the radian as a base unit, in exact fractions; to read them takes about half a second."""
+    from fractions import Fraction
+
+    import pint
+
+    folder = Path(pint.__file__).parent
+    constants = (folder / "constants_en.txt").read_text(encoding="utf-8")
+    text = (folder / "default_en.txt").read_text(encoding="utf-8").replace("@import constants_en.txt", constants)
+    return pint.UnitRegistry(text.replace("radian = []", "radian = [angle]").splitlines(), non_int_type=Fraction)
+
+
 def measure_with_pint(text: str) -> tuple[float, Kind] | None:
     """SI factor and kind of a unit by pint; None for what pint does not know, or no float can hold. UnitError for a shifted zero (degC)."""
-    registry: Any = pint_registry()
+    registry = _pint_registry()
     try:
         units = registry.parse_units(text)
         one, two = (registry.Quantity(number, units).to_base_units().magnitude for number in (1, 2))
