@@ -6,12 +6,12 @@ import difflib
 from collections.abc import Iterable
 from dataclasses import dataclass, field
 
-from diecut_report.text.phrases import Phrase, joined
+from diecut_report.text.phrases import Phrase, joined, message
 
 # Every error that a user can see.
 
 
-TOLD = 20  # problems of a file that are told, so that the message itself stays short
+MAX_SHOWN = 20  # problems of a file that are told, so that the message itself stays short
 
 
 @dataclass(frozen=True)
@@ -55,6 +55,11 @@ class UserError(Exception):
 
     def __str__(self) -> str:
         return "\n".join(str(problem) for problem in self.problems)
+
+
+def refusal(template: str, place: object = "", /, **values: object) -> UserError:
+    """Return the error of one problem: the template of its message with the values, and the file or folder it is about."""
+    return UserError(Problem(message(template, values), str(place)))
 
 
 class Unwritable(UserError):

@@ -23,7 +23,7 @@ from io import BufferedReader
 from pathlib import Path
 from typing import NoReturn
 
-from diecut_report.errors import Problem, Unwritable, UserError
+from diecut_report.errors import Problem, Unwritable, UserError, refusal
 from diecut_report.text.phrases import Phrase, phrase
 
 _OPEN = re.compile(r"/proc/(self|thread-self|\d+)(/task/\d+)?/fd")
@@ -98,8 +98,7 @@ def _steps(place: Path) -> Iterator[Path]:
 
 def _refuse_config(path: Path, keep: Path | None) -> None:
     if keep is not None and path.exists() and keep.exists() and path.samefile(keep):
-        words = phrase("This is the configuration itself; it would be written over. Choose another place with -o.")
-        raise UserError(Problem(words, str(path)))
+        raise refusal("This is the configuration itself; it would be written over. Choose another place with -o.", path)
 
 
 def _refuse_stored(place: Path) -> None:
@@ -107,10 +106,10 @@ def _refuse_stored(place: Path) -> None:
     for folder in place.parents:
         inner = place.relative_to(folder).parts[0]
         if inner in STORED and (folder / "variants").is_dir() and (folder / "study.json").is_file():
-            words = phrase(
+            words = (
                 "This belongs to the stored results of a study, which would be damaged. Choose another place with -o."
             )
-            raise UserError(Problem(words, str(place)))
+            raise refusal(words, place)
 
 
 @contextmanager
@@ -223,9 +222,8 @@ def in_words(path: Path, after: str = KEPT) -> Iterator[None]:
         yield
     except OSError as error:
         kind = UserError if error.errno in MISNAMED else Unwritable
-        raise kind(
-            Problem(Phrase("This cannot be written: {reason}", reason=reason(error, after)), str(path))
-        ) from error
+        words = "This cannot be written: {reason}"
+        raise kind(Problem(Phrase(words, reason=reason(error, after)), str(path))) from error
 
 
 def reason(error: OSError, after: str = NOTHING) -> str:
@@ -282,8 +280,8 @@ def _require_same(path: Path, sha256: str) -> None:
     with suppress(FileNotFoundError):
         if hashlib.sha256(path.read_bytes()).hexdigest() == sha256:
             return
-    words = phrase("Another program has saved this file meanwhile. Nothing was written; look at it and write again.")
-    raise UserError(Problem(words, str(path)))
+    words = "Another program has saved this file meanwhile. Nothing was written; look at it and write again."
+    raise refusal(words, path)
 
 
 def write(path: Path, content: bytes | memoryview, *, instead_of: str | None = None) -> None:
@@ -374,19 +372,15 @@ def standard_input(most: int, name: str) -> bytes:
     ``name`` is what messages call it.
     """
     if sys.stdin is None:
-        raise UserError(Problem(phrase("Standard input is closed. Name a file."), name))
+        raise refusal("Standard input is closed. Name a file.", name)
     try:
         found = sys.stdin.buffer.read(most + 1)
     except (OSError, ValueError) as error:
-        words = Phrase(
-            "Standard input cannot be read: {told}. Name a file.", told=getattr(error, "strerror", None) or error
-        )
-        raise UserError(Problem(words, name)) from error
+        words = "Standard input cannot be read: {told}. Name a file."
+        raise refusal(words, name, told=getattr(error, "strerror", None) or error) from error
     if len(found) > most:
-        words = Phrase(
-            "Standard input holds more than {most} MB, which is the most that is read.", most=f"{most / 1e6:g}"
-        )
-        raise UserError(Problem(words, name))
+        words = "Standard input holds more than {most} MB, which is the most that is read."
+        raise refusal(words, name, most=f"{most / 1e6:g}")
     return found
 
 
@@ -422,15 +416,13 @@ def refuse_unreadable_name(folder: Path) -> None:
     try:
         str(folder.absolute()).encode()
     except UnicodeEncodeError as error:
-        words = phrase("The name of this folder, or of one above it, is not UTF-8. Choose another one.")
-        raise UserError(Problem(words, str(folder))) from error
+        words = "The name of this folder, or of one above it, is not UTF-8. Choose another one."
+        raise refusal(words, folder) from error
 
 
 def _judge(path: Path, status: os.stat_result, most: int, wanted: str) -> None:
     if not stat.S_ISREG(status.st_mode):
-        raise UserError(
-            Problem(Phrase("This is {kind}. Give {wanted}.", kind=_kind(status.st_mode), wanted=wanted), str(path))
-        )
+        raise refusal("This is {kind}. Give {wanted}.", path, kind=_kind(status.st_mode), wanted=wanted)
     if status.st_size > most:
         _refuse_size(path, status.st_size, most)
 
@@ -440,12 +432,8 @@ def _kind(mode: int) -> str:
 
 
 def _refuse_size(path: Path, size: int, most: int) -> NoReturn:
-    words = Phrase(
-        "The file is too large: {size} MB; at most {most} MB are allowed.",
-        size=f"{size / 1e6:.1f}",
-        most=f"{most / 1e6:g}",
-    )
-    raise UserError(Problem(words, str(path)))
+    words = "The file is too large: {size} MB; at most {most} MB are allowed."
+    raise refusal(words, path, size=f"{size / 1e6:.1f}", most=f"{most / 1e6:g}")
 
 
 @contextmanager
@@ -453,11 +441,11 @@ def _in_words(path: Path) -> Iterator[None]:
     try:
         yield
     except FileNotFoundError as error:
-        raise UserError(Problem(phrase("There is no such file. Check the name and the folder."), str(path))) from error
+        raise refusal("There is no such file. Check the name and the folder.", path) from error
     except (OSError, ValueError) as error:  # a name with a zero byte is a ValueError
         told = getattr(error, "strerror", None) or error
-        words = Phrase("The file cannot be read: {told}. Check its name and its permissions.", told=told)
-        raise UserError(Problem(words, str(path))) from error
+        words = "The file cannot be read: {told}. Check its name and its permissions."
+        raise refusal(words, path, told=told) from error
 
 
 # Which files the code of a plugin or of the program is: its modules and its tables.

@@ -8,7 +8,7 @@ from pathlib import Path
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.files import content
-from diecut_report.pictures import MOST, PictureFault, media_type
+from diecut_report.pictures import MAX_BYTES, PictureFault, media_type
 from diecut_report.report.pages.firm_templates import CSS, ENDING, HouseStyle, problems
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -60,7 +60,7 @@ def _text(path: Path) -> str:
 
 
 def _picture(path: Path) -> str:
-    found = content(path, MOST, phrase("a picture"))
+    found = content(path, MAX_BYTES, phrase("a picture"))
     try:
         media = media_type(found)
     except PictureFault as fault:

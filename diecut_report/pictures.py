@@ -9,16 +9,16 @@ from collections.abc import Mapping, Sequence
 from typing import Any
 from xml.parsers import expat
 
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import MessageError
 
-MOST = 300_000  # bytes of a picture
-MOST_PIXELS = 4_000_000
-MOST_ELEMENTS = 5_000
-DEEPEST = 50
+MAX_BYTES = 300_000  # bytes of a picture
+MAX_PIXELS = 4_000_000
+MAX_ELEMENTS = 5_000
+MAX_DEPTH = 50
 PNG, SVG = "image/png", "image/svg+xml"
 SIGNATURE = b"\x89PNG\r\n\x1a\n"
-SPACE = "http://www.w3.org/2000/svg"
-PAGES = "http://www.w3.org/1999/xhtml"
+SVG_NAMESPACE = "http://www.w3.org/2000/svg"
+XHTML_NAMESPACE = "http://www.w3.org/1999/xhtml"
 LINK = "http://www.w3.org/1999/xlink href"
 DRAWING = {
     "svg", "g", "defs", "title", "desc", "metadata", "style", "path", "rect", "circle", "ellipse", "line", "polyline", "polygon",
@@ -31,35 +31,30 @@ OTHERS_DRAWING = re.compile(
     re.IGNORECASE,
 )
 """Names that the page engine goes by in whatever name space they stand: no element of an editor has them."""
-MOST_STEPS = 200_000  # of drawing: elements times those that a clipping path or a gradient adds to each, or the rules tried on each
+MAX_DRAWING_STEPS = 200_000  # of drawing: elements times those that a clipping path or a gradient adds to each, or the rules tried on each
 _OUTSIDE = re.compile(r"@import|@font-face|url\(\s*['\"]?(?!#)", re.IGNORECASE)
 PIXELS = {"": 1.0, "px": 1.0, "pt": 96 / 72, "pc": 16.0, "mm": 96 / 25.4, "cm": 960 / 25.4, "in": 96.0}
 """Of the units of CSS."""
-LONGEST = 1e6  # pixels of a side that has a meaning
+MAX_SIDE = 1e6  # pixels of a side that has a meaning
 _SIMPLE = re.compile(r"[\w.#*-]*")  # a selector: element, class, id
 _PARTED = re.compile(r"\s*(\d+\.?\d*|\.\d+)(px|pt|pc|mm|cm|in|)\s*")
 _LENGTH = re.compile(r"\s*(?:\d+\.?\d*|\.\d+)(?:px|pt|pc|mm|cm|in)?\s*")
 
 
-class PictureFault(ValueError):
+class PictureFault(MessageError, ValueError):
     """What is wrong with a picture, in words that follow its name."""
 
 
 def media_type(content: bytes) -> str:
     """Return what a picture is; PictureFault where it is neither PNG nor SVG, or one that is not taken."""
-    if len(content) > MOST:
-        raise PictureFault(
-            Phrase(
-                "is too large: {count} kB; at most {most} kB are taken",
-                count=format(len(content) / 1000.0, ".0f"),
-                most=format(MOST / 1000.0, "g"),
-            )
-        )
+    if len(content) > MAX_BYTES:
+        words = "is too large: {count} kB; at most {most} kB are taken"
+        raise PictureFault(words, count=format(len(content) / 1000.0, ".0f"), most=format(MAX_BYTES / 1000.0, "g"))
     if content.startswith(SIGNATURE):
         _judge_png(content)
         return PNG
     if not content.removeprefix(b"\xef\xbb\xbf").lstrip().startswith(b"<"):
-        raise PictureFault(phrase("is neither a PNG nor an SVG picture, whatever its name ends in"))
+        raise PictureFault("is neither a PNG nor an SVG picture, whatever its name ends in")
     _SvgJudge().judge(content)
     return SVG
 
@@ -78,7 +73,7 @@ def natural_size(content: bytes) -> tuple[float, float]:
     sides = [_pixels(found.get(key, "")) for key in ("width", "height")]
     if None in sides:
         sides = [_number(each) for each in found.get("viewBox", "").replace(",", " ").split()[2:]]
-    width, height = (side if side and 0 < side < LONGEST else 1.0 for side in (*sides, None, None)[:2])
+    width, height = (side if side and 0 < side < MAX_SIDE else 1.0 for side in (*sides, None, None)[:2])
     return width, height
 
 
@@ -100,20 +95,18 @@ def _judge_png(content: bytes) -> None:
 
     try:
         with warnings.catch_warnings(action="error"), Image.open(io.BytesIO(content), formats=["PNG"]) as picture:
-            if picture.width * picture.height > MOST_PIXELS:
+            if picture.width * picture.height > MAX_PIXELS:
                 raise PictureFault(
-                    Phrase(
-                        "has {width} × {height} pixels; at most {most_pixels} million are taken",
-                        width=picture.width,
-                        height=picture.height,
-                        most_pixels=format(MOST_PIXELS / 1000000.0, "g"),
-                    )
+                    "has {width} × {height} pixels; at most {most_pixels} million are taken",
+                    width=picture.width,
+                    height=picture.height,
+                    most_pixels=format(MAX_PIXELS / 1000000.0, "g"),
                 )
             picture.load()
     except PictureFault:
         raise
     except Exception as cause:  # of many kinds, as the library raises them for a damaged file
-        raise PictureFault(Phrase("is a PNG picture that cannot be read: {cause}", cause=cause)) from cause
+        raise PictureFault("is a PNG picture that cannot be read: {cause}", cause=cause) from cause
 
 
 class _SvgJudge:
@@ -136,45 +129,38 @@ class _SvgJudge:
         try:
             self.parser.Parse(content, True)
         except expat.ExpatError as error:
-            raise PictureFault(Phrase("is an SVG picture that cannot be read: {error}", error=error)) from error
+            raise PictureFault("is an SVG picture that cannot be read: {error}", error=error) from error
         except PictureFault:
             raise
         except (
             LookupError,
             ValueError,
         ) as error:  # of an encoding that Python does not know, or the parser does not read
-            raise PictureFault(phrase("is an SVG picture in another encoding than UTF-8; save it as UTF-8")) from error
-        if self.count * max(self.most_parts, self.rules) > MOST_STEPS:
-            raise PictureFault(
-                phrase(
-                    "takes too long to draw: its clipping paths, gradients or styles have too many parts; give a simpler one"
-                )
-            )
+            raise PictureFault("is an SVG picture in another encoding than UTF-8; save it as UTF-8") from error
+        if self.count * max(self.most_parts, self.rules) > MAX_DRAWING_STEPS:
+            words = "takes too long to draw: its clipping paths, gradients or styles have too many parts; give a simpler one"
+            raise PictureFault(words)
 
     def _start(self, tag: str, given: Mapping[str, str]) -> None:
         space, _, name = tag.rpartition(" ")
         self.depth, self.count = self.depth + 1, self.count + 1
-        if self.count > MOST_ELEMENTS or self.depth > DEEPEST:
-            raise PictureFault(
-                Phrase(
-                    "has more than {most_elements} elements, or more than {deepest} within each other; give a "
-                    "simpler one",
-                    most_elements=MOST_ELEMENTS,
-                    deepest=DEEPEST,
-                )
+        if self.count > MAX_ELEMENTS or self.depth > MAX_DEPTH:
+            words = (
+                "has more than {most_elements} elements, or more than {deepest} within each other; give a simpler one"
             )
+            raise PictureFault(words, most_elements=MAX_ELEMENTS, deepest=MAX_DEPTH)
         if self.depth == 1:
             _judge_root(space, name, given)
-        is_drawing = name in DRAWING if space == SPACE else not (space in ("", PAGES) or OTHERS_DRAWING.fullmatch(name))
+        is_drawing = (
+            name in DRAWING
+            if space == SVG_NAMESPACE
+            else not (space in ("", XHTML_NAMESPACE) or OTHERS_DRAWING.fullmatch(name))
+        )
         if not is_drawing:
-            raise PictureFault(
-                Phrase(
-                    "holds <{name}>; a logo holds shapes alone: save it as plain SVG, with its texts as paths",
-                    name=name,
-                )
-            )
+            words = "holds <{name}>; a logo holds shapes alone: save it as plain SVG, with its texts as paths"
+            raise PictureFault(words, name=name)
         if self.style is not None:
-            raise PictureFault(Phrase("holds <{name}> within a style", name=name))
+            raise PictureFault("holds <{name}> within a style", name=name)
         self.style = [] if name == "style" else None
         self.clips += bool(self.clips or name == "clipPath")
         self.parts = 0 if name.endswith("Gradient") or self.clips == 1 else self.parts + 1
@@ -182,7 +168,7 @@ class _SvgJudge:
         for key, value in given.items():
             _judge_attribute(key, value)
             if self.clips and "clip-path" in (key, *re.findall(r"[\w-]+", value.lower() if key == "style" else "")):
-                raise PictureFault(phrase("clips a clipping path, which may never end; combine the paths into one"))
+                raise PictureFault("clips a clipping path, which may never end; combine the paths into one")
 
     def _end(self, _tag: str) -> None:
         self.depth -= 1
@@ -197,20 +183,18 @@ class _SvgJudge:
             self.style.append(text)
 
     def _doctype(self, *_: object) -> None:
-        raise PictureFault(phrase("has a document type (<!DOCTYPE …>), which may define entities; remove that line"))
+        raise PictureFault("has a document type (<!DOCTYPE …>), which may define entities; remove that line")
 
     def _instruction(self, *_: object) -> None:
-        raise PictureFault(
-            phrase("has a processing instruction (<?…?>), which may load a style from outside; remove it")
-        )
+        raise PictureFault("has a processing instruction (<?…?>), which may load a style from outside; remove it")
 
 
 def _judge_style(text: str) -> None:
     if _OUTSIDE.search(text) or "\\" in text:
-        raise PictureFault(phrase("has a style that loads something from outside; embed nothing and refer to nothing"))
+        raise PictureFault("has a style that loads something from outside; embed nothing and refer to nothing")
     _judge_repetition(text)
     if "clip-path" in text.lower():
-        raise PictureFault(phrase("clips by a style sheet; save it with presentation attributes"))
+        raise PictureFault("clips by a style sheet; save it with presentation attributes")
 
 
 def _count_of_rules(style: str) -> int:
@@ -220,11 +204,8 @@ def _count_of_rules(style: str) -> int:
     found = tinycss2.parse_stylesheet(style, skip_comments=True)
     selectors = [each for rule in found if rule.type == "qualified-rule" for each in _selectors(rule.prelude)]
     if not all(map(_SIMPLE.fullmatch, selectors)):
-        raise PictureFault(
-            phrase(
-                "has a style for elements within or beside others, which may never end; name each by its class alone"
-            )
-        )
+        words = "has a style for elements within or beside others, which may never end; name each by its class alone"
+        raise PictureFault(words)
     return len(selectors)
 
 
@@ -234,17 +215,12 @@ def _selectors(tokens: Sequence[Any]) -> list[str]:
 
 
 def _judge_root(space: str, name: str, given: Mapping[str, str]) -> None:
-    if (space, name) != (SPACE, "svg"):
-        raise PictureFault(
-            Phrase(
-                "is not an SVG picture: its first element is <{name}>, without the name space {space}",
-                name=name,
-                space=SPACE,
-            )
-        )
+    if (space, name) != (SVG_NAMESPACE, "svg"):
+        words = "is not an SVG picture: its first element is <{name}>, without the name space {space}"
+        raise PictureFault(words, name=name, space=SVG_NAMESPACE)
     sized = all(_LENGTH.fullmatch(given.get(key, "")) for key in ("width", "height"))
     if not (_is_view(given["viewBox"]) if "viewBox" in given else sized):
-        raise PictureFault(phrase("does not say its size; give it a viewBox, or width and height"))
+        raise PictureFault("does not say its size; give it a viewBox, or width and height")
 
 
 def _is_view(text: str) -> bool:
@@ -254,22 +230,18 @@ def _is_view(text: str) -> bool:
 
 def _judge_repetition(text: str) -> None:
     if re.search(r"\b(repeat|reflect)\b", text, re.IGNORECASE):
-        raise PictureFault(phrase("repeats a gradient, which may never end; let it run once (spreadMethod pad)"))
+        raise PictureFault("repeats a gradient, which may never end; let it run once (spreadMethod pad)")
 
 
 def _judge_attribute(key: str, value: str) -> None:
     name = key.rpartition(" ")[2]
     if name == "viewBox" and not _is_view(value):
-        raise PictureFault(phrase("does not say its size; give it a viewBox, or width and height"))
+        raise PictureFault("does not say its size; give it a viewBox, or width and height")
     if name in ("spreadMethod", "style"):
         _judge_repetition(value)
     if name.lower().startswith("on"):
-        raise PictureFault(Phrase("holds a script ({name}); a logo holds shapes alone", name=name))
+        raise PictureFault("holds a script ({name}); a logo holds shapes alone", name=name)
     if (key == LINK or name.lower() in ("href", "src")) and not value.startswith("#"):
-        raise PictureFault(
-            Phrase("refers to something outside ({name}); embed nothing and refer to nothing", name=name)
-        )
+        raise PictureFault("refers to something outside ({name}); embed nothing and refer to nothing", name=name)
     if _OUTSIDE.search(value) or "\\" in value:
-        raise PictureFault(
-            Phrase("refers to something outside ({name}); embed nothing and refer to nothing", name=name)
-        )
+        raise PictureFault("refers to something outside ({name}); embed nothing and refer to nothing", name=name)

@@ -9,7 +9,7 @@ import zlib
 import pytest
 from PIL import Image
 
-from diecut_report.pictures import MOST, MOST_ELEMENTS, PictureFault, media_type, natural_size
+from diecut_report.pictures import MAX_BYTES, MAX_ELEMENTS, PictureFault, media_type, natural_size
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" viewBox="0 0 4 4">'
 LINKED = HEAD.replace(" viewBox", ' xmlns:xlink="http://www.w3.org/1999/xlink" viewBox')
@@ -121,11 +121,11 @@ REFUSED = [
     (svg("", '<svg viewBox="0 0 1 1">'), "is not an SVG picture"),
     (b"<html></html>", "is not an SVG picture"),
     (b"<svg", "cannot be read"),
-    (svg("<g/>" * MOST_ELEMENTS), "elements"),
+    (svg("<g/>" * MAX_ELEMENTS), "elements"),
     (svg("<g>" * 60 + "</g>" * 60), "within each other"),
     (b"GIF89a", "neither a PNG nor an SVG"),
     (b"", "neither a PNG nor an SVG"),
-    (bytes(MOST + 1), "too large: 300 kB"),
+    (bytes(MAX_BYTES + 1), "too large: 300 kB"),
     (png()[:40], "cannot be read"),
     (png()[:20] + b"\xff" + png()[21:], "cannot be read"),
     (huge(), "9000 × 9000 pixels"),

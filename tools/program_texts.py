@@ -34,6 +34,9 @@ CONSTANTS = (*items.METHODS.values(), items.EQUAL_TERMS, items.TO_ROUNDING, "Tru
              "Taken at {place}, in the middle of its smooth piece; it is the same in all of it.",
              "There is no {kinds}, or there are several: name one by {key}.")  # fmt: skip
 """Texts that the program holds outside of the calls that make phrases."""
+MAKING = dict.fromkeys(("Phrase", "phrase", "say", "refusal", "UnitError", "ConditionError", "Unresolved", "PictureFault", "StandardFault"),
+                       0) | {".problem": 1, ".absent": 1}  # fmt: skip
+"""What takes the template of a message, with the place of that argument."""
 JOINING = ("joined", "named")
 COUNTING = ("Counted", "say_counted")
 SOURCES = (*EQUATIONS.values(),
@@ -127,7 +130,7 @@ def _phrases() -> Iterator[str]:
     """The templates of phrases, and the words between what is joined, of the program and of all its plugins."""
     own = sorted((ROOT / "diecut_report").rglob("*.py"))
     for file in own:
-        yield from (text for text in _called(file, ("Phrase", "phrase", "say"), 0) if is_text(text))
+        yield from (text for name, place in MAKING.items() for text in _called(file, (name,), place) if is_text(text))
     for file in (*own, *sorted((ROOT / "plugins").rglob("*.py"))):
         yield from (f"{{first}}{text}{{next}}" for text in _called(file, JOINING, 1) if any(map(str.isalpha, text)))
 
@@ -171,7 +174,8 @@ def _kinds_of_quantity() -> Iterator[str]:
 def _called(file: Path, names: tuple[str, ...], place: int) -> Iterator[str]:
     """The constant texts that a file hands to functions."""
     for node, known in _calls(file):
-        if isinstance(node.func, ast.Name) and node.func.id in names and len(node.args) > place:
+        name = f".{node.func.attr}" if isinstance(node.func, ast.Attribute) else getattr(node.func, "id", "")
+        if name in names and len(node.args) > place:
             yield from _constants(node.args[place], known)
 
 

@@ -2,17 +2,24 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import asdict, dataclass, field
 from itertools import islice
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, TypeVar
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from diecut_report.cli import output
-from diecut_report.cli.options import DASH, formats_of, from_standard_input
+from diecut_report.cli.options import (
+    DASH,
+    formats_of,
+    from_standard_input,
+    jobs_option,
+    json_option,
+    path_of,
+    strict_option,
+)
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -24,7 +31,7 @@ from diecut_report.cli.output import (
     asked_language,
     coloured,
     common,
-    emit,
+    emit_json,
     emit_lines,
     in_line,
     tell,
@@ -37,7 +44,7 @@ from diecut_report.config.catalogues import catalogues_for, spoken_catalogues
 from diecut_report.config.loader import SHOWN, is_study
 from diecut_report.config.loader import SHOWN as STANDARD_INPUT
 from diecut_report.config.plugins import Discovery
-from diecut_report.errors import TOLD, PluginError, Problem, UserError
+from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, refusal
 from diecut_report.results.conclusion import conclusion, doubtful_kinds, is_open
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
@@ -72,12 +79,12 @@ class JudgedFile:
 
 
 @click.command(cls=HelpfulCommand, epilog=output.OF_FILES)
-@click.argument("files", metavar="FILE…", nargs=-1, required=True, type=click.Path(path_type=Path))
+@click.argument("files", metavar="FILE…", nargs=-1, required=True, type=path_of)
 @click.option(
     "--dry-run", "tries", is_flag=True,
     help="Of a study also its size, columns and first variant, what the constraints drop, and the time and room that a few variants take.",
 )  # fmt: skip
-@click.option("--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json.")
+@json_option
 @common
 def validate(files: tuple[Path, ...], tries: bool, form: str, folders: tuple[Path, ...], quiet: bool) -> int:
     """Judge configurations and studies without their results; all problems of all files are reported."""
@@ -88,7 +95,7 @@ def validate(files: tuple[Path, ...], tries: bool, form: str, folders: tuple[Pat
         if form == "text":
             _tell(found, alone=len(files) == 1, quiet=quiet)
     if form == "json":
-        emit(json.dumps([_data(each) for each in judged], indent=2, ensure_ascii=False, allow_nan=False) + "\n")
+        emit_json([_data(each) for each in judged])
     codes = [each.code for each in judged]
     return BAD_INPUT if BAD_INPUT in codes else max(codes)
 
@@ -147,8 +154,8 @@ def _data(found: JudgedFile) -> dict[str, Any]:
 
 
 Data = Mapping[str, Any]
-Command = TypeVar("Command", bound=Callable[..., Any])
 ORDER = ("fail", "warn", "not_checked")
+COLOURED = {"bad": "error", "incomplete": "warn"}  # states with the colour of another one
 WORDS = {
     "pass": phrase("pass"),
     "incomplete": phrase("conditional"),
@@ -159,12 +166,6 @@ WORDS = {
     "not_checked": phrase("not checked"),
     "bad": phrase("bad file"),
 }
-
-
-def strict_option(command: Command) -> Command:
-    """Give a command the option ``--strict``."""
-    words = "Exit with 1 for warnings too, for checks that are not made because a key is not given, and for a plugin with faults."
-    return click.option("--strict", is_flag=True, help=words)(command)
 
 
 def exit_code(results: Data, *, is_broken: bool, is_strict: bool) -> int:
@@ -178,13 +179,18 @@ def exit_code(results: Data, *, is_broken: bool, is_strict: bool) -> int:
     return PASSED if is_whole and not is_doubtful and not any(found[status] for status in counted) else CHECK_FAILED
 
 
-def told(results: Data, discovery: Discovery | None = None) -> list[Line]:
+def verdict_lines(results: Data, discovery: Discovery | None = None) -> list[Line]:
     """Return the checks that do not pass, in words, the worst first, and the verdict on all; in the language that is spoken.
 
     ``discovery`` knows where plugins of others have their words.
     """
     results = _translated(results, discovery)
-    lines = [*_checks(results, "fail"), *_skipped(results), *_checks(results, "warn"), *_checks(results, "not_checked")]
+    skipped = [
+        (marked("skipped"), f" {name}: {data['error']}")
+        for name, data in results["mechanisms"].items()
+        if data["status"] == "skipped"
+    ]
+    lines = [*_checks(results, "fail"), *skipped, *_checks(results, "warn"), *_checks(results, "not_checked")]
     note = [results["comparisons_left_out"]["message"]] if "comparisons_left_out" in results else []
     return [*lines, *note, _whole(results)]
 
@@ -207,7 +213,7 @@ def _checks(results: Data, status: str) -> Iterator[Line]:
 
 def marked(status: str) -> str:
     """Return a status in words, in its colour."""
-    return coloured(said(WORDS.get(status, status)), status)
+    return coloured(said(WORDS.get(status, status)), COLOURED.get(status, status))
 
 
 def _message(made: Data) -> str:
@@ -215,12 +221,6 @@ def _message(made: Data) -> str:
     message = str(made["message"]).removeprefix(say("Not checked: "))
     is_key = made["status"] == "not_checked" and message.startswith(made["missing"][0])
     return message if is_key else message[0].upper() + message[1:]
-
-
-def _skipped(results: Data) -> Iterator[Line]:
-    for name, data in results["mechanisms"].items():
-        if data["status"] == "skipped":
-            yield marked("skipped"), f" {name}: {data['error']}"
 
 
 def _whole(results: Data) -> Line:
@@ -236,7 +236,6 @@ def _whole(results: Data) -> Line:
 
 
 FORMATS = ("html", "pdf", "xlsx", "csv", "json")
-COLOURED = {"bad": "error", "incomplete": "warn"}  # states with the colour of another one
 HEADS = (
     phrase("machine"),
     phrase("verdict"),
@@ -247,15 +246,12 @@ HEADS = (
     phrase("warnings"),
     phrase("assumed"),
 )
-path_of = click.Path(path_type=Path)
 
 
 @click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
 @click.argument("given", metavar="CONFIG|FOLDER…", nargs=-1, required=True, type=path_of)
 @click.option("-o", "folder", metavar="DIR", type=path_of, help="Also write a summary of all machines there.")
-@click.option(
-    "--strict", is_flag=True, help="Warnings, checks without a limit and plugins with faults count as failed."
-)
+@strict_option
 @click.option(
     "--format",
     "formats",
@@ -264,7 +260,7 @@ path_of = click.Path(path_type=Path)
     callback=formats_of(lambda: FORMATS),
     help="Of the summary: html,pdf,xlsx,csv,json or some of them.",
 )
-@click.option("--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core).")
+@jobs_option
 @common
 def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: list[str], jobs: int | None,
           folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
@@ -285,7 +281,7 @@ def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: l
         _write(found, discovery, folder, formats, quiet, files)
     if not quiet:
         tell(_passed_over(known.passed_over))
-        tell(_counts(made.verdicts))
+        tell([_counts(made.verdicts)])
     return _code(made.verdicts, strict)
 
 
@@ -340,37 +336,30 @@ def _write(
         made = compared(in_language(found, spoken_catalogues(discovery)))
         contents = dict(pages.files(made, folder, formats, compared(found)))
     if kept := set(contents) & set(files):
-        words = Phrase("{file} is one of the configurations, and is not overwritten.", file=min(kept))
-        raise UserError(Problem(words))
+        raise refusal("{file} is one of the configurations, and is not overwritten.", file=min(kept))
     write_all(contents, keep=files[0])
     if not quiet:
         tell_written(contents)
 
 
-def _counts(verdicts: Sequence[Verdict]) -> list[Line]:
-    found = [
-        (status, sum(v.face == status for v in verdicts))
-        for status in ("pass", "incomplete", "warn", "fail", "error", "bad")
-    ]
-    named = [
-        part
-        for status, count in found
-        if count
-        for part in (
-            ", ",
-            f"{count} ",
-            coloured(said(WORDS[status]), COLOURED.get(status, status)),
-        )
-    ]
-    return [(Counted(len(verdicts), "{n} machine: ", "{n} machines: "), *named[1:], ".")]
+def _counts(verdicts: Sequence[Verdict]) -> Line:
+    states = ("pass", "incomplete", "warn", "fail", "error", "bad")
+    found = counted({status: sum(verdict.face == status for verdict in verdicts) for status in states})
+    return (Counted(len(verdicts), "{n} machine: ", "{n} machines: "), *found, ".")
+
+
+def counted(counts: Mapping[str, int]) -> list[str]:
+    """Return how many there are of each status, in words and colours: ``3 pass, 1 fail``; of which there are none is not told."""
+    there = {status: count for status, count in counts.items() if count}
+    return [part for status, count in there.items() for part in (", ", f"{count} ", marked(status))][1:]
 
 
 def _passed_over(files: Mapping[Path, str]) -> Iterator[str]:
     """Tell which files of folders are not configurations, the first of many."""
-    for path, why in islice(files.items(), TOLD):
+    for path, why in islice(files.items(), MAX_SHOWN):
         yield Phrase("{file}: passed over: {why}", file=path, why=why)
-    if len(files) > TOLD:
-        yield Counted(len(files) - TOLD, "and {n} more file is passed over", "and {n} more files are passed over")
+    if len(files) > MAX_SHOWN:
+        yield Counted(len(files) - MAX_SHOWN, "and {n} more file is passed over", "and {n} more files are passed over")
 
 
 def _code(verdicts: Sequence[Verdict], strict: bool) -> int:

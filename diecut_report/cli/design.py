@@ -2,15 +2,27 @@
 
 from __future__ import annotations
 
-import json
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterable
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 import click
 
 from diecut_report.cli import output
-from diecut_report.cli.options import DASH, changeable_source, output_file, results_folder
+from diecut_report.cli.options import (
+    DASH,
+    RESULTS,
+    changeable_source,
+    config_argument,
+    dask_option,
+    jobs_option,
+    json_option,
+    path_of,
+    results_folder,
+    split,
+    study_folder_option,
+    target_option,
+)
 from diecut_report.cli.output import (
     CHECK_FAILED,
     INTERRUPTED,
@@ -18,16 +30,18 @@ from diecut_report.cli.output import (
     PLUGIN_BROKE,
     HelpfulCommand,
     Progress,
+    as_json,
     as_lines,
     asked_language,
     common,
     emit,
+    emit_or_write,
     tell,
     tell_written,
     without_output,
 )
+from diecut_report.cli.study import told_plugins
 from diecut_report.config.plugins import Discovery
-from diecut_report.results.conclusion import told_faults
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import said, say
 
@@ -35,21 +49,16 @@ if TYPE_CHECKING:
     from diecut_report.config.loader import Config
     from diecut_report.design.inputs import DesignInput
     from diecut_report.design.machines import ProvedMachine
-    from diecut_report.design.optimisation.command import OptimiseOutcome
 
 
-path_of = click.Path(path_type=Path)
-form_option = click.option(
-    "--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json."
-)
-target_option = click.option(
+corrected_option = click.option(
     "-o", "target", metavar="FILE", type=path_of,
     help="Write the configuration with what was found: all else in it stays as it is, byte for byte.",
 )  # fmt: skip
 
 
 @click.command(cls=HelpfulCommand)
-@click.argument("config", type=path_of)
+@config_argument
 @click.option(
     "--vary",
     required=True,
@@ -64,8 +73,8 @@ target_option = click.option(
 @click.option("--from", "low", metavar="VALUE", help="Where the range begins (default: a third of today's value).")
 @click.option("--to", "high", metavar="VALUE", help="Where it ends (default: three times today's value).")
 @click.option("--passing", is_flag=True, help="Only values with which no check fails.")
-@target_option
-@form_option
+@corrected_option
+@json_option
 @common
 def solve(
     config: Path, vary: str, asked: str, low: str | None, high: str | None, passing: bool, target: Path | None,
@@ -80,21 +89,19 @@ def solve(
     from diecut_report.design.solving import solved
 
     with Progress(quiet) as progress, without_output():
-        discovery = Discovery(folders)
-        progress(phrase("reading the configuration"))
-        loaded = _loaded(config, discovery)
+        loaded, discovery = _loaded(config, folders, progress)
         design = design_input(loaded, vary)
         ends = (_end(design, low, "--from"), _end(design, high, "--to"))
         is_new = design.today is None and ends[0] is not None
         what = question(with_input(loaded, design, ends[0] or 0.0) if is_new else loaded, asked)
         progress(Phrase("solving for {input}", input=design.name))
         answer = solved(loaded, discovery, what, design, passing=passing, low=ends[0], high=ends[1])
-    _give(_json(data(answer)) if form == "json" else _text(lines(answer)), loaded, answer.machine, target, quiet)
+    _give(as_json(data(answer)) if form == "json" else _text(lines(answer)), loaded, answer.machine, target, quiet)
     return PASSED if answer.found else CHECK_FAILED
 
 
 @click.command(cls=HelpfulCommand)
-@click.argument("config", type=path_of)
+@config_argument
 @click.option(
     "--free",
     metavar="INPUT",
@@ -112,8 +119,8 @@ def solve(
     default=10_000,
     help="Machines that are calculated at most (default: 10000).",
 )
-@target_option
-@form_option
+@corrected_option
+@json_option
 @common
 def advise(
     config: Path, free: tuple[str, ...], keep: tuple[str, ...], most: int, target: Path | None, form: str,
@@ -126,11 +133,9 @@ def advise(
     from diecut_report.design.advice import data, lines, mended
 
     with Progress(quiet) as progress, without_output():
-        discovery = Discovery(folders)
-        progress(phrase("reading the configuration"))
-        loaded = _loaded(config, discovery)
+        loaded, discovery = _loaded(config, folders, progress)
         found = mended(loaded, discovery, free=free, keep=keep, most=most, tell=progress)
-    _give(_json(data(found)) if form == "json" else _text(lines(found)), loaded, found.machine, target, quiet)
+    _give(as_json(data(found)) if form == "json" else _text(lines(found)), loaded, found.machine, target, quiet)
     return CHECK_FAILED if found.before.checks("fail") and found.machine is None else PASSED
 
 
@@ -142,7 +147,7 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
 
 
 @click.command(cls=HelpfulCommand)
-@click.argument("config", type=path_of)
+@config_argument
 @click.option(
     "--of",
     "names",
@@ -184,7 +189,7 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
 @click.option(
     "--seed", metavar="N", type=click.IntRange(0), default=1, help="Equal seeds draw equal machines (default: 1)."
 )
-@click.option("-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output.")
+@target_option
 @click.option(
     "--format",
     "form",
@@ -204,20 +209,17 @@ def influence(
     from diecut_report.design.influence import by_input, data, lines, page, tornados, within_tolerances
 
     with Progress(quiet) as progress, without_output():
-        discovery = Discovery(folders)
-        progress(phrase("reading the configuration"))
-        loaded = _loaded(config, discovery)
+        loaded, _ = _loaded(config, folders, progress)
         sizes = by_input(_tolerance(loaded, each) for each in tolerances)
         progress(phrase("changing one input after the other"))
         found = tornados(loaded, names, share, sizes, defaults=defaults)
         progress(phrase("drawing machines within tolerances"))
         drawn = within_tolerances(loaded, sizes, distribution, count, seed) if sizes else None
-    told = {"text": lambda: _text(lines(found, drawn)), "json": lambda: _json(data(found, drawn)),
+    told = {"text": lambda: _text(lines(found, drawn)), "json": lambda: as_json(data(found, drawn)),
             "html": lambda: page(found, drawn, Path(loaded.tree.name).name)}[form]()  # fmt: skip
-    if target is None:
-        emit(told)
-    else:
-        _save(target, told, config, quiet)
+    emit_or_write(told, target, config)
+    if target is not None and not quiet:
+        tell_written([target])
     return PASSED
 
 
@@ -228,34 +230,25 @@ def _tolerance(config: Config, given: str) -> tuple[DesignInput, float]:
 
     name, _, size = given.partition("=")
     if not size.strip():
-        words = say("{given} is not INPUT=SIZE, such as drive.crank_length=0.1 mm", given=repr(given))
-        raise click.BadParameter(words, param_hint="--tolerance")
+        raise _wrong_tolerance(say("{given} is not INPUT=SIZE, such as drive.crank_length=0.1 mm", given=repr(given)))
     design = design_input(config, name.strip())
     try:
         value = parse_quantity(size, design.meta.unit)
     except UnitError as fault:
-        raise click.BadParameter(
-            said(Phrase("{name}: {fault}", name=name, fault=fault)), param_hint="--tolerance"
-        ) from None
+        raise _wrong_tolerance(say("{name}: {fault}", name=name, fault=fault)) from None
     if value <= 0:
-        raise click.BadParameter(
-            say("{name}: {size} is not above zero", name=name, size=size), param_hint="--tolerance"
-        )
+        raise _wrong_tolerance(say("{name}: {size} is not above zero", name=name, size=size))
     return design, value
 
 
-def _save(target: Path, text: str, config: Path, quiet: bool) -> None:
-    from diecut_report.files import write_all
-
-    write_all({target: text.encode()}, keep=config, through=True)
-    if not quiet:
-        tell_written([target])
+def _wrong_tolerance(words: str) -> click.BadParameter:
+    return click.BadParameter(words, param_hint="--tolerance")
 
 
 @click.command(cls=HelpfulCommand)
 @click.argument("name", metavar="MECHANISM.NAME")
-@click.argument("config", type=path_of)
-@form_option
+@config_argument
+@json_option
 @common
 def where(name: str, config: Path, form: str, folders: tuple[Path, ...], quiet: bool) -> int:
     """Tell where a number comes from: file and line of its formula, what it takes, its source, and the checks that compare it.
@@ -269,20 +262,23 @@ def where(name: str, config: Path, form: str, folders: tuple[Path, ...], quiet: 
     from diecut_report.results.where import where as place_of
 
     with Progress(quiet) as progress, without_output():
+        loaded, _ = _loaded(config, folders, progress)
         progress(phrase("calculating"))
-        found = place_of(WarmPress().calculate(_loaded(config, Discovery(folders))), name)
-    emit(_json(data(found)) if form == "json" else _text(lines(found)))
+        found = place_of(WarmPress().calculate(loaded), name)
+    emit(as_json(data(found)) if form == "json" else _text(lines(found)))
     return PASSED
 
 
-def _loaded(config: Path, discovery: Discovery) -> Config:
-    """The configuration; PluginError where one of its plugins is broken."""
+def _loaded(config: Path, folders: tuple[Path, ...], progress: Progress) -> tuple[Config, Discovery]:
+    """The configuration, and the kinds that it may use; PluginError where one of its plugins is broken."""
     from diecut_report.config.loader import load_config
 
+    discovery = Discovery(folders)
+    progress(phrase("reading the configuration"))
     loaded = load_config(changeable_source(config, discovery), discovery)
     for error in loaded.broken.values():
         raise error
-    return loaded
+    return loaded, discovery
 
 
 def _end(design: DesignInput, given: str | None, option: str) -> float | None:
@@ -291,9 +287,8 @@ def _end(design: DesignInput, given: str | None, option: str) -> float | None:
     try:
         return design.read(given)
     except ValueError as fault:
-        raise click.BadParameter(
-            said(Phrase("{name}: {fault}", name=design.name, fault=fault)), param_hint=option
-        ) from None
+        words = say("{name}: {fault}", name=design.name, fault=fault)
+        raise click.BadParameter(words, param_hint=option) from None
 
 
 def _give(told: str, config: Config, machine: ProvedMachine | None, target: Path | None, quiet: bool) -> None:
@@ -318,10 +313,6 @@ def _text(lines: Iterable[str]) -> str:
     return as_lines(map(said, lines))
 
 
-def _json(found: dict[str, Any]) -> str:
-    return json.dumps(found, indent=2, ensure_ascii=False, allow_nan=False) + "\n"
-
-
 # The command ``optimise``: from a study to its best machines.
 
 
@@ -329,7 +320,7 @@ WORDS = ("suggested", "front")
 
 
 def _machines(_context: click.Context, _option: click.Parameter, given: str) -> list[str]:
-    parts = [part.strip() for part in given.split(",") if part.strip()]
+    parts = split(given)
     if strange := [part for part in parts if part not in WORDS and not part.isdecimal()]:
         words = "{given} is neither the number of a machine nor one of: {words}."
         raise click.BadParameter(say(words, given=repr(strange[0]), words=", ".join(WORDS)))
@@ -338,7 +329,7 @@ def _machines(_context: click.Context, _option: click.Parameter, given: str) -> 
 
 @click.command(cls=HelpfulCommand)
 @click.argument("study", required=False, type=path_of)
-@click.option("-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here).")
+@study_folder_option
 @click.option("--resume", metavar="DIR", type=path_of, help="Go on with the search of a folder where it ended.")
 @click.option(
     "--report",
@@ -348,10 +339,8 @@ def _machines(_context: click.Context, _option: click.Parameter, given: str) -> 
     callback=_machines,
     help="Full reports of these machines: `3,17`, `suggested`, `front` (those that are listed).",
 )
-@click.option("--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core).")
-@click.option(
-    "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
-)
+@jobs_option
+@dask_option
 @click.option("--yes", is_flag=True, help="Calculate also a very large number of machines or reports.")
 @click.option(
     "--format",
@@ -379,31 +368,16 @@ def optimise(study: Path | None, folder: Path | None, resume: Path | None, repor
                 study, target, where, resume=resume is not None, agreed=yes, reports=reports, shown=shown
             )
     except KeyboardInterrupt:
-        if not (target / "study.json").exists():
-            tell([phrase("stopped; nothing was written.")])
-            return INTERRUPTED
         words = "stopped; what is finished is kept. Continue with: diecut-report optimise --resume {folder}"
-        tell([Phrase(words, folder=target)])
+        is_kept = (target / RESULTS).exists()
+        tell([Phrase(words, folder=target) if is_kept else phrase("stopped; nothing was written.")])
         return INTERRUPTED
     emit({"text": lambda: as_lines(map(said, outcome.lines)), "csv": lambda: outcome.csv,
-          "json": lambda: json.dumps(outcome.data, indent=2, ensure_ascii=False, allow_nan=False) + "\n"}[form]())  # fmt: skip
+          "json": lambda: as_json(outcome.data)}[form]())  # fmt: skip
     if not quiet:
         tell_written(outcome.written)
         tell(outcome.notes)
-    tell(_faults(outcome))
-    return PLUGIN_BROKE if outcome.is_broken else PASSED if outcome.is_found else CHECK_FAILED
-
-
-def _faults(outcome: OptimiseOutcome) -> Iterator[str]:
-    """Which plugins broke, were slow, or have faults in their formulas."""
-    slow = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
-    broke = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
     search = outcome.search
-    yield from (
-        Phrase(slow, kind=kind, why=phrase(why)) for kind, why in search.slow.items() if kind not in search.broken
-    )
-    yield from (Phrase(broke, kind=repr(kind), why=phrase(why)) for kind, why in search.broken.items())
-    for kind, faults in (search.store.state.get("doubtful") or {}).items():
-        yield from told_faults(kind, faults)
-    for kind, why in outcome.broken_reports.items():
-        yield Phrase("plugin {kind} broke {why}", kind=repr(kind), why=phrase(why))
+    slow = {kind: why for kind, why in search.slow.items() if kind not in search.broken}
+    tell(told_plugins(slow, search.broken, search.store.state.get("doubtful") or {}, outcome.broken_reports))
+    return PLUGIN_BROKE if outcome.is_broken else PASSED if outcome.is_found else CHECK_FAILED

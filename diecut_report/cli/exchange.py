@@ -2,37 +2,45 @@
 
 from __future__ import annotations
 
-import json
 import os
 import sys
 from collections.abc import Iterator
 from contextlib import redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING, Any, NamedTuple
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from diecut_report.cli import checking, output
-from diecut_report.cli.options import formats_of, output_file, source
+from diecut_report.cli.options import (
+    formats_of,
+    here_option,
+    path_of,
+    report_formats,
+    source,
+    strict_option,
+    target_option,
+    template_option,
+)
 from diecut_report.cli.output import (
     CHECK_FAILED,
     PASSED,
     PLUGIN_BROKE,
     HelpfulCommand,
     Progress,
+    as_json,
     as_lines,
     asked_language,
     common,
-    emit,
     emit_lines,
+    emit_or_write,
     tell,
     tell_written,
     without_output,
 )
-from diecut_report.cli.plugins import template_option
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
 from diecut_report.text.translation import said, say, speaking
@@ -110,19 +118,9 @@ def _value(value: object) -> str:
     return text if len(text) <= 80 else f"{text[:80]}…"
 
 
-Data = dict[str, Any]
-path_of = click.Path(path_type=Path)
-
-
-def _drawn() -> tuple[str, ...]:
-    from diecut_report.pipeline import DRAWN
-
-    return DRAWN
-
-
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
-@click.option("-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here).")
+@here_option
 @common
 def extract(report: Path, folder: Path, folders: tuple[Path, ...], quiet: bool) -> int:
     """Take the configuration and the results out of a REPORT (PDF or HTML), as NAME.yaml and NAME.json."""
@@ -142,15 +140,6 @@ previous_option = click.option(
 )
 
 
-class HeldAgainst(NamedTuple):
-    """What a report is held against beside its configuration."""
-
-    house: HouseStyle | None = None
-    previous: Path | None = None
-    trusted: Path | None = None
-    pages: bool = True
-
-
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
 @click.option("--numbers", is_flag=True, help="Hold the results alone against it, not the pages, which takes longer.")
@@ -166,14 +155,15 @@ def verify(
 
     Exit codes: 0 everything agrees, 1 something does not or is not proved, 2 the report cannot be read, 3 a plugin broke.
     """
-    carried, found = verified(report, HeldAgainst(house, previous, trust, not numbers), Discovery(folders), quiet)
+    carried, found = verified(report, Discovery(folders), quiet, house, previous, trust, pages=not numbers)
     tell(str(error) for error in found.broken)
     emit_lines(verification_lines(carried, found))
     return PLUGIN_BROKE if found.broken else PASSED if found.holds else CHECK_FAILED
 
 
 def verified(
-    report: Path, asked: HeldAgainst, discovery: Discovery, quiet: bool
+    report: Path, discovery: Discovery, quiet: bool, house: HouseStyle | None, previous: Path | None,
+    trusted: Path | None = None, *, pages: bool = True,
 ) -> tuple[CarriedResults, Verification]:  # fmt: skip
     """Return what a report carries, and what was found of it."""
     from diecut_report.design.advised import followed
@@ -186,26 +176,24 @@ def verified(
 
     carried, parts = carried_results(report), ReportParts(moves, followed, influenced)
     with Progress(quiet) as progress, without_output():
-        given = None if asked.previous is None else source(asked.previous, discovery)
-        former = None if given is None else side(given, discovery, progress)[0]
-        found = judged(carried, discovery, progress, parts, pages=asked.pages, trusted=asked.trusted, house=asked.house,
-                       previous=former)  # fmt: skip
+        former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
+        found = judged(carried, discovery, progress, parts, pages=pages, trusted=trusted, house=house, previous=former)
     return carried, found
 
 
 @click.command(cls=HelpfulCommand, epilog=output.OF_CHECKS)
 @click.argument("results", metavar="RESULTS.json", type=path_of)
-@click.option("-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here).")
+@here_option
 @click.option(
     "--format",
     "formats",
     metavar="LIST",
     default="html,pdf",
-    callback=formats_of(_drawn),
+    callback=formats_of(lambda: report_formats()[:-1]),
     help="html,pdf (default), also docx,xlsx.",
 )
 @template_option
-@checking.strict_option
+@strict_option
 @common
 def render(
     results: Path,
@@ -226,7 +214,7 @@ def render(
     tell((*told(lost), *outcome.warnings))
     if not quiet:
         tell_written(outcome.written)
-        tell(checking.told(outcome.results, discovery))
+        tell(checking.verdict_lines(outcome.results, discovery))
     is_broken = bool(lost) or outcome.results["status"] == "error"
     return checking.exit_code(outcome.results, is_broken=is_broken, is_strict=strict)
 
@@ -237,7 +225,7 @@ def render(
 @click.option(
     "--format", "form", default="text", type=click.Choice(["text", "json", "html"]), help="text, json or html."
 )
-@click.option("-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output.")
+@target_option
 @click.option("--all", "all_rows", is_flag=True, help="Show as text all that changed, not the most important alone.")
 @common
 def diff(
@@ -256,30 +244,24 @@ def diff(
         found = changes(sides[0][0], sides[1][0])
         text = _changes(found, [results for results, _ in sides], discovery, form, all_rows)
     tell(str(error) for _, broken in sides for error in broken)
-    if target is None:
-        emit(text)
-    else:
-        from diecut_report.files import write_all
-
-        write_all({target: text.encode(errors="backslashreplace")}, keep=new)
+    emit_or_write(text, target, new)
     is_broken = any(broken for _, broken in sides) or sides[1][0]["status"] == "error"
     return checking.exit_code(sides[1][0], is_broken=is_broken, is_strict=False)
 
 
-def _changes(found: Data, sides: list[Data], discovery: Discovery, form: str, all_rows: bool) -> str:
+def _changes(
+    found: dict[str, Any], sides: list[dict[str, Any]], discovery: Discovery, form: str, all_rows: bool
+) -> str:
     """The changes in a format: as JSON neutral, as a page in the language that is asked for, else in that of the new project."""
     old, new = sides
     if form == "json":
-        return json.dumps(found, indent=1, ensure_ascii=False, allow_nan=False) + "\n"
-    from diecut_report.exchange.rendering import lines, said_changes
+        return as_json(found, indent=1)
+    from diecut_report.exchange.rendering import lines, page, said_changes
 
     if form == "html":
-        from diecut_report.exchange.rendering import page
-
         with speaking(asked_language() or new["project"].get("language") or SOURCE_LANGUAGE):
             return page(said_changes(found, old, new, spoken_catalogues(discovery)))
-    told = said_changes(found, old, new, spoken_catalogues(discovery))
-    return as_lines(lines(told, all_rows=all_rows))
+    return as_lines(lines(said_changes(found, old, new, spoken_catalogues(discovery)), all_rows=all_rows))
 
 
 # The command that signs a report. A password comes from a prompt or from the environment, never from the command line.
@@ -318,26 +300,23 @@ def sign(
     out = target or report
     for given in filter(None, (key, cert)):
         if out.exists() and given.exists() and out.samefile(given):
-            words = phrase("This is the key or its certificate; it would be written over. Choose another file with -o.")
-            raise UserError(Problem(words, str(out)))
-    found = signing_key(key, cert, _password)
-    signed(
-        Signing(report, out, field, reason),
-        found,
-        lambda words: None if quiet else tell([f"{out}: " + phrase(words)]),
-        lambda: _require_as_made(report, HeldAgainst(house, previous), Discovery(folders), quiet),
-    )
+            words = "This is the key or its certificate; it would be written over. Choose another file with -o."
+            raise refusal(words, out)
+
+    def require_as_made() -> None:
+        carried, found = verified(report, Discovery(folders), quiet, house, previous)
+        if not found.holds:
+            faults = [line for line in verification_lines(carried, found) if line.startswith(("✗", " "))]
+            words = phrase(
+                "The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:"
+            )
+            raise UserError([Problem(words, str(report)), *map(Problem, faults)])
+
+    def told(words: str) -> None:
+        tell([] if quiet else [f"{out}: " + phrase(words)])
+
+    signed(Signing(report, out, field, reason), signing_key(key, cert, _password), told, require_as_made)
     return PASSED
-
-
-def _require_as_made(report: Path, asked: HeldAgainst, discovery: Discovery, quiet: bool) -> None:
-    carried, found = verified(report, asked, discovery, quiet)
-    if not found.holds:
-        faults = [line for line in verification_lines(carried, found) if line.startswith(("✗", " "))]
-        words = phrase(
-            "The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:"
-        )
-        raise UserError([Problem(words, str(report)), *map(Problem, faults)])
 
 
 def _password() -> bytes:
@@ -345,10 +324,9 @@ def _password() -> bytes:
     if given is not None:
         return given.encode()
     if not sys.stdin or not sys.stdin.isatty():
-        words = Phrase(
-            "The key has a password. Set the variable {password}, or run the command on a terminal, which asks for it.",
-            password=PASSWORD,
+        words = (
+            "The key has a password. Set the variable {password}, or run the command on a terminal, which asks for it."
         )
-        raise UserError(Problem(words))
+        raise refusal(words, password=PASSWORD)
     asked: str = click.prompt(say("Password of the key"), hide_input=True, err=True)
     return asked.encode()

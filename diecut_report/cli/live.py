@@ -14,15 +14,14 @@ from typing import TYPE_CHECKING
 
 import click
 
-from diecut_report.cli.options import DASH
+from diecut_report.cli.options import DASH, config_argument
 from diecut_report.cli.output import PASSED, HelpfulCommand, asked_language, common, emit, tell, without_output
 from diecut_report.config import yaml
 from diecut_report.config.catalogues import catalogues_of
 from diecut_report.config.loader import SHOWN, refuse_study
 from diecut_report.config.plugins import Discovery
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import UserError, refusal
 from diecut_report.text.catalogues import languages
-from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import say, speaking, spoken_language
 
 if TYPE_CHECKING:
@@ -30,7 +29,7 @@ if TYPE_CHECKING:
 
 
 @click.command(cls=HelpfulCommand)
-@click.argument("config", type=click.Path(path_type=Path))
+@config_argument
 @click.option("--port", metavar="N", type=click.IntRange(0, 65535), default=0, help="The port (default: a free one).")
 @click.option("--open/--no-open", "is_opened", default=True, help="Whether to open the page in the browser.")
 @common
@@ -96,20 +95,16 @@ def _door(folder: str, address: str) -> str:
 def _require_file(config: Path) -> None:
     """Refuse what cannot be followed: standard input, a folder, a file that is not there, a study."""
     if config == DASH:
-        words = phrase(
-            "The page follows a file that is saved again and again; standard input is read once. Name a file."
-        )
-        raise UserError(Problem(words, SHOWN))
+        words = "The page follows a file that is saved again and again; standard input is read once. Name a file."
+        raise refusal(words, SHOWN)
     if os.path.isdir(config):
-        raise UserError(Problem(phrase("This is a folder. Name one configuration in it."), str(config)))
+        raise refusal("This is a folder. Name one configuration in it.", config)
     folder, _, number = str(config).rpartition("#")
     if number.isdecimal() and os.path.isdir(folder) and not os.path.exists(config):
-        words = Phrase(
-            "A stored variant is not a file. Make it one: diecut-report take {variant} -o my_press.yaml", variant=config
-        )
-        raise UserError(Problem(words, str(config)))
+        words = "A stored variant is not a file. Make it one: diecut-report take {variant} -o my_press.yaml"
+        raise refusal(words, config, variant=config)
     if not os.path.isfile(config):
-        raise UserError(Problem(phrase("There is no such file. Check the name and the folder."), str(config)))
+        raise refusal("There is no such file. Check the name and the folder.", config)
     try:
         tree = yaml.load(config)
     except UserError:  # the page tells what is wrong with it, until it is mended

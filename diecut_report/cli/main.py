@@ -9,7 +9,6 @@ from __future__ import annotations
 
 import gc
 import io
-import json
 import os
 import re
 import sys
@@ -28,14 +27,17 @@ from diecut_report.cli.design import advise, influence, optimise, solve, where
 from diecut_report.cli.exchange import diff, extract, render, sign, verify
 from diecut_report.cli.live import live
 from diecut_report.cli.options import (
-    OF_FILES,
-    detail_given,
+    config_argument,
     formats_of,
-    only_given,
-    output_file,
+    here_option,
+    path_of,
+    read_detail,
+    read_mechanisms,
     report_formats,
-    schema_of_file,
     source,
+    strict_option,
+    target_option,
+    template_option,
 )
 from diecut_report.cli.output import (
     BAD_INPUT,
@@ -49,6 +51,7 @@ from diecut_report.cli.output import (
     asked_language,
     common,
     emit,
+    emit_json,
     emit_lines,
     language_option,
     of_environment,
@@ -58,10 +61,11 @@ from diecut_report.cli.output import (
     tell_written,
     without_output,
 )
-from diecut_report.cli.plugins import check_plugin, new, new_plugin, template_option
+from diecut_report.cli.plugins import check_plugin, new, new_plugin
 from diecut_report.cli.study import batch, take, variants
+from diecut_report.config.model import DETAILS
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
-from diecut_report.errors import PluginError, Problem, Unwritable, UserError
+from diecut_report.errors import PluginError, Unwritable, UserError, refusal
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import said, say, speak, speaking
@@ -195,17 +199,12 @@ def program() -> None:
     """Design reports for die-cutting presses, from a YAML description to a checked calculation document."""
 
 
-config_argument = click.argument("config", type=click.Path(path_type=Path))
-
-
 # --- commands --------------------------------------------------------------------------------------------------------
 
 
 @program.command(epilog=output.OF_CHECKS)
 @config_argument
-@click.option(
-    "-o", "folder", metavar="DIR", default=".", type=click.Path(path_type=Path), help="Where to write (default: here)."
-)
+@here_option
 @click.option(
     "--format",
     "formats",
@@ -217,25 +216,25 @@ config_argument = click.argument("config", type=click.Path(path_type=Path))
 @click.option(
     "--previous",
     metavar="FILE",
-    type=click.Path(path_type=Path),
+    type=path_of,
     help="A former report, results, configuration or variant: mark what changed since, and add a page of it.",
 )
 @click.option(
     "--detail",
     metavar="DETAIL",
-    shell_complete=output.details,
-    callback=detail_given,
+    shell_complete=output.one_of(lambda: DETAILS),
+    callback=read_detail,
     help="brief, standard or full, in place of the configuration's (standard).",
 )
 @click.option(
     "--only",
     metavar="NAMES",
     shell_complete=output.mechanisms,
-    callback=only_given,
+    callback=read_mechanisms,
     help="Report these mechanisms alone: drive,clutch.",
 )
 @template_option
-@checking.strict_option
+@strict_option
 @common
 def report(
     config: Path, folder: Path, formats: list[str], previous: Path | None, detail: str | None, only: tuple[str, ...],
@@ -262,8 +261,8 @@ def report(
 
 @program.command(epilog=output.OF_CHECKS)
 @config_argument
-@click.option("-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output.")
-@checking.strict_option
+@target_option
+@strict_option
 @common
 def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:
     """Calculate, and give the results file alone."""
@@ -288,7 +287,7 @@ def plugins(folders: tuple[Path, ...], quiet: bool) -> int:
             with without_output():
                 mechanism = discovery.mechanism(kind)
             title = said(mechanism.title, kind)
-            lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].told)]
+            lines += [f"{kind} {mechanism.version}: {title}", say("    from {origin}", origin=origins[0].label)]
             lines += [
                 say("    source {id}: {citation}", id=source.id, citation=phrase(source.citation))
                 for source in mechanism.sources
@@ -307,8 +306,15 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
     """JSON Schema of the config, of one KIND's block, of a study file (KIND study), or of the results file (KIND results)."""
     from diecut_report.config.schema import config_schema, kind_schema
 
-    if kind in OF_FILES:
-        emit(json.dumps(schema_of_file(kind), indent=2, ensure_ascii=False) + "\n")
+    if kind == "study":
+        from diecut_report.study.definition.schema import study_schema
+
+        emit_json(study_schema())
+        return PASSED
+    if kind == "results":
+        from diecut_report.results.form import results_schema
+
+        emit_json(results_schema())
         return PASSED
     discovery = Discovery(folders)
     found, broken = {}, {}
@@ -317,13 +323,12 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
             with without_output():
                 found[name] = discovery.mechanism(name)
         except (UnknownKind, DuplicateKind) as fault:
-            raise UserError(Problem(str(fault))) from None
+            raise refusal(str(fault)) from None
         except PluginError as error:
             tell([str(error)])
             broken[name] = error.message
     if kind is None or kind in found:
-        whole = kind_schema(found[kind]) if kind else config_schema(found, broken)
-        emit(json.dumps(whole, indent=2, ensure_ascii=False) + "\n")
+        emit_json(kind_schema(found[kind]) if kind else config_schema(found, broken))
     return PLUGIN_BROKE if broken else PASSED
 
 
@@ -340,5 +345,5 @@ def _verdict(outcome: ReportOutcome, discovery: Discovery, quiet: bool, strict: 
     tell(str(error) for error in outcome.broken)
     tell(outcome.warnings)
     if not quiet:
-        tell(checking.told(outcome.results, discovery))
+        tell(checking.verdict_lines(outcome.results, discovery))
     return checking.exit_code(outcome.results, is_broken=bool(outcome.broken), is_strict=strict)

@@ -1,4 +1,4 @@
-"""The option ``--format`` of all commands: a list of formats, of which a command knows some."""
+"""What several commands are given: shared options, lists with commas, and the configuration, variant or standard input that is read."""
 
 from __future__ import annotations
 
@@ -11,44 +11,21 @@ import click
 
 from diecut_report.cli.output import tell
 from diecut_report.config.loader import SHOWN, load_standard_input
+from diecut_report.config.model import DETAILS
 from diecut_report.config.yaml import Tree
-from diecut_report.errors import Problem, UserError, nearest
+from diecut_report.errors import nearest, refusal
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import say
 
 if TYPE_CHECKING:
     from diecut_report.config.plugins import Discovery
     from diecut_report.pipeline import Source
-
-
-Taken = Callable[[click.Context, click.Parameter, str], list[str]]
-
-
-def formats_of(known_formats: Callable[[], Sequence[str]], *, may_be_none: bool = False) -> Taken:
-    """Return what takes the option: a list of formats, small letters, each once; BadParameter for another one, and for none.
-
-    The known ones are asked for when the option is read, since what knows them may take long to import.
-    """
-
-    def taken(_: click.Context, __: click.Parameter, given: str) -> list[str]:
-        asked = list(dict.fromkeys(part.strip().lower() for part in given.split(",") if part.strip()))
-        known = known_formats()
-        unknown = [part for part in asked if part not in known]
-        if unknown or not (asked or may_be_none):
-            named = {"given": repr(unknown[0]), "nearest": nearest(unknown[0], known)} if unknown else {}
-            words = Phrase("{given} is not a format{nearest}", named) if unknown else phrase("no format is named")
-            raise click.BadParameter(say("{words}; known: {known}.", words=words, known=", ".join(known)))
-        return asked
-
-    return taken
-
-
-# What a command is given to read: a configuration, a variant of a study, or what standard input holds.
-
+    from diecut_report.report.pages.firm_templates import HouseStyle
 
 RESULTS = "study.json"  # what makes a folder one of a study's results
 READ = "diecut_report.standard_input"
 DASH = Path("-")
+path_of = click.Path(path_type=Path)
 
 
 class OutputFile(click.Path):
@@ -62,6 +39,101 @@ class OutputFile(click.Path):
 output_file = OutputFile(path_type=Path)
 
 
+# Options, and what reads their values.
+
+
+def split(given: str) -> list[str]:
+    """Return the names of a list with commas."""
+    return [part for part in map(str.strip, given.split(",")) if part]
+
+
+def formats_of(known_formats: Callable[[], Sequence[str]], *, may_be_none: bool = False) -> Callable[..., list[str]]:
+    """Return the callback of a list of formats: small letters, each once; BadParameter for another one, and for none.
+
+    The known ones are asked for when the option is read, since what knows them may take long to import.
+    """
+
+    def read(_: click.Context, __: click.Parameter, given: str) -> list[str]:
+        asked, known = list(dict.fromkeys(split(given.lower()))), known_formats()
+        unknown = [part for part in asked if part not in known]
+        if unknown or not (asked or may_be_none):
+            named = {"given": repr(unknown[0]), "nearest": nearest(unknown[0], known)} if unknown else {}
+            words = Phrase("{given} is not a format{nearest}", named) if unknown else phrase("no format is named")
+            raise click.BadParameter(say("{words}; known: {known}.", words=words, known=", ".join(known)))
+        return asked
+
+    return read
+
+
+def report_formats() -> tuple[str, ...]:
+    """Return the formats of a report."""
+    from diecut_report.pipeline import FORMATS
+
+    return FORMATS
+
+
+def read_detail(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
+    """Return the detail that is asked for; BadParameter where there is no such one."""
+    if given is None or given in DETAILS:
+        return given
+    words, near = "{given} is not a detail{nearest}; known: {known}.", nearest(given, DETAILS)
+    raise click.BadParameter(say(words, given=repr(given), nearest=near, known=", ".join(DETAILS)))
+
+
+def read_mechanisms(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
+    """Return the mechanisms that are asked for; BadParameter where none is named."""
+    names = tuple(dict.fromkeys(split(given or "")))
+    if given is not None and not names:
+        words = "no mechanism is named; give names of the configuration, with commas: drive,clutch."
+        raise click.BadParameter(say(words))
+    return names
+
+
+def _read_template(_: click.Context, __: click.Parameter, given: Path | None) -> HouseStyle | None:
+    if given is None:
+        return None
+    from diecut_report.firm_folder import house_style
+
+    return house_style(given)
+
+
+config_argument = click.argument("config", type=path_of)
+json_option = click.option(
+    "--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json."
+)
+target_option = click.option(
+    "-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output."
+)
+here_option = click.option(
+    "-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here)."
+)
+study_folder_option = click.option(
+    "-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here)."
+)
+jobs_option = click.option(
+    "--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core)."
+)
+dask_option = click.option(
+    "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
+)
+strict_option = click.option(
+    "--strict",
+    is_flag=True,
+    help="Exit with 1 for warnings too, for checks that are not made because a key is not given, and for a plugin with faults.",
+)
+template_option = click.option(
+    "--template",
+    "house",
+    metavar="DIR",
+    type=path_of,
+    callback=_read_template,
+    help="A folder with templates of your own, which override blocks of HTML and PDF.",
+)
+
+
+# What a command reads.
+
+
 def source(config: Path, discovery: Discovery) -> Source:
     """Return the configuration that a command names: its file, standard input for ``-``, or for DIR#ID that of a stored variant."""
     if config == DASH:
@@ -72,13 +144,11 @@ def source(config: Path, discovery: Discovery) -> Source:
     from diecut_report.study.analysis.variant_config import variant_config
 
     name = f"{Path(folder).resolve().name}-{number}.yaml"
-    return variant_config(
-        Path(folder),
-        int(number),
-        discovery,
-        name,
-        lambda words: tell([Phrase("warning: {words}", words=phrase(words))]),
-    )
+    return variant_config(Path(folder), int(number), discovery, name, _warn)
+
+
+def _warn(words: str) -> None:
+    tell([Phrase("warning: {words}", words=phrase(words))])
 
 
 def changeable_source(config: Path, discovery: Discovery) -> Source:
@@ -93,8 +163,7 @@ def from_standard_input() -> Tree:
     """Return what standard input holds; UserError where the command has read it already."""
     meta = click.get_current_context().meta
     if meta.get(READ):
-        words = phrase("Standard input has been read already; give - once, and files beside it.")
-        raise UserError(Problem(words, SHOWN))
+        raise refusal("Standard input has been read already; give - once, and files beside it.", SHOWN)
     meta[READ] = True
     return load_standard_input()
 
@@ -108,56 +177,3 @@ def results_folder(study: Path | None, folder: Path | None, resume: Path | None)
     if study == DASH:
         raise click.UsageError(say("A study is read from a file, so that its run can be continued. Save it to one."))
     return resume or folder or Path(Path(str(study)).stem)
-
-
-# What the options of a report take: formats, detail, mechanisms.
-
-
-def report_formats() -> tuple[str, ...]:
-    """Return the formats of a report."""
-    from diecut_report.pipeline import FORMATS
-
-    return FORMATS
-
-
-def detail_given(_: click.Context, __: click.Parameter, given: str | None) -> str | None:
-    """Return the detail that is asked for; BadParameter where there is no such one."""
-    from diecut_report.config.model import DETAILS
-
-    if given is None or given in DETAILS:
-        return given
-    raise click.BadParameter(
-        say(
-            "{given} is not a detail{nearest}; known: {known}.",
-            given=repr(given),
-            nearest=nearest(given, DETAILS),
-            known=", ".join(DETAILS),
-        )
-    )
-
-
-def only_given(_: click.Context, __: click.Parameter, given: str | None) -> tuple[str, ...]:
-    """Return the mechanisms that are asked for; BadParameter where none is named."""
-    names = tuple(dict.fromkeys(part.strip() for part in (given or "").split(",") if part.strip()))
-    if given is not None and not names:
-        raise click.BadParameter(
-            say("no mechanism is named; give names of the configuration, with commas: drive,clutch.")
-        )
-    return names
-
-
-# The schemas of what is not a configuration, by the name that the command ``schema`` knows them by.
-
-
-OF_FILES = ("study", "results")
-
-
-def schema_of_file(name: str) -> dict[str, Any]:
-    """Return the schema of a study, or of the results file."""
-    if name == "study":
-        from diecut_report.study.definition.schema import study_schema
-
-        return study_schema()
-    from diecut_report.results.form import results_schema
-
-    return results_schema()

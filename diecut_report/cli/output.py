@@ -5,6 +5,7 @@ from __future__ import annotations
 import ctypes
 import inspect
 import io
+import json
 import os
 import re
 import sys
@@ -19,10 +20,9 @@ from unicodedata import category
 import click
 from click.shell_completion import CompletionItem
 
-from diecut_report.config.model import DETAILS, PRESS
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import INVISIBLE
-from diecut_report.errors import TOLD, PluginError, Problem, Unwritable, UserError
+from diecut_report.errors import MAX_SHOWN, PluginError, Problem, Unwritable, UserError
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, languages
 from diecut_report.text.phrases import Counted, Phrase, phrase
 from diecut_report.text.translation import know_all_plugins, said, say, say_counted, speak, spoken_language
@@ -110,30 +110,21 @@ def kinds(context: click.Context, _: click.Parameter, begun: str) -> list[Comple
     return [CompletionItem(kind, help=_title(discovery, kind)) for kind in discovery.origins if kind.startswith(begun)]
 
 
-def mechanisms(context: click.Context, _: click.Parameter, begun: str) -> list[CompletionItem]:
+def mechanisms(context: click.Context, _: click.Parameter, begun: str) -> list[str]:
     """Complete names of mechanisms, parted by commas."""
     before, comma, last = begun.rpartition(",")
-    names = (config.kinds for config in _config(context))
-    return _items((f"{before}{comma}{name}" for found in names for name in found), f"{before}{comma}{last}")
+    names = (name for config in _config(context) for name in config.kinds)
+    return [f"{before}{comma}{name}" for name in names if name.startswith(last)]
 
 
-def inputs(context: click.Context, _: click.Parameter, begun: str) -> list[CompletionItem]:
+def inputs(context: click.Context, _: click.Parameter, begun: str) -> list[str]:
     """Complete the path of an input that is a number: drive.crank_length."""
-    return _items((path for config in _config(context) for path in _numbers(config)), begun)
+    return [path for config in _config(context) for path in _numbers(config) if path.startswith(begun)]
 
 
-def spoken(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
-    """Complete a language."""
-    return _items(languages(), begun)
-
-
-def details(_: click.Context, __: click.Parameter, begun: str) -> list[CompletionItem]:
-    """Complete how much a report holds."""
-    return _items(DETAILS, begun)
-
-
-def _items(known: Iterable[str], begun: str) -> list[CompletionItem]:
-    return [CompletionItem(text) for text in known if text.startswith(begun)]
+def one_of(known: Callable[[], Iterable[str]]) -> Callable[[click.Context, click.Parameter, str], list[str]]:
+    """Return what completes one of these texts."""
+    return lambda _context, _option, begun: [text for text in known() if text.startswith(begun)]
 
 
 def _discovery(context: click.Context) -> Discovery:
@@ -173,8 +164,7 @@ def _numbers(config: Config) -> Iterator[str]:
     for name, instance in config.instances.items():
         for slot in instance.slots if instance else ():
             if isinstance(slot.meta, Quantity) and (slot.is_given or slot.value is not None):
-                home = PRESS if name == PRESS else name
-                yield ".".join(map(str, (home, *slot.key)))
+                yield ".".join(map(str, (name, *slot.key)))
 
 
 # The language of the command line: that of its messages, and the one that is asked for documents.
@@ -228,7 +218,7 @@ def language_option(command: Command) -> Command:
         expose_value=False,
         callback=_language,
         help=words,
-        shell_complete=spoken,
+        shell_complete=one_of(languages),
     )
     return option(command)
 
@@ -240,7 +230,7 @@ INTERRUPTED, FAULT, UNWRITABLE = (
     74,
 )  # as shells and sysexits have it: Ctrl-C, a fault of the program, of writing
 COLOURS = {"fail": "31", "error": "31", "skipped": "33", "warn": "33", "not_checked": "36", "pass": "32"}
-LETTERS, END = 2_000, 500  # of a message, and of its end where it is longer
+MAX_MESSAGE, MESSAGE_END = 2_000, 500  # of a message, and of its end where it is longer
 # what may make a terminal do something, end a line, show a text as another one, or stand in it unseen
 _ACTIVE = ("Cc", "Cf", "Cs", "Co", "Cn", "Zl", "Zp")
 
@@ -261,7 +251,7 @@ def tell(lines: Iterable[Line]) -> None:
     It cannot leave its line but for lines that are indented.
     """
     for line in lines:
-        click.echo("".join(map(_told, (line,) if isinstance(line, str) else line)), err=True)
+        click.echo("".join(map(_printable, (line,) if isinstance(line, str) else line)), err=True)
 
 
 def tell_written(paths: Iterable[Path]) -> None:
@@ -273,12 +263,12 @@ def tell_problems(problems: Sequence[Problem]) -> None:
     """What is wrong with a file: the first problems, and how many more there are."""
     unreadable = know_all_plugins()  # of whose inputs the problems tell
     problems = [*problems, *(fault for fault in unreadable if fault not in problems)]
-    tell(str(problem) for problem in problems[:TOLD])
-    if len(problems) > TOLD:
+    tell(str(problem) for problem in problems[:MAX_SHOWN])
+    if len(problems) > MAX_SHOWN:
         tell(
             [
                 Counted(
-                    len(problems) - TOLD,
+                    len(problems) - MAX_SHOWN,
                     "{n} more problem of the same run is not shown; fix these first.",
                     "{n} more problems of the same run are not shown; fix these first.",
                 )
@@ -286,28 +276,25 @@ def tell_problems(problems: Sequence[Problem]) -> None:
         )
 
 
-def _told(text: str) -> str:
+def _printable(text: str) -> str:
     return text if isinstance(text, Coloured) else re.sub(r"\n(?! )", "\n    ", shown(cut(said(text))))
 
 
 def cut(text: str) -> str:
     """The text, without its middle where it is very long."""
-    if len(text) <= LETTERS:
+    if len(text) <= MAX_MESSAGE:
         return text
-    left_out = len(text) - LETTERS
+    left_out = len(text) - MAX_MESSAGE
     middle = say_counted(left_out, "[…{n} more letter…]", "[…{n} more letters…]")
-    return f"{text[: LETTERS - END]} {middle} {text[-END:]}"
+    return f"{text[: MAX_MESSAGE - MESSAGE_END]} {middle} {text[-MESSAGE_END:]}"
 
 
 def shown(text: str, kept: str = "\n\t") -> str:
     """The text with all that is active on a terminal, or invisible, as an escape, but for the ends of lines and tabs."""
     if text.isascii() and text.isprintable():
         return text
-    return "".join(ascii(each)[1:-1] if each not in kept and _is_active(each) else each for each in text)
-
-
-def _is_active(letter: str) -> bool:
-    return category(letter) in _ACTIVE or INVISIBLE.match(letter) is not None
+    active = {each for each in {*text} - {*kept} if category(each) in _ACTIVE or INVISIBLE.match(each)}
+    return "".join(ascii(each)[1:-1] if each in active else each for each in text)
 
 
 def in_line(text: str) -> str:
@@ -323,6 +310,26 @@ def as_lines(lines: Iterable[str]) -> str:
 def emit_lines(lines: Iterable[str]) -> bool:
     """What was asked for as lines."""
     return emit(as_lines(lines))
+
+
+def emit_json(data: Any, indent: int = 2) -> None:
+    """What was asked for as JSON."""
+    emit(as_json(data, indent))
+
+
+def as_json(data: Any, indent: int = 2) -> str:
+    """Return plain data as JSON."""
+    return json.dumps(data, indent=indent, ensure_ascii=False, allow_nan=False) + "\n"
+
+
+def emit_or_write(text: str, target: Path | None, keep: Path | None = None) -> None:
+    """What was asked for: on standard output, or in the file that is named, which is not ``keep``."""
+    if target is None:
+        emit(text)
+        return
+    from diecut_report.files import write_all
+
+    write_all({target: text.encode(errors="backslashreplace")}, keep, through=True)
 
 
 def emit(text: str) -> bool:
@@ -341,9 +348,8 @@ def emit(text: str) -> bool:
         from diecut_report.files import reason
 
         _close_output()
-        raise Unwritable(
-            Problem(Phrase("Standard output cannot be written: {reason}", reason=reason(error)))
-        ) from error
+        words = "Standard output cannot be written: {reason}"
+        raise Unwritable(Problem(Phrase(words, reason=reason(error)))) from error
     return True
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import webbrowser
 from collections.abc import Iterator, Mapping, Sequence
@@ -13,7 +12,7 @@ from typing import TYPE_CHECKING
 import click
 
 from diecut_report.cli import output
-from diecut_report.cli.options import output_file
+from diecut_report.cli.options import json_option, output_file, path_of
 from diecut_report.cli.output import (
     BAD_INPUT,
     CHECK_FAILED,
@@ -22,8 +21,9 @@ from diecut_report.cli.output import (
     HelpfulCommand,
     asked_language,
     common,
-    emit,
+    emit_json,
     emit_lines,
+    emit_or_write,
     tell,
     tell_problems,
     tell_written,
@@ -31,13 +31,12 @@ from diecut_report.cli.output import (
 )
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery, DuplicateKind
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 from diecut_report.text.translation import said, say, speaking, spoken_language
 
 if TYPE_CHECKING:
     from diecut_report.config.drafting import Draft
-    from diecut_report.report.pages.firm_templates import HouseStyle
     from diecut_report.testing.plugin_page import CheckedPlugin
 
 
@@ -67,8 +66,8 @@ def new(kinds: tuple[str, ...], file: Path | None, force: bool, folders: tuple[P
         with without_output():
             made = draft(kinds, discovery, file.name if file else "my_press.yaml")
             problems = _problems(made, str(file or SHOWN), discovery)
-        _give(made, file)
-        tell(_told(made, None if quiet else file))
+        emit_or_write(made.text, file)
+        tell(_draft_messages(made, None if quiet else file))
     tell_problems(problems)
     return CHECK_FAILED if problems else PASSED
 
@@ -90,8 +89,7 @@ def _list(discovery: Discovery) -> int:
 def _refuse_existing(file: Path) -> None:
     """Refuse a file that is there; a device or a pipe is written into."""
     if os.path.lexists(file) and (file.is_file() or file.is_symlink() or file.is_dir()):
-        words = phrase("This is there already; it is not written over. Choose another name, or give --force.")
-        raise UserError(Problem(words, str(file)))
+        raise refusal("This is there already; it is not written over. Choose another name, or give --force.", file)
 
 
 def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]:
@@ -110,28 +108,16 @@ def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]
     return ()
 
 
-def _give(made: Draft, file: Path | None) -> None:
-    if file is None:
-        emit(made.text)
-        return
-    from diecut_report.files import write_all
-
-    write_all({file: made.text.encode()}, keep=file.parent, through=True)
-
-
-def _told(made: Draft, file: Path | None) -> Iterator[str]:
+def _draft_messages(made: Draft, file: Path | None) -> Iterator[str]:
     """Say what was added, and what no example tells."""
     if file is not None:
         yield Phrase("written: {path}", path=file)
-    for new_one, asking in made.added:
-        words = "added: {name} ({kind}), which {asking} cannot be without"
-        yield say(words, name=new_one.name, kind=new_one.kind, asking=asking.name)
+    words = "added: {name} ({kind}), which {asking} cannot be without"
+    yield from (say(words, name=new.name, kind=new.kind, asking=asking.name) for new, asking in made.added)
     if made.guessed:
-        words = "no example tells these; put in your own: {keys}"
-        yield say(words, keys=", ".join(made.guessed))
+        yield say("no example tells these; put in your own: {keys}", keys=", ".join(made.guessed))
     if made.open:
-        words = "these take a reference that only you can give: {keys}"
-        yield say(words, keys=", ".join(made.open))
+        yield say("these take a reference that only you can give: {keys}", keys=", ".join(made.open))
 
 
 # The commands of plugin authors: ``new-plugin`` writes a mechanism that runs, ``check-plugin`` judges one.
@@ -144,8 +130,6 @@ STATES = {
     "fail": phrase("fails"),
     "broke": phrase("broke"),
 }
-
-path_of = click.Path(path_type=Path)
 
 
 @click.command("new-plugin", cls=HelpfulCommand)
@@ -179,7 +163,7 @@ def new_plugin(
 @click.argument("plugin", metavar="NAME|DIR")
 @click.option("--config", "configs", metavar="FILE", multiple=True, type=path_of,
               help="A configuration with machines to try it on (default: those that lie beside the plugin).")  # fmt: skip
-@click.option("--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json.")
+@json_option
 @click.option(
     "-o",
     "page",
@@ -217,7 +201,7 @@ def check_plugin(
                 if isinstance(each, CheckedPlugin):
                     found.append(each)
     if form == "json":
-        emit(json.dumps([each.data for each in found], indent=2, ensure_ascii=False) + "\n")
+        emit_json([each.data for each in found])
     else:
         emit_lines(line for each in found for line in _lines(each))
     for each in found:
@@ -234,11 +218,11 @@ def check_plugin(
 def _lines(found: CheckedPlugin) -> Iterator[str]:
     """What was found, a line for each rule, below it its faults."""
     version = f" {found.mechanism.version}" if found.mechanism else ""
-    yield say("{kind}{version}, from {origin}", kind=found.kind, version=version, origin=found.told)
+    yield say("{kind}{version}, from {origin}", kind=found.kind, version=version, origin=found.origin)
     if found.error:
         yield f"  {say('broke')}: {said(found.error)}"
     for rule in found.rules:
-        told = f": {said(rule.told)}" if rule.told else ""
+        told = f": {said(rule.summary)}" if rule.summary else ""
         yield f"  {said(STATES[rule.status])}  {said(rule.title)}{told}"
         yield from (f"      {said(fault)}" for fault in rule.short_list)
 
@@ -268,24 +252,3 @@ def _write_pages(pages: Mapping[Path, bytes], configs: tuple[Path, ...], quiet: 
         tell_written(pages)
     for page in pages if is_shown else ():
         webbrowser.open(page.resolve().as_uri())
-
-
-# The option ``--template`` of all commands that set a report: the folder of a firm's own templates.
-
-
-def _read(_: click.Context, __: click.Parameter, given: Path | None) -> HouseStyle | None:
-    if given is None:
-        return None
-    from diecut_report.firm_folder import house_style
-
-    return house_style(given)
-
-
-template_option = click.option(
-    "--template",
-    "house",
-    metavar="DIR",
-    type=click.Path(path_type=Path),
-    callback=_read,
-    help="A folder with templates of your own, which override blocks of HTML and PDF.",
-)

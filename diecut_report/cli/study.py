@@ -6,13 +6,25 @@ import sys
 from collections.abc import Iterator, Mapping
 from contextlib import closing, redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING
+from typing import TYPE_CHECKING, Any
 
 import click
 
 from diecut_report.cli import output
-from diecut_report.cli.checking import WORDS, marked
-from diecut_report.cli.options import DASH, RESULTS, formats_of, output_file, results_folder
+from diecut_report.cli.checking import WORDS, counted
+from diecut_report.cli.options import (
+    DASH,
+    RESULTS,
+    dask_option,
+    formats_of,
+    jobs_option,
+    output_file,
+    path_of,
+    results_folder,
+    split,
+    strict_option,
+    study_folder_option,
+)
 from diecut_report.cli.output import (
     CHECK_FAILED,
     INTERRUPTED,
@@ -37,15 +49,9 @@ EXPORTS = ("csv", "xlsx")
 
 SEPARATORS, DECIMALS, UNITS = ("comma", "semicolon", "tab"), ("point", "comma"), ("si", "display")
 
-path_of = click.Path(path_type=Path)
-
-
-def _names(_context: click.Context, _option: click.Parameter, given: str) -> list[str] | None:
-    return [name for name in (part.strip() for part in given.split(",")) if name] or None
-
 
 def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> list[int]:
-    parts = [part for part in (part.strip() for part in given.split(",")) if part]
+    parts = split(given)
     if strange := [part for part in parts if not part.isdecimal()]:
         raise click.BadParameter(say("{given} is not the number of a variant.", given=repr(strange[0])))
     return list(dict.fromkeys(map(int, parts)))
@@ -53,14 +59,12 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
 
 @click.command(cls=HelpfulCommand, epilog=output.OF_STUDY)
 @click.argument("study", required=False, type=path_of)
-@click.option("-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here).")
+@study_folder_option
 @click.option(
     "--resume", metavar="DIR", type=path_of, help="Continue the run of a folder; what is finished there is kept."
 )
-@click.option("--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core).")
-@click.option(
-    "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
-)
+@jobs_option
+@dask_option
 @click.option(
     "--format",
     "formats",
@@ -77,9 +81,7 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     help="How long a part of the study may take before it is ended as in error; 0 for any time (default: many times as long as others).",
 )
 @click.option("--yes", is_flag=True, help="Calculate also a very large sample without being asked.")
-@click.option(
-    "--strict", is_flag=True, help="Warnings, checks without a limit and plugins with faults count as failed."
-)
+@strict_option
 @common
 def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
           chunk_limit: float | None, yes: bool, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
@@ -99,44 +101,39 @@ def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: in
         tell([Phrase(words, folder=target)])
         return INTERRUPTED
     if not quiet:
-        tell(_told(outcome, target))
-    tell(_broken(outcome))
-    tell(line for kind, faults in outcome.doubtful.items() for line in told_faults(kind, faults))
+        tell(_outcome_lines(outcome, target))
+    tell(told_plugins({}, outcome.broken, outcome.doubtful, outcome.broken_reports))
     is_failed = outcome.is_failed or (strict and (bool(outcome.doubtful) or is_doubtful(target)))
     return PLUGIN_BROKE if outcome.is_broken else CHECK_FAILED if is_failed else PASSED
 
 
-def _told(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
+def _outcome_lines(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     from diecut_report.study.definition.constraints import why_dropped
 
     counts = outcome.counts
     yield Phrase("written: {path}, with summary.html and summary.pdf", path=target) + _reports(target)
-    named = [
-        part
-        for status in ("pass", "warn", "fail", "error")
-        if counts.get(status)
-        for part in (", ", f"{counts[status]} ", marked(status))
-    ]
+    named = counted({status: counts.get(status, 0) for status in ("pass", "warn", "fail", "error")})
     more = "; the constraints drop {n} more of the sample{why}"
     dropped = Phrase(more, n=counts["dropped"], why=why_dropped(counts)) if counts.get("dropped") else ""
     count = counts.get("variants", 0)
-    yield (Counted(count, "{n} variant: ", "{n} variants: "), *(named[1:] or [phrase("none")]), dropped, ".")
+    yield (Counted(count, "{n} variant: ", "{n} variants: "), *(named or [phrase("none")]), dropped, ".")
     if outcome.has_none:
         yield phrase("No variant can exist; the summary tells why. Vary other inputs, or within other limits.")
-    slow = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
-    yield from (
-        Phrase(slow, kind=kind, why=phrase(why))
-        for kind, why in outcome.slow.items()
-        if not (outcome.is_broken and kind in outcome.broken)
-    )
+    is_broken = outcome.broken if outcome.is_broken else {}
+    yield from told_plugins({kind: why for kind, why in outcome.slow.items() if kind not in is_broken}, {}, {}, {})
     yield from outcome.notes
 
 
-def _broken(outcome: StudyOutcome) -> Iterator[str]:
-    for kind, why in outcome.broken.items():
-        words = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
-        yield Phrase(words, kind=repr(kind), why=phrase(why))
-    for kind, why in outcome.broken_reports.items():
+def told_plugins(
+    slow: Mapping[str, str], broken: Mapping[str, str], doubtful: Mapping[str, Any], broken_reports: Mapping[str, str]
+) -> Iterator[str]:
+    """Tell by their kinds which plugins were slow, which broke, and which have faults in their formulas."""
+    words = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
+    yield from (Phrase(words, kind=kind, why=phrase(why)) for kind, why in slow.items())
+    broke = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
+    yield from (Phrase(broke, kind=repr(kind), why=phrase(why)) for kind, why in broken.items())
+    yield from (line for kind, faults in doubtful.items() for line in told_faults(kind, faults))
+    for kind, why in broken_reports.items():
         yield Phrase("plugin {kind} broke {why}", kind=repr(kind), why=phrase(why))
 
 
@@ -155,7 +152,13 @@ def _reports(target: Path) -> str:
 @click.option("--sort", metavar="COLUMN", help="Sort by a column, -COLUMN downwards.")
 @click.option("--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 20 in a table, else all).")
 @click.option("--pick", metavar="LIST", callback=_numbers, default="", help="These variants alone, such as 3, 17, 205.")
-@click.option("--columns", metavar="LIST", callback=_names, default="", help="These columns alone, parted by commas.")
+@click.option(
+    "--columns",
+    metavar="LIST",
+    callback=lambda _, __, given: split(given) or None,
+    default="",
+    help="These columns alone, parted by commas.",
+)
 @click.option("--transpose", is_flag=True, help="A line for each quantity, a column for each variant: a comparison.")
 @click.option(
     "--format",

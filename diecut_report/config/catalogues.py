@@ -12,7 +12,7 @@ from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, UnknownLa
 from diecut_report.text.phrases import Phrase
 from diecut_report.text.translation import spoken_language
 
-TOLD = 3  # texts that are told of an incomplete catalogue
+MAX_LISTED = 3  # texts that are told of an incomplete catalogue
 
 
 def catalogues_for(language: str, kinds: Iterable[str], discovery: Discovery, file: str = "") -> Catalogues:
@@ -48,22 +48,11 @@ def lacking(catalogues: Catalogues, kinds: Iterable[str]) -> list[str]:
 def _lacking(kind: str, catalogues: Catalogues) -> str:
     own, language = catalogues.of(kind), catalogues.language
     if own is None:
-        return Phrase(
-            "The plugin of {kind} has no catalogue locale/{language}.po; its words stay English.",
-            kind=repr(kind),
-            language=language,
-        )
+        words = "The plugin of {kind} has no catalogue locale/{language}.po; its words stay English."
+        return Phrase(words, kind=repr(kind), language=language)
     count = len(own.missing)
-    return (
-        Phrase(
-            "The catalogue {language} of the plugin of {kind} lacks {count} texts, which stay English.",
-            language=language,
-            kind=repr(kind),
-            count=count,
-        )
-        if count
-        else ""
-    )
+    words = "The catalogue {language} of the plugin of {kind} lacks {count} texts, which stay English."
+    return Phrase(words, language=language, kind=repr(kind), count=count) if count else ""
 
 
 def _incomplete(kind: str, catalogues: Catalogues, file: str) -> Problem | None:
@@ -71,7 +60,7 @@ def _incomplete(kind: str, catalogues: Catalogues, file: str) -> Problem | None:
     if own is not None and not own.missing:
         return None
     texts = [] if own is None else own.missing
-    told = "; ".join(f"“{text}”" for text in texts[:TOLD])
+    told = "; ".join(f"“{text}”" for text in texts[:MAX_LISTED])
     words = Phrase(
         "Reports in {language} wait for the words of {kind}: {count} texts are not translated ({told} …). ",
         language=catalogues.language,

@@ -43,7 +43,8 @@ def guessed(known: ModelKey) -> Any:
         return [block] if known.is_list else block
     match known.meta:
         case Quantity() as meta:
-            return next((_guesses_with_unit(size, meta) for size in SIZES if _is_allowed(meta, size)), None)
+            size = next((size for size in SIZES if _is_allowed(meta, size)), None)
+            return size if size is None or meta.unit == "1" else f"{size} {meta.unit}"
         case CurveInput(referred=False):
             return list(WAVE)
         case Text() as meta:
@@ -86,10 +87,6 @@ def _chosen(model: type[Block], data: Mapping[str, Any]) -> list[str]:
     ]
 
 
-def _guesses_with_unit(size: float, meta: Quantity) -> float | str:
-    return size if meta.unit == "1" else f"{size} {meta.unit}"
-
-
 def _is_allowed(meta: Quantity, size: float) -> bool:
     try:
         meta.validate(size)
@@ -102,7 +99,7 @@ def _is_allowed(meta: Quantity, size: float) -> bool:
 
 
 UNBROKEN = "\N{NO-BREAK SPACE}"  # where a line is not to end; a plain space in the file
-WIDTH, WIDEST, LEAST = 150, 66, 60  # letters of a line, of its code at most, of a comment at least
+LINE_WIDTH, MAX_CODE_WIDTH, MIN_COMMENT_WIDTH = 150, 66, 60  # letters
 
 
 @dataclass(frozen=True)
@@ -122,7 +119,7 @@ class DraftLine:
 
 def laid_out(lines: Sequence[DraftLine]) -> Iterator[str]:
     """Yield the lines of a block, their comments below each other; a long comment goes on in the next lines."""
-    lengths = [len(line.text) for line in lines if line.comment and len(line.text) <= WIDEST]
+    lengths = [len(line.text) for line in lines if line.comment and len(line.text) <= MAX_CODE_WIDTH]
     column = max(lengths, default=0) + 2
     for line in lines:
         yield from _with_comment(line, column)
@@ -132,7 +129,7 @@ def remarks(text: str, indent: int = 0) -> Iterator[str]:
     """Yield a text as lines of comment."""
     for paragraph in text.split("\n"):
         head = " " * indent + "# "
-        yield from (f"{head}{part}" for part in wrap(paragraph, WIDTH - len(head), break_long_words=False) or [""])
+        yield from (f"{head}{part}" for part in wrap(paragraph, LINE_WIDTH - len(head), break_long_words=False) or [""])
 
 
 def _with_comment(line: DraftLine, column: int) -> Iterator[str]:
@@ -140,7 +137,9 @@ def _with_comment(line: DraftLine, column: int) -> Iterator[str]:
         yield line.text
         return
     start = max(column, len(line.text) + 2)
-    parts = wrap(line.comment, max(LEAST, WIDTH - start - 2), break_long_words=False, break_on_hyphens=False)
+    parts = wrap(
+        line.comment, max(MIN_COMMENT_WIDTH, LINE_WIDTH - start - 2), break_long_words=False, break_on_hyphens=False
+    )
     heads = (line.text.ljust(start), *(" " * start for _ in parts[1:]))
     yield from (f"{head}# {part}".replace(UNBROKEN, " ") for head, part in zip(heads, parts, strict=True))
 
@@ -206,22 +205,109 @@ def _text(text: str, in_braces: bool) -> str:
 OPEN = "…"  # stands for a value that is one's own to give
 
 
+def default(known: ModelKey) -> Any:
+    """Return the default of a key; None where it has none."""
+    return None if known.field.is_required() else known.field.get_default(call_default_factory=True)
+
+
+def sample(known: ModelKey) -> str:
+    """Return what stands behind a key that is not given: its default with its unit, else a place to fill."""
+    found, meta = default(known), known.meta
+    if isinstance(meta, Quantity):
+        if found is None and meta.press is not None and meta.press.formula is None:
+            return f"${{{meta.press.path}}}"
+        value = OPEN if found is None else found
+        shown = typed(value if isinstance(value, str) else float(value))
+        return shown if meta.unit == "1" or value in meta.words else f"{shown} {meta.unit}"
+    if found not in (None, "", []):
+        return typed(found)
+    if isinstance(meta, CurveInput):
+        return "${" + OPEN + "}"
+    return "${" + OPEN + ".phases." + OPEN + "}" if isinstance(meta, PhaseInput) else OPEN
+
+
+def _others(model: type[Block], name: str, given: Collection[str]) -> list[str]:
+    """The given keys of another alternative, beside which a key has no use."""
+    for rule in model.one_of:
+        own = [group for group in rule.groups if name in group]
+        if own and name not in rule.shared and not any(set(group) <= set(given) for group in own):
+            found = [key for group in rule.groups if group not in own and set(group) <= set(given) for key in group]
+            if found := [key for key in found if key not in rule.shared]:
+                return found
+    return []
+
+
+STEP = 2
+
+
 @dataclass(frozen=True)
-class Explained:
-    """Explains the keys of one kind, in the language that is spoken; without a mechanism those of the press."""
+class BlockWriter:
+    """Writes the keys of blocks of one kind, explained in the language that is spoken; without a mechanism those of the press."""
 
     kind: str = ""
     mechanism: Mechanism | None = None
 
+    def lines(self, model: type[Block], data: Mapping[str, Any], path: str = "") -> Iterator[DraftLine]:
+        """Yield the lines of a block: its values, then the keys that it does not have, turned off."""
+        yield from self.given(model, data, path)
+        yield from self.off(model, data, path)
+
+    def given(
+        self, model: type[Block], data: Mapping[str, Any], path: str = "", *, is_told: bool = True
+    ) -> Iterator[DraftLine]:
+        """Yield the keys that have a value, in the order in which they are declared."""
+        for name, known in keys_of(model).items():
+            if name not in data:
+                continue
+            words = self.words(model, name, data, path) if is_told else ""
+            if known.block is None:
+                yield DraftLine(0, f"{name}: {typed(with_basis(known.meta, data[name]))}", words)
+                continue
+            yield DraftLine(0, f"{name}:", words)
+            own = f"{path}{name}."
+            if known.is_list:
+                yield from shifted(self._parts(known.block, data[name], own, is_told), STEP)
+            else:
+                inner = self.lines if is_told else self._bare
+                yield from shifted(inner(known.block, data[name], own), STEP)
+
+    def off(self, model: type[Block], data: Mapping[str, Any], path: str = "") -> Iterator[DraftLine]:
+        """Yield the keys that a block does not have, as comments to be turned on."""
+        for name, known in keys_of(model).items():
+            if name not in data:
+                yield from shifted(self._off(model, name, known, data, path), 0, off=True)
+
+    def _off(
+        self, model: type[Block], name: str, known: ModelKey, data: Mapping[str, Any], path: str
+    ) -> Iterator[DraftLine]:
+        words = self.words(model, name, data, path)
+        if known.block is None:
+            yield DraftLine(0, f"{name}: {sample(known)}", words)
+            return
+        yield DraftLine(0, f"{name}:", words)
+        own = f"{path}{name}."
+        inner = [
+            line for key, each in keys_of(known.block).items() for line in self._off(known.block, key, each, {}, own)
+        ]
+        yield from shifted(_as_part(inner) if known.is_list else inner, STEP)
+
+    def _bare(self, model: type[Block], data: Mapping[str, Any], path: str) -> Iterator[DraftLine]:
+        return self.given(model, data, path, is_told=False)
+
+    def _parts(
+        self, model: type[Block], parts: Sequence[Mapping[str, Any]], path: str, is_told: bool
+    ) -> Iterator[DraftLine]:
+        """The parts of a list; the keys of the first alone are explained."""
+        for number, part in enumerate(parts):
+            inner = self.lines if is_told and number == 0 else self._bare
+            yield from _as_part(list(inner(model, part, path)))
+
     def words(self, model: type[Block], name: str, given: Collection[str], path: str = "") -> str:
         """Return what is said of a key of a block; ``given`` are the keys that the block has."""
         known = keys_of(model)[name]
-        return "; ".join(filter(None, (self._meaning(known), *self._more(model, known, name, given, path))))
-
-    def _meaning(self, known: ModelKey) -> str:
-        meta = known.meta
-        described, symbol = getattr(meta, "description", ""), getattr(meta, "symbol", "")
-        return ": ".join(filter(None, (symbol, said(described, self.kind))))
+        symbol, described = getattr(known.meta, "symbol", ""), getattr(known.meta, "description", "")
+        meaning = ": ".join(filter(None, (symbol, said(described, self.kind))))
+        return "; ".join(filter(None, (meaning, *self._more(model, known, name, given, path))))
 
     def _more(self, model: type[Block], known: ModelKey, name: str, given: Collection[str], path: str) -> Iterator[str]:
         meta = known.meta
@@ -247,108 +333,6 @@ class Explained:
             return []
         checks = [check for check in self.mechanism.checks if key == check.limit or key in check.needs]
         return list(dict.fromkeys(said(check.title, self.kind) for check in checks))
-
-
-def default(known: ModelKey) -> Any:
-    """Return the default of a key; None where it has none."""
-    return None if known.field.is_required() else known.field.get_default(call_default_factory=True)
-
-
-def sample(known: ModelKey) -> str:
-    """Return what stands behind a key that is not given: its default with its unit, else a place to fill."""
-    found, meta = default(known), known.meta
-    if isinstance(meta, Quantity):
-        if found is None and meta.press is not None and meta.press.formula is None:
-            return f"${{{meta.press.path}}}"
-        return _with_unit(OPEN if found is None else found, meta)
-    if found not in (None, "", []):
-        return typed(found)
-    if isinstance(meta, CurveInput):
-        return "${" + OPEN + "}"
-    return "${" + OPEN + ".phases." + OPEN + "}" if isinstance(meta, PhaseInput) else OPEN
-
-
-def _with_unit(value: Any, meta: Quantity) -> str:
-    if isinstance(value, str) and value in meta.words:
-        return value
-    shown = typed(value if isinstance(value, str) else float(value))
-    return shown if meta.unit == "1" else f"{shown} {meta.unit}"
-
-
-def _others(model: type[Block], name: str, given: Collection[str]) -> list[str]:
-    """The given keys of another alternative, beside which a key has no use."""
-    for rule in model.one_of:
-        own = [group for group in rule.groups if name in group]
-        if own and name not in rule.shared and not any(set(group) <= set(given) for group in own):
-            found = [key for group in rule.groups if group not in own and set(group) <= set(given) for key in group]
-            if found := [key for key in found if key not in rule.shared]:
-                return found
-    return []
-
-
-STEP = 2
-
-
-@dataclass(frozen=True)
-class BlockWriter:
-    """Writes the keys of blocks of one kind."""
-
-    explained: Explained
-
-    def lines(self, model: type[Block], data: Mapping[str, Any], path: str = "") -> Iterator[DraftLine]:
-        """Yield the lines of a block: its values, then the keys that it does not have, turned off."""
-        yield from self.given(model, data, path)
-        yield from self.off(model, data, path)
-
-    def given(
-        self, model: type[Block], data: Mapping[str, Any], path: str = "", *, is_told: bool = True
-    ) -> Iterator[DraftLine]:
-        """Yield the keys that have a value, in the order in which they are declared."""
-        for name, known in keys_of(model).items():
-            if name not in data:
-                continue
-            words = self.explained.words(model, name, data, path) if is_told else ""
-            if known.block is None:
-                yield DraftLine(0, f"{name}: {typed(with_basis(known.meta, data[name]))}", words)
-                continue
-            yield DraftLine(0, f"{name}:", words)
-            own = f"{path}{name}."
-            if known.is_list:
-                yield from shifted(self._parts(known.block, data[name], own, is_told), STEP)
-            else:
-                inner = self.lines if is_told else self._bare
-                yield from shifted(inner(known.block, data[name], own), STEP)
-
-    def off(self, model: type[Block], data: Mapping[str, Any], path: str = "") -> Iterator[DraftLine]:
-        """Yield the keys that a block does not have, as comments to be turned on."""
-        for name, known in keys_of(model).items():
-            if name not in data:
-                yield from shifted(self._off(model, name, known, data, path), 0, off=True)
-
-    def _off(
-        self, model: type[Block], name: str, known: ModelKey, data: Mapping[str, Any], path: str
-    ) -> Iterator[DraftLine]:
-        words = self.explained.words(model, name, data, path)
-        if known.block is None:
-            yield DraftLine(0, f"{name}: {sample(known)}", words)
-            return
-        yield DraftLine(0, f"{name}:", words)
-        own = f"{path}{name}."
-        inner = [
-            line for key, each in keys_of(known.block).items() for line in self._off(known.block, key, each, {}, own)
-        ]
-        yield from shifted(_as_part(inner) if known.is_list else inner, STEP)
-
-    def _bare(self, model: type[Block], data: Mapping[str, Any], path: str) -> Iterator[DraftLine]:
-        return self.given(model, data, path, is_told=False)
-
-    def _parts(
-        self, model: type[Block], parts: Sequence[Mapping[str, Any]], path: str, is_told: bool
-    ) -> Iterator[DraftLine]:
-        """The parts of a list; the keys of the first alone are explained."""
-        for number, part in enumerate(parts):
-            inner = self.lines if is_told and number == 0 else self._bare
-            yield from _as_part(list(inner(model, part, path)))
 
 
 def _as_part(lines: Sequence[DraftLine]) -> Iterator[DraftLine]:

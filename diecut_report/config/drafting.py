@@ -4,14 +4,12 @@ from __future__ import annotations
 
 from collections import ChainMap
 from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field, replace
-from itertools import count
+from dataclasses import dataclass, replace
 from typing import Any
 
 from diecut_report.config.draft_layout import (
     BlockWriter,
     DraftLine,
-    Explained,
     completed,
     laid_out,
     remarks,
@@ -19,7 +17,7 @@ from diecut_report.config.draft_layout import (
     typed,
     unguessed,
 )
-from diecut_report.config.loader import NAME, RESERVED
+from diecut_report.config.loader import RESERVED, free_name, name_fault
 from diecut_report.config.model import Press, Project
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.validation import keys_of
@@ -56,7 +54,7 @@ def chosen(given: Sequence[str], discovery: Discovery) -> list[Drafted]:
         except (UnknownKind, DuplicateKind) as fault:
             problems.append(Problem(str(fault)))
             continue
-        own = name or free_name(mechanism, names)
+        own = name or _free_name(mechanism, names)
         names.add(own)
         found.append(Drafted(own, kind, mechanism))
     if problems:
@@ -64,32 +62,18 @@ def chosen(given: Sequence[str], discovery: Discovery) -> list[Drafted]:
     return found
 
 
-def free_name(mechanism: Mechanism, names: Iterable[str]) -> str:
+def _free_name(mechanism: Mechanism, names: Iterable[str]) -> str:
     """Return a name that no other mechanism has: that of its example, else its kind, numbered from the second on."""
-    first = mechanism.example.name if mechanism.example else mechanism.kind
-    taken = {*names, *RESERVED}
-    return next(name for number in count(1) if (name := first if number == 1 else f"{first}_{number}") not in taken)
-
-
-def by_kind(mechanisms: Iterable[Drafted]) -> Mapping[str, Sequence[str]]:
-    """Return the names of the mechanisms of each kind."""
-    found: dict[str, list[str]] = {}
-    for each in mechanisms:
-        found.setdefault(each.kind, []).append(each.name)
-    return found
+    return free_name(mechanism.example.name if mechanism.example else mechanism.kind, {*names, *RESERVED})
 
 
 def _wrong_names(names: Sequence[str]) -> Iterable[Problem]:
     for name in dict.fromkeys(names):
-        if not NAME.fullmatch(name):
-            words = "{name} is not a name: a letter, then letters, digits, _ and - are allowed."
-            yield Problem(Phrase(words, name=repr(name)))
-        elif name in RESERVED:
-            yield Problem(Phrase("the name {name} is reserved. Choose another one.", name=repr(name)))
+        if fault := name_fault(name):
+            yield Problem(fault)
         elif names.count(name) > 1:
-            yield Problem(
-                Phrase("the name {name} is given to several mechanisms. Choose another one.", name=repr(name))
-            )
+            words = "the name {name} is given to several mechanisms. Choose another one."
+            yield Problem(Phrase(words, name=repr(name)))
 
 
 # Fills an example with what the other mechanisms of a draft give: names in the place of kinds, other values where a kind is absent.
@@ -105,9 +89,9 @@ class LeftOut:
 class NeedsKind(LookupError):
     """Report that a mechanism cannot be without one of another ``kind``."""
 
-    def __init__(self, chosen: Drafted, kind: str) -> None:
-        super().__init__(f"{chosen.name} needs {kind}")
-        self.kind = kind
+    def __init__(self, asking: Drafted, kind: str) -> None:
+        super().__init__(f"{asking.name} needs {kind}")
+        self.asking, self.kind = asking, kind
 
 
 @dataclass(frozen=True)
@@ -135,17 +119,16 @@ class Wiring:
             case Wired():
                 return self._wired(value, model)
             case str():
-                return self._text(value)
+                if missing := self._missing(kinds_named(value)):
+                    return LeftOut(missing)
+                return KIND.sub(lambda found: self._name(found[1]), value)
             case dict():
                 return self._block(value, model)
             case list() | tuple():
-                return self._list(value, model)
+                made = [each for part in value for each in self._parts(part, model)]
+                found = [part for part in made if not isinstance(part, LeftOut)]
+                return made[0] if made and not found else found
         return value
-
-    def _text(self, text: str) -> str | LeftOut:
-        if missing := self._missing(kinds_named(text)):
-            return LeftOut(missing)
-        return KIND.sub(lambda found: self._name(found[1]), text)
 
     def _wired(self, wired: Wired, model: type[Block] | None) -> Any:
         missing = self._missing(wired.kinds)
@@ -167,12 +150,6 @@ class Wiring:
             elif key not in known or known[key].field.is_required():
                 return made
         return found
-
-    def _list(self, parts: Sequence[Any], model: type[Block] | None) -> Any:
-        made = [each for part in parts for each in self._parts(part, model)]
-        found = [part for part in made if not isinstance(part, LeftOut)]
-        absent = [part for part in made if isinstance(part, LeftOut)]
-        return absent[0] if absent and not found else found
 
     def _parts(self, part: Any, model: type[Block] | None) -> list[Any]:
         if not isinstance(part, ForEach):
@@ -217,40 +194,28 @@ class Draft:
     open: tuple[str, ...]
 
 
-@dataclass
-class _Drafting:
-    """Brings the mechanisms together that a draft has, and the values of their keys."""
-
-    discovery: Discovery
-    mechanisms: list[Drafted]
-    added: list[tuple[Drafted, Drafted]] = field(default_factory=list)
-    values: dict[str, dict[str, Any]] = field(default_factory=dict)
-
-    def wire(self) -> None:
-        """Find the values of all mechanisms, with those of other kinds that they cannot be without."""
-        while (lacking := self._wired()) is not None:
-            self.mechanisms.append(lacking)
-
-    def _wired(self) -> Drafted | None:
-        """Wire all mechanisms; return one that is to be added before, None where nothing is missing."""
-        names = by_kind(self.mechanisms)
-        for each in self.mechanisms:
-            example = each.mechanism.example
-            try:
-                self.values[each.name] = Wiring(names, each).inputs(example.inputs) if example else {}
-            except NeedsKind as need:
-                mechanism = self._mechanism(need.kind, each)
-                new = Drafted(free_name(mechanism, [m.name for m in self.mechanisms]), need.kind, mechanism)
-                self.added.append((new, each))
-                return new
-        return None
-
-    def _mechanism(self, kind: str, asking: Drafted) -> Mechanism:
+def _wire(
+    mechanisms: list[Drafted], discovery: Discovery
+) -> tuple[dict[str, dict[str, Any]], list[tuple[Drafted, Drafted]]]:
+    """Return the values of all mechanisms by their names; those that they cannot be without are added, and returned with who asks."""
+    added: list[tuple[Drafted, Drafted]] = []
+    while True:
+        names: dict[str, list[str]] = {}
+        for each in mechanisms:
+            names.setdefault(each.kind, []).append(each.name)
+        given = [(each, each.mechanism.example.inputs if each.mechanism.example else {}) for each in mechanisms]
         try:
-            return self.discovery.mechanism(kind)
-        except (UnknownKind, DuplicateKind) as fault:
-            words = Phrase("its example cannot be without another mechanism: {fault}", fault=str(fault))
-            raise PluginError(words, asking.kind, asking.name) from fault
+            return {each.name: Wiring(names, each).inputs(inputs) for each, inputs in given}, added
+        except NeedsKind as need:
+            asking = need.asking
+            try:
+                mechanism = discovery.mechanism(need.kind)
+            except (UnknownKind, DuplicateKind) as fault:
+                words = Phrase("its example cannot be without another mechanism: {fault}", fault=str(fault))
+                raise PluginError(words, asking.kind, asking.name) from fault
+            new = Drafted(_free_name(mechanism, [each.name for each in mechanisms]), need.kind, mechanism)
+            mechanisms.append(new)
+            added.append((new, asking))
 
 
 def draft(given: Sequence[str], discovery: Discovery, file: str = "my_press.yaml") -> Draft:
@@ -258,15 +223,15 @@ def draft(given: Sequence[str], discovery: Discovery, file: str = "my_press.yaml
 
     ``file`` is what it is to be called.
     """
-    made = _Drafting(discovery, chosen(given, discovery))
-    made.wire()
-    values = {each.name: completed(each.mechanism.inputs, made.values[each.name]) for each in made.mechanisms}
-    guessed = [f"{name}.{key}" for name, found in values.items() for key in found if key not in made.values[name]]
+    mechanisms = chosen(given, discovery)
+    wired, added = _wire(mechanisms, discovery)
+    values = {each.name: completed(each.mechanism.inputs, wired[each.name]) for each in mechanisms}
+    guessed = [f"{name}.{key}" for name, found in values.items() for key in found if key not in wired[name]]
     lacking = [
-        f"{each.name}.{key}" for each in made.mechanisms for key in unguessed(each.mechanism.inputs, values[each.name])
+        f"{each.name}.{key}" for each in mechanisms for key in unguessed(each.mechanism.inputs, values[each.name])
     ]
-    text = "\n".join([*_head(made.mechanisms, file), *_mechanisms(made.mechanisms, values)]) + "\n"
-    return Draft(text, tuple(made.mechanisms), tuple(made.added), tuple(guessed), tuple(lacking))
+    text = "\n".join([*_head(mechanisms, file), *_mechanisms(mechanisms, values)]) + "\n"
+    return Draft(text, tuple(mechanisms), tuple(added), tuple(guessed), tuple(lacking))
 
 
 # --- text ------------------------------------------------------------------------------------------------------------
@@ -288,14 +253,11 @@ def _head(mechanisms: Sequence[Drafted], file: str) -> Iterator[str]:
     yield ""
     yield "schema_version: 1"
     yield ""
-    yield from _block("project", say("what the title block of every sheet says"), Project, _project())
+    language = {} if spoken_language() == SOURCE_LANGUAGE else {"language": spoken_language()}
+    project = {"title": say("New press"), **language}
+    yield from _block("project", say("what the title block of every sheet says"), Project, project)
     yield ""
     yield from _block("press", say("what all mechanisms share"), Press, _press(mechanisms))
-
-
-def _project() -> dict[str, Any]:
-    language = spoken_language()
-    return {"title": say("New press")} | ({"language": language} if language != SOURCE_LANGUAGE else {})
 
 
 def _press(mechanisms: Sequence[Drafted]) -> dict[str, Any]:
@@ -311,19 +273,13 @@ def _press(mechanisms: Sequence[Drafted]) -> dict[str, Any]:
 
 
 def _block(name: str, words: str, model: type[Block], data: Mapping[str, Any]) -> Iterator[str]:
-    written = BlockWriter(Explained()).lines(model, data)
+    writer = BlockWriter()
+    off = list(writer.off(model, data))
     if model is Project:  # whose list of revisions stands in one line
-        written = _project_lines(data)
+        single = [key for key, known in keys_of(Project).items() if known.block is None]
+        off = [line for line in off if line.code.partition(":")[0] in single]
     yield f"{name}: # {words}"
-    yield from laid_out(list(shifted(written, 2)))
-
-
-def _project_lines(data: Mapping[str, Any]) -> Iterator[DraftLine]:
-    writer = BlockWriter(Explained())
-    yield from writer.given(Project, data)
-    single = [name for name, known in keys_of(Project).items() if known.block is None]
-    off = [line for line in writer.off(Project, data) if line.code.partition(":")[0] in single]
-    yield from off
+    yield from laid_out(list(shifted([*writer.given(model, data), *off], 2)))
 
 
 def _mechanisms(mechanisms: Sequence[Drafted], values: Mapping[str, Mapping[str, Any]]) -> Iterator[str]:
@@ -334,7 +290,7 @@ def _mechanisms(mechanisms: Sequence[Drafted], values: Mapping[str, Mapping[str,
             yield ""
         yield from remarks(f"{said(each.mechanism.title, each.kind)}. {said(each.mechanism.summary, each.kind)}", 2)
         yield f"  {each.name}:"
-        writer = BlockWriter(Explained(each.kind, each.mechanism))
+        writer = BlockWriter(each.kind, each.mechanism)
         kind = DraftLine(0, f"kind: {typed(each.kind)}")
         body = [kind, *writer.lines(each.mechanism.inputs, values[each.name])]
         yield from laid_out(list(shifted(body, 4)))

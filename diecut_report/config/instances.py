@@ -10,39 +10,79 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 from pydantic import create_model
 
 from diecut_report.config.own_tables import SOURCE, Entry, OwnTables
-from diecut_report.config.validation import NAMED, Basis, BasisReader, ConfigPlace, keys_of, told, validate
+from diecut_report.config.validation import (
+    BASES,
+    KEYS,
+    MAX_NAMED,
+    Basis,
+    ConfigPlace,
+    blocks,
+    copied,
+    keys_of,
+    quoted,
+    validate,
+)
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, nearest
 from diecut_report.formulas.condition_parts import Expression
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.curve_inputs import CurveInput, FromTable
-from diecut_report.mechanism.inputs import Block, Meta, Quantity, fields, flatten, list_inputs, texts_given
+from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, fields, flatten, list_inputs, texts_given
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import FromPress, Text
 from diecut_report.mechanism.part_steps import ComputedCurve, PartNames
 from diecut_report.mechanism.steps import PREFIX, Step, part_result
 from diecut_report.quantities.units import UnitError, kind_name, unit
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import MessageError, Phrase, phrase
 
-# What blocks take from the user's own tables: an entry that is named gives its keys, with what they rest on.
+# The data of a block as it counts: an entry of the user's own tables that is named gives its keys, with what they rest on.
 
 
 CATALOGUE = "catalogue"
 
 
-@dataclass(frozen=True)
-class Taken:
-    """Hold the data of a block with what its entries give, where that stands, and what it is from."""
+@dataclass
+class BlockData:
+    """Hold the data of a block with what entries of tables give, where that stands, and what its values rest on.
+
+    ``entries`` are those that give a key, ``naming`` the keys that may name an entry, each with the keys that it gives.
+    """
 
     data: dict[str, Any]
     place: ConfigPlace
-    bases: Mapping[KeyPath, Basis]
     tables: OwnTables
-    entries: Mapping[KeyPath, Entry]
-    problems: Sequence[Problem]
-    naming: Mapping[KeyPath, tuple[KeyPath, ...]]
-    """Keys that may name an entry, each with the keys that it gives."""
+    bases: dict[KeyPath, Basis] = field(default_factory=dict)
+    entries: dict[KeyPath, Entry] = field(default_factory=dict)
+    naming: dict[KeyPath, tuple[KeyPath, ...]] = field(default_factory=dict)
+    problems: list[Problem] = field(default_factory=list)
+
+    @staticmethod
+    def read(model: type[Block], data: Mapping[str, Any], place: ConfigPlace, tables: OwnTables) -> BlockData:
+        """Return the data of a block with the keys of the entries that it names, and what all of it rests on."""
+        found = BlockData(copied(dict(data)), place, tables)
+        for own, block, home in reversed(list(blocks(model, found.data))):
+            for rule in own.from_tables:
+                found._take(own, rule, block, home)
+        for own, block, home in list(blocks(model, found.data)):
+            for name, (_, meta, _, _) in keys_of(own).items():
+                key, given = (*home, name), block.get(name)
+                if isinstance(given, dict) and (unit := _unit_of(meta, given)):
+                    block[name] = found._value(unit, given, key)
+                if isinstance(meta, Quantity) and name in block:
+                    found._rest_on_entry(key)
+        return found
+
+    def anew(
+        self, model: type[Block], data: dict[str, Any], changed: Iterable[KeyPath], place: ConfigPlace
+    ) -> BlockData:
+        """Return the same for other data, whose keys ``changed``: what other entries gave before is left out."""
+        for key in (given for name in changed for given in self.naming.get(name, ()) if given in self.entries):
+            home: Any = data
+            for part in key[:-1]:
+                home = home[part]
+            home.pop(key[-1], None)
+        return BlockData.read(model, data, place, self.tables)
 
     @property
     def sources(self) -> dict[str, str]:
@@ -56,104 +96,30 @@ class Taken:
         """Return the names of entries that a key may have."""
         return self.place.named.get(key, ())
 
-
-def taken(model: type[Block], data: Mapping[str, Any], place: ConfigPlace, tables: OwnTables) -> Taken:
-    """Return the data of a block with the keys of the entries that it names, and what all of it rests on."""
-    taker = _Taker(place, tables)
-    found = taker.block(model, data, ())
-    stands = {key: (entry.tree, (*entry.path, theirs)) for key, (entry, theirs) in taker.found.items()}
-    own = replace(place, elsewhere={**place.elsewhere, **stands}, named=taker.known)
-    stated = BasisReader.read(model, found, own)
-    entries = {key: entry for key, (entry, _) in taker.found.items()}
-    for key, entry in entries.items():
-        for each in _quantities(model, stated.data, key):
-            said = stated.bases.get(each, Basis())
-            stated.bases[each] = Basis(said.basis or CATALOGUE, said.note or entry.note)
-    return Taken(
-        stated.data, stated.place, stated.bases, tables, entries, (*taker.problems, *stated.problems), taker.gives
-    )
-
-
-def taken_anew(
-    model: type[Block], before: Taken, data: dict[str, Any], changed: Iterable[KeyPath], place: ConfigPlace
-) -> Taken:
-    """Return what a block takes whose keys ``changed``: what other entries gave before is left out."""
-    for key in changed:
-        for given in before.naming.get(key, ()):
-            if given in before.entries:
-                _left_out(data, given)
-    return taken(model, data, place, before.tables)
-
-
-def _left_out(data: Any, key: KeyPath) -> None:
-    for part in key[:-1]:
-        data = data[part]
-    data.pop(key[-1], None)
-
-
-@dataclass
-class _Taker:
-    place: ConfigPlace
-    tables: OwnTables
-    found: dict[KeyPath, tuple[Entry, str]] = field(default_factory=dict)
-    problems: list[Problem] = field(default_factory=list)
-    known: dict[KeyPath, tuple[str, ...]] = field(default_factory=dict)
-    gives: dict[KeyPath, tuple[KeyPath, ...]] = field(default_factory=dict)
-
-    def block(self, model: type[Block], data: Mapping[str, Any], key: KeyPath) -> dict[str, Any]:
-        known = keys_of(model)
-        made = {
-            name: self._inner(known[name].block, part, (*key, name)) if name in known else part
-            for name, part in data.items()
-        }
-        for rule in model.from_tables:
-            self._take(model, rule, made, key)
-        return made
-
-    def _inner(self, model: type[Block] | None, given: Any, key: KeyPath) -> Any:
-        if model is None:
-            return given
-        if isinstance(given, list):
-            return [self._inner(model, part, (*key, index)) for index, part in enumerate(given)]
-        return self.block(model, given, key) if isinstance(given, dict) else given
-
-    def _take(self, model: type[Block], rule: FromTable, made: dict[str, Any], key: KeyPath) -> None:
+    def _take(self, model: type[Block], rule: FromTable, block: dict[str, Any], home: KeyPath) -> None:
+        """Put the keys of the entry into the block that names it."""
         self._judge(model, rule)
-        self.known[(*key, rule.key)] = tuple(self.tables.names(rule.table))
-        self.gives[(*key, rule.key)] = tuple((*key, own) for own in rule.gives)
-        given = made.get(rule.key)
-        name = given if isinstance(given, str) else self.place.typed((*key, rule.key)) if given is not None else None
+        key, known = (*home, rule.key), self.tables.names(rule.table)
+        self.naming[key] = tuple((*home, own) for own in rule.gives)
+        self.place = replace(self.place, named={**self.place.named, key: tuple(known)})
+        given = block.get(rule.key)
+        name = given if isinstance(given, str) else self.place.typed(key) if given is not None else None
         entry = self.tables.entries.get(rule.table, {}).get(name or "")
         if entry is None:
-            if name is not None and not _has_texts(model, rule.key):
-                self.problems.append(self.place.problem((*key, rule.key), self._unknown(rule.table, name)))
+            annotation = keys_of(model)[rule.key].field.annotation
+            has_texts = any(get_origin(part) is Literal for part in (annotation, *get_args(annotation)))
+            if name is not None and not has_texts:  # of which the model judges
+                self.problems.append(self.place.problem(key, _unknown_entry(rule.table, name, known)))
             return
-        del made[rule.key]
+        del block[rule.key]
         if rule.stands_for:
-            made[rule.key] = rule.stands_for
+            block[rule.key] = rule.stands_for
         for own, theirs in rule.gives.items():
-            if theirs in entry.keys and made.get(own) is None:
-                made[own] = entry.keys[theirs]
-                self.found[(*key, own)] = (entry, theirs)
-
-    def _unknown(self, table: str, name: str) -> str:
-        known = self.tables.names(table)
-        if not known:
-            file = phrase("in a file that materials: names")
-            return Phrase(
-                "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}",
-                name=told(name),
-                table=table,
-                name_2=name,
-                file=file,
-            )
-        return Phrase(
-            "is {name}{nearest}; {table} has {known}",
-            name=told(name),
-            nearest=nearest(name, known),
-            table=table,
-            known=", ".join(known[:NAMED]),
-        )
+            if theirs in entry.keys and block.get(own) is None:
+                block[own] = entry.keys[theirs]
+                self.entries[(*home, own)] = entry
+                stands = {(*home, own): (entry.tree, (*entry.path, theirs))}
+                self.place = replace(self.place, elsewhere={**self.place.elsewhere, **stands})
 
     def _judge(self, model: type[Block], rule: FromTable) -> None:
         """Judge all entries of a table by the block that may take them, whether it does or not."""
@@ -163,14 +129,64 @@ class _Taker:
                 self.tables.judged.add(mark)
                 self.tables.problems += _faults(model, rule, entry)
 
+    def _rest_on_entry(self, key: KeyPath) -> None:
+        """Let a quantity that comes from an entry rest on it, as far as the entry itself does not say."""
+        for length in range(1, len(key) + 1):
+            if entry := self.entries.get(key[:length]):
+                said = self.bases.get(key, Basis())
+                self.bases[key] = Basis(said.basis or CATALOGUE, said.note or entry.note)
 
-def _has_texts(model: type[Block], key: str) -> bool:
-    """Whether a key has texts of its own, so that the model judges what is none of them."""
-    return any(get_origin(part) is Literal for part in _parts(keys_of(model)[key].field.annotation))
+    def _value(self, unit: str, given: dict[str, Any], key: KeyPath) -> Any:
+        """The value of a quantity that stands as a block; the block itself where it is not one."""
+        faults = list(self._faults(unit, given, key))
+        self.problems += faults
+        if given.get("value") is None:
+            return 1.0 if faults else given  # what is wrong has been reported
+        listed = {**self.place.listed, key: (*self.place.inner(key), "value")}
+        self.place = replace(self.place, listed=listed)
+        if not faults:
+            self.bases[key] = Basis(given.get("basis") or "", given.get("note") or "")
+        return given["value"]
+
+    def _faults(self, unit: str, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
+        if given.get("value") is None:
+            words = "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone"
+            yield self.place.problem(key, Phrase(words, unit=unit).replace("10 1,", "10,"))
+        for name in given:
+            if name not in KEYS:
+                yield self.place.problem(
+                    (*key, name),
+                    "is an unknown key{nearest}. A quantity that stands as a block has {keys}.",
+                    at_key=True,
+                    nearest=nearest(name, KEYS),
+                    keys=", ".join(KEYS),
+                )
+        basis, note = given.get("basis"), given.get("note")
+        if "basis" in given and basis not in BASES:
+            near = nearest(basis, BASES) if isinstance(basis, str) else ""
+            words = "is {basis}{near}; allowed: {bases}"
+            yield self.place.problem((*key, "basis"), words, basis=quoted(basis), near=near, bases=", ".join(BASES))
+        if note is not None and not isinstance(note, str):
+            words = "is {note}; a text is needed, in quotes where it is a number"
+            yield self.place.problem((*key, "note"), words, note=quoted(note))
 
 
-def _parts(annotation: Any) -> tuple[Any, ...]:
-    return (annotation, *get_args(annotation))
+def _unit_of(meta: Meta | None, given: Mapping[str, Any]) -> str:
+    """The unit of a value that stands as a block; nothing where the block is something else."""
+    if isinstance(meta, Varying) and meta.extremes and {"min", "max"} & given.keys():
+        return ""
+    if isinstance(meta, Quantity | CurveInput):
+        return meta.unit
+    return "1" if isinstance(meta, Text) and "value" in given else ""
+
+
+def _unknown_entry(table: str, name: str, known: Sequence[str]) -> str:
+    if not known:
+        file = phrase("in a file that materials: names")
+        words = "is {name}, but there is no table {table} of your own: put {table}: {{name_2}: {…}} {file}"
+        return Phrase(words, name=quoted(name), table=table, name_2=name, file=file)
+    words, listed = phrase("is {name}{nearest}; {table} has {known}"), ", ".join(known[:MAX_NAMED])
+    return Phrase(words, name=quoted(name), nearest=nearest(name, known), table=table, known=listed)
 
 
 def _faults(model: type[Block], rule: FromTable, entry: Entry) -> Iterator[Problem]:
@@ -178,43 +194,19 @@ def _faults(model: type[Block], rule: FromTable, entry: Entry) -> Iterator[Probl
     place, known = ConfigPlace(entry.tree, entry.path), list(rule.gives.values())
     for key in entry.keys:
         if key not in known:
-            words = Phrase(
-                "is an unknown key{nearest}. An entry of {table} has {text}.",
-                nearest=nearest(key, known),
-                table=rule.table,
-                text=", ".join([SOURCE, *known]),
+            words, keys = (
+                phrase("is an unknown key{nearest}. An entry of {table} has {text}."),
+                ", ".join([SOURCE, *known]),
             )
-            yield place.problem((key,), words, at_key=True)
+            yield place.problem((key,), words, at_key=True, nearest=nearest(key, known), table=rule.table, text=keys)
     for own, theirs in rule.gives.items():
         if theirs in entry.keys:
             field = keys_of(model)[own].field
             annotation: Any = Annotated[field.annotation, *field.metadata]
             form = create_model(model.__name__, __base__=Block, **{theirs: (annotation, ...)})  # type: ignore[call-overload]
-            stated = BasisReader.read(form, {theirs: entry.keys[theirs]}, place)
-            yield from stated.problems
-            yield from validate(form, stated.data, stated.place)[1]
-
-
-def _quantities(model: type[Block], data: Any, key: KeyPath, home: KeyPath = ()) -> Iterator[KeyPath]:
-    """The quantities at a key of a block, and in the blocks that stand there."""
-    name, *rest = key
-    known = keys_of(model)[str(name)]
-    part = data[name]
-    own = (*home, name)
-    if known.block is None:
-        if isinstance(known.meta, Quantity):
-            yield own
-        return
-    if rest and isinstance(part, list):
-        index, *rest = rest
-        part, own = part[int(index)], (*own, index)
-    if rest:
-        yield from _quantities(known.block, part, tuple(rest), own)
-        return
-    for at, inner in enumerate(part) if isinstance(part, list) else [(None, part)]:
-        for each in inner if isinstance(inner, dict) else ():
-            if each in keys_of(known.block):
-                yield from _quantities(known.block, inner, (each,), own if at is None else (*own, at))
+            made = BlockData.read(form, {theirs: entry.keys[theirs]}, place, OwnTables())
+            yield from made.problems
+            yield from validate(form, made.data, made.place)[1]
 
 
 # What references stand for.
@@ -260,7 +252,7 @@ class Target:
         return f"“{self.path}”" if self.expression else f"${{{self.path}}}"
 
 
-class Unresolved(LookupError):
+class Unresolved(MessageError, LookupError):
     """A reference that stands for nothing, in words."""
 
 
@@ -294,7 +286,7 @@ class Instance:
 
     def __init__(
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Mechanism | None,
-        bases: Mapping[KeyPath, Basis] | None = None, own: Taken | None = None,
+        bases: Mapping[KeyPath, Basis] | None = None, own: BlockData | None = None,
     ) -> None:  # fmt: skip
         self.name, self.model, self.data, self.place, self.mechanism = name, model, data, place, mechanism
         self.bases = bases or {}
@@ -371,21 +363,19 @@ class Instance:
     def no_phase(self, phase: str) -> str:
         """Why there is no such phase, in words."""
         if phase in self.declared_steps:
-            chapter, step = self.declared_steps[phase]
-            missing = [key for key in (*chapter.needs, *step.needs) if key not in self.given]
-            return Phrase(
-                "is there only if {missing} is given in {name}.", missing=" and ".join(missing), name=self.name
-            )
+            missing = self.missing(phase)
+            words = "is there only if {missing} is given in {name}."
+            return Phrase(words, missing=" and ".join(missing), name=self.name)
         name, known = phase.removeprefix(PREFIX), [each.removeprefix(PREFIX) for each in self.phases]
         near = nearest(name, known)
         told = Phrase(" Known: {known}.", known=", ".join(known)) if known else phrase(" Its kind has none.")
-        return Phrase(
-            "names no phase: {name} has no phase {name_2}{near}.{told}",
-            name=self.name,
-            name_2=repr(name),
-            near=near,
-            told=("" if near else told),
-        )
+        words = "names no phase: {name} has no phase {name_2}{near}.{told}"
+        return Phrase(words, name=self.name, name_2=repr(name), near=near, told=("" if near else told))
+
+    def missing(self, id: str) -> list[str]:
+        """Return the inputs that a step of the mechanism needs and that are not given."""
+        chapter, step = self.declared_steps[id]
+        return [key for key in (*chapter.needs, *step.needs) if key not in self.given]
 
     @cached_property
     def rows(self) -> dict[str, str]:
@@ -429,7 +419,7 @@ def substituted(
     instance: Instance, links: Mapping[Node, Target], value: Callable[[Node, Target], Any]
 ) -> dict[str, Any]:
     """The data of an instance with what stands in for its references; defaults of the press are left to ``value`` too."""
-    data: dict[str, Any] = _copied(instance.data)
+    data: dict[str, Any] = copied(instance.data)
     for node, target in links.items():
         if node[0] != instance.name:
             continue
@@ -438,12 +428,6 @@ def substituted(
             home = home[part]
         home[node[-1]] = value(node, target)
     return data
-
-
-def _copied(data: Any) -> Any:
-    if isinstance(data, dict):
-        return {key: _copied(part) for key, part in data.items()}
-    return [_copied(part) for part in data] if isinstance(data, list) else data
 
 
 # The units in which a report shows its quantities: ``report: {units: {length: m, drive.crank_speed: rad/s}}``.
@@ -465,11 +449,8 @@ def faults(given: Any, instances: Mapping[str, Instance | None], place: ConfigPl
     if given is None:
         return
     if not isinstance(given, dict):
-        words = Phrase(
-            "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}",
-            given=told(given),
-        )
-        yield place.problem((UNITS,), words)
+        words = "is {given}; keys with units are needed, as in units: {length: mm, rotational_speed: rad/s}"
+        yield place.problem((UNITS,), words, given=quoted(given))
         return
     for key, chosen in given.items():
         wanted = wanted_units(key, instances)
@@ -486,28 +467,17 @@ def wanted_units(key: Any, instances: Mapping[str, Instance | None]) -> tuple[st
     name, dot, quantity = str(key).partition(".")
     if not dot:
         near = nearest(name, DIMENSIONS)
-        return Phrase(
-            "is not a dimension{near}; give MECHANISM.QUANTITY, or one of: {dimensions}",
-            near=near,
-            dimensions=", ".join(DIMENSIONS),
-        )
+        words = "is not a dimension{near}; give MECHANISM.QUANTITY, or one of: {dimensions}"
+        return Phrase(words, near=near, dimensions=", ".join(DIMENSIONS))
     instance = instances.get(name)
     if instance is None:
         known = [each for each, found in instances.items() if found is not None]
-        return Phrase(
-            "names {name}, which is not there{nearest}; known: {known}",
-            name=name,
-            nearest=nearest(name, known),
-            known=", ".join(known),
-        )
+        words = "names {name}, which is not there{nearest}; known: {known}"
+        return Phrase(words, name=name, nearest=nearest(name, known), known=", ".join(known))
     units = _units(instance)
     if quantity not in units:
-        return Phrase(
-            "names {quantity}, which is not a quantity of {name} with a number{nearest}",
-            quantity=quantity,
-            name=name,
-            nearest=nearest(quantity, units),
-        )
+        words = "names {quantity}, which is not a quantity of {name} with a number{nearest}"
+        return Phrase(words, quantity=quantity, name=name, nearest=nearest(quantity, units))
     return units[quantity]
 
 
@@ -529,19 +499,11 @@ def _unit_fault(chosen: Any, wanted: tuple[str, ...]) -> str:
     try:
         found = unit(chosen)
     except UnitError as error:
-        return Phrase(
-            "{error} Give a unit of {kind_name}, such as {wanted}.",
-            error=error,
-            kind_name=kind_name(unit(wanted[0])),
-            wanted=wanted[0],
-        )
+        words = "{error} Give a unit of {kind_name}, such as {wanted}."
+        return Phrase(words, error=error, kind_name=kind_name(unit(wanted[0])), wanted=wanted[0])
     if found.si not in {unit(each).si for each in wanted}:
-        return Phrase(
-            "is a unit of {kind_name}; one of {kind_name_2} is needed, such as {wanted}",
-            kind_name=kind_name(found),
-            kind_name_2=kind_name(unit(wanted[0])),
-            wanted=wanted[0],
-        )
+        words = "is a unit of {kind_name}; one of {kind_name_2} is needed, such as {wanted}"
+        return Phrase(words, kind_name=kind_name(found), kind_name_2=kind_name(unit(wanted[0])), wanted=wanted[0])
     return ""
 
 

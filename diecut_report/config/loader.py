@@ -3,22 +3,22 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field
+from itertools import chain, count
 from pathlib import Path, PurePath
-from typing import Any, get_args
+from typing import Any
 
 from diecut_report.config import instances, yaml
-from diecut_report.config.instances import Instance, Node, Target, substituted
-from diecut_report.config.instances import taken as loader_taken
+from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
 from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings, texts, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.references import Linker, linked, ordered
 from diecut_report.config.source_hashes import plugin_hash, program_hash
-from diecut_report.config.validation import ConfigPlace, declared, keys_of, spread_out, told, validate
-from diecut_report.config.yaml import MAX_BYTES, KeyPath, Tree, read, seeming_latin, too_much
-from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.config.validation import ConfigPlace, as_typed, declared, quoted, spread_out, validate
+from diecut_report.config.yaml import MAX_BYTES, Tree, read, seeming_latin, too_much
+from diecut_report.errors import PluginError, Problem, UserError, nearest, refusal
 from diecut_report.files import standard_input
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput
@@ -73,7 +73,9 @@ def _offered(mechanism: Mechanism, data: Mapping[str, Any], instances: Instances
         name = data.get(partner.key) or only(partner, kinds)
         if partner_fault(partner, name, kinds) or (instance := instances[str(name)]) is None:
             continue
-        found |= {partner.key: str(name)} | dict(_references(partner, instance))
+        known = instance.given | instance.results.keys()
+        found |= {partner.key: str(name)}
+        found |= {key: f"${{{instance.name}.{taken}}}" for key, taken in partner.takes.items() if taken in known}
     return found
 
 
@@ -88,20 +90,11 @@ def partner_fault(partner: Partner, name: Any, kinds: Kinds) -> str:
     wanted = " or ".join(partner.kinds)
     if not isinstance(name, str) or name not in kinds:
         near = nearest(name, kinds) if isinstance(name, str) else ""
-        return Phrase(
-            "is {name}; the name of a mechanism of kind {wanted} is needed{near}. Known: {kinds}.",
-            name=told(name),
-            wanted=wanted,
-            near=near,
-            kinds=", ".join(kinds),
-        )
+        words = "is {name}; the name of a mechanism of kind {wanted} is needed{near}. Known: {kinds}."
+        return Phrase(words, name=quoted(name), wanted=wanted, near=near, kinds=", ".join(kinds))
     if kinds[name] not in partner.kinds:
-        return Phrase(
-            "is {name}, of kind {kinds}; the name of a mechanism of kind {wanted} is needed.",
-            name=name,
-            kinds=kinds[name],
-            wanted=wanted,
-        )
+        words = "is {name}, of kind {kinds}; the name of a mechanism of kind {wanted} is needed."
+        return Phrase(words, name=name, kinds=kinds[name], wanted=wanted)
     return ""
 
 
@@ -111,16 +104,9 @@ def is_called_for(mechanism: Mechanism, kinds: Kinds) -> bool:
     return sum(kind in wanted for kind in kinds.values()) >= FEWEST
 
 
-def free_name(kind: str, instances: Instances) -> str:
-    """Return a name for what runs by itself: its kind, with a number where a mechanism is called so."""
-    names = (kind, *(f"{kind}_{number}" for number in range(2, len(instances) + 3)))
-    return next(name for name in names if name not in instances)
-
-
-def _references(partner: Partner, instance: Instance) -> Iterator[tuple[str, str]]:
-    for key, name in partner.takes.items():
-        if name in instance.results or name in instance.given:
-            yield key, f"${{{instance.name}.{name}}}"
+def free_name(name: str, taken: Container[str]) -> str:
+    """Return a name that is not taken: this one, with a number from the second on."""
+    return next(each for each in chain([name], (f"{name}_{number}" for number in count(2))) if each not in taken)
 
 
 # A configuration or a study from standard input.
@@ -154,7 +140,7 @@ def refuse_study(tree: Tree) -> None:
         command = "optimise" if "optimise" in tree.data else "batch"
         words = "This is a study: calculate it with diecut-report {command} {file}, or give its base, {base}"
         base = PurePath(tree.file).parent / str(tree.data.get("base", "…"))
-        raise UserError(Problem(Phrase(words, command=command, file=tree.file, base=base), tree.file))
+        raise refusal(words, tree.file, command=command, file=tree.file, base=base)
 
 
 NAME = re.compile(r"[A-Za-z][A-Za-z0-9_-]*")
@@ -278,15 +264,11 @@ class _ConfigReader:
             self.instances.setdefault(name, None)
             self._mechanism(name, body, ConfigPlace(self.tree, (home, name)))
         for kind in BY_THEMSELVES:
-            self._by_itself(kind)
+            if kind not in self.kinds.values() and is_called_for(self.discovery.mechanism(kind), self.kinds):
+                own_name = free_name(kind, self.instances)
+                self._of_kind(own_name, kind, {}, ConfigPlace(self.tree, ("mechanisms", own_name)))
         for name in self.with_partners:
             self._take_from_partners(name)
-
-    def _by_itself(self, kind: str) -> None:
-        if kind in self.kinds.values() or not is_called_for(self.discovery.mechanism(kind), self.kinds):
-            return
-        name = free_name(kind, self.instances)
-        self._of_kind(name, kind, {}, ConfigPlace(self.tree, ("mechanisms", name)))
 
     def _take_from_partners(self, name: str) -> None:
         """Add to a block what its partners give it, when these are known."""
@@ -305,24 +287,24 @@ class _ConfigReader:
         self, name: str, model: type[Block], data: dict[str, Any], place: ConfigPlace, mechanism: Any = None
     ) -> None:
         data, place, problems = spread_out(model, data, place)
-        own = loader_taken(model, data, place, self.tables)
+        own = BlockData.read(model, data, place, self.tables)
         self.problems += [*problems, *own.problems]
         form = in_form(model, [key for key, value in own.data.items() if value is not None])
         typed = as_typed(form, own.data, own.place)
         self.instances[name] = Instance(name, form, typed, own.place, mechanism, own.bases, own)
 
     def _mechanism(self, name: str, body: Any, place: ConfigPlace) -> None:
-        fault = _name_fault(name)
+        fault = name_fault(name)
         if fault:
             self.problems.append(place.problem((), fault, at_key=True))
         elif not isinstance(body, dict):
-            self.problems.append(
-                place.problem((), Phrase("is {body}; a block of keys with its kind is needed", body=told(body)))
-            )
+            words = "is {body}; a block of keys with its kind is needed"
+            self.problems.append(place.problem((), words, body=quoted(body)))
         elif not isinstance(body.get("kind"), str):
-            words = Phrase("is missing. Give one of: {origins}.", origins=", ".join(self.discovery.origins))
-            given = Phrase("is {kind}; the name of a kind is needed", kind=told(body.get("kind")))
-            self.problems.append(place.problem(("kind",), given) if "kind" in body else place.absent(("kind",), words))
+            origins, given = ", ".join(self.discovery.origins), quoted(body.get("kind"))
+            absent = place.absent(("kind",), "is missing. Give one of: {origins}.", origins=origins)
+            wrong = place.problem(("kind",), "is {kind}; the name of a kind is needed", kind=given)
+            self.problems.append(wrong if "kind" in body else absent)
         else:
             self._of_kind(name, body["kind"], {key: value for key, value in body.items() if key != "kind"}, place)
 
@@ -357,33 +339,15 @@ def _of_instance(error: DuplicateKind | PluginError, kind: str, name: str) -> Pl
     return named
 
 
-def _name_fault(name: str) -> str:
+def name_fault(name: str) -> str:
+    """Return why a mechanism cannot have this name; nothing where it can."""
     if seeming := seeming_latin(name):
         return seeming
     if name in RESERVED:
         return Phrase("the name {name} is reserved. Choose another one.", name=repr(name))
     if not NAME.fullmatch(name):
-        return Phrase("{name} is not a name: a letter, then letters, digits, _ and - are allowed.", name=told(name))
+        return Phrase("{name} is not a name: a letter, then letters, digits, _ and - are allowed.", name=quoted(name))
     return ""
-
-
-def as_typed(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = ()) -> Any:
-    """The data with its texts as they were typed: a document number 0012 or a date stays as it is."""
-    if not isinstance(data, dict):
-        return data
-    typed = dict(data)
-    for name, given in data.items():
-        known = keys_of(model).get(name)
-        if known is None or given is None:
-            continue
-        annotation, own = known.field.annotation, (*key, name)
-        if known.block and isinstance(given, list):
-            typed[name] = [as_typed(known.block, part, place, (*own, index)) for index, part in enumerate(given)]
-        elif known.block:
-            typed[name] = as_typed(known.block, given, place, own)
-        elif str in (annotation, *get_args(annotation)) and not isinstance(given, dict | list):
-            typed[name] = place.typed(own)
-    return typed
 
 
 def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
@@ -398,24 +362,21 @@ def _wrong_values(reader: _ConfigReader, linker: Linker) -> list[Problem]:
             continue
         written = {node: target for node, target in linker.links.items() if not target.is_default} | unresolved
         data = substituted(instance, written, lambda node, target, own=instance: _pending(own, node, target))  # type: ignore[misc]
+        # a text, and what a broken plugin would give, can be judged only when it is known
         left_open = {
             node[1:]
             for node, target in written.items()
-            if node[0] == instance.name and _is_open(instance, node, target)
+            if node[0] == instance.name and (target.is_broken or _is_text(instance, node, target))
         }
         try:
             problems += validate(instance.model, data, instance.place, left_open)[1]
         except PluginError as error:
-            named = PluginError(error.message, reader.kinds.get(instance.name, ""), instance.name)
-            named.__cause__ = error.__cause__
-            reader.broken[instance.name] = named
+            reader.broken[instance.name] = _of_instance(error, reader.kinds.get(instance.name, ""), instance.name)
     return problems
 
 
-def _is_open(instance: Instance, node: Node, target: Target) -> bool:
-    """Whether a value can be judged only when it is known: a text, or what a broken plugin would give."""
-    is_text = isinstance(declared(instance.model, node[1:]), Text) and target.unit is None and not target.phase_unit
-    return target.is_broken or is_text
+def _is_text(instance: Instance, node: Node, target: Target) -> bool:
+    return isinstance(declared(instance.model, node[1:]), Text) and target.unit is None and not target.phase_unit
 
 
 def _pending(instance: Instance, node: Node, target: Target) -> Any:

@@ -176,27 +176,18 @@ def _is_required(model: type[Block], path: str) -> bool:
 
 def _wrong(meta: Quantity, press: FromPress, is_required: bool) -> Iterator[str]:
     if is_required:
-        yield Phrase(
-            "must be given, so that {path} is never taken; write Annotated[float | None, …] = None", path=press.path
-        )
+        words = "must be given, so that {path} is never taken; write Annotated[float | None, …] = None"
+        yield Phrase(words, path=press.path)
     given = NUMBERS.get(press.path)
     if given is None:
         known = ", ".join(NUMBERS)
-        yield Phrase(
-            "takes {path}, which is not a number of the press{nearest}; it has {known}",
-            path=press.path,
-            nearest=nearest(press.path, NUMBERS),
-            known=known,
-        )
+        words = "takes {path}, which is not a number of the press{nearest}; it has {known}"
+        yield Phrase(words, path=press.path, nearest=nearest(press.path, NUMBERS), known=known)
         return
     units = [meta.unit, *(other for _, other in meta.units)]
     if press.formula is None and all(unit(given.unit).kind != unit(other).kind for other in units):
-        yield Phrase(
-            "in {unit} takes {path}, which is in {own}; name a formula between them: FromPress(…, formula)",
-            unit=meta.unit,
-            path=press.path,
-            own=given.unit,
-        )
+        words = "in {unit} takes {path}, which is in {own}; name a formula between them: FromPress(…, formula)"
+        yield Phrase(words, unit=meta.unit, path=press.path, own=given.unit)
 
 
 # Plain data of a file: dicts, lists and scalars.

@@ -11,11 +11,11 @@ from typing import Any, NamedTuple
 
 from diecut_report.config import yaml
 from diecut_report.config.model import texts
-from diecut_report.config.validation import ConfigPlace, told
+from diecut_report.config.validation import ConfigPlace, quoted
 from diecut_report.config.yaml import KeyPath, Tree, printable, too_much
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import content
-from diecut_report.pictures import MOST as LOGO_MOST
+from diecut_report.pictures import MAX_BYTES as MAX_LOGO_BYTES
 from diecut_report.pictures import PictureFault, media_type
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -32,7 +32,9 @@ from diecut_report.text.phrases import Phrase, phrase
 
 OWN_TABLES_KEY = "materials"
 SOURCE, VERSION = "source", "schema_version"
-MOST = 20  # files of one configuration
+MAX_FILES = 20  # of one configuration
+TABLE_MISSING = phrase("there is no file {path}. Tables are sought from the configuration's folder; check the name.")
+LOGO_MISSING = phrase("there is no file {path}. A logo is sought from the configuration's folder; check the name.")
 Find = Callable[[str], Path]
 
 
@@ -72,44 +74,29 @@ class OwnTables:
         tables, place = OwnTables(), ConfigPlace(config)
         given = config.data.get(OWN_TABLES_KEY) if isinstance(config.data, dict) else None
         names = given if isinstance(given, list) else [] if given is None else [given]
-        if len(names) > MOST:
-            words = Phrase(
-                "names {count} files; at most {most} are allowed. Put several tables into one file.",
-                count=len(names),
-                most=MOST,
-            )
-            tables.problems.append(place.problem((OWN_TABLES_KEY,), words))
+        if len(names) > MAX_FILES:
+            words = "names {count} files; at most {most} are allowed. Put several tables into one file."
+            tables.problems.append(place.problem((OWN_TABLES_KEY,), words, count=len(names), most=MAX_FILES))
             return tables
-        beside = find or (lambda name: Path(config.file).parent / name)
         for index, name in enumerate(names):
             key = (OWN_TABLES_KEY, index) if isinstance(given, list) else (OWN_TABLES_KEY,)
-            tables._file(name, place, key, beside)
+            try:
+                tables._add(name, yaml.load(_named_file(name, name_fault(name), place, key, find, TABLE_MISSING)))
+            except UserError as error:
+                tables.problems += error.problems
         return tables
 
-    def _file(self, name: Any, place: ConfigPlace, key: KeyPath, find: Find) -> None:
-        if fault := name_fault(name):
-            self.problems.append(place.problem(key, fault))
-            return
-        path = find(name)
-        if not os.path.exists(path):
-            words = Phrase(
-                "there is no file {path}. Tables are sought from the configuration's folder; check the name.", path=path
-            )
-            self.problems.append(place.problem(key, words))
-            return
-        try:
-            tree = yaml.load(path)
-        except UserError as error:
-            self.problems += error.problems
-            return
+    def _add(self, name: str, tree: Tree) -> None:
+        """Add the entries of a file."""
         excess = too_much(tree)
         self.problems += excess
         self.trees[name] = tree
-        for entry in () if excess else _Reader(tree, self.problems).entries():
+        for entry in () if excess else _entries(tree, self.problems):
             known = self.entries.setdefault(str(entry.path[0]), {})
             if entry.name in known:
-                words = Phrase("stands in {file} too; leave one of them out", file=known[entry.name].file)
-                self.problems.append(ConfigPlace(tree).problem(entry.path, words, at_key=True))
+                words = "stands in {file} too; leave one of them out"
+                file = known[entry.name].file
+                self.problems.append(ConfigPlace(tree).problem(entry.path, words, at_key=True, file=file))
             known.setdefault(entry.name, entry)
 
     def names(self, table: str) -> list[str]:
@@ -117,90 +104,65 @@ class OwnTables:
         return list(self.entries.get(table, {}))
 
 
-@dataclass
-class _Reader:
-    """Reads the entries of one file."""
+def _named_file(name: str, fault: str, place: ConfigPlace, key: KeyPath, find: Find | None, missing: str) -> Path:
+    """Return where a file is that the configuration names; UserError where it cannot be one or is ``missing``."""
+    if fault:
+        raise UserError(place.problem(key, fault))
+    path = find(name) if find else Path(place.tree.file).parent / name
+    if not os.path.exists(path):
+        raise UserError(place.problem(key, missing, path=path))
+    return path
 
-    tree: Tree
-    problems: list[Problem]
 
-    def __post_init__(self) -> None:
-        self.place = ConfigPlace(self.tree)
+def _entries(tree: Tree, problems: list[Problem]) -> Iterator[Entry]:
+    """Yield the entries of a file, and add to ``problems`` what is wrong with it."""
+    data, place = tree.data, ConfigPlace(tree)
+    if not isinstance(data, dict):
+        words = "The file holds {data}; it needs a source and tables, as in steels: {NAME: {…}}."
+        problems.append(Problem(Phrase(words, data=quoted(data)), tree.file))
+        return
+    for key, text in texts(data):
+        if "${" in text:
+            problems.append(place.problem(key, "is {text}; a table holds values, and no references", text=quoted(text)))
+    if data.get(VERSION, 1) != 1:
+        problems.append(place.problem((VERSION,), "is {data}; the number 1 is needed", data=quoted(data[VERSION])))
+    common = _source(data, (), place, problems)
+    for table, rows in data.items():
+        if table in (SOURCE, VERSION):
+            continue
+        if not isinstance(rows, dict):
+            words = "is {rows}; entries by their names are needed, as in {table}: {NAME: {…}}"
+            problems.append(place.problem((table,), words, rows=quoted(rows), table=table))
+            continue
+        for name, keys in rows.items():
+            path = (table, name)
+            if not isinstance(keys, dict):
+                problems.append(place.problem(path, "is {keys}; a block of keys is needed", keys=quoted(keys)))
+            elif source := _source(keys, path, place, problems) or common:
+                yield Entry(name, {key: each for key, each in keys.items() if key != SOURCE}, source, tree, path)
+            else:
+                words = "has no source; say in {source}: … where its numbers are from, here or at the top of the file"
+                problems.append(place.problem(path, words, source=SOURCE))
 
-    def entries(self) -> Iterator[Entry]:
-        data = self.tree.data
-        if not isinstance(data, dict):
-            words = Phrase(
-                "The file holds {data}; it needs a source and tables, as in steels: {NAME: {…}}.", data=told(data)
-            )
-            self.problems.append(Problem(words, self.tree.file))
-            return
-        self._references(data)
-        if data.get(VERSION, 1) != 1:
-            self._wrong((VERSION,), Phrase("is {data}; the number 1 is needed", data=told(data[VERSION])))
-        common = self._source(data, ())
-        for table, rows in data.items():
-            if table in (SOURCE, VERSION):
-                continue
-            if not isinstance(rows, dict):
-                self._wrong(
-                    (table,),
-                    Phrase(
-                        "is {rows}; entries by their names are needed, as in {table}: {NAME: {…}}",
-                        rows=told(rows),
-                        table=table,
-                    ),
-                )
-                continue
-            for name, keys in rows.items():
-                yield from self._entry((table, name), keys, common)
 
-    def _entry(self, path: KeyPath, keys: Any, common: str | None) -> Iterator[Entry]:
-        if not isinstance(keys, dict):
-            self._wrong(path, Phrase("is {keys}; a block of keys is needed", keys=told(keys)))
-            return
-        source = self._source(keys, path) or common
-        if not source:
-            self._wrong(
-                path,
-                Phrase(
-                    "has no source; say in {source}: … where its numbers are from, here or at the top of the file",
-                    source=SOURCE,
-                ),
-            )
-            return
-        yield Entry(str(path[1]), {key: each for key, each in keys.items() if key != SOURCE}, source, self.tree, path)
-
-    def _source(self, data: Mapping[str, Any], path: KeyPath) -> str | None:
-        given = data.get(SOURCE)
-        if SOURCE in data and (not isinstance(given, str) or not given.strip()):
-            self._wrong(
-                (*path, SOURCE),
-                Phrase("is {given}; a text is needed that says where the numbers are from", given=told(given)),
-            )
-            return None
-        return given
-
-    def _references(self, data: Any) -> None:
-        for key, text in texts(data):
-            if "${" in text:
-                self._wrong(key, Phrase("is {text}; a table holds values, and no references", text=told(text)))
-
-    def _wrong(self, key: KeyPath, words: str) -> None:
-        self.problems.append(self.place.problem(key, words))
+def _source(data: Mapping[str, Any], path: KeyPath, place: ConfigPlace, problems: list[Problem]) -> str | None:
+    given = data.get(SOURCE)
+    if SOURCE in data and (not isinstance(given, str) or not given.strip()):
+        words = "is {given}; a text is needed that says where the numbers are from"
+        problems.append(place.problem((*path, SOURCE), words, given=quoted(given)))
+        return None
+    return given
 
 
 def name_fault(name: Any) -> str:
     """Return what is wrong with the name of a file of tables; "" where it leads to a YAML file beside the configuration or below."""
     if not isinstance(name, str):
-        return Phrase(
-            "is {name}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names",
-            name=told(name),
-        )
+        words = "is {name}; the name of a YAML file is needed, such as my_steels.yaml, or a list of such names"
+        return Phrase(words, name=quoted(name))
     if fault := place_fault(name, phrase("tables lie")):
         return fault
     if PurePosixPath(name).suffix not in (".yaml", ".yml"):
-        return Phrase("is {name}; a YAML file is needed, such as my_steels.yaml", name=told(name))
+        return Phrase("is {name}; a YAML file is needed, such as my_steels.yaml", name=quoted(name))
     return ""
 
 
@@ -208,11 +170,8 @@ def place_fault(name: str, lie: str) -> str:
     """Return that a name leads elsewhere than beside the configuration or below; ``lie`` names what: "tables lie"."""
     windows = PureWindowsPath(name)
     if windows.is_absolute() or windows.drive or PurePosixPath(name).is_absolute() or ".." in windows.parts:
-        return Phrase(
-            "is {name}; {lie} beside the configuration or in a folder below it: give a name without a folder above",
-            name=told(name),
-            lie=lie,
-        )
+        words = "is {name}; {lie} beside the configuration or in a folder below it: give a name without a folder above"
+        return Phrase(words, name=quoted(name), lie=lie)
     return ""
 
 
@@ -239,25 +198,21 @@ def logo_of(config: Tree, find: Find | None) -> tuple[Logo | None, list[Problem]
     place = ConfigPlace(config)
     if name is None:
         return None, []
-    if fault := logo_fault(name):
-        return None, [place.problem(KEY, fault)]
-    path = find(name) if find else Path(config.file).parent / name
-    if not os.path.exists(path):
-        words = Phrase(
-            "there is no file {path}. A logo is sought from the configuration's folder; check the name.", path=path
-        )
-        return None, [place.problem(KEY, words)]
     try:
-        found = content(path, LOGO_MOST, phrase("a PNG or SVG picture"))
+        found = content(
+            _named_file(name, logo_fault(name), place, KEY, find, LOGO_MISSING),
+            MAX_LOGO_BYTES,
+            phrase("a PNG or SVG picture"),
+        )
         return Logo(name, found, media_type(found)), []
     except UserError as error:
         return None, list(error.problems)
     except PictureFault as fault:
-        return None, [place.problem(KEY, Phrase("{name} {fault}", name=told(name), fault=fault))]
+        return None, [place.problem(KEY, "{name} {fault}", name=quoted(name), fault=fault)]
 
 
 def logo_fault(name: object) -> str:
     """Return what is wrong with the name of a logo; "" where it leads to a file beside the configuration or below."""
     if not isinstance(name, str) or not name.strip():
-        return Phrase("is {name}; the name of a PNG or SVG file is needed, such as logo.svg", name=told(name))
+        return Phrase("is {name}; the name of a PNG or SVG file is needed, such as logo.svg", name=quoted(name))
     return place_fault(name, phrase("a logo lies"))

@@ -29,7 +29,7 @@ from typing import Any
 from diecut_report import __version__
 from diecut_report.config import yaml
 from diecut_report.config.source_hashes import file_of, module_hash, note_check, note_plugin
-from diecut_report.errors import PluginError, Problem, UserError, nearest
+from diecut_report.errors import PluginError, nearest, refusal
 from diecut_report.formulas.formula import FormulaError
 from diecut_report.mechanism.mechanism import CONTRACT, Mechanism
 from diecut_report.mechanism.names import Misdeclared
@@ -100,8 +100,9 @@ def _local_modules_loaded(name: str, file: Path) -> ModuleType:
     return module
 
 
-def attribute_of(module: ModuleType, name: str) -> Any:
-    """Return what stands under a name in a module; AttributeError in words where there is none."""
+def _attribute(name: str, module_of: Callable[..., ModuleType], *given: Any) -> Any:
+    """Return what stands under a name in the module that is loaded; AttributeError in words where there is none."""
+    module = module_of(*given)
     if not hasattr(module, name):
         raise AttributeError(Phrase("there is no {name} in it", name=name))
     return getattr(module, name)
@@ -147,9 +148,7 @@ def announced(folder: Path, group: str) -> dict[str, tuple[str, str]]:
         found = told.get("entry-points", {}).get(group, {})
         places = {kind: str(place).partition(":") for kind, place in found.items()}
     except (tomllib.TOMLDecodeError, AttributeError) as error:
-        raise UserError(
-            Problem(Phrase("This project of a package cannot be read: {error}", error=error), str(project))
-        ) from None
+        raise refusal("This project of a package cannot be read: {error}", project, error=error) from None
     return {kind: (_source(folder, module), attribute) for kind, (module, _, attribute) in places.items()}
 
 
@@ -223,16 +222,17 @@ class Origin:
     """Where a kind comes from, in words, and how its mechanism is loaded from there."""
 
     kind: str
-    told: str
+    label: str
     load: Callable[[], Any]
     file: Callable[[], Path]  # of the module, when it is loaded
     is_own: bool = False  # of the program itself, whose declarations its tests check
 
 
 class Discovery:
-    """The kinds that are known here: built in, installed, and in the given folders."""
+    """The kinds that are known here: built in, installed, and in the given folders; ``first`` stand before others of their name."""
 
-    def __init__(self, folders: Iterable[Path] = ()) -> None:
+    def __init__(self, folders: Iterable[Path] = (), first: Iterable[Origin] = ()) -> None:
+        self._first = {origin.kind: [origin] for origin in first}
         self._folders = tuple({folder.resolve(): folder for folder in folders}.values())
         self._loaded: dict[str, Mechanism | PluginError] = {}
         self.extended: dict[str, str] = {}  # the extensions that were run, with the hashes of their code
@@ -243,11 +243,23 @@ class Discovery:
         found: dict[str, list[Origin]] = {}
         for origin in [*_built_in(), *_installed(), *(o for folder in self._folders for o in in_folder(folder))]:
             found.setdefault(origin.kind, []).append(origin)
-        return dict(sorted(found.items()))
+        return dict(sorted(found.items())) | self._first
 
     @cached_property
     def _extensions(self) -> list[Origin]:
-        return [*_installed_extensions(), *(origin for folder in self._folders for origin in _extensions(folder))]
+        found = [
+            Origin(
+                entry.name,
+                Phrase("{name} of an installed package", name=entry.name),
+                entry.load,
+                partial(file_of, entry.module),
+            )
+            for entry in entry_points(group=EXTENSIONS)
+        ]
+        files = (file for folder in self._folders for file in sorted(folder.glob(f"{EXTENSION}*.py")))
+        return found + [
+            Origin(file.stem, str(file), partial(module_of_file, file), partial(Path, file)) for file in files
+        ]
 
     def extend(self) -> None:
         """Run what adds to the registries, once; UserError where it cannot be run."""
@@ -258,9 +270,7 @@ class Discovery:
                     origin.load()
                 self.extended[origin.kind] = module_hash(origin.file())
             except Exception as cause:
-                raise UserError(
-                    Problem(Phrase("This extension cannot be loaded: {said}.", said=said(cause)), origin.told)
-                ) from cause
+                raise refusal("This extension cannot be loaded: {said}.", origin.label, said=said(cause)) from cause
 
     def mechanism(self, kind: str) -> Mechanism:
         """The mechanism of a kind.
@@ -269,51 +279,56 @@ class Discovery:
         """
         origin = self._only_origin(kind)
         if kind not in self._loaded:
-            self._loaded[kind] = _loaded(origin)
+            try:
+                self._loaded[kind] = _loaded(origin)
+            except PluginError as error:
+                self._loaded[kind] = error
         found = self._loaded[kind]
         if isinstance(found, PluginError):
             raise found
         return found
 
+    def unknown(self, kind: str) -> Phrase:
+        """Return what is said of a kind that nothing gives."""
+        words = "{kind} is not a known kind{nearest}. Known: {known}."
+        return Phrase(words, kind=repr(kind), nearest=nearest(kind, self.origins), known=", ".join(self.origins))
+
     def _only_origin(self, kind: str) -> Origin:
         origins = self.origins.get(kind)
         if not origins:
-            near = nearest(kind, self.origins)
-            words = "{kind} is not a known kind{nearest}. Known: {known}."
-            raise UnknownKind(Phrase(words, kind=repr(kind), nearest=near, known=", ".join(self.origins)))
+            raise UnknownKind(self.unknown(kind))
         if len(origins) > 1:
-            places = joined((origin.told for origin in origins), " and from ")
+            places = joined((origin.label for origin in origins), " and from ")
             words = "The kind {kind} comes from {places}. Remove or rename one of them."
             raise DuplicateKind(Phrase(words, kind=repr(kind), places=places))
         return origins[0]
 
 
-def _loaded(origin: Origin) -> Mechanism | PluginError:
+def _loaded(origin: Origin) -> Mechanism:
+    """Load a mechanism; PluginError where it cannot be loaded, or where what it declares cannot be."""
     try:
         refuse_other_contract(origin.file)
         with in_time():
             found = origin.load()
         digest = module_hash(origin.file())
     except Exception as cause:
-        words = "it cannot be loaded from {told}: {said}"
-        error = PluginError(
-            Phrase(words, told=origin.told, said=said(cause)) + beside(origin.file(), cause), origin.kind
-        )
-        error.__cause__ = cause
-        return error
+        words = Phrase("it cannot be loaded from {told}: {said}", told=origin.label, said=said(cause))
+        raise PluginError(words + beside(origin.file(), cause), origin.kind) from cause
     if not isinstance(found, Mechanism):
-        words = "{told} gives a {name}, where a Mechanism is needed"
-        return PluginError(Phrase(words, told=origin.told, name=type(found).__name__), origin.kind)
+        words = Phrase(
+            "{told} gives a {name}, where a Mechanism is needed", told=origin.label, name=type(found).__name__
+        )
+        raise PluginError(words, origin.kind)
     if found.kind != origin.kind:
-        words = "{told} gives the kind {kind}; name it {wanted} there"
-        named = {"told": origin.told, "kind": repr(found.kind), "wanted": repr(origin.kind)}
-        return PluginError(Phrase(words, named), origin.kind)
+        named = {"told": origin.label, "kind": repr(found.kind), "wanted": repr(origin.kind)}
+        raise PluginError(Phrase("{told} gives the kind {kind}; name it {wanted} there", named), origin.kind)
     note_plugin(found, digest, None if origin.is_own else origin.file())
-    return found if origin.is_own else _sound(origin, found)
+    if not origin.is_own:
+        _judge_declarations(origin, found)
+    return found
 
 
-def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
-    """A mechanism of which nothing that it declares is wrong."""
+def _judge_declarations(origin: Origin, mechanism: Mechanism) -> None:
     from diecut_report.config import model as press_defaults
     from diecut_report.declaration import faults_at_load
     from diecut_report.declaration.formula_checks import faults_of_formulas
@@ -321,18 +336,14 @@ def _sound(origin: Origin, mechanism: Mechanism) -> Mechanism | PluginError:
     try:
         found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
     except Exception as cause:
-        words = "what {told} declares cannot be read: {said}"
-        error = PluginError(Phrase(words, told=origin.told, said=said(cause)), origin.kind)
-        error.__cause__ = cause
-        return error
-    if not found:
-        for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
-            note_check(each, faults_of_formulas(each))
-        return mechanism
-    head = Phrase("{told} declares what cannot be", told=origin.told)
-    return PluginError(
-        joined([head, found[0]], ": ") if len(found) == 1 else joined([head + ":", *found], "\n  "), origin.kind
-    )
+        words = Phrase("what {told} declares cannot be read: {said}", told=origin.label, said=said(cause))
+        raise PluginError(words, origin.kind) from cause
+    if found:
+        head = Phrase("{told} declares what cannot be", told=origin.label)
+        lines = joined([head, found[0]], ": ") if len(found) == 1 else joined([head + ":", *found], "\n  ")
+        raise PluginError(lines, origin.kind)
+    for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
+        note_check(each, faults_of_formulas(each))
 
 
 def said(cause: BaseException) -> str:
@@ -368,9 +379,12 @@ def _built_in() -> Iterator[Origin]:
     package = import_module(GROUP)
     for kind in _names_in(Path(package.__path__[0])):
         name = f"{GROUP}.{kind}"
-        yield Origin(
-            kind, phrase("the program itself"), partial(_of_module, name), partial(_file_of_module, name), is_own=True
-        )
+        load, file = partial(_attribute, ATTRIBUTE, import_module, name), partial(_file_of_module, name)
+        yield Origin(kind, phrase("the program itself"), load, file, is_own=True)
+
+
+def _file_of_module(name: str) -> Path:
+    return Path(str(sys.modules[name].__file__))
 
 
 def _installed() -> Iterator[Origin]:
@@ -380,31 +394,24 @@ def _installed() -> Iterator[Origin]:
             if entry.dist
             else phrase("an installed package")
         )
-        load = entry.load if entry.attr else partial(_of_module, entry.module)
+        load = entry.load if entry.attr else partial(_attribute, ATTRIBUTE, import_module, entry.module)
         yield Origin(entry.name, package, load, partial(file_of, entry.module))
-
-
-def _installed_extensions() -> Iterator[Origin]:
-    for entry in entry_points(group=EXTENSIONS):
-        told = Phrase("{name} of an installed package", name=entry.name)
-        yield Origin(entry.name, told, entry.load, partial(file_of, entry.module))
-
-
-def _extensions(folder: Path) -> Iterator[Origin]:
-    for file in sorted(folder.glob(f"{EXTENSION}*.py")):
-        yield Origin(file.stem, str(file), partial(module_of_file, file), partial(Path, file))
 
 
 def in_folder(folder: Path) -> Iterator[Origin]:
     """Yield the kinds of a folder of plugins, or of the project of a package; UserError where there is no such folder."""
     if not folder.is_dir():
-        raise UserError(
-            Problem(phrase("There is no such folder of plugins. Check the name given with --plugins."), str(folder))
-        )
+        raise refusal("There is no such folder of plugins. Check the name given with --plugins.", folder)
     if (folder / LIST).is_file():
         yield from _in_files(folder, _listed(folder))
     elif kinds := announced(folder, GROUP):
-        yield from (_in_project(folder, kind, *place) for kind, place in kinds.items())
+        for kind, (
+            name,
+            attribute,
+        ) in kinds.items():  # whose modules import each other by its name, as where it is installed
+            file, source = _file_of(folder, name), source_of(folder, name)
+            load = partial(_attribute, attribute or ATTRIBUTE, module_of_project, file, source)
+            yield Origin(kind, str(file), load, partial(Path, file))
     else:
         yield from _in_files(folder, {name: (name, ATTRIBUTE) for name in _names_in(folder)})
 
@@ -412,13 +419,7 @@ def in_folder(folder: Path) -> Iterator[Origin]:
 def _in_files(folder: Path, listed: Mapping[str, tuple[str, str]]) -> Iterator[Origin]:
     for kind, (name, attribute) in listed.items():
         file = _file_of(folder, name)
-        yield Origin(kind, str(file), partial(_of_file, file, attribute), partial(Path, file))
-
-
-def _in_project(folder: Path, kind: str, name: str, attribute: str) -> Origin:
-    """A kind of the project of a package, whose modules import each other by its name, as where it is installed."""
-    file, source = _file_of(folder, name), source_of(folder, name)
-    return Origin(kind, str(file), partial(_of_project, file, source, attribute or ATTRIBUTE), partial(Path, file))
+        yield Origin(kind, str(file), partial(_attribute, attribute, module_of_file, file), partial(Path, file))
 
 
 def _names_in(folder: Path) -> list[str]:
@@ -429,9 +430,7 @@ def _names_in(folder: Path) -> list[str]:
 def _listed(folder: Path) -> dict[str, tuple[str, str]]:
     tree = yaml.load(folder / LIST)
     if not isinstance(tree.data, dict) or not all(isinstance(value, str) for value in tree.data.values()):
-        raise UserError(
-            Problem(phrase("A list of kinds is needed, each as KIND: FILE.py or KIND: FILE.py:ATTRIBUTE."), tree.file)
-        )
+        raise refusal("A list of kinds is needed, each as KIND: FILE.py or KIND: FILE.py:ATTRIBUTE.", tree.file)
     found = {}
     for kind, place in tree.data.items():
         name, _, attribute = place.partition(":")
@@ -442,19 +441,3 @@ def _listed(folder: Path) -> dict[str, tuple[str, str]]:
 def _file_of(folder: Path, name: str) -> Path:
     package = folder / name / "__init__.py"
     return package if package.is_file() else folder / f"{name}.py"
-
-
-def _of_module(name: str) -> Any:
-    return attribute_of(import_module(name), ATTRIBUTE)
-
-
-def _file_of_module(name: str) -> Path:
-    return Path(str(sys.modules[name].__file__))
-
-
-def _of_file(file: Path, attribute: str) -> Any:
-    return attribute_of(module_of_file(file), attribute)
-
-
-def _of_project(file: Path, source: Path, attribute: str) -> Any:
-    return attribute_of(module_of_project(file, source), attribute)

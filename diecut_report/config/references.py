@@ -20,7 +20,7 @@ import yaml
 
 from diecut_report.config.instances import Instance, Node, Slot, Target, Unresolved, default_of
 from diecut_report.config.model import PRESS, texts
-from diecut_report.config.validation import declared
+from diecut_report.config.validation import ConfigPlace, declared
 from diecut_report.config.yaml import LOADER, KeyPath, Tree, parse, seeming_latin
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.formulas.condition_parts import Name, read_expression
@@ -88,8 +88,8 @@ class Linker:
         ):
             return None
         if isinstance(meta, CurveInput) and declared(instance.model, key):
-            raise Unresolved(Phrase("“{strip}” calculates a number; a curve is needed here, and is referred to whole",
-                strip=text.strip()))  # fmt: skip
+            words = "“{strip}” calculates a number; a curve is needed here, and is referred to whole"
+            raise Unresolved(words, strip=text.strip())
         terms: dict[str, Target] = {}
         try:
             found = read_expression(text, lambda name: self._term(name, terms))
@@ -109,16 +109,12 @@ class Linker:
         if target.is_broken:
             raise _BrokenTerm
         if target.is_curve:
-            raise ConditionError(Phrase("{name} is a curve; single numbers are needed to calculate with.", name=name))
+            raise ConditionError("{name} is a curve; single numbers are needed to calculate with.", name=name)
         if target.unit is None:
-            raise ConditionError(Phrase("{name} is not a number; numbers and quantities are needed to calculate with.", name=name))  # fmt: skip
-        meta = declared(self._of(target).model, target.key) if target.key else None
-        return Name(name, "number", target.unit, meta.unit if isinstance(meta, Quantity) else "")
-
-    def _of(self, target: Target) -> Instance:
+            raise ConditionError("{name} is not a number; numbers and quantities are needed to calculate with.", name=name)  # fmt: skip
         instance = self.instances[target.instance]
-        assert instance is not None, "a target without a model is marked as broken"
-        return instance
+        meta = declared(instance.model, target.key) if target.key and instance else None
+        return Name(name, "number", target.unit, meta.unit if isinstance(meta, Quantity) else "")
 
     def _within_curve(self, instance: Instance, key: KeyPath, target: Target) -> Target:
         """The values of a curve given as a list are not inputs of their own, so their kind is judged here."""
@@ -126,10 +122,8 @@ class Linker:
         if isinstance(meta, CurveInput) and not target.is_broken:
             single = target.unit is not None and not target.is_curve
             if not single or unit(str(target.unit)).kind != unit(meta.unit).kind:
-                raise Unresolved(
-                    Phrase("${{path}} is not a single quantity in {pretty}, as the other values are", path=target.path, pretty=pretty(
-                        meta.unit))
-                )  # fmt: skip
+                raise Unresolved("${{path}} is not a single quantity in {pretty}, as the other values are", path=target.path, pretty=pretty(
+                        meta.unit))  # fmt: skip
         return target
 
     def _from_press(self, instance: Instance) -> None:
@@ -148,9 +142,14 @@ class Linker:
     def _no_default(self, instance: Instance, slot: Slot, default: FromPress) -> Problem:
         assert isinstance(slot.meta, Quantity)
         field, key = default.path.removeprefix(f"{PRESS}."), slot.key[-1]
-        message = (Phrase("{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}.", key=key,
-            field=field, text=pretty(slot.meta.unit) or phrase("a number"), path=default.path))  # fmt: skip
-        return instance.place.absent(slot.key, message)
+        return instance.place.absent(
+            slot.key,
+            "{key} is not given and the press gives no {field} to derive it from; give {key} ({text}) or {path}.",
+            key=key,
+            field=field,
+            text=pretty(slot.meta.unit) or phrase("a number"),
+            path=default.path,
+        )
 
     # --- what a path stands for --------------------------------------------------------------------------------------
 
@@ -158,32 +157,29 @@ class Linker:
         """What a reference stands for; Unresolved in words where it stands for nothing."""
         match = WHOLE.fullmatch(text.strip())
         if match is None:
-            raise Unresolved(
-                Phrase("“{text}” mixes a reference with text; a reference stands for a whole value, as in ${press.name}.", text=text)
-            )  # fmt: skip
+            words = "“{text}” mixes a reference with text; a reference stands for a whole value, as in ${press.name}."
+            raise Unresolved(words, text=text)
         path = match[1].strip()
         name, *rest = path.split(".")
         if name not in self.instances:
             if seeming := seeming_latin(name):
                 raise Unresolved(f"${{{path}}}: {seeming}")
             near = nearest(name, self.instances)
-            raise Unresolved(Phrase("${{path}}: there is no mechanism {name}{near}. Known: {instances}.", path=path, name=repr(name),
-                near=near, instances=', '.join(self.instances)))  # fmt: skip
+            words = "${{path}}: there is no mechanism {name}{near}. Known: {instances}."
+            raise Unresolved(words, path=path, name=repr(name), near=near, instances=", ".join(self.instances))
         instance = self.instances[name]
         if instance is None:
             return Target(path, name, is_broken=True)
         if not rest or not all(rest):
             example = next(iter(_known(instance)), "output")
-            raise Unresolved(Phrase("${{path}} names no value; add an output or input, as in ${{name}.{example}}.", path=path, name=name,
-                example=example))  # fmt: skip
+            words = "${{path}} names no value; add an output or input, as in ${{name}.{example}}."
+            raise Unresolved(words, path=path, name=name, example=example)
         if rest[0] == PHASES and len(rest) > 1:
-            return self._phase(path, instance, ".".join(rest))
+            phase = ".".join(rest)
+            if phase not in instance.phases:
+                raise Unresolved(f"${{{path}}} {instance.no_phase(phase)}")
+            return Target(path, name, result=phase, phase_unit=instance.phases[phase])
         return self._result(path, instance, ".".join(rest)) or self._input(path, instance, rest)
-
-    def _phase(self, path: str, instance: Instance, phase: str) -> Target:
-        if phase not in instance.phases:
-            raise Unresolved(f"${{{path}}} {instance.no_phase(phase)}")
-        return Target(path, instance.name, result=phase, phase_unit=instance.phases[phase])
 
     def _named(self, instance: Instance) -> None:
         """What is taken whole by its name."""
@@ -196,17 +192,23 @@ class Linker:
                 self.links[node] = Target(slot.value, slot.value, result="", is_broken=is_broken, is_mechanism=True)
             else:
                 self.unresolved.add(node)
-                words = Phrase("there is no mechanism {value}{nearest}. Known: {known}.", value=repr(slot.value), nearest=nearest(
-                    slot.value, known), known=', '.join(known))  # fmt: skip
-                self.problems.append(instance.place.problem(slot.key, words))
+                self.problems.append(
+                    instance.place.problem(
+                        slot.key,
+                        "there is no mechanism {value}{nearest}. Known: {known}.",
+                        value=repr(slot.value),
+                        nearest=nearest(slot.value, known),
+                        known=", ".join(known),
+                    )
+                )
 
     def _result(self, path: str, instance: Instance, result: str) -> Target | None:
         if result in instance.results:
             si, many = instance.results[result]
             home = instance.rows.get(result)
             if home:
-                raise Unresolved(Phrase("${{path}} has a value for each of {home}; refer to one, as in ${{path}.0}.", path=path,
-                    home=home))  # fmt: skip
+                words = "${{path}} has a value for each of {home}; refer to one, as in ${{path}.0}."
+                raise Unresolved(words, path=path, home=home)
             return Target(path, instance.name, result=result, unit=si, is_curve=many)
         part = named(result, instance.declared)
         if part and part.role == "part" and part.id in instance.results and instance.results[part.id][1]:
@@ -219,27 +221,26 @@ class Linker:
         name = ".".join(part for part in key if isinstance(part, str))
         if isinstance(meta, type):
             inner = ", ".join(meta.model_fields)
-            raise Unresolved(Phrase("${{path}} is a block or a list; refer to one of its values ({inner}).", path=path, inner=inner))  # fmt: skip
+            words = "${{path}} is a block or a list; refer to one of its values ({inner})."
+            raise Unresolved(words, path=path, inner=inner)
         if meta is None:
             raise Unresolved(self._unknown(path, instance, ".".join(parts)))
         _check_index(path, instance.data, key)
         if name in instance.model.spread and name not in instance.data:
             single = ", ".join(instance.model.spread[name])
-            raise Unresolved(Phrase("${{path}} is a list; refer to one of its values ({single}).", path=path, single=single))  # fmt: skip
+            raise Unresolved("${{path}} is a list; refer to one of its values ({single}).", path=path, single=single)
         if name not in instance.given:
-            raise Unresolved(Phrase("${{path}} is not given; it is optional. Give {path}, or write the value itself here.", path=path))  # fmt: skip
+            words = "${{path}} is not given; it is optional. Give {path}, or write the value itself here."
+            raise Unresolved(words, path=path)
         held = (
             [text for _, text in texts(instance.data.get(name)) if "${" in text] if isinstance(meta, CurveInput) else []
         )
         if held and isinstance(instance.data[name], list):
-            raise Unresolved(
-                Phrase("${{path}} is a list that holds references itself ({held}), and cannot be referred to; write its values here.",
-                    path=path, held=held[0])
-            )  # fmt: skip
+            words = "${{path}} is a list that holds references itself ({held}), and cannot be referred to; write its values here."
+            raise Unresolved(words, path=path, held=held[0])
         if isinstance(meta, Varying) and _varies(instance.data, key):
-            raise Unresolved(
-                Phrase("${{path}} is not a single number, but may vary over a cycle; write here what it is given as.", path=path)
-            )  # fmt: skip
+            words = "${{path}} is not a single number, but may vary over a cycle; write here what it is given as."
+            raise Unresolved(words, path=path)
         si = unit(meta.unit).si if isinstance(meta, Quantity | CurveInput) else None
         return Target(path, instance.name, key, unit=si, is_curve=isinstance(meta, CurveInput))
 
@@ -248,9 +249,8 @@ class Linker:
             return Phrase("${{path}} has several values; refer to one of them, as in ${{path}_1}.", path=path)
         left_out = named(name, instance.declared)
         if left_out and left_out.role in ("value", "place"):
-            section, step = instance.declared_steps[left_out.id]
-            missing = [n for n in (*section.needs, *step.needs) if n not in instance.given]
-            excess = [n for n in step.lacks if n in instance.given]
+            missing = instance.missing(left_out.id)
+            excess = [n for n in instance.declared[left_out.id].lacks if n in instance.given]
             words = (
                 Phrase("calculated only if {missing} is given", missing=" and ".join(missing))
                 if missing
@@ -288,9 +288,7 @@ def _varies(data: Any, key: KeyPath) -> bool:
 def _check_index(path: str, data: Any, key: KeyPath) -> None:
     for part in key:
         if isinstance(part, int) and isinstance(data, list) and part >= len(data):
-            raise Unresolved(
-                Phrase("${{path}}: the list has {count} entries, counted from 0.", path=path, count=len(data))
-            )
+            raise Unresolved("${{path}}: the list has {count} entries, counted from 0.", path=path, count=len(data))
         known = part in data if isinstance(data, dict) else isinstance(data, list) and isinstance(part, int)
         data = data[part] if known else None
 
@@ -317,21 +315,15 @@ def ordered(instances: Mapping[str, Instance | None], links: Mapping[Node, Targe
 
 
 def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node, Target], loop: list[Node]) -> Problem:
-    shown = [".".join(map(str, node)) if len(node) > 1 else _path(links[before], node)
-             for before, node in zip([loop[-1], *loop], loop, strict=False)]  # fmt: skip
+    shown = []
+    for before, node in zip([loop[-1], *loop], loop, strict=False):
+        calculation = (single.path for single in links[before].single if single.node == node) if len(node) == 1 else ()
+        shown.append(next(iter(calculation), ".".join(map(str, node))))
     instance = instances[str(loop[0][0])]
     assert instance is not None, "a mechanism without a model has no links"
     told = [text for before, text in zip(["", *shown], [*shown, shown[0]], strict=True) if text != before]
-    message = Phrase(
-        "refers to itself: {told}. Give one of these inputs a value of its own.",
-        told=" → ".join(told if len(told) > 1 else 2 * told),
-    )
-    return instance.place.problem(loop[0][1:], message)
-
-
-def _path(link: Target, node: Node) -> str:
-    """The path by which a link names a calculation."""
-    return next(single.path for single in link.single if single.node == node)
+    words = "refers to itself: {told}. Give one of these inputs a value of its own."
+    return instance.place.problem(loop[0][1:], words, told=" → ".join(told if len(told) > 1 else 2 * told))
 
 
 # The text of a configuration with other values in some of its places; all else stays as it is, byte for byte.
@@ -378,8 +370,12 @@ def rewritten(tree: Tree, values: Mapping[KeyPath, str], *, over_references: boo
     for path, value in values.items():
         typed = tree.typed(path)
         if typed is not None and "${" in typed and not over_references:
-            raise UserError(_problem(tree, path, EXPRESSION))
-        edits.append(_new_key(tree, spans, path, value) if typed is None else _other(tree, spans, path, value))
+            raise UserError(ConfigPlace(tree).problem(path, EXPRESSION))
+        if typed is None:
+            edits.append(_new_key(tree, spans, path, value))
+        else:
+            span = spans[tree.position(path)]
+            edits.append((span.start, span.start + len(tree.text[span.start : span.end].rstrip()), value))
     text = tree.text
     for start, end, new in sorted(edits, reverse=True):
         text = text[:start] + new + text[end:]
@@ -412,17 +408,14 @@ def _spans(text: str) -> dict[tuple[int, int], _Span]:
     return found
 
 
-def _other(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, value: str) -> tuple[int, int, str]:
-    """The piece of the text that holds a scalar, and what takes its place."""
-    span = spans[tree.position(path)]
-    ending = len(tree.text[span.start : span.end]) - len(tree.text[span.start : span.end].rstrip())
-    return span.start, span.end - ending, value
-
-
 def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, value: str) -> tuple[int, int, str]:
     """Where a new key goes: behind the first single value of its block, in a line of its own or, within braces, in the same one."""
     home, key = path[:-1], path[-1]
-    for name in _keys(tree.data, home):
+    data = tree.data
+    for part in home:  # nothing where there is no block
+        known = part in data if isinstance(data, dict) else isinstance(data, list) and int(part) < len(data)
+        data = data[part] if known else None
+    for name in data if isinstance(data, dict) else ():
         before = (*home, name)
         span, key_span = spans.get(tree.position(before)), spans.get(tree.key_position(before))
         if (
@@ -434,24 +427,10 @@ def _new_key(tree: Tree, spans: Mapping[tuple[int, int], _Span], path: KeyPath, 
             continue
         if span.in_flow:
             return span.end, span.end, f", {key}: {value}"
-        line_end = _line_end(tree.text, span.end)
+        line_end = span.end + len(tree.text[span.end :].partition("\n")[0].removesuffix("\r"))
         break_ = "\r\n" if "\r\n" in tree.text else "\n"
         return line_end, line_end, f"{break_}{' ' * key_span.column}{key}: {value}"
-    raise UserError(_problem(tree, path, NO_HOME))
-
-
-def _line_end(text: str, place: int) -> int:
-    end = text.find("\n", place)
-    end = len(text) if end < 0 else end
-    return end - 1 if text[:end].endswith("\r") else end
-
-
-def _keys(data: Any, home: KeyPath) -> Iterator[str]:
-    """The keys of the block at a path; none where there is no block."""
-    for key in home:
-        known = key in data if isinstance(data, dict) else isinstance(data, list) and int(key) < len(data)
-        data = data[key] if known else None
-    yield from data if isinstance(data, dict) else ()
+    raise UserError(ConfigPlace(tree).problem(path, NO_HOME))
 
 
 def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
@@ -466,7 +445,7 @@ def _read_again(tree: Tree, values: Mapping[KeyPath, str], text: str) -> Tree:
     if found.data != expected:
         shared = {tree.position(path) for path in _differing(found.data, expected)}
         culprit = next((path for path in values if tree.position(path) in shared), next(iter(values)))
-        raise UserError(_problem(tree, culprit, SHARED))
+        raise UserError(ConfigPlace(tree).problem(culprit, SHARED))
     found.name = tree.name
     return found
 
@@ -480,10 +459,6 @@ def _differing(one: Any, other: Any, path: KeyPath = ()) -> Iterator[KeyPath]:
     for key in one if isinstance(one, dict) else range(len(one)):
         if isinstance(one, list) or key in other:
             yield from _differing(one[key], other[key], (*path, key))
-
-
-def _problem(tree: Tree, path: KeyPath, words: str) -> Problem:
-    return Problem(words, tree.file, *tree.position(path), path=".".join(map(str, path)))
 
 
 # Keys that take a number or a curve: a value that is a curve stands under the key of the curve, wherever it was typed.
@@ -512,10 +487,15 @@ def _any_moved(instances: Mapping[str, Instance | None], linker: Linker) -> bool
 
 def _moved(instance: Instance, linker: Linker) -> bool:
     """Lay curves under their own keys; return whether there were any."""
+    curves = {
+        node[1]
+        for node, target in linker.links.items()
+        if node[0] == instance.name and len(node) == 2 and target.is_curve
+    }
     found = [
         (key, curve)
         for key, curve in instance.model.curve_keys.items()
-        if instance.data.get(curve) is None and _is_curve(instance, key, linker)
+        if instance.data.get(curve) is None and (key in curves or isinstance(instance.data.get(key), list))
     ]
     for key, curve in found:
         instance.data[curve] = instance.data.pop(key)
@@ -524,8 +504,3 @@ def _moved(instance: Instance, linker: Linker) -> bool:
     if found:
         instance.forget()
     return bool(found)
-
-
-def _is_curve(instance: Instance, key: str, linker: Linker) -> bool:
-    target = linker.links.get((instance.name, key))
-    return isinstance(instance.data.get(key), list) or (target is not None and target.is_curve)

@@ -9,7 +9,7 @@ from typing import Any, get_args, get_origin
 from diecut_report.config.instances import DIMENSIONS
 from diecut_report.config.loader import NAME, RESERVED
 from diecut_report.config.model import Press, Project, ReportSettings
-from diecut_report.config.own_tables import MOST
+from diecut_report.config.own_tables import MAX_FILES
 from diecut_report.config.validation import BASES, keys_of
 from diecut_report.errors import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
 from diecut_report.mechanism.chapters import in_all_units
@@ -83,7 +83,7 @@ def _materials() -> Schema:
         "description": "Files with tables of your own, beside this one or in a folder below: steels, gear_materials, chains, keys."
     }
     name = {"type": "string", "pattern": r"\.ya?ml$", "maxLength": MAX_TEXT}
-    return described | {"anyOf": [name, {"type": "array", "items": name, "maxItems": MOST}]}
+    return described | {"anyOf": [name, {"type": "array", "items": name, "maxItems": MAX_FILES}]}
 
 
 def _mechanism(mechanisms: Mapping[str, Mechanism], kinds: list[str]) -> Schema:
@@ -181,12 +181,7 @@ def _reference() -> Schema:
 
 def _curve(meta: CurveInput) -> Schema:
     ways = "A reference to a curve" + ("" if meta.referred else ", or its values over a turn")
-    values = {
-        "type": "array",
-        "minItems": 4,
-        "maxItems": MAX_CURVE_VALUES,
-        "items": {"type": ["number", "string"]},
-    }
+    values = {"type": "array", "minItems": 4, "maxItems": MAX_CURVE_VALUES, "items": {"type": ["number", "string"]}}
     allowed = [_reference()] if meta.referred else [_reference(), values]
     said = f"{meta.description}. Unit: {in_all_units(meta, _unit)}. {ways}."
     return {"description": said, "anyOf": [*allowed, _stated(allowed)]}

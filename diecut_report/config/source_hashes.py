@@ -8,6 +8,7 @@ from __future__ import annotations
 
 import sys
 from collections.abc import Iterable
+from dataclasses import dataclass
 from functools import cache
 from hashlib import sha256
 from importlib import import_module
@@ -22,9 +23,20 @@ PACKAGE = Path(__file__).parents[1]
 PLUGINS = "diecut_report.plugins"
 ASIDE = ("plugins", "templates", "configs")  # plugins have hashes of their own, the others calculate nothing
 
-_of_mechanism: WeakKeyDictionary[Mechanism, str] = WeakKeyDictionary()
-_foreign: WeakKeyDictionary[Mechanism, str] = WeakKeyDictionary()
-_faults: WeakKeyDictionary[Mechanism, tuple[str, ...]] = WeakKeyDictionary()  # of those whose formulas were judged
+
+@dataclass
+class PluginCode:
+    """Hold what is known of the code of a mechanism's plugin: its hash and, unless it is the program's own, its file's name.
+
+    ``faults`` is what is wrong with its formulas, which may still be used; None where that was not judged.
+    """
+
+    sha256: str = ""
+    file: str = ""
+    faults: tuple[str, ...] | None = None
+
+
+_known: WeakKeyDictionary[Mechanism, PluginCode] = WeakKeyDictionary()
 _when_loaded: dict[Path, str] = {}  # a module that is loaded stays as it was, whatever becomes of its file
 
 
@@ -36,28 +48,31 @@ def program_hash() -> str:
     return _digest([*own, *((f"plugins/{path.name}", str(path)) for path in shared)])
 
 
+def _code(mechanism: Mechanism | None) -> PluginCode:
+    return _known.get(mechanism, PluginCode()) if mechanism else PluginCode()
+
+
 def plugin_hash(mechanism: Mechanism | None) -> str:
     """Return the SHA-256 of the code of a mechanism's plugin; nothing for one that was not loaded as a plugin."""
-    return _of_mechanism.get(mechanism, "") if mechanism else ""
+    return _code(mechanism).sha256
 
 
 def plugin_code(mechanism: Mechanism | None) -> dict[str, str]:
-    """Return what results tell of the code of a mechanism's plugin: its hash and, unless it is the program's own, its file and check."""
-    file, faults = (_foreign.get(mechanism, ""), _faults.get(mechanism)) if mechanism else ("", None)
-    told = {"plugin_file": file} if file else {}
-    if faults is not None:
-        told["plugin_check"] = "failed" if faults else "passed"
-    return {"plugin_sha256": plugin_hash(mechanism)} | told
+    """Return what results hold of the code of a mechanism's plugin: its hash and, unless it is the program's own, its file and check."""
+    code = _code(mechanism)
+    found = {"plugin_sha256": code.sha256} | ({"plugin_file": code.file} if code.file else {})
+    return found if code.faults is None else found | {"plugin_check": "failed" if code.faults else "passed"}
 
 
 def plugin_faults(mechanism: Mechanism | None) -> tuple[str, ...]:
     """Return what is wrong with the formulas of a foreign plugin; nothing where that was not judged."""
-    return _faults.get(mechanism, ()) if mechanism else ()
+    return _code(mechanism).faults or ()
 
 
 def note_check(mechanism: Mechanism, faults: tuple[str, ...]) -> None:
     """Note what is wrong with the formulas of a foreign plugin, which may still be used."""
-    _faults.setdefault(mechanism, faults)
+    code = _known.setdefault(mechanism, PluginCode())
+    code.faults = faults if code.faults is None else code.faults
 
 
 def note_plugin(mechanism: Mechanism, digest: str, foreign: Path | None = None) -> None:
@@ -65,11 +80,9 @@ def note_plugin(mechanism: Mechanism, digest: str, foreign: Path | None = None) 
 
     Of the file its name is kept, with the folder of a package, and not where it lies: that is the business of its user.
     """
+    name = printable("/".join(foreign.parts[-2 if foreign.name == "__init__.py" else -1 :])) if foreign else ""
     for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):
-        _of_mechanism.setdefault(each, digest)
-        if foreign:
-            name = "/".join(foreign.parts[-2 if foreign.name == "__init__.py" else -1 :])
-            _foreign.setdefault(each, printable(name))
+        _known.setdefault(each, PluginCode(digest, name))
 
 
 def module_hash(file: Path) -> str:

@@ -6,7 +6,7 @@ import re
 from collections.abc import Callable, Container, Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
 from functools import cache
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 from pydantic import ValidationError
 from pydantic.fields import FieldInfo
@@ -15,14 +15,14 @@ from diecut_report.config.plugins import said
 from diecut_report.config.yaml import KeyPath, Tree
 from diecut_report.errors import PluginError, Problem, nearest
 from diecut_report.mechanism.curve_inputs import CurveInput
-from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, meta_of, nested
+from diecut_report.mechanism.inputs import Block, Meta, Quantity, meta_of, nested
 from diecut_report.mechanism.names import Pending, Text
 from diecut_report.quantities.units import pretty
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase, message, phrase
 from diecut_report.time_limit import in_time
 
-SHOWN = 60  # characters of a given text that a message repeats
-NAMED = 20  # entries of a table that a message names
+MAX_QUOTED = 60  # characters of a given text that a message repeats
+MAX_NAMED = 20  # entries of a table that a message names
 
 
 @dataclass(frozen=True)
@@ -59,18 +59,20 @@ class ConfigPlace:
         tree, path = self.stands(key)
         return tree.typed(path)
 
-    def problem(self, key: KeyPath, message: str, *, at_key: bool = False, within: int | None = None) -> Problem:
+    def problem(
+        self, key: KeyPath, template: str, /, *, at_key: bool = False, within: int | None = None, **values: object
+    ) -> Problem:
         """A problem of the value at ``key`` below this block (or of the key itself, or of a letter ``within`` its text)."""
         tree, path = self.stands(key)
         line, column = tree.key_position(path) if at_key else tree.position(path)
         column += tree.offset(path, within) if within else 0
-        return Problem(message, tree.file, line, column, ".".join(map(str, path)))
+        return Problem(message(template, values), tree.file, line, column, ".".join(map(str, path)))
 
-    def absent(self, key: KeyPath, message: str) -> Problem:
+    def absent(self, key: KeyPath, template: str, /, **values: object) -> Problem:
         """A problem of a key that is not there; its place is the key of the block where it belongs."""
         tree, home = self.stands(key[:-1]) if self.elsewhere else (self.tree, (*self.root, *key[:-1]))
         line, column = tree.key_position(home)
-        return Problem(message, tree.file, line, column, ".".join(map(str, (*home, *key[-1:]))))
+        return Problem(message(template, values), tree.file, line, column, ".".join(map(str, (*home, *key[-1:]))))
 
 
 def spread_out(
@@ -86,23 +88,11 @@ def spread_out(
         again = [name for name in single if found.get(name) is not None]
         if len(values) != len(single):
             count = {0: phrase("no values"), 1: "1 value"}.get(len(values), f"{len(values)} values")
-            problems.append(
-                place.problem(
-                    (key,),
-                    Phrase(
-                        "has {given}; give one for all, or {count}: for {single}",
-                        given=count,
-                        count=len(single),
-                        single=", ".join(single),
-                    ),
-                )
-            )
+            words = "has {given}; give one for all, or {count}: for {single}"
+            problems.append(place.problem((key,), words, given=count, count=len(single), single=", ".join(single)))
         elif again:
-            words = Phrase(
-                "is a list for all of them, but {again} is given beside it; give the list, or single keys",
-                again=" and ".join(again),
-            )
-            problems.append(place.problem((key,), words))
+            words = "is a list for all of them, but {again} is given beside it; give the list, or single keys"
+            problems.append(place.problem((key,), words, again=" and ".join(again)))
         else:
             found |= dict(zip(single, values, strict=True))
             place = replace(place, listed={**place.listed, **{(name,): (key, i) for i, name in enumerate(single)}})
@@ -126,19 +116,13 @@ def validate(
         raise PluginError(words, instance=str(place.root[-1])) from cause
 
 
-def _choices(model: type[Block], data: Any, place: ConfigPlace, key: KeyPath = ()) -> Iterator[Problem]:
+def _choices(model: type[Block], data: Any, place: ConfigPlace) -> Iterator[Problem]:
     """What is wrong with inputs of which one group is needed, in a block and the blocks in it."""
-    if not isinstance(data, dict):
-        return
-    given = [name for name, value in data.items() if value is not None and not (isinstance(value, list) and not value)]
-    texts = {name: data.get(name, field.default) for name, field in model.model_fields.items()}
-    for fault in filter(None, (rule.fault(given) for rule in model.one_of if rule.is_asked(texts))):
-        yield place.problem(key, fault, at_key=True)
-    for name, (_, _, block, is_list) in keys_of(model).items():
-        if block and name in data:
-            parts = enumerate(data[name]) if is_list and isinstance(data[name], list) else [(None, data[name])]
-            for index, part in parts:
-                yield from _choices(block, part, place, (*key, name) if index is None else (*key, name, index))
+    for own, block, key in blocks(model, data):
+        given = [name for name, value in block.items() if value not in (None, [])]
+        texts = {name: block.get(name, field.default) for name, field in own.model_fields.items()}
+        for fault in filter(None, (rule.fault(given) for rule in own.one_of if rule.is_asked(texts))):
+            yield place.problem(key, fault, at_key=True)
 
 
 class ModelKey(NamedTuple):
@@ -158,6 +142,37 @@ def keys_of(model: type[Block]) -> dict[str, ModelKey]:
         block, is_list = nested(declared_as.annotation) or (None, False)
         found[name] = ModelKey(declared_as, meta_of(model, name), block, is_list)
     return found
+
+
+def blocks(model: type[Block], data: Any, key: KeyPath = ()) -> Iterator[tuple[type[Block], dict[str, Any], KeyPath]]:
+    """Yield a block and all blocks that stand in it, each with its model and its key."""
+    if not isinstance(data, dict):
+        return
+    yield model, data, key
+    for name, (_, _, block, is_list) in keys_of(model).items():
+        if block and name in data:
+            given = data[name]
+            parts = enumerate(given) if is_list and isinstance(given, list) else [(None, given)]
+            for index, part in parts:
+                yield from blocks(block, part, (*key, name) if index is None else (*key, name, index))
+
+
+def copied(data: Any) -> Any:
+    """Return plain data with dicts and lists of its own."""
+    if isinstance(data, dict):
+        return {key: copied(part) for key, part in data.items()}
+    return [copied(part) for part in data] if isinstance(data, list) else data
+
+
+def as_typed(model: type[Block], data: Any, place: ConfigPlace) -> Any:
+    """Return the data with its texts as they were typed: a document number 0012 or a date stays as it is."""
+    typed = copied(data)
+    for own, block, key in blocks(model, typed):
+        for name in block.keys() & keys_of(own).keys():
+            annotation = keys_of(own)[name].field.annotation
+            if str in (annotation, *get_args(annotation)) and not isinstance(block[name], dict | list | None):
+                block[name] = place.typed((*key, name))
+    return typed
 
 
 def declared(model: type[Block], key: KeyPath) -> Meta | type[Block] | None:
@@ -226,65 +241,51 @@ class _Fault:
         home = declared(self.model, self.key[:-1]) if len(self.key) > 1 else self.model
         known = list(home.model_fields) if isinstance(home, type) else []
         if self.given is None and re.match(r"\d", str(self.key[-1])):
-            words = phrase("YAML parts entries within braces at each comma; write a decimal point, as in {gap: 0.5 mm}")
-            return Phrase("is what a decimal comma leaves behind it: {words}.", words=words)
+            comma = phrase("YAML parts entries within braces at each comma; write a decimal point, as in {gap: 0.5 mm}")
+            return Phrase("is what a decimal comma leaves behind it: {words}.", words=comma)
         own = ["kind"] if self.place.root[:1] == ("mechanisms",) and len(self.key) == 1 else []
-        return Phrase(
-            "is an unknown key{nearest}. Known keys: {own}.",
-            nearest=nearest(str(self.key[-1]), known),
-            own=", ".join(own + known),
-        )
+        words = "is an unknown key{nearest}. Known keys: {own}."
+        return Phrase(words, nearest=nearest(str(self.key[-1]), known), own=", ".join(own + known))
 
     def _options(self) -> list[str]:
         expected = str(self.context["expected"]).replace(" or ", ", ")
         choices = [choice.strip("'") for choice in expected.split(", ")]
-        return [*choices, *self.place.named.get(self.key, ())[:NAMED]]
+        return [*choices, *self.place.named.get(self.key, ())[:MAX_NAMED]]
 
     def _choice(self) -> str:
         choices = self._options()
         near = nearest(self.given, choices) if isinstance(self.given, str) and self.given not in choices else ""
-        return Phrase(
-            "is {given}{near}; allowed: {choices}", given=told(self.given), near=near, choices=", ".join(choices)
-        )
+        words = "is {given}{near}; allowed: {choices}"
+        return Phrase(words, given=quoted(self.given), near=near, choices=", ".join(choices))
 
     def _other(self) -> str:
-        if isinstance(self.given, Pending):
-            number = Phrase(
-                "is a {text} in {unit}",
-                text=(phrase("curve") if self.given.is_curve else phrase("number")),
-                unit=self.given.unit,
-            )
-            return Phrase(
-                "${{path}} {number}; {needed} is needed here",
-                path=self.given.path,
-                number=(number if self.given.unit else phrase("is a text")),
-                needed=self._text() or self._needed(),
-            )
-        if self.given is None:
-            return Phrase("has no value; {needed} is needed, or remove the key", needed=self._needed())
-        return Phrase("is {given}; {needed} is needed", given=told(self.given), needed=self._needed())
-
-    def _text(self) -> str | None:
-        """A text that is needed, with what it says; None where something else is."""
         meta = declared(self.model, self.key) if self.key else None
-        if not self.type.startswith("string") or not isinstance(meta, Text):
-            return None
-        return Phrase("a text ({description})", description=phrase(meta.description))
+        if isinstance(self.given, Pending):
+            number = phrase("is a text")
+            if self.given.unit:
+                what = phrase("curve") if self.given.is_curve else phrase("number")
+                number = Phrase("is a {text} in {unit}", text=what, unit=self.given.unit)
+            needed: str = self._needed(meta)
+            if self.type.startswith("string") and isinstance(meta, Text):
+                needed = Phrase("a text ({description})", description=phrase(meta.description))
+            words = "${{path}} {number}; {needed} is needed here"
+            return Phrase(words, path=self.given.path, number=number, needed=needed)
+        if self.given is None:
+            return Phrase("has no value; {needed} is needed, or remove the key", needed=self._needed(meta))
+        return Phrase("is {given}; {needed} is needed", given=quoted(self.given), needed=self._needed(meta))
 
-    def _needed(self) -> str:
+    def _needed(self, meta: Meta | type[Block] | None) -> str:
         kinds = {"bool": phrase("true or false"), "int": phrase("a whole number"), "float": phrase("a number"),
                  "string": phrase("a text"), "list": phrase("a list"), "dict": phrase("a block of keys"),
                  "model": phrase("a block of keys")}  # fmt: skip
-        known = kinds.get(self.type.split("_")[0])
-        if known:
+        if known := kinds.get(self.type.split("_")[0]):
             return known
-        meta = declared(self.model, self.key) if self.key else None
         if isinstance(meta, Text):
             return Phrase("another value ({description})", description=phrase(meta.description))
         return phrase("another value")
 
 
-def told(given: Any) -> str:
+def quoted(given: Any) -> str:
     """A given value in a message: texts in quotes and cut where they are long, lists and blocks named only."""
     match given:
         case None:
@@ -292,7 +293,7 @@ def told(given: Any) -> str:
         case bool():
             return str(given).lower()
         case str():
-            return f"“{given}”" if len(given) <= SHOWN else f"“{given[: SHOWN - 1]}…”"
+            return f"“{given}”" if len(given) <= MAX_QUOTED else f"“{given[: MAX_QUOTED - 1]}…”"
         case list():
             return phrase("a list")
         case dict():
@@ -326,86 +327,3 @@ def is_founded(basis: str, note: str) -> bool:
 def weakest(bases: Iterable[str]) -> str:
     """Return the weakest basis; nothing where there are none."""
     return min(bases, key=BASES.index, default="")
-
-
-@dataclass
-class BasisReader:
-    """Takes the blocks of quantities apart: ``data`` has their values, ``place`` where these stand, ``bases`` what they rest on."""
-
-    place: ConfigPlace
-    data: dict[str, Any] = field(default_factory=dict)
-    bases: dict[KeyPath, Basis] = field(default_factory=dict)
-    problems: list[Problem] = field(default_factory=list)
-
-    @staticmethod
-    def read(model: type[Block], data: Mapping[str, Any], place: ConfigPlace) -> BasisReader:
-        """Return what the data of a block say."""
-        reader = BasisReader(place)
-        reader.data = reader._block(model, data, ())
-        return reader
-
-    def _block(self, model: type[Block], data: Mapping[str, Any], key: KeyPath) -> dict[str, Any]:
-        known = keys_of(model)
-        return {
-            name: self._value(known[name], given, (*key, name)) if name in known else given
-            for name, given in data.items()
-        }
-
-    def _value(self, known: Any, given: Any, key: KeyPath) -> Any:
-        if known.block and isinstance(given, list):
-            return [self._inner(known.block, part, (*key, index)) for index, part in enumerate(given)]
-        if known.block:
-            return self._inner(known.block, given, key)
-        if (
-            isinstance(known.meta, Varying)
-            and known.meta.extremes
-            and {"min", "max"} & set(given if isinstance(given, dict) else ())
-        ):
-            return given
-        if isinstance(known.meta, Quantity | CurveInput) and isinstance(given, dict):
-            return self._stated(known.meta.unit, given, key)
-        if isinstance(known.meta, Text) and isinstance(given, dict) and "value" in given:
-            return self._stated("1", given, key)
-        return given
-
-    def _inner(self, model: type[Block], given: Any, key: KeyPath) -> Any:
-        return self._block(model, given, key) if isinstance(given, dict) else given
-
-    def _stated(self, unit: str, given: dict[str, Any], key: KeyPath) -> Any:
-        """The value of a quantity that stands as a block; the block itself where it is not one."""
-        faults = list(self._faults(unit, given, key))
-        self.problems += faults
-        if given.get("value") is None:
-            return 1.0 if faults else given  # what is wrong has been told
-        own = self.place.inner(key)
-        self.place = replace(self.place, listed={**self.place.listed, key: (*own, "value")})
-        if not faults:
-            self.bases[key] = Basis(given.get("basis") or "", given.get("note") or "")
-        return given["value"]
-
-    def _faults(self, unit: str, given: dict[str, Any], key: KeyPath) -> Iterator[Problem]:
-        if given.get("value") is None:
-            words = Phrase(
-                "is a block without a value; write {value: 10 {unit}, basis: assumed}, or the value alone",
-                unit=unit,
-            )
-            yield self.place.problem(key, words.replace("10 1,", "10,"))
-        for name in given:
-            if name not in KEYS:
-                words = Phrase(
-                    "is an unknown key{nearest}. A quantity that stands as a block has {keys}.",
-                    nearest=nearest(name, KEYS),
-                    keys=", ".join(KEYS),
-                )
-                yield self.place.problem((*key, name), words, at_key=True)
-        basis, note = given.get("basis"), given.get("note")
-        if "basis" in given and basis not in BASES:
-            near = nearest(basis, BASES) if isinstance(basis, str) else ""
-            yield self.place.problem(
-                (*key, "basis"),
-                Phrase("is {basis}{near}; allowed: {bases}", basis=told(basis), near=near, bases=", ".join(BASES)),
-            )
-        if note is not None and not isinstance(note, str):
-            yield self.place.problem(
-                (*key, "note"), Phrase("is {note}; a text is needed, in quotes where it is a number", note=told(note))
-            )

@@ -22,7 +22,7 @@ from typing import Any, NoReturn
 
 import yaml
 
-from diecut_report.errors import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT, TOLD, Problem, UserError
+from diecut_report.errors import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_SHOWN, MAX_TEXT, Problem, UserError
 from diecut_report.files import content
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -85,9 +85,9 @@ INVISIBLE = re.compile(
     "\uffa0\ufff0-\ufffb\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e0fff]"
 )
 """What stands in a text unseen: Default_Ignorable_Code_Point of Unicode, marks of annotations, and the empty Braille pattern."""
-HIDDEN = re.compile(f"{CONTROL.pattern}|{INVISIBLE.pattern}|[\x85\u2028\u2029]")
+FORBIDDEN = re.compile(f"{CONTROL.pattern}|{INVISIBLE.pattern}|[\x85\u2028\u2029]")
 """What a decoded text may not hold; an escape may bring NEL, and separators that end a line for some readers and not for others."""
-HIDDEN_IN_KEY = re.compile(f"{HIDDEN.pattern}|[\t\n\r]")
+FORBIDDEN_IN_KEY = re.compile(f"{FORBIDDEN.pattern}|[\t\n\r]")
 """What a decoded key may not hold."""
 
 SEEMING = str.maketrans(
@@ -103,17 +103,13 @@ def seeming_latin(name: str) -> str:
     if not strange or not meant.isascii():
         return ""
     told = ", ".join(f"“{letter}” ({unicodedata.name(letter).lower()})" for letter in dict.fromkeys(strange))
-    return Phrase(
-        "“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}.",
-        name=name,
-        told=told,
-        meant=meant,
-    )
+    words = "“{name}” holds letters that only look Latin: {told}. Write it in Latin letters: {meant}."
+    return Phrase(words, name=name, told=told, meant=meant)
 
 
-def hidden(text: str) -> str:
+def forbidden_character(text: str) -> str:
     """Return the name of a letter that the text of a value may not hold, such as U+001B; "" where there is none."""
-    found = HIDDEN.search(text)
+    found = FORBIDDEN.search(text)
     return f"U+{ord(found[0]):04X}" if found else ""
 
 
@@ -240,8 +236,9 @@ def read(path: Path, raw: bytes | None = None) -> Tree:
         text = raw.decode("utf-8-sig")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
-        words = phrase("The file is not UTF-8 text. Give a YAML file, saved as UTF-8.")
-        raise UserError(Problem(words, str(path), line)) from error
+        raise UserError(
+            Problem(phrase("The file is not UTF-8 text. Give a YAML file, saved as UTF-8."), str(path), line)
+        ) from error
     return _parse(text, str(path), hashlib.sha256(raw).hexdigest())
 
 
@@ -255,8 +252,8 @@ def _parse(text: str, file: str, sha256: str) -> Tree:
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
         advice = phrase("Write it without.") if control[0] > " " else phrase("This is not YAML text. Give a text file.")
-        message = Phrase("The control character U+{ord} stands here. {advice}", ord=f"{ord(control[0]):04X}", advice=advice)  # fmt: skip
-        raise UserError(Problem(message, file, *place))
+        words = "The control character U+{ord} stands here. {advice}"
+        raise UserError(Problem(Phrase(words, ord=f"{ord(control[0]):04X}", advice=advice), file, *place))
     builder = _Builder(file)
     try:
         root = builder.build(yaml.parse(text, Loader=LOADER))
@@ -304,7 +301,7 @@ class _Builder:
             self._anchors[event.anchor] = None
         if isinstance(event, yaml.ScalarEvent):
             if not is_key:
-                self._refuse_hidden("text", HIDDEN.search(event.value), event, path)
+                self._refuse_forbidden("text", FORBIDDEN.search(event.value), event, path)
             node = YamlNode(_position(event), resolved(event.value) if event.implicit[0] else event.value, event.value)
         else:
             node = self._collection(event, path)
@@ -325,7 +322,7 @@ class _Builder:
             advice = phrase("Remove it; put the value in quotes where text is meant.")
             self._report(Phrase("The tag {tag} is not allowed. {advice}", tag=tag, advice=advice), _position(event), path)  # fmt: skip
 
-    def _refuse_hidden(self, what: str, found: re.Match[str] | None, event: Any, path: KeyPath) -> None:
+    def _refuse_forbidden(self, what: str, found: re.Match[str] | None, event: Any, path: KeyPath) -> None:
         """Report what a text holds when it is decoded: escapes within quotes bring what the file itself may not hold."""
         if found:
             words, code = "This {what} holds the invisible character U+{ord}. Write it without.", f"{ord(found[0]):04X}"
@@ -368,8 +365,8 @@ class _Builder:
         """The key as text, with a problem reported if it is not text, a merge key, or a duplicate."""
         key, place = self._node(event, (*path, "?"), is_key=True), _position(event)
         text = key.typed if key.typed is not None else "(a list)" if key.is_list else "(a mapping)"
-        self._refuse_hidden("key", HIDDEN_IN_KEY.search(text), event, path)
-        text = HIDDEN_IN_KEY.sub("\N{REPLACEMENT CHARACTER}", text)  # in what is told of values below it
+        self._refuse_forbidden("key", FORBIDDEN_IN_KEY.search(text), event, path)
+        text = FORBIDDEN_IN_KEY.sub("\N{REPLACEMENT CHARACTER}", text)  # in what is told of values below it
         if not isinstance(key.scalar, str):
             self._report(Phrase("The key {text} is not text. Put it in quotes, or rename it.", text=text or '(empty)'), place, path)  # fmt: skip
         elif text == "<<" and isinstance(event, yaml.ScalarEvent) and event.implicit[0]:
@@ -411,11 +408,9 @@ def with_values(tree: Tree, values: Mapping[KeyPath, Scalar], name: str, heading
     """
     root = tree.root
     for path, value in values.items():
-        if isinstance(value, str) and (found := hidden(value)):
-            words = Phrase(
-                "The value that is to stand here holds the invisible character {found}; it is not taken.", found=found
-            )
-            raise UserError(Problem(words, tree.file, path=".".join(map(str, path))))
+        if isinstance(value, str) and (found := forbidden_character(value)):
+            words = "The value that is to stand here holds the invisible character {found}; it is not taken."
+            raise UserError(Problem(Phrase(words, found=found), tree.file, path=".".join(map(str, path))))
         root = _with_value(root, path, value)
     text = f"# {heading}\n{as_text(root)}"
     return Tree(root, tree.file, text, hashlib.sha256(text.encode()).hexdigest(), name)
@@ -487,7 +482,7 @@ def too_much(tree: Tree) -> list[Problem]:
     """Return what a config holds too much of, in words; the first of them where there are many."""
     found: list[Problem] = []
     for path, message in _excess(tree.data, ()):
-        if len(found) == TOLD:
+        if len(found) == MAX_SHOWN:
             return found
         line, column = tree.position(path)
         found.append(Problem(message, tree.file, line, column, _shown(path)))
@@ -497,44 +492,24 @@ def too_much(tree: Tree) -> list[Problem]:
 def _excess(data: Any, path: KeyPath) -> Iterator[tuple[KeyPath, str]]:
     match data:
         case str() if len(data) > MAX_TEXT:
-            yield (
-                path,
-                Phrase(
-                    "has {count} characters; at most {max_text} are allowed. Shorten it.",
-                    count=len(data),
-                    max_text=MAX_TEXT,
-                ),
-            )
+            words = "has {count} characters; at most {max_text} are allowed. Shorten it."
+            yield (path, Phrase(words, count=len(data), max_text=MAX_TEXT))
         case dict():
             if path == ("mechanisms",) and len(data) > MAX_MECHANISMS:
-                yield (
-                    path,
-                    Phrase(
-                        "has {count} mechanisms; at most {max_mechanisms} are allowed. Split the configuration.",
-                        count=len(data),
-                        max_mechanisms=MAX_MECHANISMS,
-                    ),
-                )
+                words = "has {count} mechanisms; at most {max_mechanisms} are allowed. Split the configuration."
+                yield (path, Phrase(words, count=len(data), max_mechanisms=MAX_MECHANISMS))
                 return
             for key, part in data.items():
                 if len(key) > MAX_TEXT:
-                    yield (
-                        (*path, key),
-                        Phrase(
-                            "is a key of {count} characters; at most {max_text} are allowed. Shorten it.",
-                            count=len(key),
-                            max_text=MAX_TEXT,
-                        ),
-                    )
+                    words = "is a key of {count} characters; at most {max_text} are allowed. Shorten it."
+                    yield ((*path, key), Phrase(words, count=len(key), max_text=MAX_TEXT))
                 else:
                     yield from _excess(part, (*path, key))
         case list():
             most = MAX_PARTS if any(isinstance(part, dict | list) for part in data) else MAX_CURVE_VALUES
             if len(data) > most:
-                yield (
-                    path,
-                    Phrase("has {count} entries; at most {most} are allowed. Give fewer.", count=len(data), most=most),
-                )
+                words = "has {count} entries; at most {most} are allowed. Give fewer."
+                yield (path, Phrase(words, count=len(data), most=most))
                 return
             for index, part in enumerate(data):
                 yield from _excess(part, (*path, index))

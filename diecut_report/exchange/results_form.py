@@ -12,10 +12,10 @@ from typing import Annotated, Any, Literal, NoReturn
 from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
 from pydantic_core import ErrorDetails
 
-from diecut_report.config.own_tables import MOST as MOST_TABLES
+from diecut_report.config.own_tables import MAX_FILES as MOST_TABLES
 from diecut_report.config.yaml import CONTROL
-from diecut_report.errors import MAX_TEXT, TOLD, Problem, UserError
-from diecut_report.pictures import MOST as MOST_OF_PICTURE
+from diecut_report.errors import MAX_SHOWN, MAX_TEXT, Problem, UserError
+from diecut_report.pictures import MAX_BYTES as MOST_OF_PICTURE
 from diecut_report.pictures import media_type
 from diecut_report.results.form import FORM_VERSION, SCHEMA_VERSION
 from diecut_report.text.phrases import Phrase, phrase
@@ -227,7 +227,7 @@ def results_of(content: bytes, file: str) -> dict[str, Any]:
         ResultsForm.model_validate(found)
     except ValidationError as error:
         faults = error.errors(include_url=False)
-        problems = [Problem(_words(fault), file, path=_path(fault["loc"])) for fault in faults[:TOLD]]
+        problems = [Problem(_words(fault), file, path=_path(fault["loc"])) for fault in faults[:MAX_SHOWN]]
         why = other_form(found)
         raise UserError([*([Problem(why, file)] if why else []), *problems]) from None
     _refuse_hidden(found, file)

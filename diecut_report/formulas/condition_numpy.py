@@ -63,7 +63,7 @@ def _condition(node: Node, value_of: ValueOf) -> JudgedRows:
         case Joined(word, parts):
             return _joined(word, [_condition(part, value_of) for part in parts])
         case Missing(of):
-            missing = _missing(of, value_of)
+            missing = _same(_texts(of, value_of), None) if is_text(of) else np.isnan(_sizes(of, value_of))
             return JudgedRows(missing, ~missing)
         case Like(text, pattern):
             return _like(_texts(text, value_of), pattern)
@@ -81,12 +81,6 @@ def _joined(word: str, parts: list[JudgedRows]) -> JudgedRows:
     for part in parts[1:]:
         holds, fails = for_holds(holds, part.holds), for_fails(fails, part.fails)
     return JudgedRows(holds, fails)
-
-
-def _missing(node: Node, value_of: ValueOf) -> Array:
-    if is_text(node):
-        return _same(_texts(node, value_of), None)
-    return np.isnan(_sizes(node, value_of))
 
 
 def _sizes(node: Node, value_of: ValueOf) -> Array:

@@ -93,7 +93,7 @@ class ConditionPart:
 def number(value: float, place: int) -> ConditionPart:
     """Return a plain number as a part."""
     if not np.isfinite(value):
-        raise ConditionError(phrase("the condition holds a number that is too large to calculate with."), place)
+        raise ConditionError("the condition holds a number that is too large to calculate with.", place)
     return ConditionPart(Number(value), "quantity", place, bare=True, typed=f"{value:g}")
 
 
@@ -110,9 +110,8 @@ def quantity(part: ConditionPart, beside: ConditionPart | None = None) -> Condit
     if part.what == "quantity":
         return part
     if not isinstance(part.node, TextLiteral):
-        words = Phrase("{shown} is a {what}; a quantity is needed to calculate with or to compare by size.", shown=part.shown,
-            what=part.what)  # fmt: skip
-        raise ConditionError(words, part.place)
+        words = "{shown} is a {what}; a quantity is needed to calculate with or to compare by size."
+        raise ConditionError(words, part.place, shown=part.shown, what=part.what)
     name = beside.name if beside else None
     wanted = unit(name.display or name.unit) if name else None
     try:
@@ -127,9 +126,9 @@ def quantity(part: ConditionPart, beside: ConditionPart | None = None) -> Condit
 def condition(part: ConditionPart, needed_by: str) -> Node:
     """Return the node of a part that is to be a condition; ``needed_by`` says why."""
     if part.what == "text":
-        raise ConditionError(Phrase("{shown} stands alone; compare it with a text in quotes.", shown=part.shown), part.place)  # fmt: skip
+        raise ConditionError("{shown} stands alone; compare it with a text in quotes.", part.place, shown=part.shown)  # fmt: skip
     if part.what != "condition":
-        raise ConditionError(Phrase("{shown} is not a condition; {needed_by}.", shown=part.shown, needed_by=needed_by), part.place)  # fmt: skip
+        raise ConditionError("{shown} is not a condition; {needed_by}.", part.place, shown=part.shown, needed_by=needed_by)  # fmt: skip
     return part.node
 
 
@@ -158,9 +157,8 @@ def _pair(sign: str, left: ConditionPart, right: ConditionPart) -> Node:
         return Compared(sign, left.node, right.node)
     if "text" in whats:
         other = next(part.what for part in (left, right) if part.what not in ("text", "quoted"))
-        words = Phrase("{shown} and {shown_2} are a text and a {other}; put texts in quotes.", shown=left.shown, shown_2=right.shown,
-            other=other)  # fmt: skip
-        raise ConditionError(words, right.place)
+        words = "{shown} and {shown_2} are a text and a {other}; put texts in quotes."
+        raise ConditionError(words, right.place, shown=left.shown, shown_2=right.shown, other=other)
     left, right = quantity(left, right), quantity(right, left)
     _alike(left, right, sign)
     return Compared(sign, left.node, right.node)
@@ -169,7 +167,7 @@ def _pair(sign: str, left: ConditionPart, right: ConditionPart) -> Node:
 def like(text: ConditionPart, pattern: ConditionPart) -> ConditionPart:
     """Return whether a text is like a pattern in quotes."""
     if text.what != "text" or not isinstance(pattern.node, TextLiteral) or not isinstance(text.node, ColumnName):
-        words = phrase("'like' compares a column of words with a pattern in quotes, such as 'drive.%'.")
+        words = "'like' compares a column of words with a pattern in quotes, such as 'drive.%'."
         raise ConditionError(words, pattern.place)
     return ConditionPart(Like(text.node, pattern.node.value), "condition", text.place)
 
@@ -214,20 +212,19 @@ def raised(base: ConditionPart, power: ConditionPart) -> ConditionPart:
     """Return a power; its exponent must be known where the base has a unit."""
     base, power = quantity(base), quantity(power)
     if power.kind != NUMBER:
-        words = Phrase("the exponent {shown} is {kind}; a number is needed.", shown=power.shown, kind=_kind(power))
-        raise ConditionError(words, power.place)
+        words = "the exponent {shown} is {kind}; a number is needed."
+        raise ConditionError(words, power.place, shown=power.shown, kind=_kind(power))
     constant = _constant(power.node)
     if base.exact and (constant is None or not constant.is_integer()):
-        words = Phrase("the exponent {shown} is not a whole number that is written here; take sqrt(…) for a root.", shown=power.shown)  # fmt: skip
-        raise ConditionError(words, power.place)
+        words = "the exponent {shown} is not a whole number that is written here; take sqrt(…) for a root."
+        raise ConditionError(words, power.place, shown=power.shown)
     node = Power(base.node, power.node)
     if base.kind == NUMBER:
         return ConditionPart(node, "quantity", base.place, bare=base.bare and power.bare, loose=True)
     exponent = _constant(power.node)
     if exponent is None or not abs(exponent) <= MAX_EXPONENT:
-        words = Phrase("the exponent of {shown} must be a number between -{max_exponent} and {max_exponent}.", shown=base.shown,
-            max_exponent=MAX_EXPONENT)  # fmt: skip
-        raise ConditionError(words, power.place)
+        words = "the exponent of {shown} must be a number between -{max_exponent} and {max_exponent}."
+        raise ConditionError(words, power.place, shown=base.shown, max_exponent=MAX_EXPONENT)
     return ConditionPart(
         node, "quantity", base.place, tuple(round(exponent * share, 9) for share in base.kind), loose=True
     )
@@ -246,7 +243,7 @@ def called(name: str, given: Sequence[ConditionPart], place: int) -> ConditionPa
     parts = [quantity(part) for part in given]
     if not parts or (len(parts) > 1 and name in ("abs", "sqrt")):
         wanted = phrase("one quantity") if name in ("abs", "sqrt") else phrase("one quantity or more")
-        raise ConditionError(Phrase("{name} takes {wanted}; {count} given.", name=name, wanted=wanted, count=len(parts)), place)  # fmt: skip
+        raise ConditionError("{name} takes {wanted}; {count} given.", place, name=name, wanted=wanted, count=len(parts))  # fmt: skip
     whole = reduce(lambda one, two: _alike(one, two, name), parts)
     bare, loose = all(part.bare for part in parts), any(part.loose for part in parts)
     made = replace(
@@ -271,13 +268,11 @@ def _alike(left: ConditionPart, right: ConditionPart, sign: str) -> ConditionPar
         if alike(left.kind, right.kind):
             common = right if left.bare else left
             return common if left.kind == right.kind else replace(common, kind=without_angle(common.kind))
-        raise ConditionError(Phrase("{unlike}; {sign} needs the same kind on both sides.", unlike=_unlike(left, right), sign=sign),
-            right.place)  # fmt: skip
+        raise ConditionError("{unlike}; {sign} needs the same kind on both sides.", right.place, unlike=_unlike(left, right), sign=sign)  # fmt: skip
     is_loose = left.loose or right.loose
     if left.kind == right.kind or (is_loose and without_angle(left.kind) == without_angle(right.kind)):
         return right if left.bare else left
-    raise ConditionError(Phrase("{unlike}; {sign} needs the same kind on both sides.", unlike=_unlike(left, right), sign=sign),
-        right.place)  # fmt: skip
+    raise ConditionError("{unlike}; {sign} needs the same kind on both sides.", right.place, unlike=_unlike(left, right), sign=sign)  # fmt: skip
 
 
 def _bare(
@@ -288,14 +283,19 @@ def _bare(
     if bare.exact:
         own = pretty(other.name.display) if other.name and other.name.display else phrase("its unit")
         words = "{kinds}the number {shown} beside {other} needs {unit}."
-        return ConditionError(Phrase(words, kinds=kinds, shown=bare.shown, other=other.shown, unit=own), bare.place)
+        return ConditionError(words, bare.place, kinds=kinds, shown=bare.shown, other=other.shown, unit=own)
     if other.name is None or not other.name.display:
-        words = Phrase("{kinds}{sign} needs the same kind on both sides. Quote the quantity with its unit.", kinds=kinds, sign=sign)  # fmt: skip
-        return ConditionError(words, bare.place)
+        words = "{kinds}{sign} needs the same kind on both sides. Quote the quantity with its unit."
+        return ConditionError(words, bare.place, kinds=kinds, sign=sign)
     example = f"'{bare.typed or 5} {other.name.display}'"
-    words = Phrase("{kinds}a number beside {name} needs {pretty}, for example {example}.", kinds=kinds, name=other.name.name, pretty=pretty(
-        other.name.display), example=example)  # fmt: skip
-    return ConditionError(words, bare.place)
+    return ConditionError(
+        "{kinds}a number beside {name} needs {pretty}, for example {example}.",
+        bare.place,
+        kinds=kinds,
+        name=other.name.name,
+        pretty=pretty(other.name.display),
+        example=example,
+    )
 
 
 def _unlike(left: ConditionPart, right: ConditionPart) -> str:
@@ -311,7 +311,7 @@ def _kind(part: ConditionPart) -> str:
 # Reads a condition: what Python parsed becomes a tree, each part judged as it joins the others.
 
 
-DEEPEST = 100  # levels of a tree
+MAX_DEPTH = 100  # levels of a tree
 Find = Callable[[str], Name]
 """What a name stands for; ConditionError in words where it stands for nothing."""
 _ARITHMETIC: dict[type[ast.operator], str] = {ast.Add: "+", ast.Sub: "-", ast.Mult: "*", ast.Div: "/"}
@@ -342,11 +342,9 @@ class ConditionReader:
         return replace(found, exact=True) if self.exact else found
 
     def _part(self, at: ast.expr, depth: int) -> ConditionPart:
-        if depth > DEEPEST:
-            words = Phrase(
-                "the condition is nested deeper than {deepest} levels. Write several conditions.", deepest=DEEPEST
-            )
-            raise ConditionError(words, self._place(at))
+        if depth > MAX_DEPTH:
+            words = "the condition is nested deeper than {deepest} levels. Write several conditions."
+            raise ConditionError(words, self._place(at), deepest=MAX_DEPTH)
         match at:
             case ast.Name():
                 return self._leaf(at)
@@ -372,10 +370,8 @@ class ConditionReader:
 
     def _unfit(self, at: ast.expr) -> ConditionError:
         word = self.whole.word(at)
-        return ConditionError(
-            Phrase("{shown} does not fit here; use brackets. Allowed: {allowed}.", shown=word.shown, allowed=ALLOWED),
-            word.place,
-        )
+        words = "{shown} does not fit here; use brackets. Allowed: {allowed}."
+        return ConditionError(words, word.place, shown=word.shown, allowed=ALLOWED)
 
     # --- names, numbers, texts ---
 
@@ -397,13 +393,8 @@ class ConditionReader:
         word = self.whole.word(at)
         if word.text not in FUNCTIONS:
             near = nearest(word.text, FUNCTIONS)
-            words = Phrase(
-                "there is no function {text}{near}; known: {functions}.",
-                text=repr(word.text),
-                near=near,
-                functions=", ".join(FUNCTIONS),
-            )
-            raise ConditionError(words, word.place)
+            words = "there is no function {text}{near}; known: {functions}."
+            raise ConditionError(words, word.place, text=repr(word.text), near=near, functions=", ".join(FUNCTIONS))
         return word.text
 
     # --- arithmetic ---
@@ -527,17 +518,13 @@ def read_expression(text: str, find: Find) -> Expression:
         whole = parsed_words(calculation(text))
         made = quantity(ConditionReader(whole, find, exact=True).part(whole.body, 0))
     except ConditionError as fault:
-        raise ConditionError(_of_expression(fault.words), fault.place) from None
+        text_of_fault: str = fault.words  # which tells of conditions
+        for of_condition, of_expression in WORDS:
+            text_of_fault = text_of_fault.replace(of_condition, of_expression)
+        raise ConditionError(text_of_fault, fault.place) from None
     if not names(made.node):
-        raise ConditionError(phrase("the expression refers to nothing; write the value itself."), 0)
+        raise ConditionError("the expression refers to nothing; write the value itself.", 0)
     return Expression(text.strip(), made.node, made.kind)
-
-
-def _of_expression(words: str) -> str:
-    """Words of the grammar, which tell of conditions."""
-    for of_condition, of_expression in WORDS:
-        words = words.replace(of_condition, of_expression)
-    return words
 
 
 def _faults(node: Node, value_of: Callable[[str], Any]) -> Iterator[str]:

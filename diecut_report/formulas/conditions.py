@@ -18,17 +18,17 @@ from __future__ import annotations
 import ast
 import re
 from bisect import bisect_right
-from collections.abc import Collection, Sequence
+from collections.abc import Callable, Collection, Sequence
 from dataclasses import dataclass
 from typing import NoReturn
 
 from diecut_report.quantities.units import DIMENSIONS, Kind, Unit, kind_name, si_text, unit
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase, message, phrase
 
 # The words of a condition, or of an expression, where each stands, and the error that tells of a fault there.
 
 
-MOST_LETTERS, MOST_WORDS, DEEPEST = 20_000, 400, 40  # of a condition; brackets in each other
+MAX_LENGTH, MAX_WORDS, MAX_BRACKETS = 20_000, 400, 40  # of a condition; brackets in each other
 KEYWORDS = ("and", "or", "not", "in", "is", "null", "between", "like", "true", "false")
 FUNCTIONS = ("abs", "min", "max", "sqrt")
 ALLOWED = (
@@ -65,9 +65,9 @@ _SORTS = {"reference": "name", "quantity": "text", "number": "number", "sign": "
 class ConditionError(ValueError):
     """Report a condition that cannot be used: words that say why and what to write instead; ``place`` counts its letters from 0."""
 
-    def __init__(self, words: str, place: int | None = None) -> None:
-        super().__init__(words)
-        self.words, self.place = words, place
+    def __init__(self, template: str, place: int | None = None, /, **values: object) -> None:
+        self.words, self.place = message(template, values), place
+        super().__init__(self.words)
 
     def __str__(self) -> str:
         where = "" if self.place is None else Phrase(" (At character {place}.)", place=self.place + 1)
@@ -93,15 +93,17 @@ class Token:
 
 def calculation(given: str) -> list[Token]:
     """Split an expression of a configuration into its words, the end among them: references are names, quantities texts."""
-    found, place = [], _past_blanks(given, 0)
+    too_long = phrase("the expression has more than {most_words} words. Write it shorter.")
+    return _split(given, lambda place: _calculated(given, place), too_long)
+
+
+def _split(given: str, word_at: Callable[[int], tuple[Token, int]], too_long: str) -> list[Token]:
+    found, place = list[Token](), _past_blanks(given, 0)
     while place < len(given):
-        token, end = _calculated(given, place)
+        token, end = word_at(place)
         found.append(token)
-        if len(found) > MOST_WORDS:
-            raise ConditionError(
-                Phrase("the expression has more than {most_words} words. Write it shorter.", most_words=MOST_WORDS),
-                place,
-            )
+        if len(found) > MAX_WORDS:
+            raise ConditionError(too_long, place, most_words=MAX_WORDS)
         place = _past_blanks(given, end)
     return [*found, Token("end", phrase("the end"), len(given))]
 
@@ -111,13 +113,13 @@ def _calculated(given: str, place: int) -> tuple[Token, int]:
     if match is None:
         raise _not_allowed(given, place, CALCULATED)
     if match["comma"]:
-        words = Phrase(
-            "“{match}” holds a comma; write a decimal point, or a blank after a comma that parts two values.",
-            match=match[0],
-        )
-        raise ConditionError(words, place)
+        words = "“{match}” holds a comma; write a decimal point, or a blank after a comma that parts two values."
+        raise ConditionError(words, place, match=match[0])
     if match["word"]:
-        return _function(match, given)
+        if not given[match.end() :].lstrip().startswith("("):
+            advice = phrase("a value of the configuration stands as ${NAME.KEY}, a unit behind its number")
+            raise ConditionError("{match} is not expected here; {advice}.", place, match=repr(match[0]), advice=advice)
+        return _worded(match[0], place, is_called=True), match.end()
     text = f"${{{match['path'].strip()}}}" if match["reference"] else match[0]
     sort = next(sort for group, sort in _SORTS.items() if match[group])
     return Token(sort, text, place), match.end()
@@ -126,54 +128,26 @@ def _calculated(given: str, place: int) -> tuple[Token, int]:
 def _not_allowed(given: str, place: int, allowed: str) -> ConditionError:
     """What tells of letters that are no word, with what may stand there."""
     letters = repr(given[place : place + 10])
-    return ConditionError(
-        Phrase("{given} is not allowed here; allowed: {allowed}.", given=letters, allowed=allowed), place
-    )
-
-
-def _function(match: re.Match[str], given: str) -> tuple[Token, int]:
-    """Return a word, which is a function or a fault."""
-    if not given[match.end() :].lstrip().startswith("("):
-        advice = phrase("a value of the configuration stands as ${NAME.KEY}, a unit behind its number")
-        raise ConditionError(
-            Phrase("{match} is not expected here; {advice}.", match=repr(match[0]), advice=advice), match.start()
-        )
-    return Token(
-        "function", match[0].lower() if match[0].lower() in FUNCTIONS else match[0], match.start()
-    ), match.end()
+    return ConditionError("{given} is not allowed here; allowed: {allowed}.", place, given=letters, allowed=allowed)
 
 
 def tokens(given: str, known: Collection[str]) -> list[Token]:
     """Split a condition into its words, the end among them; known names are taken whole, whatever they are made of."""
-    if len(given) > MOST_LETTERS:
-        words = Phrase(
-            "the condition has {count} characters; at most {most_letters} are allowed. Write several conditions.",
-            count=len(given),
-            most_letters=MOST_LETTERS,
-        )
-        raise ConditionError(words)
+    if len(given) > MAX_LENGTH:
+        words = "the condition has {count} characters; at most {most_letters} are allowed. Write several conditions."
+        raise ConditionError(words, count=len(given), most_letters=MAX_LENGTH)
     whole = re.compile("(" + "|".join(map(re.escape, sorted(known, key=len, reverse=True))) + r")(?![\w.])")
-    found, place = [], _past_blanks(given, 0)
-    while place < len(given):
-        name = whole.match(given, place) if known else None
-        token, end = (_known(name), name.end()) if name else _token(given, place, known)
-        found.append(token)
-        if len(found) > MOST_WORDS:
-            words = Phrase(
-                "the condition has more than {most_words} words. Write several conditions.", most_words=MOST_WORDS
-            )
-            raise ConditionError(words, place)
-        place = _past_blanks(given, end)
-    return [*found, Token("end", phrase("the end"), len(given))]
+
+    def word_at(place: int) -> tuple[Token, int]:
+        if name := whole.match(given, place) if known else None:
+            return _worded(name[0], place, is_called=False), name.end()
+        return _token(given, place, known)
+
+    return _split(given, word_at, phrase("the condition has more than {most_words} words. Write several conditions."))
 
 
 def _past_blanks(given: str, place: int) -> int:
     return len(given) - len(given[place:].lstrip())
-
-
-def _known(match: re.Match[str]) -> Token:
-    word = match[0].lower()
-    return Token("keyword", word, match.start()) if word in KEYWORDS else Token("name", match[0], match.start())
 
 
 def _token(given: str, place: int, known: Collection[str]) -> tuple[Token, int]:
@@ -181,28 +155,18 @@ def _token(given: str, place: int, known: Collection[str]) -> tuple[Token, int]:
     if match is None:
         raise _not_allowed(given, place, ALLOWED)
     if match["quantity"]:
-        words = Phrase(
-            "“{quantity}”: put a quantity in quotes: '{value} {unit}'.",
-            quantity=match["quantity"],
-            value=match["value"],
-            unit=match["unit"],
-        )
-        raise ConditionError(words, place)
-    return _sorted(match, given, known), match.end()
-
-
-def _sorted(match: re.Match[str], given: str, known: Collection[str]) -> Token:
-    """Return the word of a match, with its sort."""
-    text, place = match[0], match.start()
+        words = "“{quantity}”: put a quantity in quotes: '{value} {unit}'."
+        raise ConditionError(words, place, quantity=match["quantity"], value=match["value"], unit=match["unit"])
+    text = match[0]
     if match["quoted"]:
         inside = text[1:-1].replace(text[0] * 2, text[0])
-        return Token("name" if text[0] == '"' and inside in known else "text", inside, place)
+        return Token("name" if text[0] == '"' and inside in known else "text", inside, place), match.end()
     if match["word"]:
-        return _worded(text, place, given[match.end() :].lstrip().startswith("("))
-    return Token("name" if match["path"] else "number" if match["number"] else "sign", text, place)
+        return _worded(text, place, is_called=given[match.end() :].lstrip().startswith("(")), match.end()
+    return Token("name" if match["path"] else "number" if match["number"] else "sign", text, place), match.end()
 
 
-def _worded(text: str, place: int, is_called: bool) -> Token:
+def _worded(text: str, place: int, *, is_called: bool) -> Token:
     lower = text.lower()
     if lower in KEYWORDS:
         return Token("keyword", lower, place)
@@ -269,7 +233,7 @@ class _GrammarWriter:
     def pieces(self) -> list[str]:
         """The Python text of each word; the end has an empty one."""
         if self.next.sort == "end":
-            raise ConditionError(phrase("the condition is empty; write a comparison."), 0)
+            raise ConditionError("the condition is empty; write a comparison.", 0)
         is_operand_next = True
         while self.next.sort != "end":
             is_operand_next = self._before_value() if is_operand_next else self._after_value()
@@ -283,12 +247,11 @@ class _GrammarWriter:
         self.at += 1
 
     def _lack(self) -> NoReturn:
-        raise ConditionError(
-            Phrase("{operand} is missing before {shown}.", operand=OPERAND, shown=self.next.shown), self.next.place
-        )
+        words = "{operand} is missing before {shown}."
+        raise ConditionError(words, self.next.place, operand=OPERAND, shown=self.next.shown)
 
     def _unexpected(self) -> ConditionError:
-        return ConditionError(Phrase("{shown} is not expected here.", shown=self.next.shown), self.next.place)
+        return ConditionError("{shown} is not expected here.", self.next.place, shown=self.next.shown)
 
     def _is(self, *wanted: str) -> bool:
         return self.next.sort in ("keyword", "sign") and self.next.text in wanted
@@ -314,10 +277,8 @@ class _GrammarWriter:
 
     def _opened(self, sort: str, bracket: str) -> bool:
         self.open.append(_Bracket(sort))
-        if len(self.open) > DEEPEST + 1:
-            raise ConditionError(
-                phrase("brackets stand too deep in each other. Write several conditions."), self.next.place
-            )
+        if len(self.open) > MAX_BRACKETS + 1:
+            raise ConditionError("brackets stand too deep in each other. Write several conditions.", self.next.place)
         self._write(bracket)
         return True
 
@@ -332,7 +293,10 @@ class _GrammarWriter:
         elif (sign := _SIGNS.get(word.text, word.text)) in _JOINING and word.sort == "sign":
             self._write(sign)
         elif self._is(","):
-            self._comma()
+            self._decided()
+            if self.open[-1].sort not in ("call", "list"):
+                raise self._unexpected()
+            self._write(",")
         elif self._is(")"):
             self._close(")")
             return False
@@ -349,7 +313,7 @@ class _GrammarWriter:
             self.written.append("")
             self.at += 1
             if not self._is("in", "between", "like"):
-                raise ConditionError(phrase("'in', 'between' or 'like' is missing after 'not'."), self.next.place)
+                raise ConditionError("'in', 'between' or 'like' is missing after 'not'.", self.next.place)
         if self._is("between"):
             self.open[-1].waiting += 1
             self._write("is " + negated)
@@ -373,22 +337,14 @@ class _GrammarWriter:
 
     def _need(self, wanted: str) -> None:
         if not self._is(wanted):
-            raise ConditionError(
-                Phrase("{wanted} is missing before {shown}.", wanted=repr(wanted), shown=self.next.shown),
-                self.next.place,
-            )
-
-    def _comma(self) -> None:
-        self._decided()
-        if self.open[-1].sort not in ("call", "list"):
-            raise self._unexpected()
-        self._write(",")
+            words = "{wanted} is missing before {shown}."
+            raise ConditionError(words, self.next.place, wanted=repr(wanted), shown=self.next.shown)
 
     def _close(self, by: str) -> None:
         self._decided()
         closed = self.open.pop()
         if by == "end" and closed.sort != "whole":
-            raise ConditionError(Phrase("')' is missing before {shown}.", shown=self.next.shown), self.next.place)
+            raise ConditionError("')' is missing before {shown}.", self.next.place, shown=self.next.shown)
         if by == ")" and closed.sort == "whole":
             raise self._unexpected()
         if by == ")":
@@ -396,10 +352,8 @@ class _GrammarWriter:
 
     def _decided(self) -> None:
         if self.open[-1].waiting:
-            raise ConditionError(
-                Phrase("'and' is missing before {shown}: write between … and ….", shown=self.next.shown),
-                self.next.place,
-            )
+            words = "'and' is missing before {shown}: write between … and …."
+            raise ConditionError(words, self.next.place, shown=self.next.shown)
 
 
 # The kinds of quantities in conditions and expressions, in words.

@@ -172,19 +172,16 @@ def instead(node: ast.AST, value: object) -> str:
         case ast.Call(func=ast.Name(id=name) | ast.Attribute(value=ast.Name(id="math"), attr=name)) if name in OF_NUMPY:
             return Phrase("write np.{of_numpy}, which takes arrays too", of_numpy=OF_NUMPY[name])
         case ast.Name(id=name) if isinstance(value, int | float) and not isinstance(value, bool):
-            return Phrase(
+            words = (
                 "write the number itself, or bind it: bind(…, {name}={value}), or make it one of the constants, "
-                "Constant(value, symbol, unit), which are printed with their symbols",
-                name=name,
-                value=format(value, "g"),
+                "Constant(value, symbol, unit), which are printed with their symbols"
             )
+            return Phrase(words, name=name, value=format(value, "g"))
     return LISTED
 
 
-GREAT, SHORT = (
-    1e5,
-    4,
-)  # a number from which zeros are not counted, and letters of what then stands before the power of ten
+PLAIN_BELOW = 1e5  # numbers from here on are printed as a power of ten
+MAX_MANTISSA_LENGTH = 4  # letters before the power of ten, less than these
 
 
 class Formula:
@@ -303,9 +300,8 @@ class _BodyReader:
                     continue  # the docstring
                 case _:
                     raise self._refuse(statement)
-        raise FormulaError(
-            Phrase("{place}: formula {name} returns nothing", place=self.owner.place, name=self.owner.__name__)
-        )
+        words = "{place}: formula {name} returns nothing"
+        raise FormulaError(Phrase(words, place=self.owner.place, name=self.owner.__name__))
 
     def _statements(self) -> list[ast.stmt]:
         try:
@@ -430,10 +426,10 @@ class _BodyReader:
 def _literal(value: float) -> str:
     """A number of a formula's body as it is printed: a great power of ten as such, not with its zeros and a decimal."""
     text = repr(value)
-    if not text.endswith(".0") or abs(value) < GREAT:
+    if not text.endswith(".0") or abs(value) < PLAIN_BELOW:
         return text
     mantissa, power = f"{Decimal(value).normalize():e}".split("e")
-    return f"{mantissa}e{int(power)}" if len(mantissa) < SHORT else f"{value:.0f}"
+    return f"{mantissa}e{int(power)}" if len(mantissa) < MAX_MANTISSA_LENGTH else f"{value:.0f}"
 
 
 # Computing a tree as it is printed.

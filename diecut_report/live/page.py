@@ -14,7 +14,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.design.inputs import DesignChoice, DesignInput
 from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, refusal
 from diecut_report.live.session import LiveMachine, LiveSession
 from diecut_report.machine.figure_views import shown_figures
 from diecut_report.quantities.plausible import plausible
@@ -25,14 +25,14 @@ from diecut_report.report.text import Catalogue, figure_translated, quantity, ti
 from diecut_report.results.checks import NOT_CHECKED
 from diecut_report.results.press_run import Tell
 from diecut_report.study.execution.press_batch import untold
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import catalogues_spoken, localised, said, say, spoken_language
 
 # What a live page gets of a session, as plain data: verdict, faults, and of each mechanism its inputs, checks and key numbers.
 
 
 Data = dict[str, Any]
-TOLD = 20  # faults that the page shows
+MAX_FAULTS = 20  # faults that the page shows
 REACH = 0.5  # of its size, to each side of a value: where a slider ends unless the input ends before
 WHOLE_REACH = 10  # to each side of a whole number
 STEPS = 200  # of a slider
@@ -45,8 +45,8 @@ def page_data(session: LiveSession) -> Data:
         "serial": session.serial,
         "file": session.file.name,
         "edits": dict(session.edits),
-        "faults": [_fault(problem) for problem in session.faults[:TOLD]],
-        "more_faults": max(0, len(session.faults) - TOLD),
+        "faults": [_fault(problem) for problem in session.faults[:MAX_FAULTS]],
+        "more_faults": max(0, len(session.faults) - MAX_FAULTS),
         "machine": None if machine is None or start is None else _machine(machine, start, session.edits),
     }
 
@@ -64,13 +64,11 @@ def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str])
         "conclusion": said(run.summary["conclusion"]),
         "is_open": run.is_open,
         "start": {"status": start.run.status, "summary": start.run.summary},
-        "mechanisms": [_mechanism(name, machine, start, edits) for name in _names(machine)],
+        "mechanisms": [
+            _mechanism(name, machine, start, edits)
+            for name in (PRESS, *(each for each in machine.config.instances if each != PRESS))
+        ],
     }
-
-
-def _names(machine: LiveMachine) -> Iterator[str]:
-    yield PRESS
-    yield from (name for name in machine.config.instances if name != PRESS)
 
 
 def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str]) -> Data:
@@ -101,11 +99,11 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
         "skipped": not is_there,
         "checks": [_check(each, kind, before.get(each["id"])) for each in run.checks.get(name, ()) if each["class"] != "numerical"],
         "outputs": list(_outputs(name, kind, machine, start)) if is_there else [],
-        "figures": [_told(title, kind) for title in run.figure_titles(name)] if is_there else [],
+        "figures": [_text(title, kind) for title in run.figure_titles(name)] if is_there else [],
     }  # fmt: skip
 
 
-def _told(text: object, kind: str) -> str:
+def _text(text: object, kind: str) -> str:
     """A text of a plugin of this kind as the page shows it."""
     return tidy(localised(said(text if isinstance(text, str) else "", kind)))
 
@@ -119,11 +117,7 @@ def _inputs(name: str, machine: LiveMachine) -> list[DesignInput | DesignChoice]
 
 def _choice(asked: DesignChoice, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
     first = start.choices.get(asked.name)
-    return {
-        "name": asked.name,
-        "path": asked.asked.path,
-        "text": _told(asked.asked.meta.description, kind),
-        "symbol": asked.asked.meta.symbol,
+    return _named(asked, asked.asked.meta, kind) | {
         "unit": "",
         "typed": edits.get(asked.name) or asked.typed,
         "start": first.typed if first else "",
@@ -136,11 +130,7 @@ def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str
     low, high = slider(asked)
     own = unit(asked.unit)
     first = start.inputs.get(asked.name)
-    return {
-        "name": asked.name,
-        "path": asked.asked.path,
-        "text": _told(asked.meta.description, kind),
-        "symbol": asked.meta.symbol,
+    return _named(asked, asked.meta, kind) | {
         "unit": "" if asked.unit == "1" else asked.unit,
         "value": _plain(own.from_si(asked.today)),
         "typed": edits.get(asked.name) or asked.typed(asked.today),
@@ -149,6 +139,11 @@ def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str
         "high": _plain(own.from_si(high)),
         "whole": asked.is_whole,
     }
+
+
+def _named(asked: DesignInput | DesignChoice, meta: Any, kind: str) -> Data:
+    text = _text(meta.description, kind)
+    return {"name": asked.name, "path": asked.asked.path, "text": text, "symbol": meta.symbol}
 
 
 def slider(asked: DesignInput) -> tuple[float, float]:
@@ -176,12 +171,12 @@ def _check(check: Mapping[str, Any], kind: str, before: Mapping[str, Any] | None
     ratio = check.get("utilisation")
     return {
         "id": check["id"],
-        "title": _told(check["title"], kind),
+        "title": _text(check["title"], kind),
         "class": check["class"],
         "status": check["status"],
         "utilisation": ratio if isinstance(ratio, int | float) and math.isfinite(ratio) else None,
-        "message": _told(check.get("message"), kind),
-        "advice": _told(check.get("advice"), kind),
+        "message": _text(check.get("message"), kind),
+        "advice": _text(check.get("advice"), kind),
         "start_status": before["status"] if before else "",
         "start_utilisation": before.get("utilisation") if before else None,
     }
@@ -193,7 +188,7 @@ def _outputs(name: str, kind: str, machine: LiveMachine, start: LiveMachine) -> 
         first = before.get(key)
         yield {
             "id": key,
-            "text": _told(output["description"], kind),
+            "text": _text(output["description"], kind),
             "symbol": output["symbol"],
             "shown": _shown(output),
             "start": "" if first is None else _shown(first),
@@ -226,7 +221,7 @@ class Pictures:
     def figure(self, machine: LiveMachine, mechanism: str, index: int) -> Data:
         """Return a figure: ``plot`` with its panels and rows of numbers, or ``svg``; UserError where there is none, or it cannot be drawn."""
         if mechanism not in machine.run.calculations or not 0 <= index < len(machine.run.figure_titles(mechanism)):
-            raise UserError(Problem(Phrase("There is no figure {n} of {name}.", n=index, name=repr(mechanism))))
+            raise refusal("There is no figure {n} of {name}.", n=index, name=repr(mechanism))
         figure = _pictures_of_run_shown(machine, mechanism, index)
         known = self._drawn.get((mechanism, index))
         if known is None or known[0] is not figure:
@@ -240,7 +235,7 @@ def _pictures_of_run_shown(machine: LiveMachine, mechanism: str, index: int) -> 
     declared = shown_figures(machine.run.calculations[mechanism])[index]
     found = next((figure for figure in machine.run.figures(mechanism) if figure["id"] == declared.id), None)
     if found is None:
-        raise UserError(Problem(Phrase("{title}: there is nothing of this machine to show.", title=declared.title)))
+        raise refusal("{title}: there is nothing of this machine to show.", title=declared.title)
     return found
 
 
@@ -261,9 +256,7 @@ def _drawn(figure: Data, curves: Data, mechanism: str, index: int) -> Data:
             return {"plot": readings}
         return {"svg": render(figure, curves, words, f"{mechanism}-{index}").text}
     except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
-        raise UserError(
-            Problem(Phrase("This figure cannot be drawn: {reason}", reason=f"{type(cause).__name__}: {cause}"))
-        ) from cause
+        raise refusal("This figure cannot be drawn: {reason}", reason=f"{type(cause).__name__}: {cause}") from cause
 
 
 # The words that the script of the live page says, by the names that it has for them; they come with the page as data.
@@ -354,7 +347,7 @@ def effect(machine: LiveMachine, name: str, tell: Tell = untold) -> Data:
     """
     asked = machine.inputs.get(name)
     if asked is None:
-        raise UserError(Problem(Phrase("{name} is not a number that the file gives.", name=repr(name))))
+        raise refusal("{name} is not a number that the file gives.", name=repr(name))
     places = _places(asked)
     moved = narrowed(machine.config, downstream(machine.config, asked.asked.instance))
     found = varied(moved, {asked.asked: places}, len(places), tell=tell)

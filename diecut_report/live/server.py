@@ -25,10 +25,10 @@ from starlette.routing import Route
 from uvicorn.protocols.http.h11_impl import H11Protocol, RequestResponseCycle
 from watchfiles import awatch
 
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, UserError, refusal
 from diecut_report.live.page import Pictures, assets, effect, page, page_data
 from diecut_report.live.session import LiveMachine, LiveReports, LiveSession, in_time
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import said, say
 
 # What the live page asks for and is told: an application of Starlette around one session, which one thread works on.
@@ -274,7 +274,7 @@ HEADERS = {
     "cross-origin-resource-policy": "same-origin",
     "cache-control": "no-store",
 }
-LARGEST = 200_000  # bytes of what a page sends
+MAX_BODY_BYTES = 200_000  # bytes of what a page sends
 READING = ("GET", "HEAD")
 BODY_SECONDS = 10.0  # within which each part of what a page sends has to come
 
@@ -317,7 +317,7 @@ class Guard:
             return 0 if scope["method"] in READING and (is_own or is_opened) else 403
         if origin not in {f"http://{host}" for host in self.hosts}:
             return 403
-        return 413 if int(headers.get("content-length") or 0) > LARGEST else 0
+        return 413 if int(headers.get("content-length") or 0) > MAX_BODY_BYTES else 0
 
 
 class _BoundedBody:
@@ -335,7 +335,7 @@ class _BoundedBody:
             return self._broken_off()
         self.taken += len(message.get("body", b""))
         self.is_whole = not message.get("more_body", False)
-        return self._broken_off() if self.taken > LARGEST else message
+        return self._broken_off() if self.taken > MAX_BODY_BYTES else message
 
     def _broken_off(self) -> Message:
         self.is_whole = self.is_broken_off = True
@@ -429,5 +429,5 @@ def _bound(port: int) -> socket.socket:
         is_taken = error.errno == errno.EADDRINUSE
         why = phrase("another program has it") if is_taken else (error.strerror or f"{error.errno}")
         words = "The port {port} of this machine cannot be had: {why}. Leave --port out, and a free one is taken."
-        raise UserError(Problem(Phrase(words, port=port, why=why))) from error
+        raise refusal(words, port=port, why=why) from error
     return found

@@ -17,18 +17,18 @@ from diecut_report.config.plugins import Discovery, said
 from diecut_report.config.references import as_file, rewritten
 from diecut_report.config.yaml import KeyPath, Tree
 from diecut_report.design.inputs import DesignChoice, DesignInput, given_choices, given_numbers
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.files import write
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.results.warm_press import WarmPress, WarmRun
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import phrase
 from diecut_report.time_limit import PATIENCE as SESSION_PATIENCE
 from diecut_report.time_limit import Overran, limited
 
 Data = dict[str, Any]
-LONGEST = 100  # letters of a number that is typed on the page
-MOST_EDITS = 1_000
+MAX_TYPED_LENGTH = 100  # letters of a number that is typed on the page
+MAX_EDITS = 1_000
 
 
 @dataclass(frozen=True)
@@ -99,9 +99,8 @@ class LiveSession:
         """Take values of the page, as typed, by the names of their inputs; UserError where one is not a value of its input."""
         machine = self._changeable()
         taken = {name: self._judged(machine, name, typed.strip()) for name, typed in changes.items()}
-        if len(self.edits.keys() | taken.keys()) > MOST_EDITS:
-            words = "At most {n} numbers can be changed before they are written to the file."
-            raise UserError(Problem(Phrase(words, n=MOST_EDITS)))
+        if len(self.edits.keys() | taken.keys()) > MAX_EDITS:
+            raise refusal("At most {n} numbers can be changed before they are written to the file.", n=MAX_EDITS)
         for name, typed in taken.items():
             self._places[name] = (machine.inputs.get(name) or machine.choices[name]).stands
             self.edits[name] = typed
@@ -122,8 +121,8 @@ class LiveSession:
         """
         self.read()  # as it stands now, whatever the editor has saved meanwhile
         if self.faults or self.tree is None:
-            words = phrase("Nothing is written, as this cannot be calculated; undo a change, or fix the file first.")
-            raise UserError(Problem(words, str(self.file)))
+            words = "Nothing is written, as this cannot be calculated; undo a change, or fix the file first."
+            raise refusal(words, self.file)
         tree, text = self.tree, rewritten(self.tree, self._edited()).text
         if text != tree.text:
             write(self.file.resolve(), as_file(tree, text), instead_of=tree.sha256)
@@ -135,8 +134,7 @@ class LiveSession:
 
     def _changeable(self) -> LiveMachine:
         if self.machine is None:
-            words = phrase("Nothing can be changed before the file can be calculated.")
-            raise UserError(Problem(words, str(self.file)))
+            raise refusal("Nothing can be changed before the file can be calculated.", self.file)
         return self.machine
 
     def _judged(self, machine: LiveMachine, name: str, typed: str) -> str:
@@ -144,10 +142,10 @@ class LiveSession:
             return _chosen(machine.choices[name], typed)
         asked = machine.inputs.get(name)
         if asked is None:
-            raise UserError(Problem(Phrase("{name} is not a number that the file gives.", name=repr(name))))
+            raise refusal("{name} is not a number that the file gives.", name=repr(name))
         try:
-            if len(typed) > LONGEST:
-                raise UnitError(Phrase("has more than {n} letters", n=LONGEST))
+            if len(typed) > MAX_TYPED_LENGTH:
+                raise UnitError("has more than {n} letters", n=MAX_TYPED_LENGTH)
             parse_quantity(typed, asked.meta.unit)
         except UnitError as fault:
             raise UserError(Problem(str(fault), str(self.file), path=asked.asked.path)) from None
@@ -204,19 +202,15 @@ def in_time(file: Path) -> Iterator[None]:
         with limited(SESSION_PATIENCE):
             yield
     except Overran as cause:
-        words = Phrase(
-            "it did not come back within {seconds} s ({said})", seconds=f"{SESSION_PATIENCE:g}", said=said(cause)
-        )
-        raise UserError(Problem(words, str(file))) from cause
+        words = "it did not come back within {seconds} s ({said})"
+        raise refusal(words, file, seconds=f"{SESSION_PATIENCE:g}", said=said(cause)) from cause
 
 
 def _chosen(asked: DesignChoice, typed: str) -> str:
     """One of the values that a choice has; UserError with them where it is another."""
     if typed not in asked.options:
         words = "{given} is not a value of {name}; allowed: {options}."
-        raise UserError(
-            Problem(Phrase(words, given=repr(typed[:LONGEST]), name=asked.name, options=", ".join(asked.options)))
-        )
+        raise refusal(words, given=repr(typed[:MAX_TYPED_LENGTH]), name=asked.name, options=", ".join(asked.options))
     return typed
 
 
@@ -255,12 +249,8 @@ class LiveReports:
     async def made(self, results: dict[str, Any], form: str) -> MadeReport:
         """Return the report of these results as ``html`` or ``pdf``; UserError in the words of the command where it cannot be made."""
         if form not in MEDIA_TYPES:
-            raise UserError(
-                Problem(
-                    Phrase(
-                        "{form} is not a format here; there are {known}.", form=repr(form), known=", ".join(MEDIA_TYPES)
-                    )
-                )
+            raise refusal(
+                "{form} is not a format here; there are {known}.", form=repr(form), known=", ".join(MEDIA_TYPES)
             )
         async with self._one:
             with tempfile.TemporaryDirectory(prefix="diecut-report-") as folder:
@@ -296,8 +286,8 @@ class LiveReports:
             process.kill()
             await process.wait()
             words = "The report was not made within {seconds} s, and was given up."
-            raise UserError(Problem(Phrase(words, seconds=f"{PATIENCE:g}"))) from None
+            raise refusal(words, seconds=f"{PATIENCE:g}") from None
         files = list((folder / "made").glob(f"*.{form}"))
         if not files:
-            raise UserError(Problem(told.decode(errors="replace").strip() or phrase("The report was not made.")))
+            raise refusal(told.decode(errors="replace").strip() or phrase("The report was not made."))
         return files[0].read_bytes()

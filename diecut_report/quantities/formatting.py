@@ -13,7 +13,7 @@ from diecut_report.quantities.units import pretty, unit
 # How a value is shown where nobody chose its unit: in the unit of its family in which it is easy to read, and no finer than it means.
 
 
-LEAST, MOST = 0.1, 1e4  # a number is easy to read from the one to below the other
+EASY_FROM, EASY_BELOW = 0.1, 1e4  # a number is easy to read from the one to below the other
 FAMILIES = (
     ("um", "mm", "m"),
     ("N", "kN", "MN"),
@@ -48,17 +48,23 @@ def easy_unit(value: float, declared: str) -> str:
     if "N" in family and math.isfinite(value) and not is_nothing(value, "N"):
         return next(name for name, most in FORCES if abs(value) < most)
     number = abs(value) / factor
-    if not family or not math.isfinite(number) or number == 0 or LEAST <= number < MOST or is_nothing(value, declared):
+    if (
+        not family
+        or not math.isfinite(number)
+        or number == 0
+        or EASY_FROM <= number < EASY_BELOW
+        or is_nothing(value, declared)
+    ):
         return declared
-    if number < LEAST:
+    if number < EASY_FROM:
         if _is_short(number):
             return declared
         smaller = [each for each in family if unit(each).factor < factor]
-        fitting = (each for each in reversed(smaller) if abs(value) / unit(each).factor >= LEAST)
+        fitting = (each for each in reversed(smaller) if abs(value) / unit(each).factor >= EASY_FROM)
         return next(fitting, smaller[0] if smaller else declared)
     greater = [each for each in family if unit(each).factor > factor]
     return next(
-        (each for each in greater if abs(value) / unit(each).factor < MOST), greater[-1] if greater else declared
+        (each for each in greater if abs(value) / unit(each).factor < EASY_BELOW), greater[-1] if greater else declared
     )
 
 
@@ -71,7 +77,7 @@ def _family(declared: str) -> tuple[tuple[str, ...], float]:
 
 def _is_short(number: float) -> bool:
     """Whether a number is one that somebody wrote: 0.05, but not 0.02591, nor 0.000002."""
-    return number >= LEAST / 100 and abs(float(f"{number:.{SHORT - 1}e}") - number) <= 1e-12 * number
+    return number >= EASY_FROM / 100 and abs(float(f"{number:.{SHORT - 1}e}") - number) <= 1e-12 * number
 
 
 def is_nothing(value: float, unit_text: str) -> bool:

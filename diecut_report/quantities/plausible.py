@@ -69,22 +69,15 @@ class Plausible:
     def __post_init__(self) -> None:
         given: tuple[object, ...] = (self.least, self.most)  # by an author, who may have written numbers
         if not all(isinstance(text, str) for text in given):
-            raise UnitError(
-                Phrase(
-                    "{least} and {most} are not plausible sizes; give two texts, such as 1 mm and 10 m.",
-                    least=repr(self.least),
-                    most=repr(self.most),
-                )
-            )
+            words = "{least} and {most} are not plausible sizes; give two texts, such as 1 mm and 10 m."
+            raise UnitError(words, least=repr(self.least), most=repr(self.most))
 
     @cached_property
     def kind(self) -> Kind:
         """The kind of quantity that both ends are of; UnitError where they differ."""
         least, most = (unit(number_and_unit(text)[1] or "1").kind for text in (self.least, self.most))
         if least != most:
-            raise UnitError(
-                Phrase("{least} and {most} are different kinds of quantity.", least=self.least, most=self.most)
-            )
+            raise UnitError("{least} and {most} are different kinds of quantity.", least=self.least, most=self.most)
         return least
 
     @cached_property
@@ -93,13 +86,8 @@ class Plausible:
         wanted = [number_and_unit(text)[1] or "1" for text in (self.least, self.most)]
         least, most = (parse_quantity(text, own) for text, own in zip((self.least, self.most), wanted, strict=True))
         if not 0 < least < most:
-            raise UnitError(
-                Phrase(
-                    "{least} to {most} is not a range of sizes; give two above zero, the lesser first.",
-                    least=self.least,
-                    most=self.most,
-                )
-            )
+            words = "{least} to {most} is not a range of sizes; give two above zero, the lesser first."
+            raise UnitError(words, least=self.least, most=self.most)
         return least, most
 
     def holds(self, values: Any) -> Any:
@@ -111,7 +99,7 @@ class Plausible:
     @property
     def told(self) -> str:
         """The range in words: ``1 µm to 100 m``."""
-        return Phrase("{told} to {told_2}", told=_told(self.least), told_2=_told(self.most))
+        return Phrase("{told} to {told_2}", told=_size_text(self.least), told_2=_size_text(self.most))
 
 
 def without_rounding(values: Any, unit_text: str) -> Any:
@@ -123,7 +111,7 @@ def without_rounding(values: Any, unit_text: str) -> Any:
     return np.where(np.abs(values) < NOTHING * plausible(unit_text).ends[0], 0.0, values)[()]
 
 
-def _told(text: str) -> str:
+def _size_text(text: str) -> str:
     number, own = number_and_unit(text)
     return f"{float(number):.7g} {pretty(own or '1')}".rstrip()
 

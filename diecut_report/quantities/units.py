@@ -20,8 +20,7 @@ from pathlib import Path
 from typing import Any
 
 from diecut_report.errors import MAX_QUANTITY
-from diecut_report.quantities.pint_registry import pint_registry
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import MessageError, Phrase, phrase
 
 # The usual spellings of units ("kg·m²", "kg m^2", "Nm", "m/s2") and the one that the program looks up ("kg*m**2").
 
@@ -81,7 +80,7 @@ MAX_UNIT_LENGTH = 60
 Kind = tuple[float, ...]
 
 
-class UnitError(ValueError):
+class UnitError(MessageError, ValueError):
     """A unit or a quantity that cannot be used; the text says why and what to write instead."""
 
 
@@ -175,9 +174,10 @@ def _read_with_pint(canonical: str, typed: str) -> Unit:
     readable = len(canonical) <= MAX_UNIT_LENGTH and _GRAMMAR.fullmatch(canonical)
     measured = measure_with_pint(canonical) if readable else None
     if measured is None:
-        words = "{text} is not a known unit.{suggestion}"
         raise UnitError(
-            Phrase(words, text=_shortened(typed), suggestion=suggestion(typed[:MAX_UNIT_LENGTH], _table()["units"]))
+            "{text} is not a known unit.{suggestion}",
+            text=_shortened(typed),
+            suggestion=suggestion(typed[:MAX_UNIT_LENGTH], _table()["units"]),
         )
     factor, kind = measured
     return Unit(canonical, factor, si_text(kind), kind)
@@ -214,9 +214,22 @@ _SI_PREFIX = "quetta|ronna|yotta|zetta|exa|peta|tera|giga|mega|kilo|hecto|dec[ai
 _MISTYPED = re.compile(rf"(?:{_SI_PREFIX})(?:minute|hour|day|week|month|year|inch|foot|percent)")  # 1/hh is a slip
 
 
+@cache
+def _pint_registry() -> Any:
+    """Pint's own definitions with the radian as a base unit, in exact fractions; to read them takes about half a second."""
+    from fractions import Fraction
+
+    import pint
+
+    folder = Path(pint.__file__).parent
+    constants = (folder / "constants_en.txt").read_text(encoding="utf-8")
+    text = (folder / "default_en.txt").read_text(encoding="utf-8").replace("@import constants_en.txt", constants)
+    return pint.UnitRegistry(text.replace("radian = []", "radian = [angle]").splitlines(), non_int_type=Fraction)
+
+
 def measure_with_pint(text: str) -> tuple[float, Kind] | None:
     """SI factor and kind of a unit by pint; None for what pint does not know, or no float can hold. UnitError for a shifted zero (degC)."""
-    registry: Any = pint_registry()
+    registry = _pint_registry()
     try:
         units = registry.parse_units(text)
         one, two = (registry.Quantity(number, units).to_base_units().magnitude for number in (1, 2))
@@ -225,7 +238,7 @@ def measure_with_pint(text: str) -> tuple[float, Kind] | None:
     if any(_MISTYPED.fullmatch(name) for name, _ in registry.Quantity(1, units).unit_items()):
         return None
     if two != 2 * one:
-        raise UnitError(Phrase("{text} has no fixed zero; give a temperature difference in K.", text=text))
+        raise UnitError("{text} has no fixed zero; give a temperature difference in K.", text=text)
     exponents = {str(name).strip("[]"): float(power) for name, power in units.dimensionality.items()}
     if not exponents.keys() <= set(DIMENSIONS):
         return None
@@ -251,7 +264,7 @@ def parse_quantity(value: int | float | str, unit_text: str) -> float:
     try:
         return _finite(unit(unit_text).to_si(float(value)), f"{value:g}" if isinstance(value, float) else phrase("The number"))  # fmt: skip
     except OverflowError:
-        raise UnitError(phrase("The number is too large to calculate with.")) from None
+        raise UnitError("The number is too large to calculate with.") from None
 
 
 @lru_cache(maxsize=4096)
@@ -272,7 +285,7 @@ def _own_unit(text: str, wanted: Unit) -> Unit:
 
 
 def _unfit(text: str, fault: str, wanted: Unit | None) -> UnitError:
-    return UnitError(Phrase("{text} {fault}; {needed}.", text=text, fault=fault, needed=_needed(wanted)))
+    return UnitError("{text} {fault}; {needed}.", text=text, fault=fault, needed=_needed(wanted))
 
 
 def _and_needed(fault: object, wanted: Unit | None) -> str:
@@ -291,7 +304,7 @@ def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str
     match = _QUANTITY.fullmatch(text)
     if re.match(r"[+-]?[0-9]*,[0-9]", text) or (match and re.match(r",\s*[0-9]", match[2])):
         words = "{text} holds a comma; write a decimal point and no thousands separator."
-        raise UnitError(Phrase(words, text=_shortened(text)))
+        raise UnitError(words, text=_shortened(text))
     if match is None:
         raise _unfit(_shortened(text), phrase("does not begin with a finite number"), wanted)
     own = match[2].strip().removeprefix("*").strip()
@@ -304,7 +317,7 @@ def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str
 
 def _finite(value: float, typed: str) -> float:
     if not math.isfinite(value):
-        raise UnitError(Phrase("{typed} is not a finite number, or too large to calculate with.", typed=typed))
+        raise UnitError("{typed} is not a finite number, or too large to calculate with.", typed=typed)
     return value
 
 

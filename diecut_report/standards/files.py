@@ -68,7 +68,7 @@ def table_beside(plugin: str, name: str) -> StandardTable:
         wrong = error.errors()[0]
         key = str(wrong["loc"][0]) if wrong["loc"] else ""
         place = f"{file.name}:{keys[key]}" if key in keys else file.name
-        told = _told(key, wrong["type"], is_csv=file.suffix == ".csv")
+        told = _key_fault(key, wrong["type"], is_csv=file.suffix == ".csv")
         raise _of_file(Phrase("{place}: {fault}", place=place, fault=told)) from error
     except _OddLine as odd:
         raise _of_file(Phrase("{place}: {fault}", place=f"{file.name}:{odd.line}", fault=odd.words)) from None
@@ -85,7 +85,7 @@ class _OddLine(Exception):
         self.line, self.words = line, words
 
 
-def _told(key: str, kind: str, *, is_csv: bool) -> str:
+def _key_fault(key: str, kind: str, *, is_csv: bool) -> str:
     """What is wrong with a key of a table, and what it must be."""
     if not key:
         return phrase("it is not written as a table: title, sources and rows are needed")
@@ -93,12 +93,8 @@ def _told(key: str, kind: str, *, is_csv: bool) -> str:
         line = Phrase("write a line # {key}: … above the columns", key=key) if is_csv else WANTED[key]
         return Phrase("{key} is missing; {wanted}", key=key, wanted=line)
     if key not in WANTED:
-        return Phrase(
-            "{key} is not a key of a table{near}; known: {known}",
-            key=key,
-            near=nearest(key, WANTED),
-            known=", ".join(WANTED),
-        )
+        words = "{key} is not a key of a table{near}; known: {known}"
+        return Phrase(words, key=key, near=nearest(key, WANTED), known=", ".join(WANTED))
     return Phrase("{key} is something else than it must be; {wanted}", key=key, wanted=WANTED[key])
 
 
@@ -185,9 +181,8 @@ def _judged(spoken: list[tuple[int, str, str]]) -> dict[str, int]:
             known = ", ".join(f"# {each}:" for each in OF_CSV)
             raise _OddLine(number, Phrase(words, word=word, near=nearest(word, OF_CSV), known=known))
         if word in lines and word != "source":
-            raise _OddLine(
-                number, Phrase("“# {word}:” stands in line {line} already; write it once", word=word, line=lines[word])
-            )
+            words = "“# {word}:” stands in line {line} already; write it once"
+            raise _OddLine(number, Phrase(words, word=word, line=lines[word]))
         lines[word] = number
     return lines
 
@@ -305,13 +300,8 @@ def in_range(values: Sequence[float], limits: list[float]) -> None:
         raise ValueError(phrase("has no values"))
     for before, after in pairwise(values):
         if not before < after:
-            raise ValueError(
-                Phrase(
-                    "must ascend without repetition, but {after} follows {before}",
-                    after=format(after, "g"),
-                    before=format(before, "g"),
-                )
-            )
+            words = "must ascend without repetition, but {after} follows {before}"
+            raise ValueError(Phrase(words, after=format(after, "g"), before=format(before, "g")))
     if [values[0], values[-1]] != limits:
         raise ValueError(
             Phrase(
@@ -329,9 +319,8 @@ def data_file(id: str, folder: Path) -> AnyData:
     """Return what stands in the file of an id; StandardFault where there is none or it cannot be trusted."""
     names = {path.stem: path for path in folder.glob("*.json")}
     if id not in names:
-        raise StandardFault(
-            Phrase("There is no standard series {id}; there are: {names}.", id=repr(id), names=", ".join(sorted(names)))
-        )
+        words = "There is no standard series {id}; there are: {names}."
+        raise StandardFault(words, id=repr(id), names=", ".join(sorted(names)))
     try:
         data = json.loads(names[id].read_text(encoding="utf-8"), object_pairs_hook=_file_forms_once)
     except ValueError as error:
@@ -353,7 +342,7 @@ def form_of(file: AnyData) -> str:
 
 def fault(id: str, what: str, cause: Exception | None = None) -> NoReturn:
     """Raise StandardFault with what is wrong with a series."""
-    raise StandardFault(Phrase("Standard series {id} {what}.", id=repr(id), what=what)) from cause
+    raise StandardFault("Standard series {id} {what}.", id=repr(id), what=what) from cause
 
 
 def _file_forms_once(pairs: list[tuple[str, Any]]) -> dict[str, Any]:

@@ -10,10 +10,10 @@ from types import MappingProxyType
 from typing import Any, NoReturn
 
 from diecut_report.quantities.units import UnitError, unit
-from diecut_report.text.phrases import Phrase, joined, phrase
+from diecut_report.text.phrases import MessageError, Phrase, joined, phrase
 
 
-class StandardFault(ValueError):
+class StandardFault(MessageError, ValueError):
     """Report a series or table that cannot be trusted, or an id that no file has; the text says which and what to fix.
 
     ``row`` is the number of the row at fault, from 0; of a file beside a plugin the text ``tells_place``, with the line.
@@ -95,14 +95,8 @@ class StandardTable:
         known = {column.name: column for column in self.columns}
         if name not in known:
             asked = Phrase("has no column {name}", name=repr(name)) if name else phrase("has several columns; name one")
-            raise StandardFault(
-                Phrase(
-                    "The table “{title}” {asked}; it has {known}.",
-                    title=self.title,
-                    asked=asked,
-                    known=", ".join(known),
-                )
-            )
+            words = "The table “{title}” {asked}; it has {known}."
+            raise StandardFault(words, title=self.title, asked=asked, known=", ".join(known))
         return known[name]
 
     def by_name(self, column: str = "") -> Mapping[str, float]:
@@ -169,13 +163,7 @@ def own_table(
 
 
 def own_series(
-    *,
-    title: str,
-    unit: str,
-    values: Sequence[float],
-    sources: Sequence[str],
-    left_out: str = "",
-    only_source: str = "",
+    *, title: str, unit: str, values: Sequence[float], sources: Sequence[str], left_out: str = "", only_source: str = ""
 ) -> StandardSeries:
     """Return a standard series that an author brings, checked as ``own_table`` checks; its values ascend."""
     _texts(title, sources, only_source)
@@ -262,6 +250,6 @@ def _ascending(title: str, columns: Sequence[Column], least: int = 2) -> None:
 
 
 def _fault(title: str, what: str, cause: Exception | None = None, row: int | None = None) -> NoReturn:
-    found = StandardFault(Phrase("The table “{title}” {what}.", title=title, what=what))
+    found = StandardFault("The table “{title}” {what}.", title=title, what=what)
     found.row = row
     raise found from cause

@@ -24,20 +24,6 @@ from diecut_report.testing.values import (
 )
 
 __all__ = [
-    "CheckFound",
-    "ComparedValue",
-    "ComparedValues",
-    "ContractTest",
-    "CurveFound",
-    "MechanismFound",
-    "NotGiven",
-    "PhaseFound",
-    "PrintedValue",
-    "QuantityFound",
-    "Refused",
-    "calculate",
-    "check_contract",
-    "check_mechanism",
-    "compare",
-    "load",
-]
+    "CheckFound", "ComparedValue", "ComparedValues", "ContractTest", "CurveFound", "MechanismFound", "NotGiven", "PhaseFound",
+    "PrintedValue", "QuantityFound", "Refused", "calculate", "check_contract", "check_mechanism", "compare", "load",
+]  # fmt: skip

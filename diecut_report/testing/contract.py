@@ -20,7 +20,7 @@ from diecut_report.config.plugins import Discovery, Origin, said
 from diecut_report.declaration import faults, faults_at_load
 from diecut_report.declaration.dimensions import at_place, by_id
 from diecut_report.declaration.formula_checks import doubts, forms, idle_inputs, printing, quantities
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.files import content, write_all
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Impossible, Unproven
@@ -34,7 +34,7 @@ from diecut_report.results.document import document
 from diecut_report.results.press_run import Run, compute
 from diecut_report.testing import machines
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
-from diecut_report.testing.machines import Keys, MachineCase, WithMechanism, configured, one_of, unlike
+from diecut_report.testing.machines import Keys, MachineCase, configured, one_of, unlike, with_mechanism
 from diecut_report.testing.plugin_words import PluginWords
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, built_in, file_beside, languages
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
@@ -46,7 +46,7 @@ from diecut_report.time_limit import Overran, limited
 
 RuleStatus = Literal["pass", "note", "not_tried", "fail", "broke"]
 WORST_LAST = ("pass", "not_tried", "note", "fail", "broke")
-TOLD = 5  # faults of a rule that a short list tells
+MAX_LISTED = 5  # faults of a rule that a short list tells
 TITLES = {
     "declaration": phrase("Declarations"),
     "dimensions": phrase("Dimensions of formulas"),
@@ -73,7 +73,7 @@ class TriedRule:
 
     id: str
     status: RuleStatus
-    told: str = ""
+    summary: str = ""
     faults: tuple[str, ...] = ()
 
     @property
@@ -84,18 +84,18 @@ class TriedRule:
     @property
     def short_list(self) -> tuple[str, ...]:
         """Return the first faults, and how many more there are."""
-        left = len(self.faults) - TOLD
+        left = len(self.faults) - MAX_LISTED
         if left <= 0:
             return self.faults
         if self.status == "note":
-            return (*self.faults[:TOLD], Counted(left, "{n} more note", "{n} more notes"))
-        return (*self.faults[:TOLD], Counted(left, "{n} more fault", "{n} more faults"))
+            return (*self.faults[:MAX_LISTED], Counted(left, "{n} more note", "{n} more notes"))
+        return (*self.faults[:MAX_LISTED], Counted(left, "{n} more fault", "{n} more faults"))
 
 
-def rule(id: str, told: str, faults: Iterable[str], otherwise: RuleStatus = "fail") -> TriedRule:
+def rule(id: str, summary: str, faults: Iterable[str], otherwise: RuleStatus = "fail") -> TriedRule:
     """Return a rule that passes where there is no fault; of many faults the first thousand."""
     found = tuple(dict.fromkeys(islice(faults, 1000)))
-    return TriedRule(id, otherwise if found else "pass", told, found)
+    return TriedRule(id, otherwise if found else "pass", summary, found)
 
 
 # Checks whose verdict is the same for every machine that was tried: can they fail, or hold, at all?
@@ -115,7 +115,7 @@ def constant(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str,
         tried += AT_ONCE
         if time.process_time() - began > CONSTANT_VERDICTS_LONGEST or all(len(held) == 2 for held in found.values()):
             break
-    yield from ((id, _told(held.pop(), tried)) for id, held in found.items() if len(held) == 1)
+    yield from ((id, _constant_verdict(held.pop(), tried)) for id, held in found.items() if len(held) == 1)
 
 
 def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str, set[bool]]]:
@@ -132,7 +132,7 @@ def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str
             yield check.id, set(judgement.governing(judgement.held)[rows].tolist())
 
 
-def _told(holds: bool, count: int) -> Phrase:
+def _constant_verdict(holds: bool, count: int) -> Phrase:
     words = (
         "holds in all of {n} machines far from the example; make sure that it can fail"
         if holds
@@ -164,8 +164,7 @@ def _varied(machine: MachineCase, count: int, seed: int) -> dict[str, Array]:
 TOGETHER, ALONE, SEED = 16, 4, 3  # machines at once, and those of them that are calculated alone too
 FAR = 400  # machines of which each is far from the example
 TIMED, TIMED_ALONE = 1000, 5  # variants whose time is measured; where they are slow, so few
-LONGEST = 600.0  # seconds of a rule: a plugin may never come back
-DECLARED = ("declaration", "dimensions", "printed", "inputs", "doubts")
+MAX_RULE_SECONDS = 600.0  # seconds of a rule: a plugin may never come back
 
 
 @dataclass
@@ -193,34 +192,26 @@ class ContractTest:
 
     def tried(self) -> Iterator[TriedRule]:
         """Yield each rule with what was found; what needs a sound declaration or a machine is not tried without."""
-        first = self.tried_alone("declaration")
-        yield first
-        if first.status != "pass":
-            yield from self._left(list(TITLES)[1:])
-            return
-        for id in DECLARED[1:]:
-            yield self.tried_alone(id)
-        rest = list(TITLES)[len(DECLARED) :]
-        example = self.tried_alone("example")
-        yield example
-        if example.status != "pass":
-            yield from self._left(rest[1:])
-            return
-        for id in rest[1:]:
-            yield self.tried_alone(id)
-
-    def _left(self, ids: Iterable[str]) -> Iterator[TriedRule]:
-        yield from (TriedRule(id, "not_tried", phrase("not tried before what is above holds")) for id in ids)
+        is_tried = True
+        for id in TITLES:
+            if is_tried:
+                found = self.tried_alone(id)
+                is_tried = found.status == "pass" or id not in ("declaration", "example")
+                yield found
+            else:
+                yield TriedRule(id, "not_tried", phrase("not tried before what is above holds"))
 
     def tried_alone(self, id: str) -> TriedRule:
         """Return what one rule finds; where the plugin breaks in it, that is its fault."""
         tried: Callable[[], TriedRule] = getattr(self, id)
         try:
-            with limited(LONGEST), warnings.catch_warnings():
+            with limited(MAX_RULE_SECONDS), warnings.catch_warnings():
                 warnings.simplefilter("ignore", RuntimeWarning)  # of NumPy: what comes out is judged, not on the way
                 return tried()
         except Overran as cause:
-            words = Phrase("it did not come back within {seconds} s ({said})", seconds=f"{LONGEST:g}", said=said(cause))
+            words = Phrase(
+                "it did not come back within {seconds} s ({said})", seconds=f"{MAX_RULE_SECONDS:g}", said=said(cause)
+            )
             return rule(id, "", [words], "broke")
         except UserError as refused:
             return rule(id, "", [str(problem) for problem in refused.problems])
@@ -235,9 +226,9 @@ class ContractTest:
             "steps: {steps}, checks: {checks}, figures: {figures}", steps=len(self.mechanism.steps),
             checks=len(self.mechanism.checks), figures=len(self.mechanism.figures),
         )  # fmt: skip
-        tried = (
-            faults if _is_built_in(self.mechanism) else faults_at_load
-        )  # what comes with the program imports itself by its name
+        own = built_in(self.mechanism.kind)
+        is_built_in = own is not None and Path(self.mechanism.at).is_relative_to(own.parent)
+        tried = faults if is_built_in else faults_at_load  # what comes with the program imports itself by its name
         return rule("declaration", told, map(str, tried(self.mechanism)))
 
     def dimensions(self) -> TriedRule:
@@ -327,7 +318,7 @@ class ContractTest:
         assert self.config is not None
         found = TriedExtremes(self.config, self.name, self.discovery)
         faults = [at_place(self.mechanism, input_of(path), words) for path, words in found.faults()]
-        return rule("hostile", found.told, faults)
+        return rule("hostile", found.summary, faults)
 
     def figures(self) -> TriedRule:
         """Try whether all figures are drawn, and set the chapter."""
@@ -379,9 +370,11 @@ class ContractTest:
     def _as_given(self, language: str) -> str:
         """Which sources a report in a language leaves as they are."""
         found = self.words.sources_as_given(language)
-        named = "; ".join(found[:TOLD])
-        more = Counted(len(found) - TOLD, " and {n} other", " and {n} others") if len(found) > TOLD else ""
-        return (found and Phrase("; sources that stay as they are given: {named}{more}", named=named, more=more)) or ""
+        if not found:
+            return ""
+        more = Counted(len(found) - MAX_LISTED, " and {n} other", " and {n} others") if len(found) > MAX_LISTED else ""
+        words = "; sources that stay as they are given: {named}{more}"
+        return Phrase(words, named="; ".join(found[:MAX_LISTED]), more=more)
 
     def speed(self) -> TriedRule:
         """Tell how long a thousand variants take, as far as the mechanism itself is concerned."""
@@ -398,11 +391,6 @@ class ContractTest:
         return rule("speed", _seconds(time.process_time() - began), [])
 
 
-def _is_built_in(mechanism: Mechanism) -> bool:
-    own = built_in(mechanism.kind)
-    return own is not None and Path(mechanism.at).is_relative_to(own.parent)
-
-
 def _seconds(time_taken: float) -> str:
     return Phrase("{seconds} s", seconds=f"{time_taken:.2g}")
 
@@ -416,7 +404,7 @@ def check_contract(
     The inputs are as for ``calculate``: take some that give as much of the mechanism as may be, also its optional inputs.
     """
     config = configured(mechanism, inputs, press, others, plugins)
-    test = ContractTest(mechanism, WithMechanism(mechanism, map(Path, plugins)), config, mechanism.kind)
+    test = ContractTest(mechanism, with_mechanism(mechanism, map(Path, plugins)), config, mechanism.kind)
     broken = [each for each in test.tried() if each.status in ("fail", "broke")]
     assert not broken, "\n".join(f"{each.title}: {fault}" for each in broken for fault in each.short_list)
 
@@ -424,31 +412,23 @@ def check_contract(
 # Writes into a plugin's catalogues the texts that they lack, to be translated, and marks those that nothing says any more.
 
 
-LARGEST = 10_000_000  # bytes of a catalogue
+MAX_CATALOGUE_BYTES = 10_000_000  # bytes of a catalogue
 
 
 def refuse_own(origin: Origin) -> None:
     """Refuse to write into catalogues of the program itself: UserError says why."""
     if origin.is_own:
-        words = "{kind} comes with the program, whose catalogues are made by its own tool."
-        raise UserError(Problem(Phrase(words, kind=origin.kind)))
+        raise refusal("{kind} comes with the program, whose catalogues are made by its own tool.", kind=origin.kind)
 
 
 def write_missing(test: ContractTest, origin: Origin) -> dict[Path, ChangedCatalogue]:
     """Write the entries that a plugin's catalogues lack, and mark those as obsolete that nothing says; what was changed, by the file."""
-    found = {file: made for file, made in _changed(test, origin.file()) if made.added or made.obsolete}
+    found, words = {}, test.words
+    for language in (each for each in languages() if each != SOURCE_LANGUAGE):
+        file = file_beside(origin.file(), language)
+        there = content(file, MAX_CATALOGUE_BYTES, phrase("a catalogue of texts")) if file.is_file() else None
+        made = changed(there, language, test.mechanism.kind, words.untranslated(language), words.unused(language))
+        if made.added or made.obsolete:
+            found[file] = made
     write_all({file: made.content for file, made in found.items()}, keep=None)
     return found
-
-
-def _changed(test: ContractTest, code: Path) -> Iterator[tuple[Path, ChangedCatalogue]]:
-    """Each catalogue as it is to be."""
-    for language in languages():
-        if language != SOURCE_LANGUAGE:
-            file = file_beside(code, language)
-            there = content(file, LARGEST, phrase("a catalogue of texts")) if file.is_file() else None
-            words = test.words
-            yield (
-                file,
-                changed(there, language, test.mechanism.kind, words.untranslated(language), words.unused(language)),
-            )

@@ -176,7 +176,7 @@ class TriedExtremes:
                 self.numbers += 1
 
     @property
-    def told(self) -> str:
+    def summary(self) -> str:
         """Return what was tried, and what came of it where nothing is wrong."""
         words = "an extreme value in the place of one input at a time: {numbers} gave numbers, {refused} were refused in words"
         told = Phrase(words, numbers=self.numbers, refused=self.refused)

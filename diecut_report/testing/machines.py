@@ -5,7 +5,7 @@ from __future__ import annotations
 import json
 from collections.abc import Iterable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, partial
+from functools import partial
 from pathlib import Path
 from typing import Any
 
@@ -14,7 +14,7 @@ import numpy as np
 from diecut_report.config import yaml
 from diecut_report.config.loader import Config, load_config
 from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.errors import Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible, Unproven
 from diecut_report.machine.steps.run import calculate as many_machines_calculate
@@ -27,6 +27,7 @@ from diecut_report.results.checks import applies, judged
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.testing.values import MechanismFound
+from diecut_report.text.catalogues import built_in
 from diecut_report.text.phrases import Phrase, phrase
 
 CLOSE = 1e-9  # relative, of numbers and curves
@@ -62,15 +63,10 @@ class MachineCase:
                 drawn = draw.uniform(*self.widely[name], count)
                 found[name] = np.round(drawn) if meta.integer else drawn
             elif not meta.integer:
-                rows = [_near(meta, part, draw, count) for part in parts]
+                near = [part * draw.uniform(0.99, 1.01, count) for part in parts]
+                rows = [np.where(meta.holds(each), each, part) for each, part in zip(near, parts, strict=True)]
                 found[name] = tuple(rows) if isinstance(value, tuple) else rows[0]
         return found
-
-
-def _near(meta: Quantity, value: float, draw: np.random.Generator, count: int) -> Array:
-    """Values a little beside one, where they are allowed."""
-    near = value * draw.uniform(0.99, 1.01, count)
-    return np.where(meta.holds(near), near, value)
 
 
 def unlike(machine: MachineCase, count: int, alone: int, seed: int) -> Iterator[tuple[str, str]]:
@@ -156,11 +152,8 @@ def _nudged(value: Any, draw: np.random.Generator) -> Any:
 def _refused_alone(why: str, together: Calculation, i: int) -> str:
     if i in together.flaws:
         other = phrase(together.flaws[i][1])
-        return Phrase(
-            "a machine is refused alone ({why}), and among others for another reason ({other})",
-            why=phrase(why),
-            other=other,
-        )
+        words = "a machine is refused alone ({why}), and among others for another reason ({other})"
+        return Phrase(words, why=phrase(why), other=other)
     return Phrase("a machine is refused alone ({why}), and calculated among others", why=phrase(why))
 
 
@@ -279,20 +272,10 @@ class Refused(ValueError):
         super().__init__("\n".join(self.problems))
 
 
-class WithMechanism(Discovery):
-    """Knows the kinds that are here, and a mechanism that is in memory, which stands before any other of its kind."""
-
-    def __init__(self, mechanism: Mechanism, folders: Iterable[Path] = ()) -> None:
-        super().__init__(folders)
-        self.given = mechanism
-
-    @cached_property
-    def origins(self) -> dict[str, list[Origin]]:
-        """Return each kind with the places that give it."""
-        found, file = super().origins, Path(self.given.at.rpartition(":")[0])
-        same = [origin for origin in found.get(self.given.kind, []) if origin.is_own]
-        own = Origin(self.given.kind, str(file), lambda: self.given, lambda: file, is_own=bool(same))
-        return {**found, self.given.kind: [own]}
+def with_mechanism(mechanism: Mechanism, folders: Iterable[Path] = ()) -> Discovery:
+    """Return what knows the kinds that are here, and a mechanism that is in memory, which stands before any other of its kind."""
+    file, is_own = Path(mechanism.at.rpartition(":")[0]), built_in(mechanism.kind) is not None
+    return Discovery(folders, [Origin(mechanism.kind, str(file), lambda: mechanism, lambda: file, is_own)])
 
 
 def load(kind: str, folder: str | Path | None = None) -> Mechanism:
@@ -319,7 +302,7 @@ def calculate(
     try:
         run = compute(configured(mechanism, inputs, press, others, plugins), lambda _: None)
     except UserError as error:
-        raise Refused(_told(problem, mechanism.kind) for problem in error.problems) from None
+        raise Refused(_problem_text(problem, mechanism.kind) for problem in error.problems) from None
     if run.errors:
         raise next(iter(run.errors.values()))
     if mechanism.kind in run.skipped:
@@ -337,7 +320,7 @@ def configured(
         "schema_version": 1, "project": {"title": mechanism.title}, "press": {"name": "-", **(press or {})}, "mechanisms": blocks,
     }  # fmt: skip
     text = json.dumps(whole, default=_plain, ensure_ascii=False)
-    config = load_config(yaml.parse(text, FILE), WithMechanism(mechanism, map(Path, plugins)))
+    config = load_config(yaml.parse(text, FILE), with_mechanism(mechanism, map(Path, plugins)))
     if broken := config.broken.get(mechanism.kind):
         raise broken
     return config
@@ -352,12 +335,9 @@ def _plain(value: Any) -> Any:
     )
 
 
-def _told(problem: Problem, kind: str) -> str:
+def _problem_text(problem: Problem, kind: str) -> str:
     path = problem.path.removeprefix(f"mechanisms.{kind}").removeprefix(".")
     return f"{path}: {problem.message}" if path else problem.message
-
-
-__all__ = ["PluginError", "Refused", "calculate", "configured", "load"]
 
 
 # Machines so unlike each other that they take other values of the series: a pick is tried where it changes.

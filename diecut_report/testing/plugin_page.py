@@ -5,17 +5,16 @@ from __future__ import annotations
 import re
 from collections.abc import Iterable, Iterator, Sequence
 from dataclasses import dataclass, field, replace
-from functools import cached_property
 from importlib.resources import as_file, files
 from itertools import groupby
 from pathlib import Path
 from typing import Any
 
 from diecut_report.config.loader import Config, load_config
-from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind, in_folder
-from diecut_report.errors import PluginError, Problem, UserError
+from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, in_folder
+from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.testing.contract import TITLES, WORST_LAST, ContractTest, TriedRule, refuse_own, write_missing
+from diecut_report.testing.contract import WORST_LAST, ContractTest, TriedRule, refuse_own, write_missing
 from diecut_report.text.phrases import Counted, Phrase, joined
 from diecut_report.text.po_files import ChangedCatalogue
 from diecut_report.text.translation import said
@@ -27,7 +26,7 @@ FOLDERS = (".", "examples", "configs")
 Machine = tuple[Config, str]
 LEVELS = 3  # folders above a plugin in which its examples are sought
 INSTALLED = "site-packages"
-LARGEST = 1_000_000  # bytes of a file that is looked through
+MAX_FILE_BYTES = 1_000_000  # bytes of a file that is looked through
 
 
 def named_machines(files: Iterable[Path], kind: str, discovery: Discovery) -> list[Machine]:
@@ -44,21 +43,18 @@ def machines_beside(origin: Origin, discovery: Discovery) -> tuple[list[Machine]
     """Return all machines of a kind in sound configurations beside its plugin; where there are none, why others are not sound."""
     found: list[Machine] = []
     refused: list[Problem] = []
-    for file in _files(origin):
-        try:
-            found += named_machines([file], origin.kind, discovery)
-        except UserError as error:  # of something else, which its user knows, if there is a sound one
-            refused += error.problems
+    names_it = re.compile(rf"\bkind:\s*[\"']?{re.escape(origin.kind)}\b")
+    for file in (file for folder in _folders(origin) for file in sorted(folder.glob("*.yaml"))):
+        if (
+            file.is_file()
+            and file.stat().st_size < MAX_FILE_BYTES
+            and names_it.search(file.read_text("utf-8", "replace"))
+        ):
+            try:
+                found += named_machines([file], origin.kind, discovery)
+            except UserError as error:  # of something else, which its user knows, if there is a sound one
+                refused += error.problems
     return found, [] if found else refused
-
-
-def _files(origin: Origin) -> Iterator[Path]:
-    """The configurations near a plugin that name its kind."""
-    kind = re.compile(rf"\bkind:\s*[\"']?{re.escape(origin.kind)}\b")
-    for folder in _folders(origin):
-        for file in sorted(folder.glob("*.yaml")):
-            if file.is_file() and file.stat().st_size < LARGEST and kind.search(file.read_text("utf-8", "replace")):
-                yield file
 
 
 def _folders(origin: Origin) -> Iterator[Path]:
@@ -109,10 +105,10 @@ def _merged(first: ContractTest, found: TriedRule, also: Sequence[tuple[Contract
             if fault not in found.faults
         ]
     status = max((found, *(own for _, own in also)), key=lambda each: WORST_LAST.index(each.status)).status
-    told = _machines([first, *(test for test, _ in also)]) if found.id == "example" and found.told else found.told
+    told = _machines([first, *(test for test, _ in also)]) if found.id == "example" and found.summary else found.summary
     if told and found.id != "example":
         told += Counted(len(also), "; on {n} other machine too", "; on {n} other machines too")
-    return replace(found, status=status, told=told, faults=tuple(faults))
+    return replace(found, status=status, summary=told, faults=tuple(faults))
 
 
 def _machines(tests: Sequence[ContractTest]) -> str:
@@ -133,31 +129,12 @@ def _file(test: ContractTest) -> Path | str:
 PLUGINS = "plugins"  # the folder of a new plugin's project that holds the plugin
 
 
-class FolderFirst(Discovery):
-    """Knows all kinds that are here; those of one folder stand before installed ones of the same name."""
-
-    def __init__(self, first: Path | None, folders: Sequence[Path]) -> None:
-        super().__init__([*([first] if first else []), *folders])
-        self.first = first
-
-    @cached_property
-    def origins(self) -> dict[str, list[Origin]]:
-        """Return each kind with the places that give it."""
-        found = super().origins
-        return {**found, **{kind: [origin] for kind, origin in self.own_kinds.items()}}
-
-    @cached_property
-    def own_kinds(self) -> dict[str, Origin]:
-        """Return the kinds of the folder."""
-        return {} if self.first is None else {origin.kind: origin for origin in in_folder(self.first)}
-
-
 @dataclass
 class CheckedPlugin:
     """Hold what was found of a plugin: each rule of the contract, and its chapter as HTML."""
 
     kind: str
-    told: str
+    origin: str
     mechanism: Mechanism | None = None
     rules: list[TriedRule] = field(default_factory=list)
     page: str = ""
@@ -178,7 +155,7 @@ class CheckedPlugin:
             {
                 "rule": each.id,
                 "status": each.status,
-                "told": said(each.told),
+                "told": said(each.summary),
                 "faults": [said(fault) for fault in each.faults],
             }
             for each in self.rules
@@ -187,48 +164,42 @@ class CheckedPlugin:
         return {
             "kind": self.kind,
             "version": version,
-            "from": said(self.told),
+            "from": said(self.origin),
             "status": self.status,
             "rules": rules,
         } | error
 
 
-def meant(asked: str, folders: Sequence[Path]) -> tuple[FolderFirst, list[str]]:
-    """Return the kinds that a name or a folder means, and what knows them; UserError where there are none."""
+def meant(asked: str, folders: Sequence[Path]) -> tuple[Discovery, list[str]]:
+    """Return the kinds that a name or a folder means, and what knows them; UserError where there are none.
+
+    Those of the folder stand before installed ones of the same name.
+    """
     place = Path(asked)
     if not place.is_dir():
         if place.suffix or "/" in asked:
-            raise UserError(
-                Problem(Phrase("There is no such folder of plugins: give a folder, or the name of a kind."), asked)
-            )
-        known = FolderFirst(None, folders)
+            raise refusal("There is no such folder of plugins: give a folder, or the name of a kind.", asked)
+        known = Discovery(folders)
         if asked not in known.origins:
-            raise UserError(Problem(_unknown(known, asked)))
+            raise refusal(known.unknown(asked))
         return known, [asked]
     for folder in (place, place / PLUGINS):
-        if folder.is_dir() and (own := (known := FolderFirst(folder, folders)).own_kinds):
-            return known, list(own)
-    words = "There is no plugin in this folder: a plugin is NAME.py, or a folder NAME with an __init__.py."
-    raise UserError(Problem(Phrase(words), asked))
-
-
-def _unknown(known: Discovery, kind: str) -> str:
-    try:
-        known.mechanism(kind)
-    except UnknownKind as fault:
-        return str(fault)
-    raise AssertionError(kind)
+        if own := list(in_folder(folder)) if folder.is_dir() else []:
+            return Discovery([folder, *folders], own), [origin.kind for origin in own]
+    raise refusal(
+        "There is no plugin in this folder: a plugin is NAME.py, or a folder NAME with an __init__.py.", asked
+    )
 
 
 def checked(
-    known: FolderFirst, kind: str, configs: Sequence[Path], language: str, *, write_po: bool = False
+    known: Discovery, kind: str, configs: Sequence[Path], language: str, *, write_po: bool = False
 ) -> Iterator[TriedRule | CheckedPlugin]:
     """Yield each rule when it was tried, and at last the whole; UserError where a configuration cannot be used.
 
     With ``write_po`` the plugin's catalogues get the texts that they lack, and what nothing says is marked, before its words are tried.
     """
     origin = known.origins[kind][0]
-    found = CheckedPlugin(kind, origin.told)
+    found = CheckedPlugin(kind, origin.label)
     if write_po:
         refuse_own(origin)
     try:
@@ -240,8 +211,7 @@ def checked(
         return
     machines, refused = (named_machines(configs, kind, known), []) if configs else machines_beside(origin, known)
     if configs and not machines:
-        words = Phrase("There is no mechanism of the kind {kind} in it.", kind=repr(kind))
-        raise UserError(Problem(words, str(configs[0])))
+        raise refusal("There is no mechanism of the kind {kind} in it.", configs[0], kind=repr(kind))
     config, name = machines[0] if machines else (None, "")
     test = ContractTest(found.mechanism, known, config, name, language, refused)
     if write_po:
@@ -251,6 +221,3 @@ def checked(
         yield rule
     found.page = test.page
     yield found
-
-
-__all__ = ["TITLES", "CheckedPlugin", "FolderFirst", "checked", "meant"]

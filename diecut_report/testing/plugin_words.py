@@ -19,7 +19,7 @@ from diecut_report.standards.tables import StandardSeries, StandardTable
 from diecut_report.text.catalogues import Catalogues, built_in
 
 TABLES = (".csv", ".yaml", ".yml", ".json")
-LARGEST = 1_000_000  # bytes of a table that is looked through
+MAX_FILE_BYTES = 1_000_000  # bytes of a table that is looked through
 IN_WORDS = re.compile(r"(?<![\w.])[a-z]{3,}")  # neither a standard's number nor an author's name alone
 
 
@@ -79,7 +79,7 @@ class PluginWords:
         code = {*files_around(self.mechanism), *home.glob("*.py")}
         found = home.rglob("*") if (home / "__init__.py").is_file() else home.glob("*")
         tables = (each for each in found if each.suffix in TABLES and each.is_file())
-        small = (each for each in tables if each.stat().st_size < LARGEST)
+        small = (each for each in tables if each.stat().st_size < MAX_FILE_BYTES)
         return _WrittenTexts(
             {text for file in code for text in _constants(parsed(file))},
             "\n".join(each.read_text("utf-8", "replace") for each in small),

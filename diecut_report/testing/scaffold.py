@@ -14,12 +14,12 @@ from pathlib import Path
 
 from diecut_report import __version__
 from diecut_report.config.plugins import EXTENSION, Discovery
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import refusal
 from diecut_report.files import write_all
 from diecut_report.text.phrases import Phrase
 
 RESERVED = ("press", "study", "kind", "kinds", "project", "report", "diecut_report")
-LONGEST = 40  # letters of a name, which stands in many files
+MAX_NAME_LENGTH = 40  # letters of a name, which stands in many files
 NAME = re.compile(r"[a-z][a-z0-9_]*")
 ENDING = ".txt"  # of the templates here: they are no modules of the program
 LIKE = ("parts", "motion", "selection")
@@ -35,7 +35,7 @@ def scaffold(name: str, folder: Path, *, as_package: bool, like: str = "parts") 
     refuse_name(name)
     if folder.exists() or folder.is_symlink():
         words = "There is something of this name already, and it is not written over. Name another folder with -o."
-        raise UserError(Problem(Phrase(words), str(folder)))
+        raise refusal(words, folder)
     made = {
         folder / place: content.encode() for place, content in contents(name, as_package=as_package, like=like).items()
     }
@@ -47,23 +47,22 @@ def refuse_name(name: str) -> None:
     """Refuse what cannot be the name of a kind: UserError says why, and what may."""
     words = _wrong(name)
     if words:
-        raise UserError(Problem(words))
+        raise refusal(words)
 
 
 def _wrong(name: str) -> str:
-    if not NAME.fullmatch(name) or len(name) > LONGEST:
+    if not NAME.fullmatch(name) or len(name) > MAX_NAME_LENGTH:
         words = (
             "{name} cannot be the name of a kind: give small letters a to z, digits and underscores, a letter first, "
             "at most {longest} in all, such as gripper_chain."
         )
-        return Phrase(words, name=repr(name), longest=LONGEST)
+        return Phrase(words, name=repr(name), longest=MAX_NAME_LENGTH)
     if keyword.iskeyword(name) or name in RESERVED or name.startswith(EXTENSION):
         return Phrase("{name} is reserved and cannot be the name of a kind; choose another one.", name=repr(name))
     known = Discovery().origins.get(name, [])
     if known:
-        return Phrase(
-            "There is a kind {name} already, from {origin}; choose another name.", name=repr(name), origin=known[0].told
-        )
+        words = "There is a kind {name} already, from {origin}; choose another name."
+        return Phrase(words, name=repr(name), origin=known[0].label)
     return ""
 
 

@@ -107,7 +107,16 @@ class MechanismFound:
         Where a result has the id of an input, that is ``inputs.ID``.
         """
         outputs = {**self.data["values"], **self.data["outputs"]}
-        places = {f"{name}_at": _place(row) for name, row in outputs.items() if "at" in row}
+        places = {
+            f"{name}_at": {
+                **row["at"],
+                "unit": unit(row["at"]["unit"]).si,
+                "description": row["description"],
+                "display": row["at"],
+            }
+            for name, row in outputs.items()
+            if "at" in row
+        }
         inputs = {f"inputs.{name}" if name in outputs else name: row for name, row in self.data["inputs"].items()}
         return {name: _quantity(name, row) for name, row in (outputs | places | inputs).items()}
 
@@ -122,12 +131,16 @@ class MechanismFound:
     @cached_property
     def checks(self) -> dict[str, CheckFound]:
         """Return the checks that apply, also those that are not made for want of an input, by their ids."""
-        return {check["id"]: _check(check) for check in self.data["checks"]}
+        keys = CheckFound.__annotations__
+        return {row["id"]: CheckFound(**{key: row[key] for key in keys}) for row in self.data["checks"]}
 
     @cached_property
     def phases(self) -> dict[str, PhaseFound]:
         """Return the phases that the machine has, by their ids."""
-        return {name: _phase(name, row) for name, row in self.data["phases"].items()}
+        return {
+            name: PhaseFound(name, row["role"], row["unit"], tuple((float(a), float(b)) for a, b in row["intervals"]))
+            for name, row in self.data["phases"].items()
+        }
 
     def row(self, name: str, other: str = "") -> tuple[float, ...]:
         """Return the numbers of all repeated parts, in another unit of the same kind or in SI."""
@@ -164,28 +177,14 @@ def _quantity(name: str, row: Data) -> QuantityFound:
     return QuantityFound(name, found, row["unit"], row["symbol"], row["description"], shown)
 
 
-def _place(row: Data) -> Data:
-    """The place of an extreme."""
-    at = row["at"]
-    return {"value": at["value"], "unit": unit(at["unit"]).si, "symbol": at["symbol"],
-            "description": row["description"], "display": at}  # fmt: skip
-
-
-def _check(row: Data) -> CheckFound:
-    values = (row["demand"], row["limit"], row["unit"], row["utilisation"], row["message"])
-    return CheckFound(row["id"], row["status"], *values)
-
-
-def _phase(name: str, row: Data) -> PhaseFound:
-    intervals = tuple((float(start), float(end)) for start, end in row["intervals"])
-    return PhaseFound(name, row["role"], row["unit"], intervals)
-
-
 # Numbers that a source prints, held against those that a mechanism calculates: the last printed digit tells how it was rounded.
 
 
 PRINTED = re.compile(r"\s*([+\-−]?\d+(?:\.\d*)?|[+\-−]?\.\d+)(?:e([+\-−]?\d+))?\s*(.*)", re.IGNORECASE)
-MORE, LEAST = 2, 5  # digits of our numbers in the table: so many more than are printed, and so many at least
+EXTRA_DIGITS, MIN_DIGITS = (
+    2,
+    5,
+)  # digits of our numbers in the table: so many more than are printed, and so many at least
 
 
 @dataclass(frozen=True)
@@ -235,13 +234,12 @@ class ComparedValue:
         """Our number with more digits than the printed one, so that a difference in its last digit is seen."""
         mantissa = re.split("e", self.printed, flags=re.IGNORECASE)[0]
         shown = len(re.sub(r"\D", "", mantissa).lstrip("0"))
-        return f"{self.ours:.{max(shown + MORE, LEAST)}g}"
+        return f"{self.ours:.{max(shown + EXTRA_DIGITS, MIN_DIGITS)}g}"
 
     def _off(self, unit: str) -> str:
         """The difference itself and, of a number that is not zero, as a share of it."""
-        value = float(self.printed)
-        absolute = f"{self.ours - value:+.3g}{unit}"
-        return f"{absolute} ({self.difference:+.2%})" if value else absolute
+        absolute = f"{self.ours - float(self.printed):+.3g}{unit}"
+        return f"{absolute} ({self.difference:+.2%})" if float(self.printed) else absolute
 
 
 class ComparedValues(tuple[ComparedValue, ...]):

@@ -8,7 +8,7 @@ from gettext import c2py
 from importlib import import_module
 from pathlib import Path
 
-from diecut_report.errors import Problem, UserError
+from diecut_report.errors import Problem, UserError, refusal
 from diecut_report.text.phrases import Phrase
 
 SOURCE_LANGUAGE = "en"
@@ -39,11 +39,10 @@ class TextCatalogue:
             self._plural = c2py(found.plural_expr)
             judge(found, self._plural)
         except Exception as error:  # of any kind: that of a plugin may hold anything
-            words = Phrase(
-                "This catalogue of texts cannot be read: {error}. Fix it, or remove it: its texts are then in English.",
-                error=error,
+            words = (
+                "This catalogue of texts cannot be read: {error}. Fix it, or remove it: its texts are then in English."
             )
-            raise UserError(Problem(words, str(file))) from error
+            raise refusal(words, file, error=error) from error
         self._texts: dict[tuple[str | None, str], tuple[str, ...]] = {}
         self.missing: list[str] = []
         for message in found:
@@ -95,13 +94,8 @@ def languages() -> tuple[str, ...]:
 def known(language: str) -> str:
     """Return the language, if the program has its words; UnknownLanguage if not."""
     if language not in languages():
-        raise UnknownLanguage(
-            Phrase(
-                "is {language}, of which the program has no catalogue; allowed: {languages}",
-                language=repr(language),
-                languages=", ".join(languages()),
-            )
-        )
+        words = "is {language}, of which the program has no catalogue; allowed: {languages}"
+        raise UnknownLanguage(Phrase(words, language=repr(language), languages=", ".join(languages())))
     return language
 
 

@@ -99,6 +99,18 @@ def phrase(text: str) -> Phrase:
     return text if isinstance(text, Phrase) else Phrase(text)
 
 
+def message(template: str, values: Mapping[str, object]) -> Phrase:
+    """Return a template filled with values; without values it may be a phrase already."""
+    return Phrase(template, values) if values else phrase(template)
+
+
+class MessageError(Exception):
+    """An error that a user reads: the template of its message, and the values at the template's places."""
+
+    def __init__(self, template: str, /, **values: object) -> None:
+        super().__init__(message(template, values))
+
+
 def capital(sentence: str) -> Phrase:
     """Return a sentence that begins with a capital letter."""
     return Phrase("{sentence:capital}", {f"sentence{CAPITAL}": sentence})

@@ -16,7 +16,7 @@ from diecut_report.text.phrases import Phrase, phrase
 
 NEVER = datetime(2026, 1, 1, tzinfo=UTC)  # equal texts give equal files
 WIDTH = 140
-MOST_FORMS = 10  # Arabic has six
+MAX_PLURAL_FORMS = 10  # Arabic has six
 _FORMS = re.compile(rb"nplurals\s*=\s*(\d+)")
 _HIDDEN = re.compile("[\0-\x08\x0b-\x1f\x7f-\x9f\u2028-\u202e\u2066-\u2069\ufffe\uffff]")
 _LINE = re.compile(r'(?:(?:msgctxt|msgid|msgid_plural|msgstr(?:\[\d+\])?)\s*)?"(?:[^"\\]|\\.)*"')
@@ -33,10 +33,9 @@ def empty(language: str, project: str, holder: str = "the authors of diecut-repo
 def read(file: Path, language: str) -> Catalog:
     """Return the catalogue of a file; ValueError, or another exception of Babel's, where it is none."""
     content = file.read_bytes()
-    if any(int(count[:9]) > MOST_FORMS for count in _FORMS.findall(content)):  # Babel makes a list of so many
-        raise ValueError(
-            Phrase("a language has at most {most_forms} forms of a word for a number", most_forms=MOST_FORMS)
-        )
+    if any(int(count[:9]) > MAX_PLURAL_FORMS for count in _FORMS.findall(content)):  # Babel makes a list of so many
+        words = "a language has at most {most_forms} forms of a word for a number"
+        raise ValueError(Phrase(words, most_forms=MAX_PLURAL_FORMS))
     for number, line in enumerate(map(str.strip, content.decode("utf-8").split("\n")), 1):
         if line and not line.startswith("#") and not _LINE.fullmatch(line):
             words = (
@@ -64,11 +63,8 @@ def judge(catalogue: Catalog, plural: Callable[[int], int]) -> None:
     for message in catalogue:
         said = (message.string or "",) if isinstance(message.string, str | None) else message.string
         if letter := next(filter(None, map(_HIDDEN.search, said)), None):
-            raise ValueError(
-                Phrase(
-                    "the translation of {id} holds U+{code}", id=repr(message.id), code=format(ord(letter[0]), "04X")
-                )
-            )
+            words = "the translation of {id} holds U+{code}"
+            raise ValueError(Phrase(words, id=repr(message.id), code=format(ord(letter[0]), "04X")))
         if not message.fuzzy and all(said):
             _judge_filling(message, said)
     for count in range(200):

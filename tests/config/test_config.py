@@ -88,6 +88,27 @@ FIXED = [
         "schema_version: '1'",
         "1:17: schema_version: is “1”; the number 1 is needed, without quotes",
     ),
+    (
+        "schema_version: 1",
+        "schema_version: true",
+        "1:17: schema_version: is true; the number 1 is needed, without quotes",
+    ),
+    (
+        "title: Test",
+        "title: '${press.name}'",
+        "2:18: project.title: is “${press.name}”; references stand in press and mechanisms",
+    ),
+    (
+        "title: Test",
+        "title: T, prepared_by: 'by ${a.x}'",
+        "2:34: project.prepared_by: is “by ${a.x}”; references stand in",
+    ),
+    ("{length: 700 mm, thickness: 0.6 mm}", "[1, 2]", "3:49: press.sheet: is a list; a block of keys is needed"),
+    (
+        "kind: lever",
+        "kind: zzz",
+        f"5:13: mechanisms.a.kind: 'zzz' is not a known kind. Known: {', '.join(DISCOVERY.origins)}.",
+    ),
     ("title: Test", "revision: A", "2:1: project.title: is missing; it is required: Title of the document."),
     ("title: Test", "title: ''", "2:18: project.title: is empty; give a text"),
     (
@@ -179,28 +200,6 @@ def test_a_broken_plugin_is_told_beside_the_problems_of_the_file(tmp_path: Path)
         tmp_path, LEVER.replace("2 kN", "2 kg") + "  b: {kind: breaks_at_import}\n", Discovery([GOOD, BROKEN])
     )
     assert len(found) == 2 and "mechanism 'b' of plugin 'breaks_at_import'" in found[1]
-
-
-def test_unknown_kind_names_those_that_there_are(tmp_path: Path) -> None:
-    (found,) = problems(tmp_path, LEVER.replace("lever", "zzz"))
-    assert found.endswith(f"Known: {', '.join(DISCOVERY.origins)}.")
-
-
-@pytest.mark.parametrize("project", ["title: '${press.name}'", "title: T, prepared_by: 'by ${a.moment}'"])
-def test_the_title_block_takes_no_references(tmp_path: Path, project: str) -> None:
-    text = LEVER.replace("title: Test", project)
-    assert "the title block takes plain text" in "".join(problems(tmp_path, text))
-
-
-def test_a_list_in_place_of_the_sheet_is_told(tmp_path: Path) -> None:
-    text = LEVER.replace("{length: 700 mm, thickness: 0.6 mm}", "[1, 2]")
-    assert "press.sheet: is a list; a block of keys is needed" in "".join(problems(tmp_path, text))
-
-
-@pytest.mark.parametrize("version", ["true", "'1'"])
-def test_the_schema_version_is_a_number(tmp_path: Path, version: str) -> None:
-    text = LEVER.replace("schema_version: 1", f"schema_version: {version}")
-    assert "the number 1 is needed, without quotes" in "".join(problems(tmp_path, text))
 
 
 def test_a_config_without_a_press_is_told_so_also_where_its_mechanisms_have_defaults_from_it(tmp_path: Path) -> None:

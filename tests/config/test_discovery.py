@@ -41,7 +41,7 @@ def test_a_built_in_kind_gives_its_mechanism(kind: str) -> None:
 def test_each_file_of_a_folder_is_a_kind() -> None:
     known = Discovery([GOOD])
     assert known.mechanism("lever").kind == "lever"
-    assert [origin.told for origin in known.origins["lever"]] == [str(GOOD / "lever.py")]
+    assert [origin.label for origin in known.origins["lever"]] == [str(GOOD / "lever.py")]
 
 
 def test_a_folder_may_list_several_kinds_of_one_file() -> None:

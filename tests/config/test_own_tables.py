@@ -9,7 +9,7 @@ from typing import Any
 import pytest
 
 from diecut_report.config.loader import load_config
-from diecut_report.config.own_tables import MOST
+from diecut_report.config.own_tables import MAX_FILES
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema
 from diecut_report.config.yaml import MAX_BYTES
@@ -214,7 +214,7 @@ def test_a_faulty_entry_is_told_once(tmp_path: Path) -> None:
         ("3", "materials: is 3; the name of a YAML file is needed"),
         ("[steels.yaml, [4]]", "materials.1: is a list; the name of a YAML file is needed"),
         ("[steels.yaml, again.yaml]", "stands in steels.yaml too"),
-        (str(["steels.yaml"] * (MOST + 1)), f"at most {MOST} are allowed"),
+        (str(["steels.yaml"] * (MAX_FILES + 1)), f"at most {MAX_FILES} are allowed"),
     ],
 )
 def test_a_file_that_cannot_be_a_table_is_refused(tmp_path: Path, name: str, words: str) -> None:
@@ -263,10 +263,15 @@ vary:
 """
 
 
-def test_a_study_varies_between_standard_materials_and_own_ones(tmp_path: Path) -> None:
+@pytest.fixture
+def study_folder(tmp_path: Path) -> Path:
     saved(tmp_path, TABLES, "steels.yaml")
     saved(tmp_path, HEAD + SHAFT + OTHERS)
-    study = load_study(saved(tmp_path, STUDY, "study.yaml"), DISCOVERY)
+    return tmp_path
+
+
+def test_a_study_varies_between_standard_materials_and_own_ones(study_folder: Path) -> None:
+    study = load_study(saved(study_folder, STUDY, "study.yaml"), DISCOVERY)
     columns = calculate(study, Chunk(0, 0, 4)).columns
     assert [round(each / 1e6) for each in columns["shaft.tensile_strength"]] == [1000, 1000, 1100, 1100]
     ratio = columns["chain.safety_static"][1] / columns["chain.safety_static"][0]
@@ -274,17 +279,13 @@ def test_a_study_varies_between_standard_materials_and_own_ones(tmp_path: Path) 
     assert list(columns["error"]) == [None] * 4
 
 
-def test_a_worker_elsewhere_gets_the_tables_too(tmp_path: Path) -> None:
-    saved(tmp_path, TABLES, "steels.yaml")
-    saved(tmp_path, HEAD + SHAFT + OTHERS)
-    study = load_study(saved(tmp_path, STUDY, "study.yaml"), DISCOVERY)
+def test_a_worker_elsewhere_gets_the_tables_too(study_folder: Path) -> None:
+    study = load_study(saved(study_folder, STUDY, "study.yaml"), DISCOVERY)
     assert set(study.tables) == {"steels.yaml"}
     away = load(study.file.read_bytes(), contents(study), [], study.base.source_hashes)
     assert away.base.tables["steels.yaml"].sha256 == study.base.tables["steels.yaml"].sha256
 
 
-def test_a_study_refuses_a_material_that_is_in_no_table(tmp_path: Path) -> None:
-    saved(tmp_path, TABLES, "steels.yaml")
-    saved(tmp_path, HEAD + SHAFT + OTHERS)
+def test_a_study_refuses_a_material_that_is_in_no_table(study_folder: Path) -> None:
     with pytest.raises(UserError, match="allowed: 42CrMo4\\+QT, C45E\\+QT, C45E\\+N, own"):
-        load_study(saved(tmp_path, STUDY.replace("QT, own", "QT, owm"), "study.yaml"), DISCOVERY)
+        load_study(saved(study_folder, STUDY.replace("QT, own", "QT, owm"), "study.yaml"), DISCOVERY)

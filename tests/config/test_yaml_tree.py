@@ -158,89 +158,49 @@ def test_an_alias_repeats_the_value_and_points_to_where_it_is_written() -> None:
 
 def test_every_duplicate_key_is_reported_with_the_line_of_the_first() -> None:
     found = problems("a: 1\nb: {c: 1, c: 2}\na: 3\na: {d: 1, d: 2}\n")
-    assert [(p.line, p.column, p.path) for p in found] == [
-        (2, 11, "b.c"),
-        (3, 1, "a"),
-        (4, 1, "a"),
-        (4, 11, "a.d"),
-    ]
+    assert [(p.line, p.column, p.path) for p in found] == [(2, 11, "b.c"), (3, 1, "a"), (4, 1, "a"), (4, 11, "a.d")]
     assert found[1].message == "The key 'a' stands here again; it is first in line 1. Remove one of the two."
 
 
-def test_tab_indentation_is_shown_at_the_tab() -> None:
-    problem = only_problem("press:\n  name: x\n\tsheet: 1\n")
-    assert (problem.line, problem.column) == (3, 1)
-    assert "A tab stands here" in problem.message and "Put spaces" in problem.message
+NESTED = [f"a{n}: &a{n} {'[' * 30}{f'*a{n - 1}' if n else ''}{']' * 30}" for n in range(100)]
+REFUSED = [  # a text, the line, the column and the key path of its only problem, and what the message holds
+    ("press:\n  name: x\n\tsheet: 1\n", 3, 1, "", "A tab stands here; YAML is indented with spaces. Put spaces."),
+    ("- a\n-\tb: 1\n", 2, 2, "", "A tab stands here"),
+    ("a: 1\nb: 'open\n", 2, 4, "", "unexpected end of stream while scanning a quoted scalar that begins in line 2. Check quotes"),
+    ("title: Drive: part one\n", 1, 13, "", "a second colon or a wrong indentation. Align keys of one block; put text that holds ': ' in quotes."),
+    ("gears: {radius: ${cylinder.radius}}\n", 1, 18, "", 'YAML reads its brace as a map. Quote it: "${…}"'),
+    *((text, None, None, "", "The file is empty. Write a YAML document.") for text in ("", "\n\n", "# only a remark\n", "---\n", "--- ''\n")),
+    ("12: x", 1, 1, "", "The key 12 is not text. Put it in quotes, or rename it."),
+    ("null: x", 1, 1, "", "The key null is not text."), ("{a: 1, true: 2}", 1, 8, "", "The key true is not text."),
+    ("? [a, b]\n: 1", 1, 3, "", "The key (a list) is not text."),
+    ("a: &a {x: 1}\nb:\n  <<: *a\n", 3, 3, "b", "Merge keys (<<) are not supported"),
+    ("x: 1\na: !!python/object/apply:os.system [ls]\n", 2, 4, "a", "The tag !!python/object/apply:os.system is not allowed."),
+    ("x: 1\na: !own {b: 1}\n", 2, 4, "a", "The tag !own is not allowed."), ("x: 1\na: ! 5\n", 2, 4, "a", "The tag ! is not allowed."),
+    ("a: &a\n  b: [1, *a]\n", 2, 10, "a.b.1", "The alias *a stands in its own anchor, a loop"),
+    ("a: *gear\n", 1, 4, "a", "The alias *gear has no anchor &gear above it"),
+    *(("[" * n + "]" * n, 1, MAX_DEPTH + 1, "0.0.0", "The nesting is deeper than 50 levels") for n in (MAX_DEPTH + 1, 100_000)),
+    ("\n".join(NESTED), 2, 39, "a1.0.0", "aliases included"),
+    ("---\na: 1\n---\nb: 2\n", 3, 1, "", "A second YAML document begins here. Keep one document in a file."),
+    ("a: 1\nb: x\x07\n", 2, 5, "", "U+0007"), ("PK\x03\x04\x00\x00", 1, 3, "", "This is not YAML text"),
+    *((f"a: 1\n# x{mark}\n", 2, 4, "", f"U+{ord(mark):04X} stands here. Write it") for mark in "\u202a\u202e\u2069"),
+]  # fmt: skip
 
 
-def test_a_tab_after_a_dash_is_shown_at_the_tab() -> None:
-    problem = only_problem("- a\n-\tb: 1\n")
-    assert (problem.line, problem.column) == (2, 2)
-    assert "A tab stands here" in problem.message
-
-
-def test_a_syntax_error_names_its_place_and_what_to_check() -> None:
-    problem = only_problem("a: 1\nb: 'open\n")
-    assert problem.line == 2
-    assert "unexpected end of stream while scanning a quoted scalar that begins in line 2" in problem.message
-    assert "Check quotes" in problem.message
-
-
-def test_a_second_colon_is_explained() -> None:
-    problem = only_problem("title: Drive: part one\n")
-    assert (problem.line, problem.column) == (1, 13)
-    assert "a second colon" in problem.message and "in quotes" in problem.message
-
-
-def test_a_bare_reference_within_braces_is_explained() -> None:
-    problem = only_problem("gears: {radius: ${cylinder.radius}}\n")
-    assert (problem.line, problem.column) == (1, 18)
-    assert 'YAML reads its brace as a map. Quote it: "${…}"' in problem.message
+@pytest.mark.parametrize(
+    ("text", "line", "column", "path", "words"), REFUSED, ids=[repr(each[0][:20]) for each in REFUSED]
+)
+def test_what_is_refused_has_its_place(text: str, line: int, column: int, path: str, words: str) -> None:
+    problem = only_problem(text)
+    assert (problem.line, problem.column, problem.path) == (line, column, path)
+    assert words in problem.message
 
 
 def test_problems_found_before_a_syntax_error_are_kept() -> None:
     assert [p.line for p in problems("a: 1\na: 2\nb: @x\n")] == [2, 3]
 
 
-@pytest.mark.parametrize("text", ["", "\n\n", "# only a remark\n", "---\n", "--- ''\n"])
-def test_an_empty_document_is_refused(text: str) -> None:
-    problem = only_problem(text)
-    assert problem.message == "The file is empty. Write a YAML document."
-    assert problem.line is None
-
-
-@pytest.mark.parametrize(
-    ("text", "shown", "column"),
-    [("12: x", "12", 1), ("null: x", "null", 1), ("{a: 1, true: 2}", "true", 8), ("? [a, b]\n: 1", "(a list)", 3)],
-)
-def test_a_key_that_is_no_text_is_refused(text: str, shown: str, column: int) -> None:
-    problem = only_problem(text)
-    assert problem.message == f"The key {shown} is not text. Put it in quotes, or rename it."
-    assert (problem.line, problem.column) == (1, column)
-
-
 def test_a_quoted_number_is_a_key() -> None:
     assert parse("'12': x", "press.yaml").data == {"12": "x"}
-
-
-def test_merge_keys_are_refused() -> None:
-    problem = only_problem("a: &a {x: 1}\nb:\n  <<: *a\n")
-    assert (problem.line, problem.column, problem.path) == (3, 3, "b")
-    assert "Merge keys (<<) are not supported" in problem.message
-
-
-@pytest.mark.parametrize(
-    ("value", "tag"),
-    [
-        ("!!python/object/apply:os.system [ls]", "!!python/object/apply:os.system"),
-        ("!own {b: 1}", "!own"),
-        ("! 5", "!"),
-    ],
-)
-def test_tags_are_refused(value: str, tag: str) -> None:
-    problem = only_problem(f"x: 1\na: {value}\n")
-    assert (problem.line, problem.column, problem.path) == (2, 4, "a")
-    assert problem.message.startswith(f"The tag {tag} is not allowed.")
 
 
 def test_an_alias_bomb_is_refused() -> None:
@@ -252,50 +212,11 @@ def test_an_alias_bomb_is_refused() -> None:
     assert "More than 200000 values" in problem.message and "aliases" in problem.message
 
 
-def test_a_recursive_anchor_is_refused() -> None:
-    problem = only_problem("a: &a\n  b: [1, *a]\n")
-    assert (problem.line, problem.column, problem.path) == (2, 10, "a.b.1")
-    assert "The alias *a stands in its own anchor, a loop" in problem.message
-
-
-def test_an_alias_without_anchor_is_refused() -> None:
-    problem = only_problem("a: *gear\n")
-    assert (problem.line, problem.column, problem.path) == (1, 4, "a")
-    assert "The alias *gear has no anchor &gear above it" in problem.message
-
-
 def test_nesting_up_to_the_limit_is_read() -> None:
     data = parse("[" * MAX_DEPTH + "]" * MAX_DEPTH, "press.yaml").data
     for _ in range(MAX_DEPTH - 1):
         (data,) = data
     assert data == []
-
-
-@pytest.mark.parametrize("brackets", [MAX_DEPTH + 1, 100_000])
-def test_deeper_nesting_is_refused(brackets: int) -> None:
-    problem = only_problem("[" * brackets + "]" * brackets)
-    assert (problem.line, problem.column) == (1, MAX_DEPTH + 1)
-    assert "The nesting is deeper than 50 levels" in problem.message
-
-
-def test_nesting_built_up_by_aliases_is_refused() -> None:
-    lines = ["a0: &a0 " + "[" * 30 + "]" * 30]
-    lines += [f"a{n}: &a{n} " + "[" * 30 + f"*a{n - 1}" + "]" * 30 for n in range(1, 100)]
-    problem = only_problem("\n".join(lines))
-    assert (problem.line, problem.column) == (2, 39)
-    assert "aliases included" in problem.message
-
-
-def test_several_documents_are_refused() -> None:
-    problem = only_problem("---\na: 1\n---\nb: 2\n")
-    assert (problem.line, problem.column) == (3, 1)
-    assert problem.message == "A second YAML document begins here. Keep one document in a file."
-
-
-def test_a_control_character_is_shown_at_its_place() -> None:
-    problem = only_problem("a: 1\nb: x\x07\n")
-    assert (problem.line, problem.column) == (2, 5)
-    assert "U+0007" in problem.message
 
 
 # --- files -----------------------------------------------------------------------------------------------------------
@@ -346,12 +267,6 @@ def test_a_text_may_have_lines_but_a_key_may_not(escape: str) -> None:
     assert "This key holds the invisible character" in problems(f'"x{escape}y": 1')[0].message
 
 
-@pytest.mark.parametrize("mark", ["\u202a", "\u202e", "\u2069"])
-def test_letters_that_turn_others_around_are_refused_in_comments_too(mark: str) -> None:
-    problem = only_problem(f"a: 1\n# x{mark}\n")
-    assert (problem.line, problem.column) == (2, 4) and f"U+{ord(mark):04X} stands here. Write it" in problem.message
-
-
 def test_load_keeps_text_and_hash_of_the_bytes(tmp_path: Path) -> None:
     path = tmp_path / "press.yaml"
     raw = b"\xef\xbb\xbfa: 1\r\nb: 2\r\n"
@@ -364,17 +279,21 @@ def test_load_keeps_text_and_hash_of_the_bytes(tmp_path: Path) -> None:
     assert tree.position(("b",)) == (2, 4)
 
 
-def test_load_reports_like_parse(tmp_path: Path) -> None:
+@pytest.mark.parametrize(
+    ("content", "line", "message"),
+    [
+        (None, None, "There is no such file. Check the name and the folder."),
+        (b"", None, "The file is empty. Write a YAML document."),
+        (b"a: 1\na: 2\n", 2, "The key 'a' stands here again; it is first in line 1. Remove one of the two."),
+        (b"a: 1\nb: \xff\xfe\x00\x93\n", 2, "The file is not UTF-8 text. Give a YAML file, saved as UTF-8."),
+    ],
+)
+def test_a_file_is_refused(tmp_path: Path, content: bytes | None, line: int | None, message: str) -> None:
     path = tmp_path / "press.yaml"
-    path.write_text("a: 1\na: 2\n", encoding="utf-8")
-    assert refused_file(path).line == 2
-
-
-def test_a_missing_file_is_refused(tmp_path: Path) -> None:
-    assert refused_file(tmp_path / "absent.yaml").message.startswith("There is no such file.")
-
-
-def test_a_folder_is_refused(tmp_path: Path) -> None:
+    if content is not None:
+        path.write_bytes(content)
+    problem = refused_file(path)
+    assert (problem.message, problem.line) == (message, line)
     assert refused_file(tmp_path).message == "This is a folder. Give a YAML file."
 
 
@@ -422,28 +341,6 @@ def test_a_file_of_the_greatest_size_is_read(tmp_path: Path, monkeypatch: pytest
     assert load(path).data == {"a": 1}
     path.write_bytes(b"a: 1 #" + b"x" * (50_000 - 5))
     assert refused_file(path).message.startswith("The file is too large: ")
-
-
-def test_a_file_that_is_no_utf8_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "press.yaml"
-    path.write_bytes(b"a: 1\nb: \xff\xfe\x00\x93\n")
-    problem = refused_file(path)
-    assert problem.message == "The file is not UTF-8 text. Give a YAML file, saved as UTF-8."
-    assert problem.line == 2
-
-
-def test_binary_junk_that_is_utf8_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "press.yaml"
-    path.write_bytes(b"PK\x03\x04\x00\x00")
-    problem = refused_file(path)
-    assert (problem.line, problem.column) == (1, 3)
-    assert "This is not YAML text" in problem.message
-
-
-def test_an_empty_file_is_refused(tmp_path: Path) -> None:
-    path = tmp_path / "press.yaml"
-    path.touch()
-    assert refused_file(path).message == "The file is empty. Write a YAML document."
 
 
 @pytest.mark.parametrize(

@@ -145,10 +145,7 @@ def choosing(a: Any) -> Any:
         (Formula(lambda a: math.sin(a)), "write np.sin"),
         (Formula(lambda a: math.acos(a)), "write np.arccos"),
         (Formula(lambda a, b: max(a, b)), "write np.maximum"),
-        (
-            Formula(lambda a: a * DENSITY),
-            r"or bind it: bind\(…, DENSITY=7850\), or make it one of the constants",
-        ),
+        (Formula(lambda a: a * DENSITY), r"or bind it: bind\(…, DENSITY=7850\), or make it one of the constants"),
         (Formula(lambda a: a @ a), "a formula holds assignments, one return"),
     ],
 )

@@ -4,6 +4,7 @@ from __future__ import annotations
 
 import math
 
+import numpy as np
 import pytest
 from hypothesis import given
 from hypothesis import strategies as st
@@ -17,6 +18,7 @@ from diecut_report.quantities.formatting import (
     shortest,
     shown,
     si,
+    told,
     with_unit,
 )
 from diecut_report.quantities.units import parse_quantity, unit
@@ -60,8 +62,7 @@ def test_digits_and_unit_say_what_is_meant(quantity: str, declared: str, text: s
 
 
 @pytest.mark.parametrize(
-    ("degrees", "text"),
-    [(38.84648, "38.85"), (356.8784, "356.88"), (0.123456, "0.123"), (180.0, "180")],
+    ("degrees", "text"), [(38.84648, "38.85"), (356.8784, "356.88"), (0.123456, "0.123"), (180.0, "180")]
 )
 def test_a_place_has_no_more_digits_than_mean_something(degrees: float, text: str) -> None:
     assert place_shown(math.radians(degrees), "deg") == {"text": text, "unit": "deg"}
@@ -126,3 +127,30 @@ def test_numbers_of_a_column_stop_at_the_step_that_can_be_made_or_measured(
     quantity: str, display: str, text: str
 ) -> None:
     assert listed_text(si(float(quantity.split()[0]), display), display) == text
+
+
+# Numbers in advice: rounded so that they are enough, and where only some are allowed one of these.
+
+
+BORES = (25.0, 32.0, 40.0, 50.0)
+
+
+@pytest.mark.parametrize(
+    ("value", "up", "words"),
+    [
+        (0.0333, True, "40 mm"),
+        (0.0333, False, "32 mm"),
+        (0.0333, None, "32 mm"),
+        (0.032, True, "32 mm"),
+        (0.032, False, "32 mm"),
+        (np.float64(0.0411), True, "50 mm"),
+        (0.0612, True, "61.2 mm"),
+        (0.02, False, "20 mm"),
+    ],
+)
+def test_of_listed_numbers_the_next_one_is_told(value: float, up: bool | None, words: str) -> None:
+    assert told(value, "mm", up=up, listed=BORES) == words
+
+
+def test_without_a_list_the_number_is_rounded_outwards() -> None:
+    assert (told(0.0333333, "mm", up=True), told(0.0333333, "mm", up=False)) == ("33.34 mm", "33.33 mm")

@@ -12,14 +12,7 @@ import pint
 import pytest
 
 from diecut_report.quantities import units
-from diecut_report.quantities.units import (
-    UnitError,
-    number_and_unit,
-    parse_quantity,
-    pretty,
-    to_display,
-    unit,
-)
+from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity, pretty, to_display, unit
 
 TABLE: dict[str, Any] = json.loads(units.TABLE_FILE.read_text(encoding="utf-8"))
 PINT: Any = pint.LazyRegistry()

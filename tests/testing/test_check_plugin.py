@@ -12,7 +12,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.testing import extreme_inputs
-from diecut_report.testing.contract import TITLES, ContractTest, TriedRule, check_contract, write_missing
+from diecut_report.testing.contract import TITLES, ContractTest, check_contract, write_missing
 from diecut_report.testing.plugin_page import meant
 from diecut_report.testing.scaffold import contents
 from diecut_report.text.catalogues import catalogue
@@ -41,11 +41,6 @@ def contract(folder: Path, *changes: tuple[str, str]) -> ContractTest:
     known = Discovery([home / "plugins"])
     config = load_config(home / "examples" / "toggle.yaml", known)
     return ContractTest(known.mechanism("toggle"), known, config, "toggle")
-
-
-def found(test: ContractTest, rule: str) -> TriedRule:
-    """What is found of one rule."""
-    return test.tried_alone(rule)
 
 
 @pytest.mark.wheel
@@ -110,7 +105,7 @@ MISTAKES = {
 @pytest.mark.parametrize("rule", MISTAKES)
 def test_a_mistake_is_told_with_its_rule_file_and_line(tmp_path: Path, rule: str) -> None:
     change, words = MISTAKES[rule]
-    tried = found(contract(tmp_path, change), rule)
+    tried = contract(tmp_path, change).tried_alone(rule)
     assert tried.status == "fail"
     assert any(all(part in fault for part in words) for fault in tried.faults), tried.faults
 
@@ -123,7 +118,7 @@ def odd(body: str) -> tuple[tuple[str, str], tuple[str, str]]:
 
 
 def test_a_machine_that_is_another_one_among_others_is_told(tmp_path: Path) -> None:
-    tried = found(contract(tmp_path, *odd("return travel * 1e5 * len(travel)")), "alone")
+    tried = contract(tmp_path, *odd("return travel * 1e5 * len(travel)")).tried_alone("alone")
     assert tried.status == "fail" and "toggle.py:" in tried.faults[0]
     assert "odd: is " in tried.faults[0] and " among others, " in tried.faults[0]
 
@@ -134,9 +129,9 @@ CANCELLED = "return (np.sin(1e6 * travel) ** 2 + np.cos(1e6 * travel) ** 2) * 1e
 def test_what_rounding_leaves_of_numbers_that_cancel_is_no_difference(tmp_path: Path) -> None:
     """Arrays are rounded otherwise than single numbers: here by a share of the whole, of which nothing is left."""
     other = CANCELLED.replace("1e9 - 1e9", "1e9 * (1 + 3e-17 * len(travel)) - 1e9")  # by 4e-7 among others
-    assert found(contract(tmp_path / "same", *odd(CANCELLED)), "alone").status == "pass"
-    assert found(contract(tmp_path / "more", *odd(other)), "alone").status == "pass"
-    assert found(contract(tmp_path / "else", *odd(f"{CANCELLED} + len(travel)")), "alone").status == "fail"
+    assert contract(tmp_path / "same", *odd(CANCELLED)).tried_alone("alone").status == "pass"
+    assert contract(tmp_path / "more", *odd(other)).tried_alone("alone").status == "pass"
+    assert contract(tmp_path / "else", *odd(f"{CANCELLED} + len(travel)")).tried_alone("alone").status == "fail"
 
 
 def test_a_machine_beside_the_example_may_be_refused(tmp_path: Path) -> None:
@@ -148,7 +143,7 @@ def test_a_machine_beside_the_example_may_be_refused(tmp_path: Path) -> None:
             ("import numpy as np", "import numpy as np\n\nfrom diecut_report.api import Refusal"),
         )
         test = contract(tmp_path / gives, *changes)
-        assert found(test, "alone").status == "note" and found(test, "speed").status == "pass"
+        assert test.tried_alone("alone").status == "note" and test.tried_alone("speed").status == "pass"
 
 
 PICKED = (  # a size of a series by the travel, and what is wrong among others as soon as they have another size
@@ -159,8 +154,10 @@ PICKED = (  # a size of a series by the travel, and what is wrong among others a
 
 
 def test_machines_are_tried_together_where_they_take_other_values_of_a_series(tmp_path: Path) -> None:
-    tried = found(contract(tmp_path, PICKED, odd("return wire_size * (1 + wire_size.std())")[1], PICKED_NAMES), "alone")
-    assert tried.status == "fail" and "1 of 1 picks change" in tried.told
+    tried = contract(tmp_path, PICKED, odd("return wire_size * (1 + wire_size.std())")[1], PICKED_NAMES).tried_alone(
+        "alone"
+    )
+    assert tried.status == "fail" and "1 of 1 picks change" in tried.summary
     assert any("odd: is " in fault and " among others, " in fault for fault in tried.faults)
 
 
@@ -170,7 +167,7 @@ PICKED_NAMES = ("def odd(travel)", "def odd(wire_size)")
 def test_warnings_of_numpy_are_not_told(tmp_path: Path) -> None:
     """Here a warning is an error, so that the rule would break."""
     test = contract(tmp_path, *odd("return travel + 0 * (np.nanmax(np.full(2, np.nan)) > 0)"))
-    assert [found(test, rule).status for rule in ("example", "alone")] == ["pass", "pass"]
+    assert [test.tried_alone(rule).status for rule in ("example", "alone")] == ["pass", "pass"]
 
 
 def test_each_list_is_tried_as_an_empty_one(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
@@ -179,7 +176,7 @@ def test_each_list_is_tried_as_an_empty_one(tmp_path: Path, monkeypatch: pytest.
     monkeypatch.setattr(
         extreme_inputs, "outcome_of", lambda text, *_: tried.append(text) or extreme_inputs.Outcome(None)
     )
-    found(contract(tmp_path), "hostile")
+    contract(tmp_path).tried_alone("hostile")
     assert [json.loads(text)["mechanisms"]["toggle"]["springs"] for text in tried].count([]) == 1 and len(tried) == 3
 
 
@@ -189,7 +186,9 @@ def test_a_text_that_a_lambda_makes_is_one_of_the_plugin(tmp_path: Path) -> None
         tmp_path, ("strength = Chapter", f"{words}strength = Chapter"), ("    Mechanism,\n", "    Mechanism,\n    Phrase,\n"),
         ('consequence="', 'consequence="{more}; '), ("yields; a thinner wire", "yields")
     )  # fmt: skip
-    assert any("“make it {rate}” (toggle.py) is not translated" in fault for fault in found(home, "languages").faults)
+    assert any(
+        "“make it {rate}” (toggle.py) is not translated" in fault for fault in home.tried_alone("languages").faults
+    )
 
 
 def test_the_texts_that_a_catalogue_lacks_are_written_into_it(tmp_path: Path, capfd: Capture) -> None:
@@ -221,13 +220,13 @@ def test_catalogues_of_the_program_are_not_written(capfd: Capture) -> None:
 
 def test_a_plugin_that_cannot_take_arrays_is_noted(tmp_path: Path) -> None:
     test = contract(tmp_path, *odd("return travel.item() * 1e5"))
-    assert found(test, "alone").status == "note" and found(test, "speed").status == "pass"
+    assert test.tried_alone("alone").status == "note" and test.tried_alone("speed").status == "pass"
     words = "cannot take arrays, so that a study calculates it variant by variant: ValueError"
-    assert words in found(test, "alone").faults[0]
+    assert words in test.tried_alone("alone").faults[0]
 
 
 def test_a_plugin_that_breaks_for_an_extreme_value_is_told(tmp_path: Path) -> None:
-    tried = found(contract(tmp_path, *odd("return {True: travel}[bool((travel < 1.0).all())] * 1e5")), "hostile")
+    tried = contract(tmp_path, *odd("return {True: travel}[bool((travel < 1.0).all())] * 1e5")).tried_alone("hostile")
     assert tried.status == "fail"
     assert (
         "toggle.py:42: travel: with 100000: the plugin breaks: " in tried.faults[0]
@@ -236,14 +235,14 @@ def test_a_plugin_that_breaks_for_an_extreme_value_is_told(tmp_path: Path) -> No
 
 
 def test_a_value_that_is_not_a_number_is_told(tmp_path: Path) -> None:
-    tried = found(contract(tmp_path, *odd("return travel * float('nan')")), "example")
+    tried = contract(tmp_path, *odd("return travel * float('nan')")).tried_alone("example")
     assert tried.status != "pass" and "odd" in tried.faults[0]
 
 
 def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     test = contract(tmp_path, *odd("while True: pass"))
-    monkeypatch.setattr("diecut_report.testing.contract.LONGEST", 0.2)
-    tried = found(test, "example")
+    monkeypatch.setattr("diecut_report.testing.contract.MAX_RULE_SECONDS", 0.2)
+    tried = test.tried_alone("example")
     assert (
         tried.status == "broke"
         and "it did not come back within 0.2 s" in tried.faults[0]
@@ -252,7 +251,7 @@ def test_a_plugin_that_never_comes_back_is_told(tmp_path: Path, monkeypatch: pyt
 
 
 def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
-    tried = found(contract(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"')), "languages")
+    tried = contract(tmp_path, ('title="Springs of an ejector"', 'title="Springs that eject"')).tried_alone("languages")
     assert tried.status == "note"
     assert list(tried.faults) == [
         "uk: “Springs that eject” (mechanism) is not translated",
@@ -280,9 +279,9 @@ def test_a_text_that_nothing_says_any_more_becomes_obsolete_and_comes_back(tmp_p
 
 def test_sources_in_words_that_no_catalogue_has_are_told(tmp_path: Path) -> None:
     change = ("    source=EN_13906,\n)\nsprings.total", '    source="theory of beams",\n)\nsprings.total')
-    tried = found(contract(tmp_path, change), "languages")
+    tried = contract(tmp_path, change).tried_alone("languages")
     assert tried.status == "pass"
-    assert tried.told == "en, uk; sources that stay as they are given: theory of beams"
+    assert tried.summary == "en, uk; sources that stay as they are given: theory of beams"
 
 
 def test_sources_in_functions_are_not_asked_for(tmp_path: Path) -> None:
@@ -314,7 +313,7 @@ def test_titles_of_standard_series_are_translated_by_the_program(tmp_path: Path)
 def test_what_came_of_extreme_values_is_told_in_words(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:
     test = contract(tmp_path)
     monkeypatch.setattr("diecut_report.testing.extreme_inputs.EXTREMES", 12)
-    told = found(test, "hostile").told
+    told = test.tried_alone("hostile").summary
     assert re.fullmatch(
         r"an extreme value in the place of one input at a time: \d+ gave numbers, \d+ were refused in words; they are a sample of 142",
         told,

@@ -10,7 +10,9 @@ import pytest
 from diecut_report.api import POINTS, Chapter, Check, Inputs, Mechanism, Quantity
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.checks import CheckClass
-from diecut_report.testing.machines import unlike_curves, unlike_verdicts
+from diecut_report.testing.contract import constant
+from diecut_report.testing.machines import MachineCase, unlike_curves, unlike_verdicts
+from tests.declaration.test_faults import check, made
 
 
 class Rounded(Inputs):
@@ -66,3 +68,20 @@ def test_a_curve_that_is_rounding_beside_its_quantities_may_be_another_one(size:
     many = calculate(turned, {"length": np.array([0.01, 0.02, 0.03]), "n_points": 36}, 3)
     alone = calculate(turned, {"length": 0.01, "n_points": 36})
     assert [name for name, _ in unlike_curves(many, alone, 0)] == found
+
+
+# A check whose verdict is the same for every machine is noted.
+
+
+def test_a_check_that_no_machine_fails_is_noted_and_one_that_some_fail_is_not() -> None:
+    sound = made(
+        checks=(
+            check(limit=0.06),
+            check(id="never", limit=1e9),
+            check(id="always", limit=0.0),
+            check(id="assumed", limit=1e9, presumed=True),
+        )
+    )
+    found = dict(constant(MachineCase(sound, {"force": 5.0, "arm": 0.01, "mode": "near", "n_points": 36}), 80, 1))
+    assert set(found) == {"never", "always"}
+    assert "holds in all of 80" in found["never"] and "fails in all of 80" in found["always"]

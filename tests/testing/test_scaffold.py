@@ -146,21 +146,10 @@ def test_a_configuration_begins_with_its_example_and_calculates(tmp_path: Path, 
 
 
 @pytest.mark.parametrize("like", LIKE)
-def test_no_text_of_it_waits_for_its_words(tmp_path: Path, like: str) -> None:
-    known = Discovery([made(tmp_path, "--like", like) / "plugins"])
-    assert list(ContractTest(known.mechanism("toggle"), known).words.untranslated("uk")) == []
-
-
-@pytest.mark.parametrize("like", LIKE)
-def test_all_its_texts_are_translated(like: str) -> None:
-    written = contents("toggle", as_package=False, like=like)
-    assert written["plugins/toggle.uk.po"].count('msgstr "') == written["plugins/toggle.uk.po"].count('msgid "')
-    assert 'msgstr ""\n\n' not in written["plugins/toggle.uk.po"]
-
-
-@pytest.mark.parametrize("like", LIKE)
-def test_its_catalogue_is_that_of_its_language(tmp_path: Path, like: str) -> None:
+def test_all_its_texts_are_translated(tmp_path: Path, like: str) -> None:
     home = made(tmp_path, "--like", like)
+    known = Discovery([home / "plugins"])
+    assert list(ContractTest(known.mechanism("toggle"), known).words.untranslated("uk")) == []
     found = read(file_beside(home / "plugins" / "toggle.py", "uk"), "uk")
     assert all(message.string for message in found if message.id)
 

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 from diecut_report.config import loader
-from diecut_report.config.instances import Instance, Target, substituted, taken_anew
+from diecut_report.config.instances import Instance, Target, substituted
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
 from diecut_report.config.references import Linker, ordered
@@ -203,7 +203,7 @@ def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance
     declared_as = instance.mechanism.inputs if instance.mechanism else Press
     place, bases, taken = instance.place, instance.bases, instance.own
     if taken and not taken.naming.keys().isdisjoint(own):
-        taken = taken_anew(declared_as, taken, data, own, place)
+        taken = taken.anew(declared_as, data, own, place)
         data, place, bases = taken.data, taken.place, {**bases, **taken.bases}
     model = in_form(declared_as, [key for key, value in data.items() if value is not None])
     changed = Instance(instance.name, model, data, place, instance.mechanism, bases, taken)

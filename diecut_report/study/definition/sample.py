@@ -12,9 +12,9 @@ from typing import Annotated, Any, Literal
 import numpy as np
 from pydantic import BeforeValidator, Field, create_model
 
-from diecut_report.config.loader import Config, as_typed
+from diecut_report.config.loader import Config
 from diecut_report.config.model import ConfigDocument
-from diecut_report.config.validation import ConfigPlace, told, validate
+from diecut_report.config.validation import ConfigPlace, as_typed, quoted, validate
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.mechanism.inputs import Block, Quantity
@@ -291,7 +291,7 @@ class ValueReader:
         if isinstance(given, list):
             return self._listed(asked, given)
         if not isinstance(given, dict):
-            self._report(asked, Phrase("is {given}; {needed}.", given=told(given), needed=NEEDED))
+            self._report(asked, Phrase("is {given}; {needed}.", given=quoted(given), needed=NEEDED))
             return None
         if "table" in given:
             return self._from_table(asked, given)
@@ -317,7 +317,7 @@ class ValueReader:
             words = (
                 phrase("has no value; write one, or remove the entry")
                 if given is None
-                else Phrase("is {given}; a reference does not vary", given=told(given))
+                else Phrase("is {given}; a reference does not vary", given=quoted(given))
             )
             self.problems.append(place.problem(("value",), Phrase("{words}.", words=words)))
             return None
@@ -336,7 +336,7 @@ class ValueReader:
         if name not in DISTRIBUTIONS:
             near = nearest(name, DISTRIBUTIONS) if isinstance(name, str) else ""
             words = Phrase(
-                "is {name}{near}; allowed: {names}", name=told(name), near=near, names=", ".join(DISTRIBUTIONS)
+                "is {name}{near}; allowed: {names}", name=quoted(name), near=near, names=", ".join(DISTRIBUTIONS)
             )
             self.problems.append(self._place(asked).problem(("distribution",), words))
             return None

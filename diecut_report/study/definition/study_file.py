@@ -12,10 +12,10 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from diecut_report.config import yaml
-from diecut_report.config.loader import Config, as_typed, beside, load_config
+from diecut_report.config.loader import Config, beside, load_config
 from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import Discovery
-from diecut_report.config.validation import ConfigPlace, validate
+from diecut_report.config.validation import ConfigPlace, as_typed, validate
 from diecut_report.config.yaml import Tree
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.formulas.conditions import ConditionError

@@ -10,7 +10,7 @@ from typing import Any, Literal
 
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.validation import ConfigPlace, told
+from diecut_report.config.validation import ConfigPlace, quoted
 from diecut_report.errors import Problem, nearest
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
 from diecut_report.study.execution.variant_rows import columns_of
@@ -118,7 +118,7 @@ class ResultReader:
         words = Phrase(
             "is {given}{nearest}; allowed: none, failed, best N (best 10), all, or a list of variants' "
             "numbers, as in [0, 17].",
-            given=told(given),
+            given=quoted(given),
             nearest=nearest(str(given), ("none", "failed", "all")),
         )
         self._report(("reports",), words)
@@ -129,7 +129,7 @@ class ResultReader:
             if not isinstance(number, int) or isinstance(number, bool):
                 self._report(
                     ("reports", index),
-                    Phrase("is {number}; a variant has a whole number, as in [0, 17].", number=told(number)),
+                    Phrase("is {number}; a variant has a whole number, as in [0, 17].", number=quoted(number)),
                 )
             elif number < 0 or (count is not None and number >= count):
                 self._report(("reports", index), _no_variant(number, count))

@@ -16,7 +16,7 @@ from dataclasses import dataclass
 from pathlib import Path
 from typing import Any, BinaryIO, NamedTuple
 
-from diecut_report.config.yaml import hidden
+from diecut_report.config.yaml import forbidden_character
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.files import opened
 from diecut_report.formulas import Array
@@ -252,7 +252,7 @@ class ReadColumn:
             raise UserError(self.problem(words))
         found = self.cells.texts()
         self._refuse(Faults.of((place for place, text in enumerate(found) if not text), lambda _: EMPTY))
-        held = {text: letter for text in set(found) if (letter := hidden(text))}
+        held = {text: letter for text in set(found) if (letter := forbidden_character(text))}
         places = (place for place, text in enumerate(found) if text in held)
         self._refuse(
             Faults.of(
