@@ -16,6 +16,7 @@ from diecut_report.config.model import PRESS
 from diecut_report.config.source_hashes import plugin_faults
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.samples import Sobol
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution import worker
 from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results
@@ -249,5 +250,6 @@ def facts(study: Study) -> Mapping[str, Any]:
     objectives = [{"minimise" if each.minimise else "maximise": each.output} for each in study.objectives]
     known: dict[str, Any] = {"varied": list(study.inputs), "objectives": objectives}
     known |= {"doubtful": found} if (found := _doubtful(study)) else {}
-    design = getattr(study.sample, "design", None)
-    return known | ({"design": "saltelli", "n": design.points} if design else {})
+    if isinstance(study.sample, Sobol) and study.sample.indices:
+        known |= {"design": "saltelli", "n": study.sample.points}
+    return known

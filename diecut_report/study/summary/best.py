@@ -14,7 +14,6 @@ from numpy.typing import NDArray
 
 from diecut_report.study.analysis.answers import rounded, sobol_indices
 from diecut_report.study.analysis.variants import Stored, StoredColumn
-from diecut_report.study.definition.samples import Saltelli
 from diecut_report.study.summary.data import (
     BANDS,
     SOUND,
@@ -205,13 +204,13 @@ def influences(stored: Stored, targets: Sequence[StoredColumn]) -> list[Influenc
 def _sobol(stored: Stored, target: StoredColumn) -> Influence | None:
     """From the points that lie one after the other in the sample; those of which any variant is missing are left out."""
     inputs = stored.varied
-    order = Saltelli(int(stored.study["n"]), tuple(column.name for column in inputs))
-    size = order.points * order.size
+    points, size = int(stored.study["n"]), len(inputs) + 2  # see `Sobol` for the rows of a point
     found = stored.connection.execute(
-        f"SELECT variant, CAST({target.sql} AS DOUBLE) AS f FROM w WHERE {target.sql} IS NOT NULL AND variant < {size}"
+        f"SELECT variant, CAST({target.sql} AS DOUBLE) AS f FROM w WHERE {target.sql} IS NOT NULL AND variant < {points * size}"
     ).fetchnumpy()
-    rows, values = np.asarray(found["variant"]), np.full((order.points, order.size), np.nan)
-    values[order.point(rows), order.place(rows)] = np.asarray(found["f"])
+    column = np.full(points * size, np.nan)
+    column[np.asarray(found["variant"])] = np.asarray(found["f"])
+    values = column.reshape(points, size)
     values = values[np.isfinite(values).all(axis=1)]
     indices = sobol_indices(values) if len(values) >= FEWEST else None
     if indices is None:
