@@ -118,7 +118,7 @@ def _study(shown: str, tree: Tree, discovery: Discovery, tries: bool) -> JudgedF
     if not tries:
         return JudgedFile(shown)
     from diecut_report.study.execution.dry_run import data, dry_run
-    from diecut_report.study.execution.refusals import refuse_empty
+    from diecut_report.study.execution.study_run import refuse_empty
 
     refuse_empty(study)
     found = dry_run(study)

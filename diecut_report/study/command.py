@@ -12,8 +12,16 @@ from typing import TYPE_CHECKING, Any
 from diecut_report.config.catalogues import catalogues_for, lacking
 from diecut_report.config.plugins import Discovery
 from diecut_report.study.definition.study_file import Study, load_study
-from diecut_report.study.execution.refusals import refuse_empty, refuse_huge, refuse_unsampled
-from diecut_report.study.execution.study_run import Counts, StudyOutcome, Where, engine_for, run_study
+from diecut_report.study.execution.study_run import (
+    Counts,
+    StudyOutcome,
+    Where,
+    engine_for,
+    refuse_empty,
+    refuse_huge,
+    refuse_unsampled,
+    run_study,
+)
 from diecut_report.study.execution.variant_reports import write_reports
 from diecut_report.study.storage import state
 from diecut_report.study.storage.spreadsheets import export
@@ -109,7 +117,7 @@ def run(
     with outcome.store.lock():
         told, broken = write_reports(known, outcome.store, where, agreed=agreed, tell=shown.doing)
         shown.doing(phrase("summary"))
-        told += export(outcome.store, formats)
+        told = (*told, *export(outcome.store, formats))
         with in_its_language(known, where):
             summarise(directory, discovery=_discovery(where))
     return replace(

@@ -18,7 +18,7 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.quantities.units import pretty
 from diecut_report.report.text import translated
 from diecut_report.results.conclusion import SELF_TEST, doubtful_kinds
-from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results, settle
+from diecut_report.study.execution.engines import Engine, InProcess, Pool, WorkerSetup, results, settle
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import localised
@@ -103,7 +103,7 @@ def machines(
     files: Sequence[Path | Tree], folders: Sequence[str], jobs: int | None = None
 ) -> Iterator[tuple[int, CheckedMachine]]:
     """Yield each configuration's number and what came out, in the order in which they are ready."""
-    warm = Warm(sha256(repr((folders, os.getcwd())).encode()).hexdigest(), _loaded, (tuple(folders),))
+    warm = WorkerSetup(sha256(repr((folders, os.getcwd())).encode()).hexdigest(), _loaded, (tuple(folders),))
     count = min(jobs or os.cpu_count() or 1, len(files))
     engine: Engine = Pool(count, warm) if count > 1 else InProcess(warm)
     chunks = [(number, given if isinstance(given, Tree) else str(given)) for number, given in enumerate(files)]

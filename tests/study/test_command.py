@@ -259,7 +259,7 @@ def test_a_study_given_to_another_command_is_told(tmp_path: Path, capfd: Capture
 def test_a_refused_folder_and_a_cluster_that_is_not_there_leave_nothing(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(dask_cluster, "PATIENCE", 1)
+    monkeypatch.setattr(dask_cluster, "TIMEOUT", 1)
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "mine").touch()
     assert run("batch", files(tmp_path), "-o", tmp_path / "full") == 2

@@ -28,6 +28,7 @@ import scipy
 from diecut_report.errors import UserError
 from diecut_report.study.storage import spreadsheets as exports
 from diecut_report.study.storage import state
+from diecut_report.study.storage import store as stores
 from diecut_report.study.storage.description import Description, ResultColumn
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.storage.store import Store
@@ -42,7 +43,7 @@ from tests.study.made_store import part
 store = Store.open(Path(sys.argv[1]))
 with store.lock():
     for index in range(store.description.parts):
-        rows = store.rows(index)
+        rows = store.description.part_rows(index)
         store.write_part(index, part(rows.start, len(rows)))
         print(index, flush=True)
 """
@@ -60,7 +61,7 @@ def filled(folder: Path, study: Description | None = None) -> Store:
     store = Store.create(folder, study or description())
     with store.lock():
         for index in range(store.description.parts):
-            rows = store.rows(index)
+            rows = store.description.part_rows(index)
             store.write_part(index, part(rows.start, len(rows)))
     return store
 
@@ -215,7 +216,7 @@ def test_versions_of_what_calculates_are_told(tmp_path: Path, monkeypatch: pytes
         for _ in range(2):
             store.start({})
             assert store.state["libraries"] == own
-        monkeypatch.setattr(state, "libraries", lambda: {"python": own["python"][0], "numpy": "9.9", "scipy": "9"})
+        monkeypatch.setattr(stores, "libraries", lambda: {"python": own["python"][0], "numpy": "9.9", "scipy": "9"})
         store.start({})
     assert store.state["libraries"] == {**own, "numpy": [np.__version__, "9.9"], "scipy": [scipy.__version__, "9"]}
 
@@ -342,7 +343,7 @@ def test_killed_writer_leaves_whole_parts_alone(tmp_path: Path) -> None:
         again = Store.open(tmp_path / "out", study)
         assert len(told) <= len(again.done_parts()) == len(again.parts()) < 400
         for index, path in again.parts().items():
-            assert pq.read_table(path)["variant"].to_pylist() == list(again.rows(index))
+            assert pq.read_table(path)["variant"].to_pylist() == list(again.description.part_rows(index))
     (tmp_path / "out/variants/.0123456789abcdef.part").write_bytes(b"PAR1")
     (tmp_path / "out/reports/.abc.part").mkdir(parents=True)
     (tmp_path / "out/reports/.abc.part/openpyxl").touch()
@@ -420,7 +421,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
 def fill(store: Store) -> int:
     with store.lock():
         for index in range(store.description.parts):
-            rows = store.rows(index)
+            rows = store.description.part_rows(index)
             store.write_part(index, part(rows.start, len(rows)))
     return store.description.parts
 

@@ -360,7 +360,7 @@ def _calculated(config: Config, values: dict[Input, Array], count: int) -> Calcu
             names = [name for name, kind in config.kinds.items() if kind == fault.kind and name not in left_out]
             if not names:
                 raise
-            left_out |= {name: PluginError(fault.words, fault.kind, name) for name in names}
+            left_out |= {name: PluginError(fault.message, fault.kind, name) for name in names}
 
 
 def _number(config: Config, path: str) -> tuple[Input, float] | None:

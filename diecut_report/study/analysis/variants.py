@@ -22,7 +22,7 @@ from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import UnitError, pretty, unit
 from diecut_report.report.text import number
-from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind, ResultColumn, code_told
+from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind, ResultColumn, source_name
 from diecut_report.study.storage.state import continuing
 from diecut_report.study.storage.store import Store
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
@@ -52,7 +52,7 @@ def other_code(sources: Mapping[str, str], kinds: Iterable[str], discovery: Disc
         Phrase(
             "The source of the {name} is not what the study was calculated by (SHA-256 {old} then, {new} "
             "now): the numbers of this variant may differ from those that are stored.",
-            name=code_told(name),
+            name=source_name(name),
             old=old[:SHORT] or phrase("none"),
             new=new[:SHORT] or phrase("none"),
         )
