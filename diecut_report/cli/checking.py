@@ -338,7 +338,7 @@ def _write(
     language = asked_language() or language_of(found)
     with speaking(language, catalogues_for(language, (), discovery)):
         made = compared(in_language(found, spoken_catalogues(discovery)))
-        contents = dict(pages.files(made, folder, formats, compared(found)))
+        contents = pages.files(made, folder, formats, compared(found))
     if kept := set(contents) & set(files):
         words = Phrase("{file} is one of the configurations, and is not overwritten.", file=min(kept))
         raise UserError(Problem(words))

@@ -21,8 +21,8 @@ COLUMNS = {
 def test_a_percentage_wants_its_sign() -> None:
     with pytest.raises(UserError, match=r"a number beside a\.error.*needs %, for example '-?0\.1 %'"):
         condition("a.error < 0.1", COLUMNS)
-    assert condition("a.error < '0.1 %'", COLUMNS).parameters == [0.001]
-    assert condition("a.ratio < 0.1", COLUMNS).parameters == [0.1]
+    assert condition("a.error < '0.1 %'", COLUMNS).parameters == (0.001,)
+    assert condition("a.ratio < 0.1", COLUMNS).parameters == (0.1,)
 
 
 def test_what_is_not_defined_is_neither_more_nor_less() -> None:

@@ -98,7 +98,7 @@ def test_memory_stays_flat_over_many_chunks(tmp_path: Path) -> None:
 @pytest.mark.parametrize("make", ENGINES)
 def test_exception_names_its_chunk(tmp_path: Path, make: Make) -> None:
     with (
-        pytest.raises(ZeroDivisionError, match="^nothing to divide by") as caught,
+        pytest.raises(ZeroDivisionError, match="nothing to divide by") as caught,
         make(tmp_path) as engine,
     ):
         list(results(engine, fails_at_three, range(10)))

@@ -17,8 +17,8 @@ from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.study.analysis.answers import variants
-from diecut_report.study.analysis.variants import STATUSES, opened, titles
-from diecut_report.study.storage.description import ResultColumn
+from diecut_report.study.analysis.variants import opened, titles
+from diecut_report.study.storage.description import STATUSES, ResultColumn
 from diecut_report.study.summary import best as influence
 from diecut_report.study.summary import best as pareto
 from diecut_report.study.summary import content, data, summarise
