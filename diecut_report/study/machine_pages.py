@@ -73,7 +73,6 @@ def _verdict(of: Verdict) -> list[Any]:
 
 
 def _cell(cell: dict[str, Any] | None) -> str:
-    """Return a check in a table: its verdict with its utilisation."""
     if cell is None:
         return ""
     used = "" if cell["utilisation"] is None else localised(f" {cell['utilisation']:.6g}")

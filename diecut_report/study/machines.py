@@ -283,6 +283,5 @@ def _shown(row: Data | None) -> str:
 
 
 def _advice(checks: Mapping[str, Data]) -> list[str]:
-    """Return what the checks that do not pass say to do."""
     failing = ((name, check) for name, check in checks.items() if check["status"] in ("fail", "warn"))
     return [f"{name}: {check['message']}" for name, check in failing]

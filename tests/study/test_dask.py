@@ -17,8 +17,8 @@ import pytest
 
 from diecut_report.errors import UserError
 from diecut_report.study.execution import dask_cluster as module
-from diecut_report.study.execution.engines import SAFE_PATH, InProcess, dask_cluster, results
-from diecut_report.study.execution.study_run import Counts, Where, run_study
+from diecut_report.study.execution.engines import SAFE_PATH, InProcess, results
+from diecut_report.study.execution.study_run import Counts, Where, dask_cluster, run_study
 from tests.configs import GOOD
 from tests.design.optimisation.searches import optimised, search_file
 from tests.processes import until

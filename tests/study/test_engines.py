@@ -16,7 +16,8 @@ import pytest
 
 from diecut_report.errors import UserError
 from diecut_report.study.execution import engines
-from diecut_report.study.execution.engines import Engine, InProcess, Pool, dask_cluster, results
+from diecut_report.study.execution.engines import Engine, InProcess, Pool, results
+from diecut_report.study.execution.study_run import dask_cluster
 from tests.processes import at_most, until
 from tests.study.made_store import dies_at_three, dies_in_its_result, fails_at_three, slow_square, square, warm
 

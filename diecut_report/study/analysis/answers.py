@@ -191,7 +191,6 @@ def is_doubtful(folder: Path) -> bool:
 
 
 def _written(stored: Stored, question: Question, notation: Notation) -> Iterator[list[Any]]:
-    """Yield the variants with their values as they are written."""
     for row in question.rows(stored):
         yield [notation.value(value, column) for value, column in zip(row, question.columns, strict=True)]
 
@@ -201,7 +200,6 @@ def _finite(value: Any) -> Any:
 
 
 def _csv_text(heads: Sequence[Any], rows: Iterable[Sequence[Any]], notation: Notation) -> Iterator[str]:
-    """Yield rows as CSV, some at a time."""
     buffer = io.StringIO()
     writer = csv.writer(buffer, delimiter=SEPARATORS[notation.separator], lineterminator="\n")
     writer.writerow(heads)
@@ -354,7 +352,6 @@ def _moved(made: CalculatedVariants, paths: list[str], names: list[str]) -> Iter
 
 
 def _change(utilisation: Array, at: list[int]) -> float:
-    """Return the greatest change of a utilisation; a machine that cannot be any more is changed most."""
     changes = np.abs(utilisation[at] - utilisation[0])
     return 0.0 if math.isnan(utilisation[0]) else float(np.where(np.isnan(changes), 1.0, changes).max())
 

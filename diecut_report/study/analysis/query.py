@@ -46,7 +46,6 @@ class Sql(NamedTuple):
 
 
 def _filled(form: str, *parts: Sql) -> Sql:
-    """Return the form with these expressions in its braces."""
     return Sql(form.format(*(part.text for part in parts)), tuple(value for part in parts for value in part.parameters))
 
 
@@ -151,8 +150,8 @@ def condition(given: str, columns: Mapping[str, StoredColumn]) -> Condition:
 def column_named(name: str, columns: Mapping[str, StoredColumn]) -> StoredColumn:
     """Return the column of a name; UserError with the nearest where there is none."""
     if name not in columns:
-        words, near = "{name} is not a column of these variants{nearest}.", nearest(name, columns)
-        raise UserError(Problem(Phrase(words, name=repr(name), nearest=near)))
+        words = "{name} is not a column of these variants{nearest}."
+        raise UserError(Problem(Phrase(words, name=repr(name), nearest=nearest(name, columns))))
     return columns[name]
 
 
@@ -235,7 +234,6 @@ def _refuse_strange(stored: Stored, picked: Sequence[int]) -> None:
 
 
 def _shown(stored: Stored, asked: Condition, order: Sequence[str]) -> list[StoredColumn]:
-    """Return the columns of a table for people, each once."""
     objectives = [name for each in stored.study.get("objectives") or () for name in each.values()]
     sql = f"SELECT 1 FROM v WHERE error IS NOT NULL AND {asked.sql} LIMIT 1"
     reason = ["error"] if stored.rows(sql, asked.parameters) else []

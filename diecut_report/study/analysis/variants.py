@@ -375,7 +375,6 @@ def _printed(table: Table, width: int | None) -> str:
 
 
 def _head(column: StoredColumn) -> str:
-    """Return the name on short lines, and the unit below it."""
     lines = [""]
     for part in re.findall(r"[^._]*[._]|[^._]+", column.name.removeprefix(f"{MECHANISMS}.")):
         if lines[-1] and (lines[-1].endswith(".") or len(lines[-1] + part) > HEAD):

@@ -87,7 +87,6 @@ def find_input(base: Config, path: str) -> Input:
 
 
 def _with_entries(instance: Instance, key: KeyPath, annotation: Any) -> Any:
-    """Return an annotation with the entries of the user's own tables that the key may name."""
     names = instance.own.names(key) if instance.own else ()
     known = [part for part in (annotation, *get_args(annotation)) if get_origin(part) is Literal]
     return Literal[(*(text for part in known for text in get_args(part)), *names)] if names else annotation
@@ -134,7 +133,8 @@ def _no_input(instance: Instance, keys: list[str]) -> Phrase:
         return Phrase(words, home=instance.name, near=nearest(name, known))
     place = next((part for part in keys if part.isdigit()), "0")  # of the part that is meant
     near = nearest(name, [key.replace(".0.", f".{place}.") for key in known])
-    words, listed = "{name} is not an input of {home}{near}. Known: {names}.", _known(instance, each_part=True)
+    words = "{name} is not an input of {home}{near}. Known: {names}."
+    listed = _known(instance, each_part=True)
     return Phrase(words, name=repr(name), home=instance.name, near=near, names=", ".join(listed))
 
 

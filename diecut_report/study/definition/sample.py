@@ -135,7 +135,6 @@ class SampleReader:
     # --- the values of a path ----------------------------------------------------------------------------------------
 
     def _variable(self, asked: Input, given: Any) -> Variable | None:
-        """Return the variable that is given in the file, or None where there are problems."""
         try:
             if isinstance(given, list):
                 return self._listed(asked, given)
@@ -210,7 +209,6 @@ class SampleReader:
         return ConfigPlace(self.place.tree, ("vary", asked.path))
 
     def _validated(self, form: type[Block], given: dict[str, Any], place: ConfigPlace) -> Any:
-        """Return the block, or None with its problems."""
         block, problems = validate(form, as_typed(form, given, place), place)
         self.problems += problems
         return block
@@ -311,7 +309,6 @@ def _made(form: SampleForm, variables: tuple[Variable, ...]) -> Sample:
 
 
 def _texts(given: Any) -> list[str]:
-    """Return the texts of a list, as far as it has any."""
     known = [stored_value(value) for value in given if isinstance(value, str | bool)] if isinstance(given, list) else []
     return [str(value) for value in dict.fromkeys(known)][:MAX_LOOKED_UP]
 

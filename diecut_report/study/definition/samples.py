@@ -112,7 +112,6 @@ class Grid(_Varied):
         return {variable.path: variable.at(number) for variable, number in zip(listed, numbers, strict=True)}
 
     def _numbers(self, row: Array) -> list[Array]:
-        """Return which of its values each variable has in these rows."""
         numbers = []
         for count in reversed(self.counts):
             row, number = np.divmod(row, count)

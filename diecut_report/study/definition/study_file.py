@@ -191,15 +191,12 @@ class _StudyReader:
         return tuple(dict.fromkeys([*results.outputs(self.data["outputs"]), *needed]))
 
     def _find(self, name: str) -> Path:
-        """Return where a file is that the study names."""
         return self.places.get(name, Path(self.tree.file).parent / name)
 
     def _beside_base(self, name: str) -> str:
-        """Return what a table that the base names is called in the study."""
         return str(PurePath(self.data["base"]).parent / name)
 
     def _base(self) -> Config | None:
-        """Return the base, or None with its problems; these name its own file."""
         if self.given is not None or "base" not in self.data:
             return self.given
         path = self._find(self.data["base"])

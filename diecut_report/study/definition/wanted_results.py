@@ -17,7 +17,6 @@ from diecut_report.study.execution.variant_rows import columns_of
 from diecut_report.text.phrases import Counted, Phrase, phrase
 
 MAX_LISTED = 12  # known names that a message lists
-TEXT_OBJECTIVE = "{name} is a text or a yes/no, which is neither small nor great; name a number."
 Sort = Literal["number", "other", "check", "utilisation", "curve", "row", "unknown"]
 
 
@@ -141,7 +140,8 @@ class ResultReader:
     def _is_number(self, key: KeyPath, name: str) -> bool:
         sort = self._sort(key, name)
         if sort == "other":
-            self._report(key, Phrase(TEXT_OBJECTIVE, name=name))
+            words = "{name} is a text or a yes/no, which is neither small nor great; name a number."
+            self._report(key, Phrase(words, name=name))
         elif sort not in ("number", "utilisation", None):
             self._report_no_output(key, name)
         return sort in ("number", "utilisation")
@@ -190,12 +190,10 @@ class ResultReader:
         return None
 
     def _names(self, mechanism: str, *sorts: Sort) -> list[str]:
-        """Return what a mechanism gives of some sorts, by its name there."""
         known = (name.partition(".") for name, sort in self.sorts.items() if sort in sorts)
         return sorted(inner for first, _, inner in known if first == mechanism)
 
     def _near(self, name: str, *sorts: Sort) -> Phrase:
-        """Return the nearest name of some sorts, else those that are known."""
         first, _, inner = name.partition(".")
         names = self._names(first, *sorts)
         near = nearest(inner, names)

@@ -62,7 +62,6 @@ class Dask(Engine):
             self._client.close()
 
     def _prepare_workers(self) -> None:
-        """Tell each worker what to load, also one that joins later."""
         try:
             self._client.wait_for_workers(1, timeout=TIMEOUT)
         except TimeoutError as error:

@@ -145,7 +145,6 @@ def _windows(count: int) -> Iterator[tuple[int, int]]:
 
 
 def _first(study: Study) -> int:
-    """Return the number of the first variant that the constraints between inputs leave."""
     start = 0
     for found in judged_rows(study):
         if found.holds.any():
@@ -181,7 +180,6 @@ def _rates(found: list[tuple[int, float, int]]) -> tuple[float, float, float]:
 
 
 def _size(known: Description, done: Done) -> int:
-    """Return the bytes of these variants as a part file."""
     columns = {name: values for name, values in done.columns.items() if name != "variant"}
     return len(part_content(table_of(schema_of(known), columns, np.asarray(done.columns["variant"], dtype=np.int64))))
 
@@ -243,7 +241,6 @@ def _study_lines(found: DryRun) -> Iterator[str]:
 
 
 def _search_lines(found: DryRun, asked: Optimise) -> Iterator[str]:
-    """Yield how far a search goes, for what, through what, and how long it takes."""
     words = "a search through {n} machines, {population} in a generation"
     yield say(words, n=asked.evaluations, population=asked.population)
     goals = [
@@ -251,17 +248,16 @@ def _search_lines(found: DryRun, asked: Optimise) -> Iterator[str]:
         for each in asked.objectives
     ]
     yield say("searched for: {goals}", goals=", ".join(goals))
-    passing, all_ = "allowed are machines of which no check fails", "allowed are also machines of which checks fail"
-    yield say(passing if asked.is_passing else all_)
+    passing = "allowed are machines of which no check fails"
+    failing = "allowed are also machines of which checks fail"
+    yield say(passing if asked.is_passing else failing)
     yield from _dropped(found)
     yield from _varied(found, "")
     words = "of each machine: {quantities} quantities, {checks} checks, {curves} curves"
     yield say(words, quantities=found.quantities, checks=found.checks, curves=len(found.study.curves))
     yield _calculated(found.measured)
-    words, seconds = (
-        "time: {each} a machine, about {whole} on one processor, without page and reports",
-        found.measured.seconds,
-    )
+    words = "time: {each} a machine, about {whole} on one processor, without page and reports"
+    seconds = found.measured.seconds
     yield say(words, each=_scaled(seconds, DURATIONS), whole=_scaled(asked.evaluations * seconds, DURATIONS))
 
 
@@ -276,7 +272,6 @@ def _dropped(found: DryRun) -> Iterator[str]:
 
 
 def _varied(found: DryRun, head: str) -> Iterator[str]:
-    """Yield the paths with their ranges or texts, and with their first values where these have a heading."""
     rows = []
     for each in found.varied:
         unit = "" if each["unit"] in ("", "1") else f" {each['unit']}"
@@ -296,7 +291,6 @@ def _calculated(measured: Measured) -> str:
 
 
 def _scaled(value: float, scales: tuple[tuple[float, str], ...]) -> str:
-    """Return an estimate in the unit that fits it, to two digits."""
     scale, words = next((each for each in scales if value >= each[0]), scales[-1])
     number = value / scale
     return say(words, n=localised(f"{number:.2g}" if number < 10 else f"{number:.0f}"))

@@ -23,7 +23,7 @@ from typing import Any, Self
 from threadpoolctl import threadpool_limits
 
 from diecut_report.errors import PluginError, Problem, UserError
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import Phrase
 
 Chunk = Any
 Function = Callable[[Any, Chunk], Any]  # (what the worker has loaded, chunk) -> result
@@ -222,18 +222,6 @@ class InProcess(Engine):
         except Exception as error:
             future.set_exception(error)
         return future
-
-
-def dask_cluster(address: str, setup: WorkerSetup) -> Engine:
-    """Return the workers of the Dask scheduler at this address; UserError where Dask is not installed."""
-    try:
-        from diecut_report.study.execution.dask_cluster import Dask
-    except ModuleNotFoundError as error:
-        if error.name not in ("dask", "distributed"):
-            raise
-        words = "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
-        raise UserError(Problem(phrase(words))) from error
-    return Dask(address, setup)
 
 
 # --- processes of this machine ---------------------------------------------------------------------------------------

@@ -236,12 +236,10 @@ def _flaw_text(instance: Instance, path: str, message: str) -> str:
 
 
 def _reason_text(problem: Problem) -> str:
-    """Return path and message: where the base stands in its file is the same for all variants."""
     return ": ".join(part for part in (problem.path, problem.message) if part)
 
 
 def _filled(data: Any, sound: Callable[[KeyPath, SI], Any], key: KeyPath = ()) -> Any:
-    """Return the data with each number that is known already made sound."""
     match data:
         case SI():
             return sound(key, data)

@@ -23,7 +23,6 @@ from diecut_report.study.execution.engines import (
     Engine,
     InProcess,
     WorkerSetup,
-    dask_cluster,
     local_engine,
     results,
 )
@@ -154,7 +153,6 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
 
 
 def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterator[worker.Done]:
-    """Write each part as soon as it is calculated."""
     there = store.done_parts()
     for path in (path for index, path in store.parts().items() if index not in there):
         path.unlink(missing_ok=True)  # a damaged part is calculated again
@@ -192,6 +190,18 @@ def engine_for(study: Study, where: Where, chunks: int, rows: int | None = None)
         return dask_cluster(where.dask, setup)
     is_large = where.jobs or (rows or study.sample.count) > SMALL
     return local_engine(where.jobs, chunks, setup) if is_large else InProcess(setup)
+
+
+def dask_cluster(address: str, setup: WorkerSetup) -> Engine:
+    """Return the workers of the Dask scheduler at this address; UserError where Dask is not installed."""
+    try:
+        from diecut_report.study.execution.dask_cluster import Dask
+    except ModuleNotFoundError as error:
+        if error.name not in ("dask", "distributed"):
+            raise
+        words = "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
+        raise UserError(Problem(phrase(words))) from error
+    return Dask(address, setup)
 
 
 def contents(study: Study) -> dict[str, bytes]:

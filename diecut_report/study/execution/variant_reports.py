@@ -95,7 +95,6 @@ def write_chosen(
 
 
 def _write(place: ReportPlace, report: VariantReport) -> dict[str, str]:
-    """Write a report; return the plugins that broke in it, and why."""
     discovery = Discovery([Path(plugin) for plugin in place.plugins])
     config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")
     asked = pipeline.AskedReport(place.language)

@@ -83,7 +83,6 @@ def curve_columns(config: Config, names: Iterable[str]) -> Iterator[ResultColumn
 
 
 def _column(name: str, kind: Kind, display: str, step: Step) -> ResultColumn:
-    """Return a column of what a step gives: SI, and the unit that the report prints it in."""
     si = unit(display).si
     return ResultColumn(name, kind, si, display if display != si else "", step.symbol, step.description)
 
@@ -116,7 +115,6 @@ def _counts(instance: Instance) -> dict[str, int]:
 
 
 def _length(data: Any, path: str) -> int:
-    """Return how many blocks a list has in the config; none where it is not given."""
     for part in path.split("."):
         data = data.get(part) if isinstance(data, Mapping) else None
     return len(data or ())
@@ -335,7 +333,6 @@ def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, A
 
 
 def _kept(variants: CalculatedVariants, rows: Rows, chosen: Array) -> None:
-    """Put what was calculated of some variants into their rows."""
     found = verdicts(variants.calculations, variants.count)
     variants.reasons = {**found.faults, **variants.reasons}
     bad = np.array(sorted(variants.reasons), dtype=int)

@@ -138,7 +138,6 @@ def _rows(study: Study, inputs: Given, count: int, limit: float | None) -> tuple
 
 
 def _interrupted_kind(overran: Overran, config: Config) -> str:
-    """Return the kind whose code ran last; all kinds where no plugin's did."""
     made = {name: each.mechanism for name, each in config.instances.items() if each and each.mechanism}
     homes = {name: Path(mechanism.at.rpartition(":")[0]) for name, mechanism in made.items()}
     for frame in reversed(traceback.extract_tb(overran.__traceback__)):

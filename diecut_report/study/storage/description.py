@@ -187,8 +187,8 @@ def _other_tables(before: Description, now: Description) -> Iterator[Problem]:
 def _other_columns(before: Description, now: Description) -> Phrase:
     old, new = ({column.name: column for column in each.columns} for each in (before, now))
     names = [name for name in (old | new) if old.get(name) != new.get(name)] or [phrase("their order")]
-    words, more = "The columns of the results differ: {names}{more}.", " …" * (len(names) > LINES)
-    return Phrase(words, names=joined(names[:LINES], ", "), more=more)
+    more = " …" * (len(names) > LINES)
+    return Phrase("The columns of the results differ: {names}{more}.", names=joined(names[:LINES], ", "), more=more)
 
 
 def _changed_lines(before: StudySource, now: StudySource) -> str:

@@ -25,7 +25,8 @@ def export(store: Store, formats: Iterable[str]) -> list[str]:
     """Write the variants stored so far as DIR/variants.csv or .xlsx, a row each; returns what is to be known of the files."""
     wanted = list(dict.fromkeys(formats))
     if strange := [name for name in wanted if name not in WRITERS]:
-        words, near = "{strange} is not a format of a table{nearest}. Allowed: {writers}.", nearest(strange[0], WRITERS)
+        words = "{strange} is not a format of a table{nearest}. Allowed: {writers}."
+        near = nearest(strange[0], WRITERS)
         raise UserError(Problem(Phrase(words, strange=repr(strange[0]), nearest=near, writers=", ".join(WRITERS))))
     for name in wanted:
         path = store.directory / f"{NAME}.{name}"

@@ -194,7 +194,6 @@ def _unknown(key: str, known: Any) -> Phrase:
 
 
 def _given(value: Any) -> str:
-    """Return a value of the file, shortened."""
     match value:
         case None | bool():
             return json.dumps(value)
@@ -209,7 +208,6 @@ def _given(value: Any) -> str:
 
 
 def _disagreeing(form: StateForm) -> Iterator[Fault]:
-    """Yield the keys that contradict others."""
     names, verdict = list(form.columns), [column.name for column in VERDICT]
     if names[:1] != [VARIANT.name] or names[-len(verdict) :] != verdict:
         words = "They begin with variant and end with {verdict}."
@@ -227,7 +225,6 @@ def part_name(index: int) -> str:
 
 
 def _incomplete(form: StateForm) -> Iterator[Fault]:
-    """Yield what of a study that is called complete does not add up."""
     whole = -(-form.rows // form.chunk)
     first = range(min(whole, len(form.part_files) + 1))  # one that is missing is enough
     yield from _other_keys("part_files", form.part_files, {part_name(index) for index in first})
@@ -307,7 +304,6 @@ def is_sealed(state: Data) -> bool:
 
 
 def _seal(state: Mapping[str, Any]) -> str:
-    """Return the hash of all other keys, in their order."""
     others = {key: value for key, value in state.items() if key != SEAL}
     return sha256(json.dumps(others, allow_nan=False).encode()).hexdigest()
 

@@ -106,7 +106,6 @@ def pareto_best(costs: Array) -> Array:
 
 
 def _beaten(rows: Array, others: Array) -> Array:
-    """Return which rows some other row dominates."""
     found = np.zeros(len(rows), dtype=bool)
     for start in range(0, len(others), BLOCK):
         part = others[start : start + BLOCK]
@@ -266,7 +265,6 @@ def _ranks(stored: Stored, target: StoredColumn) -> Influence | None:
 
 
 def _read(stored: Stored, target: StoredColumn) -> tuple[Array, dict[StoredColumn, Array]]:
-    """Return a quantity and the inputs of the variants that have it, of many a part."""
     asked = ", ".join(f"{number_of(stored, column)} AS i{index}" for index, column in enumerate(stored.varied))
     count = stored.rows(f"SELECT count({target.sql}) FROM w")[0][0]
     every = max(1, math.ceil(count / RANKED))
@@ -316,7 +314,6 @@ def _partial(parts: Sequence[Array], index: int, goal: Array) -> float | None:
 
 
 def _alike(one: Array, two: Array) -> bool:
-    """Return whether two inputs go up and down together."""
     if one.shape[1] > 1 or two.shape[1] > 1:
         return False
     size = math.sqrt(float((one**2).sum() * (two**2).sum()))
@@ -324,7 +321,6 @@ def _alike(one: Array, two: Array) -> bool:
 
 
 def _residual(others: Array, values: Array) -> Array:
-    """Return what a linear regression on the others leaves."""
     left: Array = values - others @ np.linalg.lstsq(others, values, rcond=None)[0] if others.shape[1] else values
     return left
 
@@ -455,7 +451,6 @@ def telling(used: Sequence[Utilisation]) -> list[Utilisation]:
 
 
 def _of_variants(stored: Stored, variants: Iterable[int], asked: Sequence[str]) -> dict[int, tuple[Any, ...]]:
-    """Return what is asked of some variants, by their numbers."""
     listed = ", ".join(map(str, variants)) or "NULL"
     rows = stored.rows(f"SELECT {', '.join(['variant', *asked])} FROM w WHERE variant IN ({listed})")
     return {number: tuple(values) for number, *values in rows}

@@ -257,7 +257,6 @@ def cells(found: Density, front: Front | None = None) -> Figure:
 
 
 def _legend(sheet: Figure, axes: Axes) -> None:
-    """Put the legend below the chart, where no point lies."""
     handles, names = axes.get_legend_handles_labels()
     left = axes.get_position().x0
     sheet.legend(handles, names, loc="lower left", bbox_to_anchor=(left, 0), ncols=len(names), borderaxespad=0)
@@ -353,7 +352,6 @@ def drawn_lines(sample: SampledVariants) -> DrawnLines:
 
 
 def _evenly(places: Array) -> Array:
-    """Return at most so many places of many, at equal distances."""
     if len(places) <= MOST:
         return places
     found: Array = places[np.linspace(0, len(places) - 1, MOST).round().astype(int)]
@@ -421,7 +419,6 @@ def _fields(axes: Axes, place: int, heights: Array, status: Array, wide: float) 
 
 
 def _scale(axes: Axes, place: int, column: StoredColumn, ends: Ends, words: list[str] | None, room: float) -> None:
-    """Write the ends of an upright axis; of words each at its place."""
     low, top, is_cut = ends
     if words is None:
         _fitted(axes, display(low, column), (place, 0), -3, room)
@@ -443,7 +440,6 @@ def _fitted(axes: Axes, text: str, place: tuple[float, float], above: float, roo
 
 
 def _text(axes: Axes, text: str, place: tuple[float, float], above: float, size: float) -> None:
-    """Write a text above or below a place, some points away."""
     side = "bottom" if above > 0 else "top"
     axes.annotate(
         text, place, (0, above), textcoords="offset points", ha="center", va=side, size=size, linespacing=1.05

@@ -110,7 +110,6 @@ def _objective(column: StoredColumn | None, way: str, name: str) -> AskedText:
 
 
 def _quantities(stored: Stored, expression: str) -> str:
-    """Return what the names in an expression are called, with their symbols."""
     found = (_column_of(stored, name) for name in dict.fromkeys(NAME.findall(expression)))
     return ", ".join(f"{named(column)} {column.symbol}".rstrip() for column in found if column)
 
@@ -253,10 +252,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     }
     governing = data.governing(stored, still)
     asked = [column for column in varying if column.name in _asked_outputs(stored)]
-    failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
-    # what matters, the first most: objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others
-    outputs = [column for column in varying if column not in stored.varied]
-    main = [column for column in dict.fromkeys([*aims, WORST, *asked, *failing, *outputs]) if column in varying]
+    main = _main(stored, aims, varying, asked, used)
     found = best.influences(stored, main[: min(TARGETS + len(asked), MAX_TARGETS)])
     inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
     choices = list(dict.fromkeys([*inputs, *main]))
@@ -291,6 +287,19 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     )  # fmt: skip
 
 
+def _main(
+    stored: Stored,
+    aims: list[StoredColumn],
+    varying: list[StoredColumn],
+    asked: list[StoredColumn],
+    used: list[data.Utilisation],
+) -> list[StoredColumn]:
+    """Return what matters, the first most: objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others."""
+    failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
+    outputs = [column for column in varying if column not in stored.varied]
+    return [column for column in dict.fromkeys([*aims, WORST, *asked, *failing, *outputs]) if column in varying]
+
+
 def _asked_outputs(stored: Stored) -> set[str]:
     """Return the outputs that the study file asks for by their names; none where it keeps all, or its copy is gone."""
     tree = _parsed(stored.description.study)
@@ -303,14 +312,12 @@ def _is_telling(spread: Spread) -> bool:
 
 
 def _spreads(stored: Stored, goals: list[StoredColumn], total: int) -> dict[str, Spread]:
-    """Return the ranges of inputs and outputs, and of the greatest utilisation."""
     used = [value for value, _ in stored.checks.values()]
     columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *goals, *used]
     return data.spreads(stored, list(dict.fromkeys(columns)), total)
 
 
 def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
-    """Yield the run in a few numbers."""
     counts = stored.study.get("counts") or {}
     yield say("Variants calculated"), variants(total)
     yield say("Varied"), say_counted(len(stored.varied), "{n} input", "{n} inputs")
@@ -330,19 +337,16 @@ def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
 
 
 def _title(stored: Stored, base: yaml.Tree | None) -> str:
-    """Return the title of the base's project, else the study's file."""
     project = base.data.get("project") if base else None
     return str((project or {}).get("title") or printable(stored.description.study.file))
 
 
 def _assumed(data: Any) -> int:
-    """Return how many values of a configuration say that they are assumed."""
     parts = data.values() if isinstance(data, dict) else data if isinstance(data, list) else ()
     return (isinstance(data, dict) and data.get("basis") == ASSUMED) + sum(map(_assumed, parts))
 
 
 def _files(stored: Stored) -> list[tuple[str, str]]:
-    """Return the files that the study was made from, and the code that calculated it, with their SHA-256."""
     made = stored.description
     code = [(say("the source of the {name}", name=source_name(name)), digest) for name, digest in made.sources.items()]
     return [*((printable(source.file), source.sha256) for source in (made.study, made.base, *made.tables)), *code]

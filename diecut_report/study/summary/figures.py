@@ -80,7 +80,6 @@ class Figures:
         return SummaryFigure(svg, say("Variants by status."), told)
 
     def _failures(self, failures: Sequence[Failure]) -> SummaryFigure:
-        """Return in how many variants the checks fail and govern."""
         rows = [(row, said(self.stored.check_told(row.check))) for row in failures[:MAX_FAILURES]]
         words = "{check} fails in {failing}, governs {governing} of them, warns in {warning}"
         told = "; ".join(
@@ -99,7 +98,6 @@ class Figures:
         return SummaryFigure(charts.stacked(f"{told}.", "failures", bars, colours), caption, told)
 
     def _distributions(self, spreads: Sequence[Spread]) -> SummaryFigure:
-        """Return the distributions of the quantities that matter."""
         found = [data.histogram(self.stored, spread) for spread in spreads]
         told = "; ".join(map(_distributed, spreads))
         caption = say(
@@ -111,7 +109,6 @@ class Figures:
         return SummaryFigure(charts.distributions(f"{told}.", "distributions", found), caption, told)
 
     def _parallel(self) -> SummaryFigure | None:
-        """Return parallel coordinates of inputs and of what matters."""
         values = self.sample.values
         inputs = [column for column in self.stored.varied if column.name in values][: MAX_AXES - 2]
         goals = [column for column in self.main if column.name in values][: max(2, MAX_AXES - len(inputs))]
@@ -137,7 +134,6 @@ class Figures:
         return SummaryFigure(svg, f"{caption} {drawn}{self._far(self.sample, columns)}", told)
 
     def _ends(self, columns: Sequence[StoredColumn]) -> dict[str, Ends]:
-        """Return the ends of upright axes over all variants."""
         found: dict[str, Ends] = {}
         for name in (column.name for column in columns):
             if name in self.spreads:
@@ -149,7 +145,6 @@ class Figures:
         return found
 
     def _pair(self) -> SummaryFigure | None:
-        """Return the first two quantities that matter, with the front."""
         known = [column for column in self.main if column.name in self.sample.values]
         if len(known) < 2 or not self.stored.study.get("objectives"):
             return None
@@ -198,7 +193,6 @@ class Figures:
         return say("{y} over {x}, {told}", y=named(y), x=named(x), told=told)
 
     def _drawn(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
-        """Return how many of the variants a chart has, and whether some of them are out of its reach."""
         drawn = len(some.variants)
         of_all = say(
             "Of {variants}, a sample of {drawn} is drawn.", variants=variants(self.total), drawn=variants(drawn)
@@ -230,7 +224,6 @@ def influence_figure(found: Influence) -> SummaryFigure:
 
 
 def _behind(row: Failure) -> str:
-    """Return what stands behind the bar of a check."""
     told = say("{n}, governs {governing}", n=number(str(row.failing)), governing=number(str(row.governing)))
     warned = say_counted(row.warning, "{n} warning", "{n} warnings", n=number(str(row.warning)))
     return ", ".join([*([told] if row.failing else []), *([warned] if row.warning else [])])

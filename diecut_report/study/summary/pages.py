@@ -38,7 +38,6 @@ def sheets(summary: Summary) -> bytes:
 
 
 def _counted(one: str, many: str, count: int, **named: object) -> str:
-    """Return what a template says of a number of things."""
     return say_counted(count, one, many, n=number(str(count)), **named)
 
 

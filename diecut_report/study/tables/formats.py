@@ -167,7 +167,6 @@ def _csv_fault(message: str) -> str:
 
 
 def _blank_rows(table: Any) -> Any:
-    """Return which rows hold nothing; in a single column only those at its end."""
     from pyarrow import compute
 
     empty = (compute.equal(compute.utf8_trim_whitespace(column), "").to_numpy() for column in table.columns)

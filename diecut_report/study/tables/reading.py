@@ -108,7 +108,8 @@ class TableFile:
     def column(self, name: str) -> ReadColumn:
         """Return a column by its name; UserError where there is none."""
         if name not in self.columns:
-            words, near = "the table has no column {name}{nearest}. Its columns: {there}", nearest(name, self.columns)
+            words = "the table has no column {name}{nearest}. Its columns: {there}"
+            near = nearest(name, self.columns)
             raise UserError(
                 Problem(Phrase(words, name=name, nearest=near, there=", ".join(self.columns)), self.file, 1)
             )
@@ -139,7 +140,6 @@ def read_table(path: Path) -> TableFile:
 
 
 def _read(path: Path) -> tuple[Columns, str]:
-    """Return the columns of a file, and the SHA-256 of the very bytes that were read."""
     kind = path.suffix.lower()
     if kind not in READERS:
         words = "the ending {suffix} is not known; save the table as {known}"
