@@ -6,7 +6,6 @@ import csv
 import io
 import json
 import math
-from collections.abc import Callable
 from pathlib import Path
 from typing import Any
 
@@ -101,30 +100,9 @@ def _inputs(folder: Path) -> tuple[object, object]:
     [
         ("drive.crank_torqe_peak < 3", "did you mean 'drive.crank_torque_peak'?"),
         ("cylinder.radius < 105", "needs mm, for example '105 mm'"),
-        ("drive.power_peak < '3 kg'", "drive.power_peak is a power and '3 kg' is a mass"),
-        (f"{SPEED} < '50 1/min'", "an angular speed"),
-        ("drive.power_peak < '3,5 W'", "comma"),
-        ("drive.power_peak < 'abc'", "finite number"),
-        ("drive.power_peak < '3 kx'", "'kx' is not a known unit"),
         ("status = pass", "'pass' is not a column"),
         ("status < 3", "put texts in quotes"),
-        ("drive.power_peak between 1 and 2 < 3", "use brackets"),
-        ("cylinder.mass", "not a condition"),
-        ("cylinder.mass + drive.slip > 1", "drive.slip is a condition"),
-        ("cylinder.mass + cylinder.radius > 1", "is a mass and cylinder.radius is a length; + needs"),
-        ("((variant < 1)", "')' is missing"),
-        ("variant < 1)", "')' is not expected"),
-        ("variant <", "missing before the end"),
-        ("variant in 3", "'(' is missing"),
-        ("variant is 3", "'null' is missing"),
-        ("variant not 3", "after 'not'"),
         ("variant like '3'", "column of words"),
-        ("variant and variant", "stands between conditions"),
-        ("not variant", "before a condition"),
-        ("variant ** cylinder.mass > 3", "a number is needed"),
-        ("abs(variant, 2) > 1", "abs takes one quantity; 2 given"),
-        ("(" * 60 + "variant", "too deep"),
-        ("not " * 500 + "drive.slip", "more than 400 words"),
     ],
 )
 def test_what_cannot_be_asked_is_told_in_words(folder: Path, where: str, words: str) -> None:
@@ -135,12 +113,7 @@ def test_what_cannot_be_asked_is_told_in_words(folder: Path, where: str, words: 
     "attack",
     [
         "variant < 1; COPY v TO '/tmp/x.csv'",
-        "variant < (SELECT 1)",
-        "read_text('/etc/passwd') = 'x'",
-        "variant = getenv('HOME')",
-        "status = 'x' UNION SELECT 1",
         "status = 'x'' OR 1=1 --'' ) ; ATTACH '/tmp/x'",
-        "status /* */ = 'pass'",
     ],
 )
 def test_a_condition_reaches_nothing_but_the_columns(folder: Path, attack: str) -> None:
@@ -259,30 +232,6 @@ WRONG = [({"sort": "-drive.pwr"}, "drive.pwr"), ({"top": 0}, "--top"), ({"format
 def test_wrong_options_are_told(folder: Path, options: dict[str, object], words: str) -> None:
     with pytest.raises(UserError, match=words):
         list(variants(folder, **options))  # type: ignore[arg-type]
-
-
-def _no_study(folder: Path) -> None:
-    (folder / "study.json").unlink()
-
-
-def _no_parts(folder: Path) -> None:
-    for part in (folder / "variants").iterdir():
-        part.unlink()
-
-
-def _broken_part(folder: Path) -> None:
-    (folder / "variants" / "part-00001.parquet").write_bytes(b"PAR1 not at all")
-
-
-@pytest.mark.parametrize(
-    ("harm", "words"),
-    [(_no_study, "no results of a study"), (_no_parts, "part-00001.*missing"), (_broken_part, "part-00001.*damaged")],
-)
-def test_a_folder_that_cannot_be_read_is_told(tmp_path: Path, harm: Callable[[Path], None], words: str) -> None:
-    out = ten(tmp_path / "out")
-    harm(out)
-    with pytest.raises(UserError, match=words):
-        list(variants(out, format="csv"))
 
 
 def test_asking_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

@@ -279,13 +279,6 @@ def test_folder_without_results_is_told(tmp_path: Path) -> None:
         Store.open(tmp_path)
 
 
-@pytest.mark.parametrize("text", ["{", "[1]", "{}", '{"schema_version": 1, "columns": []}'])
-def test_broken_state_is_told(tmp_path: Path, text: str) -> None:
-    (tmp_path / "study.json").write_text(text)
-    with pytest.raises(UserError, match=r"study\.json"):
-        Store.open(tmp_path)
-
-
 def test_same_study_is_continued_with_the_parts_of_the_folder(tmp_path: Path) -> None:
     filled(tmp_path / "out")
     store = Store.open(tmp_path / "out", description(chunk=64))
@@ -351,22 +344,6 @@ def test_killed_writer_leaves_whole_parts_alone(tmp_path: Path) -> None:
         assert hidden(tmp_path / "out") == []
 
 
-@pytest.mark.parametrize("keep", [0, 4, 900])
-def test_damaged_part_is_to_be_calculated_again(tmp_path: Path, keep: int) -> None:
-    store = filled(tmp_path / "out")
-    content = store.part(4).read_bytes()
-    store.part(4).write_bytes(content[:keep])
-    assert store.done_parts() == set(range(10)) - {4}
-    with pytest.raises(UserError, match=r"part-00004\.parquet: .* damaged"):
-        store.read()
-
-
-def test_copy_of_another_part_is_to_be_calculated_again(tmp_path: Path) -> None:
-    store = filled(tmp_path / "out")
-    store.part(4).write_bytes(store.part(5).read_bytes())
-    assert store.done_parts() == set(range(10)) - {4}
-
-
 def test_part_of_which_some_bytes_have_changed_is_to_be_calculated_again(tmp_path: Path) -> None:
     store = filled(tmp_path / "out", description(3000, 3000))
     content = bytearray(store.part(0).read_bytes())
@@ -395,14 +372,6 @@ def test_mechanism_may_be_called_as_a_column(tmp_path: Path) -> None:
         store.write_part(0, {"status": ["pass", "fail"], "status.mass": [1, 2], "variant.status": ["a", "b"]})
     assert store.counts() == {"sample": 2, "variants": 2, "pass": 1, "fail": 1}
     assert exported(store, "csv").read_text().splitlines()[1:] == ['0,1,"a","pass",,', '1,2,"b","fail",,']
-
-
-def test_part_of_another_study_is_not_taken(tmp_path: Path) -> None:
-    other = filled(tmp_path / "other", description(study=source("speeds.yaml", "count: 3\n")))
-    store = Store.create(tmp_path / "out", description())
-    (tmp_path / "out/variants").mkdir()
-    store.part(0).write_bytes(other.part(0).read_bytes())
-    assert store.done_parts() == set()
 
 
 @pytest.fixture
