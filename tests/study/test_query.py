@@ -7,7 +7,6 @@ import io
 import json
 import math
 from pathlib import Path
-from typing import Any
 
 import pytest
 from hypothesis import given
@@ -16,18 +15,12 @@ from openpyxl import load_workbook
 
 from diecut_report.cli import study
 from diecut_report.cli.main import main
-from diecut_report.config import yaml
-from diecut_report.config.plugins import Discovery
-from diecut_report.config.yaml import Tree
 from diecut_report.errors import UserError
-from diecut_report.quantities.units import parse_quantity
 from diecut_report.study.analysis import answers
 from diecut_report.study.analysis.answers import variants
 from diecut_report.study.analysis.query import condition
-from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.analysis.variants import StoredColumn as Read
-from diecut_report.study.storage.description import Kind, ResultColumn
-from tests.study.stored_study import BORE, SPEED, calculated, many, ten, written
+from tests.study.stored_study import BORE, SPEED, calculated, many, ten
 
 
 @pytest.fixture(scope="module")
@@ -240,70 +233,3 @@ def test_asking_writes_nothing(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) 
     before = {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
     list(variants(out, "status = 'pass'", "-drive.power_peak"))
     assert before == {path: path.stat().st_mtime_ns for path in tmp_path.rglob("*")}
-
-
-# --- the configuration of a variant ----------------------------------------------------------------------------------
-
-
-def taken(folder: Path, variant: int) -> Tree:
-    """The configuration of a variant; what it is as text reads back as the same."""
-    tree = variant_config(folder, variant, Discovery([]), f"study-{variant}.yaml")
-    assert yaml.parse(tree.text, "variant").data == tree.data
-    return tree
-
-
-def test_a_variants_configuration_is_the_base_with_its_values(folder: Path) -> None:
-    tree = taken(folder, 4)
-    base, data = yaml.load(folder / "base.yaml").data, tree.data
-    assert tree.text.startswith("# Variant 4 of study.yaml: ")
-    assert (tree.name, tree.file) == ("study-4.yaml", str(folder / "base.yaml"))
-    assert data["mechanisms"]["cylinder"].pop("bore_radius") == "65 mm"
-    speed = data["mechanisms"]["drive"].pop("crank_speed")
-    assert speed.endswith(" rpm") and parse_quantity(speed, "rpm") == 2 * math.pi / 60 * 50
-    del base["mechanisms"]["cylinder"]["bore_radius"], base["mechanisms"]["drive"]["crank_speed"]
-    assert data.pop("project") == {"title": "Two mechanisms – variant 4 of study"}
-    del base["project"]
-    assert data == base
-
-
-def test_problems_of_a_variant_name_the_line_of_the_base(folder: Path) -> None:
-    tree, path = taken(folder, 4), ("mechanisms", "cylinder", "bore_radius")
-    assert tree.position(path) == (9, 18)
-    assert tree.typed(path) == "65 mm"
-    assert tree.position(("mechanisms", "cylinder", "segment_height")) == (10, 21)
-
-
-BASES: dict[str, tuple[str, Kind, Any, Any]] = {
-    "lists and blocks": ("mechanisms.drive.gears.1.driver_teeth", "int", 24, 24),
-    "a flow block in a list": ("mechanisms.drive.gears.0.driver_teeth", "float", 24.0, 24),
-    "a key in %": ("mechanisms.drive.slip", "float", 0.07, "7 %"),
-    "a key in %, 100 of them": ("mechanisms.drive.slip", "float", 1.0, "100 %"),
-    "a key that the base leaves out": ("mechanisms.drive.n_points", "int", 720, 720),
-    "a field of the press": ("press.sheet.thickness", "float", 0.0008, "0.8 mm"),
-    "a block that the base leaves out": ("press.rollers.first.width", "float", 0.5, "500 mm"),
-    "a text": ("mechanisms.drive.motion_law", "text", "modified_sine", "modified_sine"),
-    "a text that looks like a number": ("mechanisms.drive.motion_law", "text", "12", "12"),
-}
-
-
-@pytest.mark.parametrize("name", BASES)
-def test_a_value_goes_where_its_path_leads(tmp_path: Path, name: str) -> None:
-    path, kind, value, expected = BASES[name]
-    column = ResultColumn(path, kind, "m" if path.startswith("press") else "1", "%" if path.endswith("slip") else "")
-    out = written(tmp_path / "out", [column], {path: [value], "status": ["pass"]}, varied=[path])
-    data = taken(out, 0).data
-    for key in path.split("."):
-        data = data[int(key)] if key.isdecimal() else data[key]
-    assert data == expected and type(data) is type(expected)
-
-
-def test_a_value_beside_an_anchor_changes_one_place_only(tmp_path: Path) -> None:
-    base = "mechanisms:\n  a: &a {bore_radius: 70 mm}\n  cylinder: *a\n"
-    out = ten(tmp_path / "out", varied=[BORE], base=base)
-    data = taken(out, 3).data
-    assert data["mechanisms"] == {"a": {"bore_radius": "70 mm"}, "cylinder": {"bore_radius": "65 mm"}}
-
-
-def test_a_variant_that_is_not_stored_is_told(folder: Path) -> None:
-    with pytest.raises(UserError, match=r"no variant 17 here.*0 … 9"):
-        taken(folder, 17)

@@ -47,7 +47,7 @@ from diecut_report.study.summary import best
 from diecut_report.study.summary import content as questions
 from diecut_report.study.summary.best import StoredObjective
 from diecut_report.study.summary.charts import COLOURS, HEAD, LABEL, panel
-from diecut_report.study.summary.data import display, factor, named, titled, utilised, value_told, wrapped
+from diecut_report.study.summary.data import display, factor, named, titled, utilised, value_text, wrapped
 from diecut_report.study.summary.data import quantity as charts_quantity
 from diecut_report.study.summary.figures import SummaryFigure
 from diecut_report.text.phrases import capital
@@ -225,12 +225,12 @@ def _filled(found: OptimisationResult, kind: str) -> str:
         r=found, o=asked, t=Catalogue(spoken_language()), language=spoken_language(), kind=kind, policy=html.policy(),
         style=Markup(style), version=__version__, title=_title(found), figure=partial(_figure, kind), figures=_figures(found),
         asked=questions.asked_questions(found.stored), heads=[titled(column) for column in columns_shown(found.front)],
-        goals=[goal.told for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
+        goals=[goal.label for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
         counts=capital(counts(found)), suggested=capital(suggested(found)), today=capital(today(found, named)),
         held=_held(found), rechecked=[capital(line) for line in recheck_lines(found)],
         conflict=list(conflict_lines(found, found.conflict)) if found.conflict else [],
         words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, say=say, counted=_counted,
-        files=_files(found), localised=localised, value_told=value_told,
+        files=_files(found), localised=localised, value_text=value_text,
         example=int(found.front.variants[found.front.suggested or 0]) if found.conflict is None else found.conflict.nearest,
     )  # fmt: skip
 
@@ -263,10 +263,10 @@ def _row(found: OptimisationResult, place: int) -> PageRow:
         )
         used = f"{utilised(ratio)} " if ratio is not None else ""
     shown = [
-        display(value, column) if column.is_number else value_told(value)
+        display(value, column) if column.is_number else value_text(value)
         for value, column in zip(values, columns_shown(found.front), strict=True)
     ]
-    told = used + (said(found.stored.check_told(check)) if check else "–")
+    told = used + (said(found.stored.check_label(check)) if check else "–")
     is_suggested = not found.front.is_single and place == found.front.suggested
     return PageRow(variant, best.report_of(found.stored.folder, variant), status, told, shown, is_suggested)
 

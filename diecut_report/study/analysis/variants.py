@@ -76,7 +76,7 @@ class StoredColumn:
         return quoted(self.name)
 
     @property
-    def told(self) -> str:
+    def label(self) -> str:
         """Return what people call it."""
         return self.title or self.name.removeprefix(f"{MECHANISMS}.")
 
@@ -109,9 +109,9 @@ class Stored:
         other = {*FIXED, *(column.name for column in self.varied)}
         return [each for name, each in self.columns.items() if name not in other and ".checks." not in name]
 
-    def check_told(self, check: str) -> str:
+    def check_label(self, check: str) -> str:
         """Return what people call a check."""
-        return self.checks[check][1].told if check in self.checks else check
+        return self.checks[check][1].label if check in self.checks else check
 
     def rows(self, sql: str, parameters: Any = ()) -> list[tuple[Any, ...]]:
         """Return the whole answer to a query, which is to be small."""

@@ -23,7 +23,7 @@ from diecut_report.study.summary.data import (
     named,
     number_of,
     utilised,
-    value_told,
+    value_text,
 )
 from diecut_report.text.translation import said, say
 
@@ -43,7 +43,7 @@ class StoredObjective:
     is_less: bool
 
     @property
-    def told(self) -> str:
+    def label(self) -> str:
         """Return the objective in words."""
         return say("least {quantity}" if self.is_less else "greatest {quantity}", quantity=named(self.column))
 
@@ -460,7 +460,7 @@ def matrices(stored: Stored, groups: Sequence[tuple[str, list[int]]], checks: Se
     """Yield the matrix in parts that fit on paper."""
     for start in range(0, len(checks), ACROSS):
         part = list(checks[start : start + ACROSS])
-        numbers = [(start + index + 1, said(stored.check_told(name))) for index, name in enumerate(part)]
+        numbers = [(start + index + 1, said(stored.check_label(name))) for index, name in enumerate(part)]
         asked = ["status", *(column.sql for check in part for column in stored.checks[check])]
         rows = _of_variants(stored, [variant for _, some in groups for variant in some], asked)
         found = [(title, [_row(stored, one, *rows[one]) for one in some if one in rows]) for title, some in groups]
@@ -490,16 +490,16 @@ def best(stored: Stored, variants: Sequence[int], shown: Sequence[StoredColumn])
     found = []
     for one in variants:
         status, worst, governing, *values = rows[one]
-        used, check = "–" if worst is None else utilised(worst), said(stored.check_told(governing)) if governing else ""
-        texts = [_told(value, column) for value, column in zip(values, shown, strict=True)]
+        used, check = "–" if worst is None else utilised(worst), said(stored.check_label(governing)) if governing else ""
+        texts = [_value_label(value, column) for value, column in zip(values, shown, strict=True)]
         found.append(Best(one, report_of(stored.folder, one), status, used, check, texts))
     return found
 
 
-def _told(value: Any, column: StoredColumn) -> str:
+def _value_label(value: Any, column: StoredColumn) -> str:
     if value is None:
         return "–"
-    return display(float(value), column) if column.is_number else value_told(value)
+    return display(float(value), column) if column.is_number else value_text(value)
 
 
 def reports(stored: Stored, variants: Sequence[int]) -> list[ListedReport]:

@@ -31,7 +31,7 @@ from diecut_report.study.summary.data import (
     named,
     reach,
     titled,
-    value_told,
+    value_text,
     wrapped,
 )
 from diecut_report.text.translation import decimal_sign, localised, said, say
@@ -91,7 +91,7 @@ class Bar(NamedTuple):
 
     name: str
     parts: Sequence[float]
-    told: str
+    text: str
 
 
 @charted
@@ -99,14 +99,14 @@ def stacked(rows: Sequence[Bar], colours: Sequence[str]) -> Figure:
     """Build horizontal bars of counts, each of several parts."""
     labels = [wrapped(row.name, LABEL, FONT_SIZE, 1) for row in rows]
     sheet, names = canvas(WIDTH, 17.0 * len(rows) + 8), max(text_size(label)[0] for label in labels) + 10
-    behind = max(text_size(row.told, 8)[0] for row in rows) + 10
+    behind = max(text_size(row.text, 8)[0] for row in rows) + 10
     axes = panel(sheet, names, 4, WIDTH - names - behind, 17.0 * len(rows))
     for place, row in zip(range(len(rows))[::-1], rows, strict=True):
         start = 0.0
         for part, colour in zip(row.parts, colours, strict=True):
             axes.barh(place, part, 0.66, start, color=colour)
             start += part
-        axes.annotate(row.told, (start, place), (4, 0), textcoords="offset points", va="center_baseline", size=8)
+        axes.annotate(row.text, (start, place), (4, 0), textcoords="offset points", va="center_baseline", size=8)
     axes.set_yticks(range(len(rows))[::-1], labels, va="center_baseline")
     _bare(axes, len(rows))
     axes.set_xlim(0, max(sum(row.parts) for row in rows) or 1)
@@ -427,7 +427,7 @@ def _scale(axes: Axes, place: int, column: StoredColumn, ends: Ends, words: list
     box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6}
     for index, word in list(enumerate(words))[:: -(-len(words) // MOST_WORDS)]:
         height = (index + SPREAD) / (top - low + 2 * SPREAD)
-        said = wrapped(value_told(word), room, 6.0, 2)
+        said = wrapped(value_text(word), room, 6.0, 2)
         axes.annotate(said, (place, height), ha="center", va="center", size=6.0, bbox=box, zorder=4, linespacing=1.0)
 
 

@@ -17,7 +17,7 @@ from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.definition.constraints import why_dropped
 from diecut_report.study.storage.description import StudySource, source_name
 from diecut_report.study.summary import best, data
-from diecut_report.study.summary.data import WORST, Spread, named, titled, utilised, value_told, variants
+from diecut_report.study.summary.data import WORST, Spread, named, titled, utilised, value_text, variants
 from diecut_report.study.summary.figures import Figures, Ranked, SummaryFigure, ranked
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import localised, said, say, say_counted
@@ -38,7 +38,7 @@ NAME = re.compile(r"[A-Za-z_][\w.]*")
 class AskedInput(NamedTuple):
     """Hold a varied input: what people call it, its symbol, its path, and its values as written, a choice in words too."""
 
-    told: str
+    text: str
     symbol: str
     path: str
     values: str
@@ -47,7 +47,7 @@ class AskedInput(NamedTuple):
 class AskedText(NamedTuple):
     """Hold an objective or a constraint: in words, and as the study file has it."""
 
-    told: str
+    text: str
     typed: str
 
 
@@ -125,8 +125,8 @@ def _input(stored: Stored, tree: yaml.Tree, path: str) -> AskedInput:
     given = (tree.data.get("vary") or {}).get(path)
     if given is None:
         values = say("a column of {table}", table=tree.typed(("sample", "file")) or phrase("the table"))
-    elif isinstance(given, list) and any(isinstance(each, str) and value_told(each) != each for each in given):
-        told = [(value_told(each), written(tree, (*place, index))) for index, each in enumerate(given)]
+    elif isinstance(given, list) and any(isinstance(each, str) and value_text(each) != each for each in given):
+        told = [(value_text(each), written(tree, (*place, index))) for index, each in enumerate(given)]
         values = ", ".join(typed if words == typed else f"{words} ({typed})" for words, typed in told)
     else:
         values = written(tree, place)
@@ -269,7 +269,7 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     base = _parsed(stored.description.base)
     return Summary(
         title=_title(stored, base), folder=printable(stored.folder.resolve().name), study=stored.study, files=_files(stored),
-        checks={check: said(stored.check_told(check)) for check in stored.checks},
+        checks={check: said(stored.check_label(check)) for check in stored.checks},
         total=total, statuses=states, facts=list(_facts(stored, total)), asked=asked_questions(stored),
         failures=failures, governing=governing, passing=data.passing_values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
@@ -328,7 +328,7 @@ def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
         others = found.shared - 1
         words = ", and {n} other variant with the same", ", and {n} other variants with the same"
         more = say_counted(others, *words, n=number(str(others))) if others else ""
-        check, used = said(stored.check_told(found.check)), utilised(found.utilisation)
+        check, used = said(stored.check_label(found.check)), utilised(found.utilisation)
         told = "variant {n}{more}: utilisation {used} at most, by “{check}”"
         yield say("Most margin"), say(told, n=found.variant, more=more, used=used, check=check)
     seconds = float(stored.study.get("seconds") or 0)

@@ -35,7 +35,7 @@ WORDS = {"pass": phrase("pass"), "warn": phrase("warning"), "fail": phrase("fail
 
 def named(column: StoredColumn) -> str:
     """Return a quantity as people call it: ``Radius of the bore (cylinder)``."""
-    return said(column.told)
+    return said(column.label)
 
 
 def titled(column: StoredColumn) -> str:
@@ -87,7 +87,7 @@ def quantity(value: float, column: StoredColumn) -> str:
     return joined(display(value, column), pretty(column.display))
 
 
-def value_told(value: Any) -> str:
+def value_text(value: Any) -> str:
     """Return a value that is not a number: the words of a choice, yes or no."""
     if isinstance(value, str):
         return said(worded(value))
@@ -179,7 +179,7 @@ class Density(NamedTuple):
 class Reason(NamedTuple):
     """Hold why variants could not be calculated, how many, and one of them."""
 
-    told: str
+    text: str
     variants: int
     example: int
 
@@ -346,7 +346,7 @@ MAX_INPUTS = 12
 class PassingValue(NamedTuple):
     """Hold a value or class of an input: how many variants have it, and how many of them do not fail."""
 
-    told: str
+    text: str
     variants: int
     passing: int
 
@@ -381,7 +381,7 @@ def _passing(stored: Stored, column: StoredColumn) -> PassingValues:
 
     if not column.is_number:
         rows = [
-            PassingValue(value_told(value), *counts)
+            PassingValue(value_text(value), *counts)
             for value, *counts in counted(column.sql, "good / n DESC, n DESC, place")
         ]
         return PassingValues(column, rows[:MAX_WORDS], max(0, len(rows) - MAX_WORDS))

@@ -80,7 +80,7 @@ class Figures:
         return SummaryFigure(svg, say("Variants by status."), told)
 
     def _failures(self, failures: Sequence[Failure]) -> SummaryFigure:
-        rows = [(row, said(self.stored.check_told(row.check))) for row in failures[:MAX_FAILURES]]
+        rows = [(row, said(self.stored.check_label(row.check))) for row in failures[:MAX_FAILURES]]
         words = "{check} fails in {failing}, governs {governing} of them, warns in {warning}"
         told = "; ".join(
             say(words, check=name, failing=row.failing, governing=row.governing, warning=row.warning)
