@@ -21,7 +21,7 @@ from diecut_report.study.execution.study_run import (
     refuse_unsampled,
     run_study,
 )
-from diecut_report.study.execution.variant_reports import write_reports
+from diecut_report.study.execution.variant_reports import wanted, write_chosen
 from diecut_report.study.storage import state
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.summary import summarise
@@ -114,7 +114,8 @@ def run(
             pass
     outcome = run_study(known, directory, where, resume=resume, tell=shown)
     with outcome.store.lock():
-        notes, outcome.broken_reports = write_reports(known, outcome.store, where, agreed=agreed, tell=shown.doing)
+        chosen = wanted(known, outcome.store)
+        notes, outcome.broken_reports = write_chosen(chosen, outcome.store, where, agreed=agreed, tell=shown.doing)
         shown.doing(phrase("summary"))
         files = export(outcome.store, formats)
         with in_its_language(known, where):

@@ -18,7 +18,6 @@ import pytest
 
 from diecut_report.cli.main import main
 from diecut_report.errors import UserError
-from diecut_report.study.analysis.answers import variants
 from diecut_report.study.analysis.variants import opened
 from diecut_report.study.execution.study_run import Where, run_study
 from diecut_report.study.storage import parts, state
@@ -26,6 +25,7 @@ from diecut_report.study.storage.store import Store
 from tests.configs import GOOD
 from tests.examples import few
 from tests.study.made_store import description, part
+from tests.study.questions import variants
 from tests.study.stored_study import ten
 from tests.study.studies import study
 

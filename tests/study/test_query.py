@@ -17,9 +17,9 @@ from diecut_report.cli import study
 from diecut_report.cli.main import main
 from diecut_report.errors import UserError
 from diecut_report.study.analysis import answers
-from diecut_report.study.analysis.answers import variants
 from diecut_report.study.analysis.query import condition
 from diecut_report.study.analysis.variants import StoredColumn as Read
+from tests.study.questions import variants
 from tests.study.stored_study import BORE, SPEED, calculated, many, ten
 
 

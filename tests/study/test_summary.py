@@ -16,7 +16,7 @@ from pypdf import PdfReader
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
-from diecut_report.study.analysis.answers import rounded, variants
+from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variants import opened, titles
 from diecut_report.study.storage.description import STATUSES, ResultColumn
 from diecut_report.study.summary import best as influence
@@ -27,6 +27,7 @@ from diecut_report.study.summary.charts import near
 from diecut_report.study.summary.data import WORST, display, utilised, value_text
 from diecut_report.study.summary.pages import page
 from tests.hostile.bounded import PEAK
+from tests.study.questions import variants
 from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, calculated, made, many, ten, written
 
 GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form

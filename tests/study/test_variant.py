@@ -20,12 +20,12 @@ from diecut_report.config.yaml import Tree, as_text, with_values
 from diecut_report.errors import UserError
 from diecut_report.quantities.units import parse_quantity
 from diecut_report.study import command
-from diecut_report.study.analysis.answers import variants
 from diecut_report.study.analysis.variant_config import taken_config, variant_config
 from diecut_report.study.execution import variant_reports
 from diecut_report.study.storage.description import Kind, ResultColumn
 from tests.configs import EXAMPLES, GOOD, HEAD, PLUGINS, saved
 from tests.shared import once
+from tests.study.questions import variants
 from tests.study.stored_study import BORE, SPEED, ten, written
 
 SHARES = PLUGINS / "shares"

@@ -98,23 +98,6 @@ class Notation:
 SI = Notation()
 
 
-def variants(
-    directory: Path,
-    where: str | None = None,
-    sort: str | None = None,
-    top: int | None = None,
-    format: str = "table",
-    columns: Sequence[str] | None = None,
-    width: int | None = None,
-) -> Generator[str, None, None]:
-    """Yield the answer in pieces of text: a ``table`` for people (in the units that they read), ``csv`` or ``json`` (SI, all columns).
-
-    ``sort`` names columns, parted by commas, with - for the greatest first; without ``columns`` a table shows the varied
-    quantities and what the question names. UserError for what cannot be asked.
-    """
-    yield from answer(directory, Request(where, sort, top, columns), format, width=width)
-
-
 def answer(
     directory: Path,
     asked: Request,
@@ -124,8 +107,9 @@ def answer(
     transposed: bool = False,
     width: int | None = None,
 ) -> Generator[str, None, None]:
-    """Yield the answer in pieces of text; with ``transposed`` a line for each quantity and a column for each variant.
+    """Yield the answer in pieces of text: a ``table`` for people (in the units that they read), ``csv`` or ``json``.
 
+    With ``transposed`` it has a line for each quantity and a column for each variant. UserError for what cannot be asked.
     A table that compares variants leaves out what is the same for all, and says how much that is, unless the columns are named.
     """
     if format not in FORMATS:

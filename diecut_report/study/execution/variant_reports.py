@@ -54,21 +54,14 @@ class VariantReport:
         return Phrase("the full report of variant {number}", number=self.variant)
 
 
-def write_reports(
-    study: Study, store: Store, where: Where, *, agreed: bool, tell: Tell
+def write_chosen(
+    chosen: Chosen, store: Store, where: Where, *, agreed: bool, tell: Tell
 ) -> tuple[tuple[str, ...], dict[str, str]]:
-    """Write the full reports that the study asks for, as ``reports/ID.html`` and so on; those that are there already are kept.
+    """Write full reports, as ``reports/ID.html`` and so on; those that are there already are kept.
 
     Return what was not done, and the plugins that broke, with their faults. ``tell`` hears how far it is. They
     are made side by side in processes of this machine.
     """
-    return write_chosen(wanted(study, store), store, where, agreed=agreed, tell=tell)
-
-
-def write_chosen(
-    chosen: Chosen, store: Store, where: Where, *, agreed: bool, tell: Tell
-) -> tuple[tuple[str, ...], dict[str, str]]:
-    """Write the full reports of these variants, as `write_reports` does."""
     folder = store.directory / FOLDER
     missing = [v for v in chosen.variants if not all((folder / f"{v}.{ending}").exists() for ending in FORMATS)]
     if len(missing) > MANY and not agreed:

@@ -490,7 +490,10 @@ def best(stored: Stored, variants: Sequence[int], shown: Sequence[StoredColumn])
     found = []
     for one in variants:
         status, worst, governing, *values = rows[one]
-        used, check = "–" if worst is None else utilised(worst), said(stored.check_label(governing)) if governing else ""
+        used, check = (
+            "–" if worst is None else utilised(worst),
+            said(stored.check_label(governing)) if governing else "",
+        )
         texts = [_value_label(value, column) for value, column in zip(values, shown, strict=True)]
         found.append(Best(one, report_of(stored.folder, one), status, used, check, texts))
     return found
