@@ -25,7 +25,7 @@ from drive_kernel import Kernel
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.results.checks import applies, judged
-from diecut_report.study.execution.pending import settle
+from diecut_report.study.execution.engines import settle
 
 VARIANTS = 4096
 ENGINE_CHUNKS, KERNEL_CHUNKS = (512, 1024, 2048), (32, 64, 128, 256, 512)

@@ -30,7 +30,7 @@ from diecut_report.machine.numerics.curves import Curves
 from diecut_report.machine.steps.rows import needed
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
-from diecut_report.study.execution.pending import settle
+from diecut_report.study.execution.engines import settle
 
 COUNT, CHUNK, ANGLES = 2048, 512, 720
 POSITIONS = ("rocker_angle", "transmission_angle")

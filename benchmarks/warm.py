@@ -25,7 +25,7 @@ from diecut_report.cli.main import COLLECTED
 from diecut_report.config.plugins import Discovery
 from diecut_report.live.page import page_data
 from diecut_report.live.session import LiveSession
-from diecut_report.study.execution.pending import one_thread
+from diecut_report.study.execution.engines import one_thread
 
 CONFIGS = Path(import_module("diecut_report.configs").__path__[0])
 CHANGED = ("press.productivity", "drive.crank_length", "clutch.shoe_friction")

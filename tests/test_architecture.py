@@ -49,7 +49,7 @@ ONLY_IN = {  # library: the modules of the program that may import it
     "openpyxl": r"diecut_report\.(study\.tables\.formats|study\.storage\.spreadsheets|report\.office\.workbook)",
     "docx": r"diecut_report\.report\.office\.word_file",
     "pyarrow": r"diecut_report\.study\.(storage|tables)\.\w+",
-    "threadpoolctl": r"diecut_report\.study\.execution\.pending",
+    "threadpoolctl": r"diecut_report\.study\.execution\.engines",
     "pikepdf": r"diecut_report\.exchange\.(pdf_attachments|added_sections|later_changes)",
     "pyhanko": r"diecut_report\.exchange\.(signing|signing_keys|signature_status|signatures)",
     "pyhanko_certvalidator": r"diecut_report\.exchange\.(signing|signing_keys|signature_status|signatures)",

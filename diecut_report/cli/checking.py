@@ -125,7 +125,7 @@ def _study(shown: str, tree: Tree, discovery: Discovery, tries: bool) -> JudgedF
     if not tries:
         return JudgedFile(shown)
     from diecut_report.study.execution.dry_run import data, dry_run
-    from diecut_report.study.execution.refusals import refuse_empty
+    from diecut_report.study.execution.study_run import refuse_empty
 
     refuse_empty(study)
     found = dry_run(study)
@@ -334,7 +334,7 @@ def _write(
     language = asked_language() or language_of(found)
     with speaking(language, catalogues_for(language, (), discovery)):
         made = compared(in_language(found, spoken_catalogues(discovery)))
-        contents = dict(pages.files(made, folder, formats, compared(found)))
+        contents = pages.files(made, folder, formats, compared(found))
     if kept := set(contents) & set(files):
         raise refusal("{file} is one of the configurations, and is not overwritten.", file=min(kept))
     write_all(contents, keep=files[0])

@@ -25,7 +25,7 @@ from diecut_report.scripting.parts import NamedParts
 from diecut_report.scripting.press_inputs import InputList, press_inputs, stands
 from diecut_report.scripting.results import Results
 from diecut_report.scripting.values import known_language, plain, told_in, typed
-from diecut_report.study.execution.pending import one_thread
+from diecut_report.study.execution.engines import one_thread
 from diecut_report.text.phrases import phrase
 
 if TYPE_CHECKING:

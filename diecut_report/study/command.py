@@ -5,16 +5,23 @@ from __future__ import annotations
 import sys
 from collections.abc import Sequence
 from contextlib import AbstractContextManager
-from dataclasses import replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any
 
 from diecut_report.config.catalogues import catalogues_for, lacking
 from diecut_report.config.plugins import Discovery
 from diecut_report.study.definition.study_file import Study, load_study
-from diecut_report.study.execution.refusals import refuse_empty, refuse_huge, refuse_unsampled
-from diecut_report.study.execution.study_run import Counts, StudyOutcome, Where, engine_for, run_study
-from diecut_report.study.execution.variant_reports import write_reports
+from diecut_report.study.execution.study_run import (
+    Counts,
+    StudyOutcome,
+    Where,
+    engine_for,
+    refuse_empty,
+    refuse_huge,
+    refuse_unsampled,
+    run_study,
+)
+from diecut_report.study.execution.variant_reports import wanted, write_chosen
 from diecut_report.study.storage import state
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.summary import summarise
@@ -107,24 +114,24 @@ def run(
             pass
     outcome = run_study(known, directory, where, resume=resume, tell=shown)
     with outcome.store.lock():
-        told, broken = write_reports(known, outcome.store, where, agreed=agreed, tell=shown.doing)
+        chosen = wanted(known, outcome.store)
+        notes, outcome.broken_reports = write_chosen(chosen, outcome.store, where, agreed=agreed, tell=shown.doing)
         shown.doing(phrase("summary"))
-        told += export(outcome.store, formats)
+        files = export(outcome.store, formats)
         with in_its_language(known, where):
             summarise(directory, discovery=_discovery(where))
-    return replace(
-        outcome, broken_reports=broken, notes=(*filter(None, [known.sample.note]), *told, *untranslated(known, where))
-    )
+    outcome.notes = (*filter(None, [known.sample.note]), *notes, *files, *untranslated(known, where))
+    return outcome
 
 
 def in_its_language(study: Study, where: Where) -> AbstractContextManager[None]:
-    """Speak the language of the study's documents: the one that is asked for, else that of the base's project."""
+    """Use the language of the study's documents: the one that is asked for, else that of the base's project."""
     found = _catalogues(study, where)
     return speaking(found.language, found)
 
 
 def untranslated(study: Study, where: Where) -> list[str]:
-    """Return in words which foreign plugins have no words, or not all, in the language of the study's documents."""
+    """Return which foreign plugins have no texts, or not all, in the language of the study's documents."""
     return lacking(_catalogues(study, where), study.base.kinds.values())
 
 
@@ -138,7 +145,7 @@ def _discovery(where: Where) -> Discovery:
 
 
 def loaded(study: Path | None, directory: Path, where: Where) -> Study:
-    """The study of a file, or as it was when the run of the folder was begun."""
+    """Return the study of a file, or as it was when the run of the folder was begun."""
     discovery = _discovery(where)
     if study is not None:
         return load_study(study, discovery)

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import os
+from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import redirect_stdout
 from dataclasses import asdict, dataclass, field, replace
@@ -18,13 +19,13 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.quantities.units import pretty
 from diecut_report.report.text import translated
 from diecut_report.results.conclusion import SELF_TEST, doubtful_kinds
-from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results, settle
+from diecut_report.study.execution.engines import WorkerSetup, local_engine, results, settle
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import localised
 
 ENDINGS = (".yaml", ".yml")
-MOST = 10_000  # machines of one check
+MAX_MACHINES = 10_000  # machines of one check
 UNUSED = ("curves", "sections", "figures", "exports", "values", "assumptions", "sources", "errata", "absent", "lists")
 BAD, BROKEN = "bad", "error"  # states beside pass, warn and fail: the file is bad, a plugin broke
 
@@ -52,42 +53,32 @@ class FoundFiles:
     files: list[Path] = field(default_factory=list)
     passed_over: dict[Path, str] = field(default_factory=dict)
 
-    def look_into(self, folder: Path) -> None:
-        """Take all configurations of a folder, by name; studies and other YAML files are passed over."""
-        for path in sorted(path for path in folder.rglob("*") if path.suffix in ENDINGS and path.is_file()):
-            why = _why_no_configuration(path)
-            if why:
-                self.passed_over[path] = why
-            else:
-                self.files.append(path)
-
 
 def configurations(given: Sequence[Path]) -> FoundFiles:
-    """Return the files to calculate: those named, and of folders all configurations; UserError where there are none."""
-    made = FoundFiles()
+    """Return the files to calculate: those named, and of folders all configurations, by name; UserError where there are none."""
+    found = FoundFiles()
     for path in given:
-        if os.path.isdir(path):
-            made.look_into(path)
-        else:
-            made.files.append(path)
-    found = made.files = list(dict.fromkeys(made.files))
-    if not found:
-        words = Phrase(
-            "There is no configuration in {given}. Name files, or folders with .yaml files.",
-            given=", ".join(map(str, given)),
-        )
-        others = [Problem(Phrase("passed over: {why}", why=why), str(path)) for path, why in made.passed_over.items()]
-        raise UserError([Problem(words), *others])
-    if len(found) > MOST:
-        words = Phrase(
-            "These are {count} configurations; at most {most} are checked at once.", count=len(found), most=MOST
-        )
-        raise UserError(Problem(words))
-    return made
+        if not os.path.isdir(path):
+            found.files.append(path)
+            continue
+        for inner in sorted(each for each in path.rglob("*") if each.suffix in ENDINGS and each.is_file()):
+            if why := _why_no_configuration(inner):
+                found.passed_over[inner] = why
+            else:
+                found.files.append(inner)
+    found.files = list(dict.fromkeys(found.files))
+    if not found.files:
+        words = "There is no configuration in {given}. Name files, or folders with .yaml files."
+        others = [Problem(Phrase("passed over: {why}", why=why), str(path)) for path, why in found.passed_over.items()]
+        raise UserError([Problem(Phrase(words, given=", ".join(map(str, given)))), *others])
+    if len(found.files) > MAX_MACHINES:
+        words = "These are {count} configurations; at most {most} are checked at once."
+        raise UserError(Problem(Phrase(words, count=len(found.files), most=MAX_MACHINES)))
+    return found
 
 
 def _why_no_configuration(path: Path) -> str:
-    """Why a file of a folder is not meant, empty where it is: also one that cannot be read, so that its fault is told."""
+    """Return why a file of a folder is not meant, empty where it is: also one that cannot be read, so that its fault is reported."""
     try:
         tree = yaml.load(path)
     except UserError:
@@ -103,11 +94,9 @@ def machines(
     files: Sequence[Path | Tree], folders: Sequence[str], jobs: int | None = None
 ) -> Iterator[tuple[int, CheckedMachine]]:
     """Yield each configuration's number and what came out, in the order in which they are ready."""
-    warm = Warm(sha256(repr((folders, os.getcwd())).encode()).hexdigest(), _loaded, (tuple(folders),))
-    count = min(jobs or os.cpu_count() or 1, len(files))
-    engine: Engine = Pool(count, warm) if count > 1 else InProcess(warm)
+    key = sha256(repr((folders, os.getcwd())).encode()).hexdigest()
     chunks = [(number, given if isinstance(given, Tree) else str(given)) for number, given in enumerate(files)]
-    with engine:
+    with local_engine(jobs, len(files), WorkerSetup(key, _loaded, (tuple(folders),))) as engine:
         for (number, _), made in results(engine, calculated, chunks):
             yield number, made
 
@@ -127,28 +116,20 @@ def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMa
         with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere):  # a plugin may print
             outcome, _ = pipeline.calc(given, discovery, lambda _: None)
     except UserError as error:
-        return CheckedMachine(file, BAD, {}, [str(problem) for problem in _all_faults(given, discovery, error)])
+        problems = error.problems
+        try:  # all that is wrong: calculating stops at the first of its checks
+            pipeline.validate(given, discovery)
+        except UserError as more:
+            problems = more.problems
+        return CheckedMachine(file, BAD, {}, [str(problem) for problem in problems])
     status = BROKEN if outcome.broken else str(outcome.results["status"])
     return CheckedMachine(file, status, _lean(outcome.results), [*map(str, outcome.broken), *outcome.warnings])
 
 
-def _all_faults(given: Path | Tree, discovery: Discovery, error: UserError) -> Sequence[Problem]:
-    """All that is wrong with a file: calculating stops at the first kind of it."""
-    from diecut_report import pipeline
-
-    try:
-        pipeline.validate(given, discovery)
-    except UserError as more:
-        return more.problems
-    return error.problems
-
-
 def _lean(whole: dict[str, Any]) -> dict[str, Any]:
-    """Results without what a comparison does not show, so that they travel fast between processes."""
-    kept = {
-        name: {key: part for key, part in data.items() if key not in UNUSED}
-        for name, data in whole["mechanisms"].items()
-    }
+    """Return results without what a comparison does not show, so that they travel fast between processes."""
+    mechanisms = whole["mechanisms"].items()
+    kept = {name: {key: part for key, part in data.items() if key not in UNUSED} for name, data in mechanisms}
     config = {key: part for key, part in whole["config"].items() if key in ("file", "sha256")}
     return {**whole, "config": config, "mechanisms": kept, "comparisons": {}}
 
@@ -206,14 +187,12 @@ class MachineComparison:
 
     def as_data(self) -> dict[str, Any]:
         """Return it as the JSON file holds it."""
-        checks = [
-            {"id": name, "title": title, "machines": dict(zip(self.machines, cells, strict=True))}
-            for name, title, cells in self.checks
-        ]
-        inputs = [
-            {"path": path, "description": told, "machines": dict(zip(self.machines, cells, strict=True))}
-            for path, told, cells in self.inputs
-        ]
+
+        def of_each(cells: Sequence[Any]) -> dict[str, Any]:
+            return dict(zip(self.machines, cells, strict=True))
+
+        checks = [{"id": name, "title": title, "machines": of_each(cells)} for name, title, cells in self.checks]
+        inputs = [{"path": path, "description": text, "machines": of_each(cells)} for path, text, cells in self.inputs]
         return {
             "schema_version": 1,
             "machines": [asdict(verdict) for verdict in self.verdicts],
@@ -227,16 +206,16 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
     """Return a machine's line."""
     if machine.status == BAD:
         return Verdict(name, machine.file, BAD, words=tuple(machine.words))
-    checks = list(_checks(machine))
+    checks = dict(_checks(machine))
     found, whole = machine.results.get("governing"), machine.results.get("summary", {})
-    named = f"{found['mechanism']}.{found['check']}" if found else ""
-    ratio = next((check["utilisation"] for key, check in checks if key == named), None)
+    governing = f"{found['mechanism']}.{found['check']}" if found else ""
+    count = Counter(check["status"] for check in checks.values())
     return Verdict(
-        name, machine.file, machine.status, named, ratio,
-        sum(check["status"] == "fail" for _, check in checks),
-        whole.get(NOT_CHECKED, sum(check["status"] == NOT_CHECKED for _, check in checks)),
-        sum(check["status"] == "warn" for _, check in checks), tuple(machine.words), bool(machine.results and doubtful_kinds(machine.results)),
-        len(whole.get("assumed", ())), whole.get("conclusion", ""),
+        name, machine.file, machine.status, governing,
+        utilisation=checks[governing]["utilisation"] if governing in checks else None,
+        failed=count["fail"], not_checked=whole.get(NOT_CHECKED, count[NOT_CHECKED]), warnings=count["warn"],
+        words=tuple(machine.words), formulas_with_faults=bool(machine.results and doubtful_kinds(machine.results)),
+        assumed=len(whole.get("assumed", ())), conclusion=whole.get("conclusion", ""),
     )  # fmt: skip
 
 
@@ -274,28 +253,20 @@ def compared(machines: Sequence[CheckedMachine]) -> MachineComparison:
     """Return machines side by side; bad ones have a verdict alone."""
     called = names([machine.file for machine in machines])
     verdicts = [verdict(machine, name) for machine, name in zip(machines, called, strict=True)]
-    good = [(name, machine) for name, machine in zip(called, machines, strict=True) if machine.status != BAD]
-    sides = [machine for _, machine in good]
-    advice = [(name, told) for name, machine in good if (told := list(_advice(machine)))]
-    return MachineComparison([name for name, _ in good], verdicts, _matrix(sides), _differing(sides), advice)
+    good = {name: machine for name, machine in zip(called, machines, strict=True) if machine.status != BAD}
+    checks = [dict(_checks(machine)) for machine in good.values()]
+    titles = {key: str(check["title"]) for some in checks for key, check in some.items()}
+    matrix = [(key, title, [_cell(some.get(key)) for some in checks]) for key, title in titles.items()]
+    inputs = [dict(_inputs(machine)) for machine in good.values()]
+    described = {key: str(row["description"]) for some in inputs for key, row in some.items()}
+    rows = [(key, text, [_shown(some.get(key)) for some in inputs]) for key, text in described.items()]
+    advice = [(name, _advice(some)) for name, some in zip(good, checks, strict=True)]
+    differing = [row for row in rows if len(set(row[2])) > 1]
+    return MachineComparison(list(good), verdicts, matrix, differing, [each for each in advice if each[1]])
 
 
-def _matrix(machines: Sequence[CheckedMachine]) -> list[tuple[str, str, list[dict[str, Any] | None]]]:
-    made = [dict(_checks(machine)) for machine in machines]
-    titles = {key: str(check["title"]) for checks in made for key, check in checks.items()}
-    return [(key, title, [_verdicts_cell(checks.get(key)) for checks in made]) for key, title in titles.items()]
-
-
-def _verdicts_cell(check: Data | None) -> dict[str, Any] | None:
+def _cell(check: Data | None) -> dict[str, Any] | None:
     return None if check is None else {"status": check["status"], "utilisation": check["utilisation"]}
-
-
-def _differing(machines: Sequence[CheckedMachine]) -> list[tuple[str, str, list[str]]]:
-    """The inputs that are not alike in all machines, as they are printed."""
-    made = [dict(_inputs(machine)) for machine in machines]
-    told = {key: str(row["description"]) for inputs in made for key, row in inputs.items()}
-    rows = [(key, text, [_shown(inputs.get(key)) for inputs in made]) for key, text in told.items()]
-    return [row for row in rows if len(set(row[2])) > 1]
 
 
 def _inputs(machine: CheckedMachine) -> Iterator[tuple[str, Data]]:
@@ -311,11 +282,6 @@ def _shown(row: Data | None) -> str:
     return f"{localised(row['display']['text'])} {pretty(row['display']['unit'])}".rstrip()
 
 
-def _advice(machine: CheckedMachine) -> Iterator[str]:
-    """What the checks that do not pass tell to do."""
-    for name, check in _checks(machine):
-        if check["status"] in ("fail", "warn"):
-            yield f"{name}: {check['message']}"
-
-
-# The comparison of machines as HTML (one file, no network), PDF, XLSX, CSV and JSON.
+def _advice(checks: Mapping[str, Data]) -> list[str]:
+    failing = ((name, check) for name, check in checks.items() if check["status"] in ("fail", "warn"))
+    return [f"{name}: {check['message']}" for name, check in failing]

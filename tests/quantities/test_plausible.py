@@ -19,11 +19,11 @@ from diecut_report.mechanism.names import SI
 from diecut_report.quantities.plausible import SIZES, Plausible, plausible, without_rounding
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.results.press_run import compute
-from diecut_report.study.analysis.answers import variants
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
 from tests.configs import DISCOVERY, HEAD, problems, saved
 from tests.plugins.cases import COMPARISONS, OF_KINDS
+from tests.study.questions import variants
 
 LENGTH = Quantity("l", "mm", "Length")
 SHARE = Quantity("s", "1", "Share", ge=0, plausible=("0.01", "50"))

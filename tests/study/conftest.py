@@ -10,4 +10,4 @@ from diecut_report.study.storage import parts
 @pytest.fixture(autouse=True)
 def _without_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing of a test stays in the user's cache."""
-    monkeypatch.setattr(parts, "LARGE", float("inf"))
+    monkeypatch.setattr(parts, "REMEMBERED_SIZE", float("inf"))

@@ -14,7 +14,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.study.execution.pending import Warm
+from diecut_report.study.execution.engines import WorkerSetup
 from diecut_report.study.storage.description import Description, ResultColumn, StudySource
 
 SPEED, MASS = "mechanisms.drive.crank_speed", "cylinder.mass"
@@ -52,9 +52,9 @@ def part(first: int, count: int) -> dict[str, Any]:
     }
 
 
-def warm(folder: Path, key: str = "made") -> Warm:
+def warm(folder: Path, key: str = "made") -> WorkerSetup:
     """Workers load a number, and leave a file for each loading."""
-    return Warm(key, load, (str(folder),))
+    return WorkerSetup(key, load, (str(folder),))
 
 
 def load(folder: str) -> str:

@@ -9,9 +9,10 @@ from pathlib import Path
 import pytest
 
 from diecut_report.cli.main import main
+from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import load
 from diecut_report.results.origins import Assumed, ordered
-from diecut_report.study.analysis.variant_config import _value
+from diecut_report.study.analysis.variant_config import _place
 from tests.configs import GOOD, HEAD, LEVER, saved
 from tests.study.studies import varied
 
@@ -70,9 +71,10 @@ def test_results_without_weights_keep_the_order_of_the_file() -> None:
 
 def test_a_variants_value_stands_in_the_block_of_its_quantity(tmp_path: Path) -> None:
     tree = load(saved(tmp_path, TEXT))
-    assert _value(tree, ("mechanisms", "a", "force")) == ("mechanisms", "a", "force", "value")
-    assert _value(tree, ("mechanisms", "a", "arm")) == ("mechanisms", "a", "arm")
-    assert _value(tree, ("mechanisms", "a", "parts", 0, "length")) == ("mechanisms", "a", "parts", 0, "length")
+    discovery = Discovery([GOOD])
+    assert _place(tree, "mechanisms.a.force", discovery) == ("mechanisms", "a", "force", "value")
+    assert _place(tree, "mechanisms.a.arm", discovery) == ("mechanisms", "a", "arm")
+    assert _place(tree, "mechanisms.a.parts.0.length", discovery) == ("mechanisms", "a", "parts", 0, "length")
 
 
 @pytest.mark.parametrize("assumed", [True, False])

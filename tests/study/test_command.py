@@ -15,6 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from diecut_report.cli.main import main
+from diecut_report.config.yaml import HIDDEN_IN_KEY
 from diecut_report.study.execution import dask_cluster, variant_reports
 from diecut_report.study.execution.variant_reports import best
 from tests.configs import GOOD, saved
@@ -259,7 +260,7 @@ def test_a_study_given_to_another_command_is_told(tmp_path: Path, capfd: Capture
 def test_a_refused_folder_and_a_cluster_that_is_not_there_leave_nothing(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr(dask_cluster, "PATIENCE", 1)
+    monkeypatch.setattr(dask_cluster, "TIMEOUT", 1)
     (tmp_path / "full").mkdir()
     (tmp_path / "full" / "mine").touch()
     assert run("batch", files(tmp_path), "-o", tmp_path / "full") == 2
@@ -322,3 +323,20 @@ def test_progress_on_a_terminal(tmp_path: Path) -> None:
 def test_quiet_says_nothing(tmp_path: Path, capfd: Capture) -> None:
     assert run("batch", files(tmp_path), "-o", tmp_path / "out", "--quiet") == 0
     assert capfd.readouterr() == ("", "")
+
+
+NAME = "\x1b[31mred\u202e.yaml"
+
+
+def test_the_name_of_a_study_acts_on_no_terminal_and_turns_no_letters_round(tmp_path: Path) -> None:
+    saved(tmp_path, BASE)
+    out = tmp_path / "\x1b[2Jout"
+    assert run("batch", saved(tmp_path, STUDY, NAME), "-o", out, "--jobs", 1, "--quiet") in (0, 1)
+    page = (out / "summary.html").read_text("utf-8")
+    assert "�[31mred�.yaml" in page and not HIDDEN_IN_KEY.search(page.translate({9: None, 10: None}))
+
+
+def test_a_variant_of_such_a_study_has_a_report(tmp_path: Path) -> None:
+    saved(tmp_path, BASE)
+    run("batch", saved(tmp_path, STUDY, NAME), "-o", tmp_path / "out", "--jobs", 1, "--quiet")
+    assert run("report", f"{tmp_path / 'out'}#1", "-o", tmp_path / "made", "--format", "html", "--quiet") in (0, 1)

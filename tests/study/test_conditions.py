@@ -21,7 +21,7 @@ from diecut_report.formulas.condition_parts import Name, read
 from diecut_report.formulas.condition_tree import Node, names
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.tree import Node as Expression
-from diecut_report.study.analysis.query import condition, written
+from diecut_report.study.analysis.query import SqlWriter, condition
 from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.definition.constraints import Term, parse
 
@@ -78,8 +78,8 @@ def on_arrays(node: Node) -> list[int]:
 
 
 def in_database(node: Node, database: duckdb.DuckDBPyConnection) -> list[int]:
-    sql = written(node, COLUMNS)
-    found = database.execute(f"SELECT n FROM v WHERE {sql.text} ORDER BY n", list(sql.given)).fetchall()
+    sql = SqlWriter(COLUMNS).expression(node)
+    found = database.execute(f"SELECT n FROM v WHERE {sql.text} ORDER BY n", list(sql.parameters)).fetchall()
     return [row[0] for row in found]
 
 

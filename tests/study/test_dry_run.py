@@ -67,7 +67,7 @@ def test_of_a_large_sample_pieces_are_looked_at_that_lie_evenly(
     found = dry_run(study(tmp_path, text))
     assert (found.rows, found.looked_at, found.is_exact) == (8000, 1000, False)
     assert found.variants == pytest.approx(2000, rel=0.1)
-    assert found.varied[0].low == 1.0 and found.varied[0].high == 9.0
+    assert (found.varied[0]["low"], found.varied[0]["high"]) == (1.0, 9.0)
 
 
 def test_rates_are_those_of_a_further_variant() -> None:

@@ -12,7 +12,7 @@ import pytest
 COUNT = """
 import resource, sys
 import numpy as np
-from diecut_report.study.execution.pending import settle
+from diecut_report.study.execution.engines import settle
 if sys.argv[1] == "settled":
     settle()
 def chunk():
@@ -36,7 +36,7 @@ def test_the_next_chunk_takes_no_new_pages() -> None:
 
 THREADS = """
 import numpy as np
-from diecut_report.study.execution.pending import settle
+from diecut_report.study.execution.engines import settle
 from threadpoolctl import threadpool_info
 settle()
 print({pool["num_threads"] for pool in threadpool_info() if pool["user_api"] == "blas"})

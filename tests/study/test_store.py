@@ -28,6 +28,7 @@ import scipy
 from diecut_report.errors import UserError
 from diecut_report.study.storage import spreadsheets as exports
 from diecut_report.study.storage import state
+from diecut_report.study.storage import store as stores
 from diecut_report.study.storage.description import Description, ResultColumn
 from diecut_report.study.storage.spreadsheets import export
 from diecut_report.study.storage.store import Store
@@ -42,7 +43,7 @@ from tests.study.made_store import part
 store = Store.open(Path(sys.argv[1]))
 with store.lock():
     for index in range(store.description.parts):
-        rows = store.rows(index)
+        rows = store.description.part_rows(index)
         store.write_part(index, part(rows.start, len(rows)))
         print(index, flush=True)
 """
@@ -60,7 +61,7 @@ def filled(folder: Path, study: Description | None = None) -> Store:
     store = Store.create(folder, study or description())
     with store.lock():
         for index in range(store.description.parts):
-            rows = store.rows(index)
+            rows = store.description.part_rows(index)
             store.write_part(index, part(rows.start, len(rows)))
     return store
 
@@ -215,7 +216,7 @@ def test_versions_of_what_calculates_are_told(tmp_path: Path, monkeypatch: pytes
         for _ in range(2):
             store.start({})
             assert store.state["libraries"] == own
-        monkeypatch.setattr(state, "libraries", lambda: {"python": own["python"][0], "numpy": "9.9", "scipy": "9"})
+        monkeypatch.setattr(stores, "libraries", lambda: {"python": own["python"][0], "numpy": "9.9", "scipy": "9"})
         store.start({})
     assert store.state["libraries"] == {**own, "numpy": [np.__version__, "9.9"], "scipy": [scipy.__version__, "9"]}
 
@@ -278,13 +279,6 @@ def test_folder_without_results_is_told(tmp_path: Path) -> None:
         Store.open(tmp_path)
 
 
-@pytest.mark.parametrize("text", ["{", "[1]", "{}", '{"schema_version": 1, "columns": []}'])
-def test_broken_state_is_told(tmp_path: Path, text: str) -> None:
-    (tmp_path / "study.json").write_text(text)
-    with pytest.raises(UserError, match=r"study\.json"):
-        Store.open(tmp_path)
-
-
 def test_same_study_is_continued_with_the_parts_of_the_folder(tmp_path: Path) -> None:
     filled(tmp_path / "out")
     store = Store.open(tmp_path / "out", description(chunk=64))
@@ -342,28 +336,12 @@ def test_killed_writer_leaves_whole_parts_alone(tmp_path: Path) -> None:
         again = Store.open(tmp_path / "out", study)
         assert len(told) <= len(again.done_parts()) == len(again.parts()) < 400
         for index, path in again.parts().items():
-            assert pq.read_table(path)["variant"].to_pylist() == list(again.rows(index))
+            assert pq.read_table(path)["variant"].to_pylist() == list(again.description.part_rows(index))
     (tmp_path / "out/variants/.0123456789abcdef.part").write_bytes(b"PAR1")
     (tmp_path / "out/reports/.abc.part").mkdir(parents=True)
     (tmp_path / "out/reports/.abc.part/openpyxl").touch()
     with store.lock():
         assert hidden(tmp_path / "out") == []
-
-
-@pytest.mark.parametrize("keep", [0, 4, 900])
-def test_damaged_part_is_to_be_calculated_again(tmp_path: Path, keep: int) -> None:
-    store = filled(tmp_path / "out")
-    content = store.part(4).read_bytes()
-    store.part(4).write_bytes(content[:keep])
-    assert store.done_parts() == set(range(10)) - {4}
-    with pytest.raises(UserError, match=r"part-00004\.parquet: .* damaged"):
-        store.read()
-
-
-def test_copy_of_another_part_is_to_be_calculated_again(tmp_path: Path) -> None:
-    store = filled(tmp_path / "out")
-    store.part(4).write_bytes(store.part(5).read_bytes())
-    assert store.done_parts() == set(range(10)) - {4}
 
 
 def test_part_of_which_some_bytes_have_changed_is_to_be_calculated_again(tmp_path: Path) -> None:
@@ -396,14 +374,6 @@ def test_mechanism_may_be_called_as_a_column(tmp_path: Path) -> None:
     assert exported(store, "csv").read_text().splitlines()[1:] == ['0,1,"a","pass",,', '1,2,"b","fail",,']
 
 
-def test_part_of_another_study_is_not_taken(tmp_path: Path) -> None:
-    other = filled(tmp_path / "other", description(study=source("speeds.yaml", "count: 3\n")))
-    store = Store.create(tmp_path / "out", description())
-    (tmp_path / "out/variants").mkdir()
-    store.part(0).write_bytes(other.part(0).read_bytes())
-    assert store.done_parts() == set()
-
-
 @pytest.fixture
 def small_disk(tmp_path: Path) -> Iterator[Path]:
     """A disk of 200 kB where this user may make one (root on Linux); told by its absence elsewhere."""
@@ -420,7 +390,7 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
 def fill(store: Store) -> int:
     with store.lock():
         for index in range(store.description.parts):
-            rows = store.rows(index)
+            rows = store.description.part_rows(index)
             store.write_part(index, part(rows.start, len(rows)))
     return store.description.parts
 

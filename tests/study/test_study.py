@@ -26,7 +26,8 @@ def test_a_grid_takes_each_value_with_each(tmp_path: Path) -> None:
     rows = found.sample.rows(0, 6)
     assert rows[FORCE].tolist() == [1000.0, 1000.0, 2000.0, 2000.0, 3000.0, 3000.0]  # type: ignore[union-attr]
     assert rows[GRADE] == ["fine", "coarse"] * 3
-    assert (found.sample.count, found.units) == (6, {FORCE: "N", GRADE: None})
+    assert found.sample.count == 6
+    assert {path: asked.unit for path, asked in found.inputs.items()} == {FORCE: "N", GRADE: None}
 
 
 def test_what_is_not_asked_for_has_its_default(tmp_path: Path) -> None:

@@ -16,17 +16,18 @@ from pypdf import PdfReader
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
-from diecut_report.study.analysis.answers import variants
-from diecut_report.study.analysis.variants import STATUSES, opened, titles
-from diecut_report.study.storage.description import ResultColumn
+from diecut_report.study.analysis.answers import rounded
+from diecut_report.study.analysis.variants import opened, titles
+from diecut_report.study.storage.description import STATUSES, ResultColumn
 from diecut_report.study.summary import best as influence
 from diecut_report.study.summary import best as pareto
 from diecut_report.study.summary import content, data, summarise
 from diecut_report.study.summary import content as contents
 from diecut_report.study.summary.charts import near
-from diecut_report.study.summary.data import WORST, display, utilised, value_told
+from diecut_report.study.summary.data import WORST, display, utilised, value_text
 from diecut_report.study.summary.pages import page
 from tests.hostile.bounded import PEAK
+from tests.study.questions import variants
 from tests.study.stored_study import BORE, INPUTS, LAW, RESULTS, SPEED, STUDY, calculated, made, many, ten, written
 
 GLOBAL = np.array([[0.3138, 0.4424, 0.0], [0.5574, 0.4424, 0.2436]])  # Ishigami: first and total indices, closed form
@@ -111,7 +112,7 @@ def test_reasons_that_differ_in_numbers_alone_are_counted_together(
     rows = [row for row in rows_of(large) if row["error"]]
     (reason,) = large_summary.reasons
     assert (reason.variants, reason.example) == (len(rows), rows[0]["variant"])
-    assert reason.told == rows[0]["error"]
+    assert reason.text == rows[0]["error"]
 
 
 def test_the_sample_is_the_same_each_time_and_holds_rows_as_they_are(large: Path) -> None:
@@ -142,15 +143,15 @@ def test_shares_that_pass_are_those_of_the_rows_by_value_and_by_class(
         assert [row.variants for row in found[name]] == np.histogram(values, edges)[0].tolist()
         assert [row.passing for row in found[name]] == np.histogram(values[good], edges)[0].tolist()
     for row in found[LAW]:
-        mine = [each["status"] for each in rows if each[LAW] == row.told]
+        mine = [each["status"] for each in rows if each[LAW] == row.text]
         assert (row.variants, row.passing) == (len(mine), mine.count("pass") + mine.count("warn"))
-    assert {row.told for row in found[LAW]} == {"harmonic", "cycloidal"}
+    assert {row.text for row in found[LAW]} == {"harmonic", "cycloidal"}
 
 
 def test_a_value_at_which_nothing_passes_is_marked(small_summary: contents.Summary) -> None:
     found = small_summary
     speeds = next(each.rows for each in found.passing if each.column.name == SPEED)
-    assert [(row.told, row.variants, row.passing) for row in speeds] == [
+    assert [(row.text, row.variants, row.passing) for row in speeds] == [
         ("35", 1, 0),
         ("40", 3, 3),
         ("50", 2, 0),
@@ -268,7 +269,7 @@ def test_what_was_studied_stands_there_in_words_with_its_symbol_and_the_key_besi
         made(tmp_path / "out", [3.0, 4.0], [0.06, 0.06], ["harmonic", "modified_trapezoidal"], text=study)
     )
     assert summary.asked is not None
-    assert [(each.told, each.symbol) for each in summary.asked.inputs[:2]] == [
+    assert [(each.text, each.symbol) for each in summary.asked.inputs[:2]] == [
         ("Speed of the crank (drive)", "n"), ("Radius of the bore (cylinder)", "R_b"),
     ]  # fmt: skip
     assert summary.asked.inputs[2].values == "harmonic, modified trapezoidal (modified_trapezoidal)"
@@ -281,7 +282,7 @@ def test_what_was_studied_stands_there_in_words_with_its_symbol_and_the_key_besi
 
 
 def test_a_choice_stands_in_words() -> None:
-    assert value_told("free_end") == "free end" and value_told("EN 10025") == "EN 10025"
+    assert value_text("free_end") == "free end" and value_text("EN 10025") == "EN 10025"
 
 
 def test_the_matrix_begins_with_the_best_and_each_variant_stands_once(
@@ -346,6 +347,19 @@ def test_where_none_passes_all_calculated_variants_are_compared(tmp_path: Path) 
     )
     assert found.front is not None and not found.front.is_passing
     assert found.front.variants.tolist() == [0, 1, 2]
+
+
+def test_ten_digits_are_kept() -> None:
+    given = np.array([0.0, -3.5550900582002396, 1.23456789012e-7, 9.99999999999e20, np.inf, np.nan])
+    np.testing.assert_allclose(rounded(given), given, rtol=6e-10)
+    assert rounded(np.array([3.5550900582002396]))[0] == rounded(np.array([3.555090058200241]))[0]
+    assert rounded(np.array([1.0, 1.000000001])).tolist() == [1.0, 1.000000001]
+
+
+def test_no_variant_stands_on_the_front_by_rounding() -> None:
+    costs = np.array([[151.9, 1.925, 3.555090058200241], [187.3, 2.062, 3.5550900582002396]])
+    assert sorted(pareto.pareto_best(costs).tolist()) == [0, 1]
+    assert pareto.pareto_best(rounded(costs)).tolist() == [0]
 
 
 # --- influence -------------------------------------------------------------------------------------------------------

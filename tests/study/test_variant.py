@@ -1,4 +1,4 @@
-"""From a study to one of its variants and back: the config of a variant, calculated alone, gives the row that is stored."""
+"""One variant of a study as a configuration: calculated alone it gives the row that is stored, taken it keeps the base's text."""
 
 from __future__ import annotations
 
@@ -16,12 +16,17 @@ from diecut_report.cli.main import main
 from diecut_report.config import yaml
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
-from diecut_report.config.yaml import as_text, with_values
+from diecut_report.config.yaml import Tree, as_text, with_values
+from diecut_report.errors import UserError
+from diecut_report.quantities.units import parse_quantity
 from diecut_report.study import command
-from diecut_report.study.analysis.variant_config import variant_config
+from diecut_report.study.analysis.variant_config import taken_config, variant_config
 from diecut_report.study.execution import variant_reports
-from tests.configs import EXAMPLES, PLUGINS, saved
+from diecut_report.study.storage.description import Kind, ResultColumn
+from tests.configs import EXAMPLES, GOOD, HEAD, PLUGINS, saved
 from tests.shared import once
+from tests.study.questions import variants
+from tests.study.stored_study import BORE, SPEED, ten, written
 
 SHARES = PLUGINS / "shares"
 BASE = """\
@@ -147,31 +152,10 @@ def test_a_value_that_the_base_gives_in_a_list_stands_in_that_list(tmp_path: Pat
     ]
 
 
-texts = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc")), max_size=12)
-words = st.sampled_from(
-    [
-        "",
-        "~",
-        "null",
-        "yes",
-        "1e5",
-        "0012",
-        "089",
-        "1:30",
-        "0x10",
-        ".5",
-        "- a",
-        "a: b",
-        "# no",
-        "<<",
-        "*a",
-        "&a",
-        "é · °",
-        " x ",
-        "a\nb\n",
-        "%",
-    ]
-)
+texts = st.text(st.characters(codec="utf-8", exclude_categories=("Cs", "Cc", "Cf")), max_size=12)
+WORDS = ["", "~", "null", "yes", "1e5", "0012", "089", "1:30", "0x10", ".5", "- a", "a: b", "# no",
+         "<<", "*a", "&a", "é · °", " x ", "a\nb\n", "%"]  # fmt: skip
+words = st.sampled_from(WORDS)
 keys = st.text("abcxyz_", min_size=1, max_size=4)
 scalars = st.none() | st.booleans() | st.integers() | st.floats(allow_nan=False, allow_infinity=False) | texts | words
 trees = st.dictionaries(
@@ -213,3 +197,160 @@ def test_two_variants_are_held_against_each_other(out: Path, capfd: pytest.Captu
     for path in ("mechanisms.a.share", "mechanisms.b.length"):
         assert changed[path.removeprefix("mechanisms.")] == pytest.approx((first[path], second[path]))
     assert found["old"]["file"] == "out-0.yaml" and found["new"]["file"] == "out-1.yaml"
+
+
+@pytest.fixture(scope="module")
+def folder(tmp_path_factory: pytest.TempPathFactory) -> Path:
+    return ten(tmp_path_factory.mktemp("taken") / "out")
+
+
+# --- the configuration of a variant ----------------------------------------------------------------------------------
+
+
+def taken(folder: Path, variant: int) -> Tree:
+    """The configuration of a variant; what it is as text reads back as the same."""
+    tree = variant_config(folder, variant, Discovery([]), f"study-{variant}.yaml")
+    assert yaml.parse(tree.text, "variant").data == tree.data
+    return tree
+
+
+def test_a_variants_configuration_is_the_base_with_its_values(folder: Path) -> None:
+    tree = taken(folder, 4)
+    base, data = yaml.load(folder / "base.yaml").data, tree.data
+    assert tree.text.startswith("# Variant 4 of study.yaml: ")
+    assert (tree.name, tree.file) == ("study-4.yaml", str(folder / "base.yaml"))
+    assert data["mechanisms"]["cylinder"].pop("bore_radius") == "65 mm"
+    speed = data["mechanisms"]["drive"].pop("crank_speed")
+    assert speed.endswith(" rpm") and parse_quantity(speed, "rpm") == 2 * math.pi / 60 * 50
+    del base["mechanisms"]["cylinder"]["bore_radius"], base["mechanisms"]["drive"]["crank_speed"]
+    assert data.pop("project") == {"title": "Two mechanisms – variant 4 of study"}
+    del base["project"]
+    assert data == base
+
+
+def test_problems_of_a_variant_name_the_line_of_the_base(folder: Path) -> None:
+    tree, path = taken(folder, 4), ("mechanisms", "cylinder", "bore_radius")
+    assert tree.position(path) == (9, 18)
+    assert tree.typed(path) == "65 mm"
+    assert tree.position(("mechanisms", "cylinder", "segment_height")) == (10, 21)
+
+
+BASES: dict[str, tuple[str, Kind, Any, Any]] = {
+    "lists and blocks": ("mechanisms.drive.gears.1.driver_teeth", "int", 24, 24),
+    "a flow block in a list": ("mechanisms.drive.gears.0.driver_teeth", "float", 24.0, 24),
+    "a key in %": ("mechanisms.drive.slip", "float", 0.07, "7 %"),
+    "a key in %, 100 of them": ("mechanisms.drive.slip", "float", 1.0, "100 %"),
+    "a key that the base leaves out": ("mechanisms.drive.n_points", "int", 720, 720),
+    "a field of the press": ("press.sheet.thickness", "float", 0.0008, "0.8 mm"),
+    "a block that the base leaves out": ("press.rollers.first.width", "float", 0.5, "500 mm"),
+    "a text": ("mechanisms.drive.motion_law", "text", "modified_sine", "modified_sine"),
+    "a text that looks like a number": ("mechanisms.drive.motion_law", "text", "12", "12"),
+}
+
+
+@pytest.mark.parametrize("name", BASES)
+def test_a_value_goes_where_its_path_leads(tmp_path: Path, name: str) -> None:
+    path, kind, value, expected = BASES[name]
+    column = ResultColumn(path, kind, "m" if path.startswith("press") else "1", "%" if path.endswith("slip") else "")
+    out = written(tmp_path / "out", [column], {path: [value], "status": ["pass"]}, varied=[path])
+    data = taken(out, 0).data
+    for key in path.split("."):
+        data = data[int(key)] if key.isdecimal() else data[key]
+    assert data == expected and type(data) is type(expected)
+
+
+def test_a_value_beside_an_anchor_changes_one_place_only(tmp_path: Path) -> None:
+    base = "mechanisms:\n  a: &a {bore_radius: 70 mm}\n  cylinder: *a\n"
+    out = ten(tmp_path / "out", varied=[BORE], base=base)
+    data = taken(out, 3).data
+    assert data["mechanisms"] == {"a": {"bore_radius": "70 mm"}, "cylinder": {"bore_radius": "65 mm"}}
+
+
+def test_a_variant_that_is_not_stored_is_told(folder: Path) -> None:
+    with pytest.raises(UserError, match=r"no variant 17 here.*0 … 9"):
+        taken(folder, 17)
+
+
+# --- taken for a file of its own ---
+
+
+def test_its_values_are_read_back_as_those_that_were_calculated_and_all_else_stays(folder: Path) -> None:
+    text = taken_config(folder, 4, Discovery([])).content.decode()
+    (row,) = json.loads("".join(variants(folder, "variant = 4", format="json")))["variants"]
+    data = yaml.parse(text, "taken").data["mechanisms"]
+    assert parse_quantity(data["cylinder"]["bore_radius"], "mm") == row[BORE]
+    assert parse_quantity(data["drive"]["crank_speed"], "rpm") == row[SPEED]  # a reference stood there
+    base = (folder / "base.yaml").read_text("utf-8").splitlines()
+    heading, *lines = text.splitlines()
+    changed = [(old, new) for old, new in zip(base, lines, strict=True) if old != new]
+    assert heading == "# Variant 4 of study.yaml" and len(changed) == 2
+    assert all(old.partition("#")[2] == new.partition("#")[2] for old, new in changed)
+
+
+def test_its_values_may_be_rounded(folder: Path) -> None:
+    text = taken_config(folder, 4, Discovery([]), digits=2).content.decode()
+    data = yaml.parse(text, "taken").data["mechanisms"]
+    assert (data["cylinder"]["bore_radius"], data["drive"]["crank_speed"]) == ("65 mm", "50 rpm")
+
+
+def test_the_command_writes_it_and_tells_how_the_study_judged_it(
+    folder: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    assert main(["take", f"{folder}#4", "-o", str(tmp_path / "mine.yaml")]) == 0
+    assert "in the study: fail, governed by drive.checks.play" in capfd.readouterr().err
+    assert (tmp_path / "mine.yaml").read_bytes() == taken_config(folder, 4, Discovery([])).content
+    assert main(["take", f"{folder}#4", "-o", "-"]) == 0
+    assert capfd.readouterr().out.encode() == (tmp_path / "mine.yaml").read_bytes()
+
+
+@pytest.mark.parametrize(
+    ("number", "words"), [("#99", "no variant 99"), ("#9", "leaves no wall"), ("", "names no variant")]
+)
+def test_what_cannot_be_taken_is_told(
+    folder: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str], number: str, words: str
+) -> None:
+    assert main(["take", f"{folder}{number}", "-o", str(tmp_path / "never.yaml")]) == 2
+    assert words in capfd.readouterr().err and not (tmp_path / "never.yaml").exists()
+
+
+@pytest.mark.parametrize(
+    "name", ["base.yaml", "study.json", "study.yaml", "variants/part-00000.parquet", "variants/x.csv"]
+)
+def test_what_the_study_has_stored_is_not_written_over(
+    folder: Path, capfd: pytest.CaptureFixture[str], name: str
+) -> None:
+    before = {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()}
+    assert main(["take", f"{folder}#4", "-o", str(folder / name)]) == 2
+    assert main(["variants", str(folder), "--format", "csv", "-o", str(folder / name)]) == 2
+    told = capfd.readouterr().err
+    assert told.count("Choose another place with -o.") == 2
+    assert {path: path.read_bytes() for path in folder.rglob("*") if path.is_file()} == before
+
+
+def test_what_the_study_was_made_of_is_not_written_over(
+    folder: Path, tmp_path: Path, capfd: pytest.CaptureFixture[str]
+) -> None:
+    base = tmp_path / "my_press.yaml"
+    base.write_bytes((folder / "base.yaml").read_bytes())
+    assert main(["take", f"{folder}#4", "-o", str(base)]) == 2
+    assert "of which the study was made; it would be written over" in capfd.readouterr().err
+    assert base.read_bytes() == (folder / "base.yaml").read_bytes()
+
+
+@pytest.mark.usefixtures("without_summary")
+def test_a_stored_variant_is_solved_and_written_with_what_was_found(tmp_path: Path) -> None:
+    press = HEAD + "  a: {kind: lever, force: 2 kN, arm: 100 mm, allowable_moment: 250 N*m}  # the lever\n"
+    saved(tmp_path, press)
+    study = saved(
+        tmp_path,
+        "schema_version: 1\nbase: press.yaml\nsample: {method: grid}\nvary: {mechanisms.a.force: [1 kN, 3 kN]}\n",
+        "study.yaml",
+    )
+    plugins = ("--plugins", str(GOOD))
+    assert main(["batch", str(study), "-o", str(tmp_path / "out"), *plugins]) == 1
+    target, asked = tmp_path / "solved.yaml", ("--vary", "a.arm", "--for", "a.moment = 240 N*m")
+    assert main(["solve", f"{tmp_path / 'out'}#1", *asked, "-o", str(target), *plugins]) == 0
+    found = yaml.load(target)
+    assert found.data["mechanisms"]["a"] | {"force": "3 kN", "arm": "80 mm"} == found.data["mechanisms"]["a"]
+    assert "those that were calculated" not in found.text
+    assert main(["advise", f"{tmp_path / 'out'}#1", "-o", str(tmp_path / "mended.yaml"), *plugins]) == 0

@@ -15,12 +15,12 @@ from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.results.mechanism import worst
-from diecut_report.study.analysis.answers import variants
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import Where, run_study
 from tests.configs import EXAMPLES
 from tests.shared import once
+from tests.study.questions import variants
 from tests.study.stored_study import many, ten
 
 PRESS = "flat_cylinder_mechanisms.yaml"

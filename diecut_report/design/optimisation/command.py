@@ -20,8 +20,7 @@ from diecut_report.study.analysis.query import Request
 from diecut_report.study.analysis.variants import opened
 from diecut_report.study.command import Shown, in_its_language, loaded, untranslated
 from diecut_report.study.definition.study_file import Study
-from diecut_report.study.execution.refusals import LARGEST
-from diecut_report.study.execution.study_run import Where
+from diecut_report.study.execution.study_run import LARGEST, Where
 from diecut_report.study.execution.variant_reports import Chosen, best, wanted, write_chosen
 from diecut_report.study.storage import state
 from diecut_report.study.storage.store import Store

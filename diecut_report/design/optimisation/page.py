@@ -38,7 +38,7 @@ from diecut_report.design.optimisation.texts import (
 from diecut_report.files import room
 from diecut_report.formulas import Array
 from diecut_report.report.figures.diagram import WIDTH
-from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, text_size
+from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, text_size
 from diecut_report.report.pages import html, pdf
 from diecut_report.report.pages.page_engine import HTML, URLFetcher
 from diecut_report.report.text import Catalogue, number
@@ -46,8 +46,8 @@ from diecut_report.study.analysis.variants import StoredColumn
 from diecut_report.study.summary import best
 from diecut_report.study.summary import content as questions
 from diecut_report.study.summary.best import StoredObjective
-from diecut_report.study.summary.charts import COLOURS, HEAD, LABEL, chart, panel
-from diecut_report.study.summary.data import display, factor, named, titled, utilised, value_told, wrapped
+from diecut_report.study.summary.charts import COLOURS, HEAD, LABEL, panel
+from diecut_report.study.summary.data import display, factor, named, titled, utilised, value_text, wrapped
 from diecut_report.study.summary.data import quantity as charts_quantity
 from diecut_report.study.summary.figures import SummaryFigure
 from diecut_report.text.phrases import capital
@@ -79,7 +79,7 @@ def cloud(there: TriedMachines, goals: Sequence[StoredObjective]) -> Cloud:
 def front(found: FoundFront, there: TriedMachines, told: str) -> Svg:
     """Return each pair of objectives: what was tried, the front, the suggested machine and today's."""
     pairs = list(combinations(range(len(found.objectives)), 2))[:MOST_PAIRS]
-    return chart(partial(_charts_front, found, there, pairs), told, "front")
+    return drawn(partial(_charts_front, found, there, pairs), told, "front")
 
 
 def _charts_front(found: FoundFront, there: TriedMachines, pairs: Sequence[Pair]) -> Figure:
@@ -139,7 +139,7 @@ def _limits(axes: Axes, points: Array, allowed: Array) -> None:
 
 def progress(found: SearchProgress, goals: Sequence[StoredObjective], told: str) -> Svg:
     """Return how far the search was after each generation."""
-    return chart(partial(_charts_progress, found, goals), told, "progress")
+    return drawn(partial(_charts_progress, found, goals), told, "progress")
 
 
 def _charts_progress(found: SearchProgress, goals: Sequence[StoredObjective]) -> Figure:
@@ -162,7 +162,7 @@ def _charts_progress(found: SearchProgress, goals: Sequence[StoredObjective]) ->
 
 def bounds(found: Sequence[InputPlace], told: str) -> Svg:
     """Return where the front's points lie within the range of each number that varies."""
-    return chart(partial(_bounds, found), told, "bounds")
+    return drawn(partial(_bounds, found), told, "bounds")
 
 
 def _bounds(found: Sequence[InputPlace]) -> Figure:
@@ -225,12 +225,12 @@ def _filled(found: OptimisationResult, kind: str) -> str:
         r=found, o=asked, t=Catalogue(spoken_language()), language=spoken_language(), kind=kind, policy=html.policy(),
         style=Markup(style), version=__version__, title=_title(found), figure=partial(_figure, kind), figures=_figures(found),
         asked=questions.asked_questions(found.stored), heads=[titled(column) for column in columns_shown(found.front)],
-        goals=[goal.told for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
+        goals=[goal.label for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
         counts=capital(counts(found)), suggested=capital(suggested(found)), today=capital(today(found, named)),
         held=_held(found), rechecked=[capital(line) for line in recheck_lines(found)],
         conflict=list(conflict_lines(found, found.conflict)) if found.conflict else [],
         words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, say=say, counted=_counted,
-        files=_files(found), localised=localised, value_told=value_told,
+        files=_files(found), localised=localised, value_text=value_text,
         example=int(found.front.variants[found.front.suggested or 0]) if found.conflict is None else found.conflict.nearest,
     )  # fmt: skip
 
@@ -263,10 +263,10 @@ def _row(found: OptimisationResult, place: int) -> PageRow:
         )
         used = f"{utilised(ratio)} " if ratio is not None else ""
     shown = [
-        display(value, column) if column.is_number else value_told(value)
+        display(value, column) if column.is_number else value_text(value)
         for value, column in zip(values, columns_shown(found.front), strict=True)
     ]
-    told = used + (said(found.stored.check_told(check)) if check else "–")
+    told = used + (said(found.stored.check_label(check)) if check else "–")
     is_suggested = not found.front.is_single and place == found.front.suggested
     return PageRow(variant, best.report_of(found.stored.folder, variant), status, told, shown, is_suggested)
 

@@ -31,14 +31,13 @@ from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.definition.study_file import Optimise, Study
 from diecut_report.study.definition.variables import Values
 from diecut_report.study.definition.wanted_results import Objective
-from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results, settle
+from diecut_report.study.execution.engines import Engine, WorkerSetup, local_engine, results, settle
 from diecut_report.study.execution.study_run import Counts, Tell, Where, described, engine_for, facts
 from diecut_report.study.execution.variant_rows import Rows, calculate_rows
-from diecut_report.study.storage import state
 from diecut_report.study.storage.description import Description, ResultColumn
 from diecut_report.study.storage.parts import columns_of_part
 from diecut_report.study.storage.state import SEARCHED
-from diecut_report.study.storage.store import Store
+from diecut_report.study.storage.store import Store, refuse_used
 from diecut_report.text.phrases import Phrase, phrase
 
 # A generation calculated: many machines at once, what each costs, and by how much each breaks what is asked.
@@ -253,8 +252,10 @@ def rechecked(store: Store, stored: Stored, variants: Sequence[int], where: Wher
 
 def _engine(store: Store, where: Where, names: tuple[str, ...], jobs: int) -> Engine:
     plugins = tuple(where.plugins)
-    warm = Warm("\n".join(["alone", str(store.directory), *plugins]), _loaded, (store.directory, plugins, names))
-    return Pool(jobs, warm) if jobs > 1 else InProcess(warm)
+    setup = WorkerSetup(
+        "\n".join(["alone", str(store.directory), *plugins]), _loaded, (store.directory, plugins, names)
+    )
+    return local_engine(jobs, jobs, setup)
 
 
 def _loaded(directory: Path, plugins: tuple[str, ...], names: tuple[str, ...]) -> MachinePlace:
@@ -362,7 +363,7 @@ def _refuse_used(directory: Path) -> None:
     """Refuse a folder that holds anything, before anything is calculated."""
     refuse_unreadable_name(directory)
     if directory.is_dir():
-        state.refuse_used(directory)
+        refuse_used(directory)
 
 
 class _Run:
@@ -414,7 +415,7 @@ class _Run:
 
     def _generation(self, store: Store, part: int, is_there: bool, tried: Tried | None) -> None:
         """One generation: from its part file, else calculated and written; then told to the search."""
-        rows = store.rows(part)
+        rows = store.description.part_rows(part)
         if tried is None:
             values = rows_of(self.search.ask(), np.arange(len(rows)))
             tried = self._stored(store, part, values) if is_there else self._calculated(rows.start, values)
@@ -442,7 +443,7 @@ class _Run:
         known = (
             {name: table.column(name).to_numpy(zero_copy_only=False) for name in table.column_names} if table else {}
         )
-        if not _is_same(known, rows_of(values, left), store.rows(part).start + left):
+        if not _is_same(known, rows_of(values, left), store.description.part_rows(part).start + left):
             raise UserError(_other_machines(store))
         violations = np.where(broken > 0, NOT_TRIED + broken, 0.0)
         violations[left] = known[VIOLATION.name]

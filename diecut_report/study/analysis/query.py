@@ -2,8 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Mapping, Sequence
-from dataclasses import dataclass, field
+from collections.abc import Iterator, Mapping, Sequence
+from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from diecut_report.errors import Problem, UserError, nearest
@@ -42,17 +42,18 @@ class Sql(NamedTuple):
     """Hold an expression and what goes into its question marks."""
 
     text: str
-    given: tuple[Any, ...] = ()
+    parameters: tuple[Any, ...] = ()
 
 
-def written(node: Node, columns: Mapping[str, StoredColumn]) -> Sql:
-    """Return a condition as an SQL expression; each name in it must be a column."""
-    return _SqlWriter(columns).expression(node)
+def _filled(form: str, *parts: Sql) -> Sql:
+    return Sql(form.format(*(part.text for part in parts)), tuple(value for part in parts for value in part.parameters))
 
 
-class _SqlWriter:
-    def __init__(self, columns: Mapping[str, StoredColumn]) -> None:
-        self.columns = columns
+@dataclass(frozen=True)
+class SqlWriter:
+    """Write conditions whose names are all columns."""
+
+    columns: Mapping[str, StoredColumn]
 
     def expression(self, node: Node) -> Sql:
         """Return a side of a comparison or a condition; what is calculated and not finite is NULL."""
@@ -85,7 +86,13 @@ class _SqlWriter:
             case Negative(of):
                 return _filled("(-{})", self.number(of))
             case Chain(first, rest):
-                return self._chain(first, rest)
+                found = self.number(first)
+                for sign, part in rest:
+                    # one divided by what is infinite would be 0
+                    found = _filled(
+                        f"({{}} {sign} {{}})", found, self._finite(part) if sign == "/" else self.number(part)
+                    )
+                return found
             case Power(base, exponent):  # 1 ** NaN would be 1
                 return _filled("pow({}, {})", self._finite(base), self._finite(exponent))
             case Call(name, of) if name in _LEAST:  # least() and greatest() would pass over what is NULL
@@ -96,79 +103,59 @@ class _SqlWriter:
                 return _filled(f"{name}({{}})", self.number(of))
         return self.expression(node)
 
-    def _chain(self, first: Node, rest: tuple[tuple[str, Node], ...]) -> Sql:
-        found = self.number(first)
-        for sign, node in rest:
-            # one divided by what is infinite would be 0
-            found = _filled(f"({{}} {sign} {{}})", found, self._finite(node) if sign == "/" else self.number(node))
-        return found
-
     def _finite(self, node: Node) -> Sql:
         """Return a number that is NULL where it is calculated and not finite."""
         return self.number(node) if isinstance(node, ColumnName | Number) else self.expression(node)
-
-
-def _filled(form: str, *parts: Sql) -> Sql:
-    """Return the form with these expressions in its braces."""
-    return Sql(form.format(*(part.text for part in parts)), tuple(value for part in parts for value in part.given))
 
 
 # Conditions on stored variants: ``drive.crank_torque_peak < '40 N*m' and status = 'pass'`` to SQL with parameters.
 
 
 EXAMPLE = "drive.crank_torque_peak < '40 N*m' and status = 'pass'"
-WHERE_SHOWN = 300  # letters of a condition in a message
+MAX_SHOWN = 300  # letters of a condition in a message
 
 
-@dataclass
+@dataclass(frozen=True)
 class Condition:
     """Hold a condition for DuckDB with its parameters, and the columns that it names."""
 
-    sql: str
-    parameters: list[Any]
-    columns: list[str] = field(default_factory=list)
+    sql: str = "true"
+    parameters: tuple[Any, ...] = ()
+    columns: tuple[str, ...] = ()
 
 
 def condition(given: str, columns: Mapping[str, StoredColumn]) -> Condition:
-    """Return the condition that a text says; UserError in words, with the place, for what cannot be asked."""
+    """Return the condition that a text says; UserError, with the place, for what cannot be asked."""
+
+    def name(name: str) -> Name:
+        if name not in columns:
+            near = nearest(name, columns) or phrase("; put texts in quotes")
+            raise ConditionError(Phrase("{name} is not a column of these variants{near}.", name=repr(name), near=near))
+        column = columns[name]
+        if column.is_number:
+            return Name(name, "number", column.unit, column.display)
+        return Name(name, "truth" if column.kind == "bool" else "text")
+
     try:
-        tree = read(given, columns, lambda name: _name(name, columns), EXAMPLE)
+        tree = read(given, columns, name, EXAMPLE)
     except ConditionError as fault:
         where = "" if fault.place is None else Phrase(", at character {place}", place=fault.place + 1)
-        shown = given if len(given) <= WHERE_SHOWN else given[:WHERE_SHOWN] + "…"
-        raise UserError(
-            Problem(Phrase("The condition “{shown}”{where}: {words}", shown=shown, where=where, words=fault.words))
-        ) from None
-    sql = written(tree, columns)
-    return Condition(sql.text, list(sql.given), list(names(tree)))
+        shown = given if len(given) <= MAX_SHOWN else given[:MAX_SHOWN] + "…"
+        message = Phrase("The condition “{shown}”{where}: {words}", shown=shown, where=where, words=fault.words)
+        raise UserError(Problem(message)) from None
+    sql = SqlWriter(columns).expression(tree)
+    return Condition(sql.text, sql.parameters, tuple(names(tree)))
 
 
 def column_named(name: str, columns: Mapping[str, StoredColumn]) -> StoredColumn:
     """Return the column of a name; UserError with the nearest where there is none."""
     if name not in columns:
-        raise UserError(
-            Problem(
-                Phrase(
-                    "{name} is not a column of these variants{nearest}.",
-                    name=repr(name),
-                    nearest=nearest(name, columns),
-                )
-            )
-        )
+        words = "{name} is not a column of these variants{nearest}."
+        raise UserError(Problem(Phrase(words, name=repr(name), nearest=nearest(name, columns))))
     return columns[name]
 
 
-def _name(name: str, columns: Mapping[str, StoredColumn]) -> Name:
-    if name not in columns:
-        near = nearest(name, columns) or phrase("; put texts in quotes")
-        raise ConditionError(Phrase("{name} is not a column of these variants{near}.", name=repr(name), near=near))
-    column = columns[name]
-    if column.is_number:
-        return Name(name, "number", column.unit, column.display)
-    return Name(name, "truth" if column.kind == "bool" else "text")
-
-
-SHOWN = 20  # variants of a table that asks for no number of them
+DEFAULT_TOP = 20  # variants of a table that asks for no number of them
 ROWS = 2_000  # at a time
 
 Row = tuple[Any, ...]
@@ -201,81 +188,55 @@ class Question:
         chosen = f" AND variant IN ({', '.join(map(str, self.picked))})" if self.picked else ""
         return f"WHERE ({self.condition.sql}){chosen}"
 
-    @property
-    def sql(self) -> str:
-        """Return the whole question; variants of equal rank stand in the order of the sample, missing values last."""
-        names = ", ".join(column.sql for column in self.columns)
+    def rows(self, stored: Stored) -> Iterator[Row]:
+        """Yield the variants that answer it; those of equal rank stand in the order of the sample, missing values last."""
+        chosen = ", ".join(column.sql for column in self.columns)
         order = [f"{column.sql} {'DESC' if falls else 'ASC'} NULLS LAST" for column, falls in self.order]
         limit = "" if self.top is None else f" LIMIT {self.top}"
-        return f"SELECT {names} FROM v {self.where} ORDER BY {', '.join([*order, 'variant'])}{limit}"
-
-    def rows(self, stored: Stored) -> Iterator[Row]:
-        """Yield the variants that answer it."""
-        cursor = stored.connection.execute(self.sql, self.condition.parameters)
+        sql = f"SELECT {chosen} FROM v {self.where} ORDER BY {', '.join([*order, 'variant'])}{limit}"
+        cursor = stored.connection.execute(sql, list(self.condition.parameters))
         while rows := cursor.fetchmany(ROWS):
             yield from rows
 
 
 def question(stored: Stored, asked: Request, *, is_table: bool) -> Question:
-    """Return the question; UserError in words for what cannot be asked.
+    """Return the question; UserError for what cannot be asked.
 
     A table for people shows the varied quantities and what the question names, of at most 20 variants; other answers hold all.
     """
     if asked.top is not None and asked.top < 1:
         raise UserError(Problem(Phrase("--top is {top}; a number of variants from 1 on is needed.", top=asked.top)))
     _refuse_strange(stored, asked.picked)
-    where = asked.where if asked.where and asked.where.strip() else None
-    found = condition(where, stored.columns) if where else Condition("true", [])
-    order = tuple(_order(asked.sort or "", stored))
-    top = SHOWN if is_table and asked.top is None else asked.top
-    columns = _columns(stored, found, order, is_table, asked.columns)
-    return Question(found, order, top, tuple(columns), tuple(asked.picked))
+    found = condition(asked.where, stored.columns) if asked.where and asked.where.strip() else Condition()
+    parts = [part.strip() for part in (asked.sort or "").split(",") if part.strip()]
+    named = [(column_named(part.removeprefix("-").strip(), stored.columns), part.startswith("-")) for part in parts]
+    top = DEFAULT_TOP if is_table and asked.top is None else asked.top
+    if asked.columns is not None:
+        given = [column_named(name, stored.columns).name for name in asked.columns]
+        shown = [stored.columns[name] for name in dict.fromkeys(["variant", *given])]
+    elif is_table:
+        shown = _shown(stored, found, [column.name for column, _ in named])
+    else:
+        shown = list(stored.columns.values())
+    return Question(found, tuple(named), top, tuple(shown), tuple(asked.picked))
 
 
 def _refuse_strange(stored: Stored, picked: Sequence[int]) -> None:
     if not picked:
         return
-    found = {number for (number,) in stored.rows(f"SELECT variant FROM v WHERE variant IN ({_listed(picked)})")}
+    listed = ", ".join(map(str, picked))
+    found = {number for (number,) in stored.rows(f"SELECT variant FROM v WHERE variant IN ({listed})")}
     if missing := [number for number in picked if number not in found]:
         first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
-        words = Phrase(
-            "There is no variant {listed} here. The stored ones are within {first} … {last}.",
-            listed=_listed(missing),
-            first=first,
-            last=last,
-        )
-        raise UserError(Problem(words, str(stored.folder)))
+        words = "There is no variant {listed} here. The stored ones are within {first} … {last}."
+        message = Phrase(words, listed=", ".join(map(str, missing)), first=first, last=last)
+        raise UserError(Problem(message, str(stored.folder)))
 
 
-def _listed(numbers: Iterable[int]) -> str:
-    return ", ".join(map(str, numbers))
-
-
-def _order(sort: str, stored: Stored) -> Iterator[tuple[StoredColumn, bool]]:
-    for part in filter(None, (part.strip() for part in sort.split(","))):
-        yield column_named(part.removeprefix("-").strip(), stored.columns), part.startswith("-")
-
-
-def _columns(
-    stored: Stored,
-    asked: Condition,
-    order: Iterable[tuple[StoredColumn, bool]],
-    is_table: bool,
-    named: Sequence[str] | None,
-) -> list[StoredColumn]:
-    """The columns to give, each once."""
-    if named is not None:
-        found = dict.fromkeys(["variant", *(column_named(name, stored.columns).name for name in named)])
-        return [stored.columns[name] for name in found]
-    if not is_table:
-        return list(stored.columns.values())
+def _shown(stored: Stored, asked: Condition, order: Sequence[str]) -> list[StoredColumn]:
     objectives = [name for each in stored.study.get("objectives") or () for name in each.values()]
-    wanted = ["variant", "status", "governing", *(column.name for column, _ in order), *asked.columns, *objectives]
-    reason = ["error"] if _has_errors(stored, asked) else []
-    shown = dict.fromkeys([*wanted, *(column.name for column in stored.varied), *reason])
-    return [stored.columns[name] for name in shown if name in stored.columns]
-
-
-def _has_errors(stored: Stored, asked: Condition) -> bool:
     sql = f"SELECT 1 FROM v WHERE error IS NOT NULL AND {asked.sql} LIMIT 1"
-    return bool(stored.rows(sql, asked.parameters))
+    reason = ["error"] if stored.rows(sql, asked.parameters) else []
+    varied = (column.name for column in stored.varied)
+    wanted = dict.fromkeys(["variant", "status", "governing", *order, *asked.columns, *objectives, *varied, *reason])
+    return [stored.columns[name] for name in wanted if name in stored.columns]

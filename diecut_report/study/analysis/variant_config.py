@@ -1,4 +1,4 @@
-"""The configuration of one stored variant: the base with that variant's values in it."""
+"""The configuration of one stored variant: the base with that variant's values in it, to calculate it or as a file of its own."""
 
 from __future__ import annotations
 
@@ -25,15 +25,23 @@ from diecut_report.text.phrases import Phrase, phrase
 
 @dataclass(frozen=True)
 class StoredVariant:
-    """Hold a stored variant: the study's base and its file, the study's, the values by their places in the base, the verdict, the code."""
+    """Hold a stored variant: its study's base with the files that this names, the values by their places in the base, and its verdict."""
 
     base: Tree
-    file: str
-    study: str
+    beside: Mapping[KeyPath, tuple[str, Path]]  # by the key that names a file: its name, and its copy in the folder
     values: Mapping[KeyPath, tuple[StoredColumn, Any]]
     status: str
     governing: str
-    sources: Mapping[str, str]
+
+
+@dataclass(frozen=True)
+class TakenConfig:
+    """Hold a configuration taken from a study: its bytes, how the variant was judged, and the files that it names, with their copies."""
+
+    content: bytes
+    status: str
+    governing: str
+    beside: Mapping[str, Path]
 
 
 def variant_config(
@@ -42,7 +50,7 @@ def variant_config(
     """Return the configuration of a variant: the study's base with the varied values in it, exactly as they were calculated.
 
     Problems of it name the base that the folder keeps; ``name`` is what documents call it. What calculates by other code than the
-    study was calculated by is told to ``warn``, and stands above the configuration. UserError in words where the variant is not
+    study was calculated by is told to ``warn``, and stands above the configuration. UserError where the variant is not
     stored, and with its reason where it cannot be calculated.
     """
     with opened(directory) as stored:
@@ -60,59 +68,72 @@ def variant_of(
 ) -> Tree:
     """Return the configuration of a variant of an opened folder, as `variant_config` does; also of one that is ``in_error``."""
     found = _variant(stored, variant, discovery, in_error=in_error)
-    base = found.base
+    base, study = found.base, stored.description.study.file
     values = {place: as_config_value(value, column) for place, (column, value) in found.values.items()}
-    values |= dict(_named(base, variant, found.study))
-    values |= dict(_tables(base, stored.folder, found.file))
-    heading = f"Variant {variant} of {found.study}: its values are exactly those that were calculated."
+    values |= dict(_title_block(base, variant, study))
+    home = kept(stored.folder)[stored.description.base.file].parent
+    values |= {key: copy.relative_to(home).as_posix() for key, (_, copy) in found.beside.items()}
     kinds = (str(data.get("kind")) for data in (base.data.get(MECHANISMS) or {}).values())
-    warnings = other_code(found.sources, kinds, discovery)
+    warnings = other_code(stored.description.sources, kinds, discovery)
     if warn is not None:
         for words in warnings:
             warn(words)
+    heading = f"Variant {variant} of {study}: its values are exactly those that were calculated."
     return with_values(base, values, name, "\n# ".join([heading, *warnings]))
 
 
-def stored_variant(directory: Path, variant: int, discovery: Discovery) -> StoredVariant:
-    """Return a variant with the base that its study keeps; UserError in words where it is not stored, or is in error."""
+def taken_config(directory: Path, variant: int, discovery: Discovery, digits: int | None = None) -> TakenConfig:
+    """Return a variant's configuration as a file: the text of the base, comments and order kept, with that variant's values.
+
+    With ``digits`` its numbers are rounded, else read back as exactly those that were calculated. UserError where the variant is
+    not stored or in error, or where a value cannot be put into the base's text.
+    """
     with opened(directory) as stored:
-        return _variant(stored, variant, discovery)
+        found, study = _variant(stored, variant, discovery), stored.description.study.file
+    values = {place: _typed(value, column, digits) for place, (column, value) in found.values.items()}
+    text = f"# Variant {variant} of {study}\n" + written(found.base, values, over_references=True)
+    return TakenConfig(as_file(found.base, text), found.status, found.governing, dict(found.beside.values()))
 
 
 def _variant(stored: Stored, variant: int, discovery: Discovery, *, in_error: bool = False) -> StoredVariant:
-    if not in_error:
-        _refuse_error(stored, variant)
-    row = _row(stored, variant)
-    ((status, governing),) = stored.rows("SELECT status, governing FROM v WHERE variant = ?", [variant])
-    description = stored.description
-    base = yaml.load(kept(stored.folder)[description.base.file])
-    values = {
-        _value(base, _place(base, tuple(_keys(column.name)), discovery)): (column, value) for column, value in row
-    }
-    return StoredVariant(
-        base, description.base.file, description.study.file, values, status, governing or "", description.sources
-    )
+    """Return a variant with the base that its study keeps; UserError where it is not stored, or is in error."""
+    names = ", ".join(["status", "governing", "error", *(column.sql for column in stored.varied)])
+    rows = stored.rows(f"SELECT {names} FROM v WHERE variant = ?", [variant])
+    if not rows:
+        raise UserError(Problem(_missing(stored, variant), str(stored.folder)))
+    status, governing, reason, *row = rows[0]
+    if status == "error" and not in_error:
+        words = Phrase("Variant {variant} cannot be calculated: {reason}", variant=variant,
+                       reason=reason or phrase("no reason was stored"))  # fmt: skip
+        raise UserError(Problem(words, str(stored.folder)))
+    copies, file = kept(stored.folder), stored.description.base.file
+    base = yaml.load(copies[file])
+    given = ((column, value) for column, value in zip(stored.varied, row, strict=True) if value is not None)
+    values = {_place(base, column.name, discovery): (column, value) for column, value in given}
+    beside = {key: (name, copies[str(PurePath(file).parent / name)]) for key, name in _named_files(base)}
+    return StoredVariant(base, beside, values, status, governing or "")
 
 
-def _place(base: Tree, path: KeyPath, discovery: Discovery) -> KeyPath:
-    """Return where a value stands in the file: in a list, where the base gives one for several single keys."""
+def _missing(stored: Stored, variant: int) -> Phrase:
+    first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
+    words = "There is no variant {variant} here. The stored ones are within {first} … {last}; a number in between that is missing {why}"
+    dropped = "was dropped by a constraint."
+    unfinished = "was dropped by a constraint or is not calculated yet."
+    why = phrase(dropped if stored.study.get("state") == "complete" else unfinished)
+    return Phrase(words, variant=variant, first=first, last=last, why=why)
+
+
+def _place(base: Tree, name: str, discovery: Discovery) -> KeyPath:
+    """Return where a value stands in the file: in a list where the base gives one for several single keys, or in a block with its basis."""
+    path: KeyPath = tuple(int(part) if part.isdecimal() else part for part in name.split("."))
     mechanism = (base.data.get(MECHANISMS) or {}).get(path[1]) if path[0] == MECHANISMS and len(path) == 3 else None
-    if mechanism is None:
-        return path
-    try:
-        spread = discovery.mechanism(str(mechanism.get("kind"))).inputs.spread
-    except (PluginError, UnknownKind, DuplicateKind):  # reported where the configuration is read
-        return path
-    homes = [
-        (key, single.index(path[2]))
-        for key, single in spread.items()
-        if path[2] in single and isinstance(mechanism.get(key), list)
-    ]
-    return (*path[:2], *homes[0]) if homes else path
-
-
-def _value(base: Tree, path: KeyPath) -> KeyPath:
-    """Return where the value itself stands of a quantity that is a block with its basis."""
+    if mechanism is not None:
+        try:
+            spread = discovery.mechanism(str(mechanism.get("kind"))).inputs.spread
+        except (PluginError, UnknownKind, DuplicateKind):  # reported where the configuration is read
+            spread = {}
+        homes = [key for key, single in spread.items() if path[2] in single and isinstance(mechanism.get(key), list)]
+        path = (*path[:2], homes[0], spread[homes[0]].index(path[2])) if homes else path
     home = base.data
     for key in path:
         known = key in home if isinstance(home, dict) else isinstance(home, list) and int(key) < len(home)
@@ -120,105 +141,36 @@ def _value(base: Tree, path: KeyPath) -> KeyPath:
     return (*path, "value") if isinstance(home, dict) else path
 
 
-def _tables(base: Tree, directory: Path, file: str) -> Iterator[tuple[KeyPath, str]]:
-    """Return the copies of the tables, and of the logo, that the base names, which the folder keeps beside that of the base."""
-    copies = kept(directory)
+def _named_files(base: Tree) -> Iterator[tuple[KeyPath, str]]:
+    """Yield the tables, and the logo, that the base names, which are sought beside it."""
     given = base.data.get(TABLES)
     for index, name in enumerate(given if isinstance(given, list) else [given]):
         if isinstance(name, str):
-            copy = copies[str(PurePath(file).parent / name)]
-            yield (
-                ((TABLES, index) if isinstance(given, list) else (TABLES,)),
-                copy.relative_to(copies[file].parent).as_posix(),
-            )
+            yield ((TABLES, index) if isinstance(given, list) else (TABLES,)), name
     report = base.data.get(LOGO[0])
     if isinstance(report, dict) and isinstance(logo := report.get(LOGO[1]), str):
-        yield LOGO, copies[str(PurePath(file).parent / logo)].relative_to(copies[file].parent).as_posix()
+        yield LOGO, logo
 
 
-def _named(base: Tree, variant: int, study: str) -> Iterator[tuple[KeyPath, str]]:
-    """Return what the title block says, as typed, and which variant it is: no two documents are called alike."""
+def _title_block(base: Tree, variant: int, study: str) -> Iterator[tuple[KeyPath, str]]:
+    """Yield what the title block says, as typed, and which variant it is: no two documents are called alike."""
     title, number = ("project", "title"), ("project", "document_number")
     yield title, f"{base.typed(title) or ''} – variant {variant} of {printable(Path(study).stem)}"
     if (base.data.get("project") or {}).get("document_number") is not None:
         yield number, f"{base.typed(number)}/V{variant}"
 
 
-def _refuse_error(stored: Stored, variant: int) -> None:
-    for status, reason in stored.rows("SELECT status, error FROM v WHERE variant = ?", [variant]):
-        if status == "error":
-            words = Phrase(
-                "Variant {variant} cannot be calculated: {reason}",
-                variant=variant,
-                reason=reason or phrase("no reason was stored"),
-            )
-            raise UserError(Problem(words, str(stored.folder)))
-
-
-def _keys(path: str) -> Iterator[str | int]:
-    for part in path.split("."):
-        yield int(part) if part.isdecimal() else part
-
-
-def _row(stored: Stored, variant: int) -> list[tuple[StoredColumn, Any]]:
-    names = ", ".join(column.sql for column in stored.varied) or "variant"
-    rows = stored.rows(f"SELECT {names} FROM v WHERE variant = ?", [variant])
-    if not rows:
-        first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
-        is_whole = stored.study.get("state") == "complete"
-        words = Phrase(
-            "There is no variant {variant} here. The stored ones are within {first} … {last}; a number in "
-            "between that is missing {why}",
-            variant=variant,
-            first=first,
-            last=last,
-            why=phrase("was dropped by a constraint.")
-            if is_whole
-            else phrase("was dropped by a constraint or is not calculated yet."),
-        )
-        raise UserError(Problem(words, str(stored.folder)))
-    return [(column, value) for column, value in zip(stored.varied, rows[0], strict=False) if value is not None]
-
-
 def as_config_value(value: Scalar, column: StoredColumn) -> Scalar:
     """Return the value as a configuration gives it; whole pure numbers (teeth) as integers."""
     if not isinstance(value, float):
         return value
-    written = as_typed(value, column.display)
-    is_whole = isinstance(written, float) and written.is_integer() and abs(written) < 1e15
-    return int(value) if is_whole else written
-
-
-# A stored variant as a configuration of its own: the text of the study's base, comments and order kept, with that variant's values.
-
-
-@dataclass(frozen=True)
-class TakenConfig:
-    """Hold a configuration taken from a study: its bytes, how the variant was judged, and the files that it names, with their copies."""
-
-    content: bytes
-    status: str
-    governing: str
-    beside: Mapping[str, Path]
-
-
-def taken_config(directory: Path, variant: int, discovery: Discovery, digits: int | None = None) -> TakenConfig:
-    """Return a variant's configuration; with ``digits`` its numbers are rounded, else read back as exactly those that were calculated.
-
-    UserError in words where the variant is not stored or in error, or where a value cannot be put into the base's text.
-    """
-    found = stored_variant(directory, variant, discovery)
-    values = {place: _typed(value, column, digits) for place, (column, value) in found.values.items()}
-    text = written(found.base, values, over_references=True)
-    heading = f"# Variant {variant} of {found.study}\n"
-    beside = {
-        name: kept(directory)[str(PurePath(found.file).parent / name)] for name in _taken_config_named(found.base)
-    }
-    return TakenConfig(as_file(found.base, heading + text), found.status, found.governing, beside)
+    typed = as_typed(value, column.display)
+    is_whole = isinstance(typed, float) and typed.is_integer() and abs(typed) < 1e15
+    return int(value) if is_whole else typed
 
 
 def _typed(value: Any, column: StoredColumn, digits: int | None) -> str:
-    """A value as it stands in a file: a number with its unit, a text in quotes where it would be read as something else."""
+    """Return a value as it stands in a file: a number with its unit, a text in quotes where it would be read as something else."""
     if digits is not None and isinstance(value, float):
         own = unit(column.display)
         number = f"{float(f'{own.from_si(value):.{digits}g}'):.15g}"
@@ -226,18 +178,6 @@ def _typed(value: Any, column: StoredColumn, digits: int | None) -> str:
     given = as_config_value(value, column)
     if not isinstance(given, str):
         return repr(given)
-    return given if _is_plain(given) else json.dumps(given, ensure_ascii=False)
-
-
-def _is_plain(text: str) -> bool:
-    """Whether a text stands without quotes for itself, also within braces."""
-    return resolved(text) == text and not any(sign in text for sign in ",[]{}#:&*!|>'\"%@`\n")
-
-
-def _taken_config_named(base: Tree) -> Iterator[str]:
-    """The files that the base names, which are sought beside it."""
-    given = base.data.get(TABLES)
-    yield from (name for name in (given if isinstance(given, list) else [given]) if isinstance(name, str))
-    report = base.data.get(LOGO[0])
-    if isinstance(report, dict) and isinstance(logo := report.get(LOGO[1]), str):
-        yield logo
+    # whether it stands without quotes for itself, also within braces
+    is_plain = resolved(given) == given and not any(sign in given for sign in ",[]{}#:&*!|>'\"%@`\n")
+    return given if is_plain else json.dumps(given, ensure_ascii=False)

@@ -1,4 +1,4 @@
-"""The stored variants of a study, opened for questions: read only, by DuckDB over the part files."""
+"""The stored variants of a study, opened for questions: read only, by DuckDB over the part files; and as a table for people."""
 
 from __future__ import annotations
 
@@ -7,13 +7,13 @@ import io
 import re
 import tempfile
 from collections import Counter
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import dataclass
 from functools import cached_property
 from pathlib import Path
 from types import MappingProxyType
-from typing import TYPE_CHECKING, Any, Literal
+from typing import TYPE_CHECKING, Any
 
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
@@ -22,7 +22,16 @@ from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import UnitError, pretty, unit
 from diecut_report.report.text import number
-from diecut_report.study.storage.description import VARIANT, VERDICT, Description, Kind, ResultColumn, code_told
+from diecut_report.study.definition.base_inputs import MECHANISMS
+from diecut_report.study.storage.description import (
+    VARIANT,
+    VERDICT,
+    Description,
+    Kind,
+    ResultColumn,
+    short_hash,
+    source_name,
+)
 from diecut_report.study.storage.state import continuing
 from diecut_report.study.storage.store import Store
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
@@ -33,146 +42,15 @@ if TYPE_CHECKING:
     from duckdb import DuckDBPyConnection
     from rich.table import Table
 
-
-# What calculates a stored variant by other code than the study was calculated by.
-
-
-SHORT = 12  # of a hash, as in a report
-ABSENT = ""
-
-
-def other_code(sources: Mapping[str, str], kinds: Iterable[str], discovery: Discovery) -> list[str]:
-    """Return in words what has other code now than the ``sources`` of a study have noted, for variants of these kinds."""
-    discovery.extend()
-    now = {"program": program_hash()} | dict(_plugins(kinds, discovery))
-    now |= {f"extension {name}": digest for name, digest in discovery.extended.items()}
-    gone = [name for name in sources if name.startswith("extension ") and name not in now]
-    pairs = [(name, sources.get(name, ABSENT), now.get(name, ABSENT)) for name in (*now, *gone)]
-    return [
-        Phrase(
-            "The source of the {name} is not what the study was calculated by (SHA-256 {old} then, {new} "
-            "now): the numbers of this variant may differ from those that are stored.",
-            name=code_told(name),
-            old=old[:SHORT] or phrase("none"),
-            new=new[:SHORT] or phrase("none"),
-        )
-        for name, old, new in pairs
-        if old != new and name.isprintable()  # a name of study.json may be by anybody
-    ]
-
-
-def _plugins(kinds: Iterable[str], discovery: Discovery) -> Iterator[tuple[str, str]]:
-    for kind in dict.fromkeys(kinds):
-        try:
-            yield f"plugin {kind}", plugin_hash(discovery.mechanism(kind))
-        except (PluginError, UnknownKind, DuplicateKind):  # reported where the configuration is read
-            continue
-
-
-# What people call the columns of a study: the description of the quantity and its mechanism, each title once.
-
-
-MECHANISMS = "mechanisms."
-PART = re.compile(r"(.+)\.(\d+)\.\w+")  # of a list of the inputs
-LISTED = re.compile(rf"{re.escape(MECHANISMS)}[^.]+\.{PART.pattern}")
-UTILISATION, VERDICT_OF = ".utilisation", ".status"  # ends of the columns of a check
-ENDS_OF_CHECKS = {
-    re.compile("(?P<what>.+): utilisation"): phrase("{quantity}: utilisation"),
-    re.compile("(?P<what>.+): verdict"): "",
-}
-ENDS = {  # as `result_columns` describes one of several results of a step
-    re.compile(r"(?P<what>.+): no\. (?P<number>\d+)"): phrase("{quantity}: no. {number}"),
-    re.compile("(?P<what>.+): how many in a turn"): phrase("{quantity}: how many in a turn"),
-}
-
-
-def titles(columns: Sequence[ResultColumn], kinds: Mapping[str, str] = MappingProxyType({})) -> dict[str, str]:
-    """Return the titles by name: ``Radius of the bore (cylinder)``; longer where two columns would share one, empty without a description.
-
-    They are in the language that is spoken, by the catalogue of the mechanism's kind; ``kinds`` says which each one is of.
-    """
-    words = _Words(kinds)
-    checks = [column for column in columns if _is_verdict(column)]
-    return _titles(words, [column for column in columns if not _is_verdict(column)]) | _titles(words, checks)
-
-
-def _titles(words: _Words, columns: Sequence[ResultColumn]) -> dict[str, str]:
-    found = {column.name: "" for column in columns}
-    open_ = [column for column in columns if column.description and home(column.name)]
-    for title in (words.short, words.whole, words.with_name):
-        made = {column.name: title(column) for column in open_}
-        often = Counter([*made.values(), *found.values()])
-        found |= {name: told for name, told in made.items() if often[told] == 1 or title == words.with_name}
-        open_ = [column for column in open_ if not found[column.name]]
-    return found
-
-
-def home(name: str) -> str:
-    """Return the mechanism (or ``press``) of a column; nothing for those of the study itself."""
-    first, _, rest = name.removeprefix(MECHANISMS).partition(".")
-    return first if rest else ""
-
-
-@dataclass(frozen=True)
-class _Words:
-    """Say what columns are, by the words of the kinds of their mechanisms."""
-
-    kinds: Mapping[str, str]
-
-    def short(self, column: ResultColumn) -> str:
-        """Without what a closing bracket explains; of a part with its number, whatever else is varied."""
-        if LISTED.fullmatch(column.name):
-            return self.with_name(column)
-        return _placed(column, re.sub(r" \([^()]*\)$", "", self._told(column)))
-
-    def whole(self, column: ResultColumn) -> str:
-        """With all of its words."""
-        return _placed(column, self._told(column))
-
-    def with_name(self, column: ResultColumn) -> str:
-        """With the key, or which part of a list it is of."""
-        name = column.name.removeprefix(MECHANISMS).partition(".")[2]
-        listed = PART.fullmatch(name)
-        if listed:
-            words = "{quantity}: no. {nth} of {list}"
-            return _placed(column, say(words, quantity=self._told(column), nth=int(listed[2]) + 1, list=listed[1]))
-        return _placed(column, f"{self._told(column)}, {name}")
-
-    def _told(self, column: ResultColumn) -> str:
-        """The description in the language that is spoken; of a check's verdict the check alone."""
-        of_check = _is_verdict(column) or column.name.endswith(UTILISATION)
-        what, ending, number = _parted(column.description, ENDS_OF_CHECKS if of_check else ENDS)
-        if not ending or _is_verdict(column):
-            return said(what, self.kinds.get(home(column.name), ""))
-        return said(Phrase(ending, quantity=phrase(what), number=number), self.kinds.get(home(column.name), ""))
-
-
-def _parted(description: str, ends: Mapping[re.Pattern[str], str]) -> tuple[str, str, str]:
-    """What a column is of, and the words that say what of it, with its number."""
-    for pattern, words in ends.items():
-        if found := pattern.fullmatch(description):
-            return found["what"], words, found.groupdict().get("number", "")
-    return description, "", ""
-
-
-def _is_verdict(column: ResultColumn) -> bool:
-    return ".checks." in column.name and column.name.endswith(VERDICT_OF)
-
-
-def _placed(column: ResultColumn, told: str) -> str:
-    return f"{told} ({home(column.name)})"
-
-
 DISPLAY = {
     "m": "mm",
     "rad": "deg",
     "rad/s": "rpm",
     "Pa": "MPa",
     "1/s": "1/h",
-}  # as designers say it, where a column does not
+}  # the usual units, where a column has none
 FIXED = (VARIANT.name, *(column.name for column in VERDICT))
-STATUSES = ("pass", "warn", "fail", "error")
-PARTS = "part-*.parquet"
+UTILISATION, STATUS = ".utilisation", ".status"  # ends of the columns of a check
 MEMORY = "400MB"  # of DuckDB
 
 
@@ -198,9 +76,9 @@ class StoredColumn:
         return quoted(self.name)
 
     @property
-    def told(self) -> str:
+    def label(self) -> str:
         """Return what people call it."""
-        return self.title or self.name.removeprefix("mechanisms.")
+        return self.title or self.name.removeprefix(f"{MECHANISMS}.")
 
 
 @dataclass(frozen=True)
@@ -221,22 +99,19 @@ class Stored:
     @cached_property
     def checks(self) -> dict[str, tuple[StoredColumn, StoredColumn]]:
         """Return each check, ``drive.checks.play``, with its columns of utilisation and status."""
-        names = [
-            name.removesuffix(UTILISATION) for name in self.columns if ".checks." in name and name.endswith(UTILISATION)
-        ]
-        return {name: (self.columns[name + UTILISATION], self.columns[name + VERDICT_OF]) for name in names}
+        ends = (name for name in self.columns if ".checks." in name and name.endswith(UTILISATION))
+        names = [name.removesuffix(UTILISATION) for name in ends]
+        return {name: (self.columns[name + UTILISATION], self.columns[name + STATUS]) for name in names}
 
     @cached_property
     def outputs(self) -> list[StoredColumn]:
         """Return the kept outputs."""
         other = {*FIXED, *(column.name for column in self.varied)}
-        return [
-            column for column in self.columns.values() if column.name not in other and ".checks." not in column.name
-        ]
+        return [each for name, each in self.columns.items() if name not in other and ".checks." not in name]
 
-    def check_told(self, check: str) -> str:
+    def check_label(self, check: str) -> str:
         """Return what people call a check."""
-        return self.checks[check][1].told if check in self.checks else check
+        return self.checks[check][1].label if check in self.checks else check
 
     def rows(self, sql: str, parameters: Any = ()) -> list[tuple[Any, ...]]:
         """Return the whole answer to a query, which is to be small."""
@@ -255,7 +130,7 @@ def text(value: str) -> str:
 
 @contextmanager
 def opened(folder: Path) -> Iterator[Stored]:
-    """Open the stored variants of a study; UserError in words where there are none or they cannot be read.
+    """Open the stored variants of a study; UserError where there are none or they cannot be read.
 
     The connection reads the folder's part files and nothing else, and writes nothing.
     """
@@ -265,11 +140,8 @@ def opened(folder: Path) -> Iterator[Stored]:
     paths = store.whole_parts()
     if not paths:
         columns = dict.fromkeys(column.name for column in store.description.columns)
-        words = Phrase(
-            "No variants are stored here yet. Continue the run with: {continued}", continued=continuing(folder, columns)
-        )
-        raise UserError(Problem(words, str(folder)))
-    description = store.description
+        words = "No variants are stored here yet. Continue the run with: {continued}"
+        raise UserError(Problem(Phrase(words, continued=continuing(folder, columns)), str(folder)))
     config: dict[str, str | bool | int | float | list[str]] = {
         "memory_limit": MEMORY,
         "temp_directory": tempfile.gettempdir(),
@@ -277,25 +149,20 @@ def opened(folder: Path) -> Iterator[Stored]:
     }
     with duckdb.connect(":memory:", config=config) as connection:
         try:
-            _view(connection, paths)
-            yield Stored(folder, description, store.state, columns_of(description), connection)
+            _name_parts(connection, paths)
+            yield Stored(folder, store.description, store.state, columns_of(store.description), connection)
         except duckdb.InterruptException as error:
             raise KeyboardInterrupt from error
-        except (
-            duckdb.Error
-        ) as error:  # the parts are as they were written: what is asked gives no answer, or there is no room
-            words = Phrase(
-                "The stored variants give no answer to this ({first}). Ask for something else, or for less at a time.",
-                first=_first(error),
+        except duckdb.Error as error:
+            # the parts are as they were written: what is asked gives no answer, or there is no room
+            words = (
+                "The stored variants give no answer to this ({first}). Ask for something else, or for less at a time."
             )
-            raise UserError(Problem(words, str(folder))) from error
+            message = Phrase(words, first=str(error).splitlines()[0])
+            raise UserError(Problem(message, str(folder))) from error
 
 
-def _first(error: Exception) -> str:
-    return str(error).splitlines()[0]
-
-
-def _view(connection: DuckDBPyConnection, paths: Sequence[Path]) -> None:
+def _name_parts(connection: DuckDBPyConnection, paths: Sequence[Path]) -> None:
     """Name the part files ``v`` and shut everything else."""
     files = [str(path.absolute()) for path in paths]
     named = ", ".join(text(glob.escape(file)) for file in files)  # a folder may be called a[1]
@@ -309,40 +176,134 @@ def columns_of(description: Description) -> dict[str, StoredColumn]:
     """Return the columns of the part files by name; curves, which are lists, are not quantities to compare."""
     known = titles(description.all_columns, _kinds(description))
     return {
-        column.name: StoredColumn(column.name, column.kind, column.unit, _display(column.display, column.unit), column.symbol, known[column.name])
+        column.name: StoredColumn(column.name, column.kind, column.unit, _display(column), column.symbol, known[column.name])
         for column in description.all_columns
         if column.kind != "curve"
     }  # fmt: skip
 
 
 def _kinds(description: Description) -> Mapping[str, str]:
-    """The kinds of the mechanisms by name, so that their columns are told in the words of their plugins; none in English."""
+    """Return the kinds of the mechanisms by name, so that their columns have the words of their plugins; none in English."""
     content = description.base.content
     if spoken_language() == SOURCE_LANGUAGE:
         return {}
     know_plugins(description.plugins)  # also where the base is not kept any more
     given = yaml.parse(content.decode("utf-8-sig"), description.base.file).data if content else {}
-    return {name: str(block.get("kind")) for name, block in (given.get("mechanisms") or {}).items()}
+    return {name: str(block.get("kind")) for name, block in (given.get(MECHANISMS) or {}).items()}
 
 
-def _display(wanted: str, si: str) -> str:
-    """The unit that people read: the column's own, else the usual one for its SI unit."""
-    usual = DISPLAY.get(si, si)
-    return wanted if wanted and _is_like(wanted, si) else usual
-
-
-def _is_like(display: str, si: str) -> bool:
-    """Whether the one is a unit for the other."""
+def _display(column: ResultColumn) -> str:
+    """Return the unit that people read: the column's own, else the usual one for its SI unit."""
     try:
-        return unit(display).kind == unit(si).kind
+        is_own = bool(column.display) and unit(column.display).kind == unit(column.unit).kind
     except UnitError:
-        return False
+        is_own = False
+    return column.display if is_own else DISPLAY.get(column.unit, column.unit)
+
+
+def other_code(sources: Mapping[str, str], kinds: Iterable[str], discovery: Discovery) -> list[str]:
+    """Return what has other code now than the ``sources`` of a study have noted, for variants of these kinds."""
+    discovery.extend()
+    now = {"program": program_hash()}
+    for kind in dict.fromkeys(kinds):
+        try:
+            now[f"plugin {kind}"] = plugin_hash(discovery.mechanism(kind))
+        except (PluginError, UnknownKind, DuplicateKind):  # reported where the configuration is read
+            continue
+    now |= {f"extension {name}": digest for name, digest in discovery.extended.items()}
+    gone = [name for name in sources if name.startswith("extension ") and name not in now]
+    changed = [name for name in (*now, *gone) if sources.get(name, "") != now.get(name, "")]
+    words = (
+        "The source of the {name} is not what the study was calculated by (SHA-256 {old} then, {new} now): the numbers of this "
+        "variant may differ from those that are stored."
+    )
+    return [
+        Phrase(words, name=source_name(name), old=short_hash(sources.get(name)), new=short_hash(now.get(name)))
+        for name in changed
+        if name.isprintable()  # a name of study.json may be by anybody
+    ]
+
+
+# What people call the columns of a study: the description of the quantity and its mechanism, each title once.
+
+
+PART = re.compile(r"(.+)\.(\d+)\.\w+")  # of a list of the inputs
+CHECK_ENDS = {
+    re.compile("(?P<what>.+): utilisation"): phrase("{quantity}: utilisation"),
+    re.compile("(?P<what>.+): verdict"): "",
+}
+ENDS = {  # as `columns_of` of `variant_rows` describes one of several results of a step
+    re.compile(r"(?P<what>.+): no\. (?P<number>\d+)"): phrase("{quantity}: no. {number}"),
+    re.compile("(?P<what>.+): how many in a turn"): phrase("{quantity}: how many in a turn"),
+}
+
+
+def titles(columns: Sequence[ResultColumn], kinds: Mapping[str, str] = MappingProxyType({})) -> dict[str, str]:
+    """Return the titles by name: ``Radius of the bore (cylinder)``; longer where two columns would share one, empty without a description.
+
+    They are in the language that is spoken, by the catalogue of the mechanism's kind; ``kinds`` says which each one is of.
+    """
+
+    def titled(some: Sequence[ResultColumn]) -> dict[str, str]:
+        found = {column.name: "" for column in some}
+        untitled = [column for column in some if column.description and home(column.name)]
+        forms: tuple[Callable[[ResultColumn, str], str], ...] = (_short_title, _whole_title, _named_title)
+        for form in forms:
+            made = {each.name: f"{form(each, _described(each, kinds))} ({home(each.name)})" for each in untitled}
+            often = Counter([*made.values(), *found.values()])
+            found |= {name: title for name, title in made.items() if often[title] == 1 or form is _named_title}
+            untitled = [column for column in untitled if not found[column.name]]
+        return found
+
+    verdicts = [column for column in columns if _is_verdict(column)]
+    return titled([column for column in columns if not _is_verdict(column)]) | titled(verdicts)
+
+
+def home(name: str) -> str:
+    """Return the mechanism (or ``press``) of a column; nothing for those of the study itself."""
+    first, _, rest = name.removeprefix(f"{MECHANISMS}.").partition(".")
+    return first if rest else ""
+
+
+def _short_title(column: ResultColumn, described: str) -> str:
+    """Leave out what a closing bracket explains; of a part its number stands, whatever else is varied."""
+    if column.name.startswith(f"{MECHANISMS}.") and PART.fullmatch(column.name.split(".", 2)[2]):
+        return _named_title(column, described)
+    return re.sub(r" \([^()]*\)$", "", described)
+
+
+def _whole_title(_column: ResultColumn, described: str) -> str:
+    return described
+
+
+def _named_title(column: ResultColumn, described: str) -> str:
+    """Add the key, or which part of a list it is of."""
+    name = column.name.removeprefix(f"{MECHANISMS}.").partition(".")[2]
+    if listed := PART.fullmatch(name):
+        return say("{quantity}: no. {nth} of {list}", quantity=described, nth=int(listed[2]) + 1, list=listed[1])
+    return f"{described}, {name}"
+
+
+def _described(column: ResultColumn, kinds: Mapping[str, str]) -> str:
+    """Return the description in the language that is spoken; of a check's verdict the check alone."""
+    kind, is_of_check = kinds.get(home(column.name), ""), _is_verdict(column) or column.name.endswith(UTILISATION)
+    for pattern, words in (CHECK_ENDS if is_of_check else ENDS).items():
+        if found := pattern.fullmatch(column.description):
+            if not words or _is_verdict(column):
+                return said(found["what"], kind)
+            number_ = found.groupdict().get("number", "")
+            return said(Phrase(words, quantity=phrase(found["what"]), number=number_), kind)
+    return said(column.description, kind)
+
+
+def _is_verdict(column: ResultColumn) -> bool:
+    return ".checks." in column.name and column.name.endswith(STATUS)
 
 
 # Stored variants as a table for people: in the units that they read, as many columns as the line holds.
 
 
-FREE = 10_000  # letters of a line that no terminal breaks
+UNBROKEN = 10_000  # letters of a line that no terminal breaks
 HEAD = 14  # letters of a line of a heading
 BETWEEN, REASON = 3, 40  # letters between columns; on a line of a reason, at least
 FEWEST = 3  # columns that stand whatever the line holds
@@ -352,11 +313,18 @@ def table_text(
     columns: Sequence[StoredColumn], rows: Sequence[Sequence[Any]], width: int | None
 ) -> tuple[str, list[StoredColumn]]:
     """Return the table, and the columns that the line has no room for."""
+    from rich.text import Text
+
     heads = [_head(column) for column in columns]
     texts = [[shown(value, column) for value, column in zip(row, columns, strict=True)] for row in rows]
     wide = [max(map(len, (*head.split("\n"), *column))) for head, *column in zip(heads, *texts, strict=True)]
-    kept = _kept(columns, wide, width or FREE)
-    return _drawn(columns, heads, texts, kept, width or FREE), [c for i, c in enumerate(columns) if i not in kept]
+    kept = _fitting(columns, wide, width or UNBROKEN)
+    table = _empty_table()
+    for index in kept:
+        table.add_column(Text(heads[index]), justify="right" if columns[index].is_number else "left", overflow="fold")
+    for row in texts:
+        table.add_row(*(Text(row[index]) for index in kept))
+    return _printed(table, width), [column for index, column in enumerate(columns) if index not in kept]
 
 
 def compared_text(
@@ -375,11 +343,11 @@ def compared_text(
     for column, values in kept:
         texts = [column.name, pretty(column.display), *(shown(value, column) for value in values)]
         table.add_row(*map(Text, texts))
-    return _printed(table, width or FREE), len(lines) - len(kept)
+    return _printed(table, width), len(lines) - len(kept)
 
 
-def _kept(columns: Sequence[StoredColumn], wide: Sequence[int], room: int) -> list[int]:
-    """The columns that fit, by index: the first ones, the reason of an error (on several lines, if need be), then what fits."""
+def _fitting(columns: Sequence[StoredColumn], wide: Sequence[int], room: int) -> list[int]:
+    """Return the columns that fit, by index: the first ones, the reason of an error (on several lines, if need be), then what fits."""
     reason = [index for index, column in enumerate(columns) if column.name == "error"]
     kept: list[int] = []
     used = 0
@@ -391,24 +359,6 @@ def _kept(columns: Sequence[StoredColumn], wide: Sequence[int], room: int) -> li
     return sorted(kept)
 
 
-def _drawn(
-    columns: Sequence[StoredColumn],
-    heads: Sequence[str],
-    texts: Sequence[Sequence[str]],
-    kept: Sequence[int],
-    width: int,
-) -> str:
-    from rich.text import Text
-
-    table = _empty_table()
-    for index in kept:
-        justify: Literal["left", "right"] = "right" if columns[index].is_number else "left"
-        table.add_column(Text(heads[index]), justify=justify, overflow="fold")
-    for row in texts:
-        table.add_row(*(Text(row[index]) for index in kept))
-    return _printed(table, width)
-
-
 def _empty_table() -> Table:
     from rich import box
     from rich.table import Table
@@ -416,23 +366,21 @@ def _empty_table() -> Table:
     return Table(box=box.SIMPLE_HEAD, pad_edge=False)
 
 
-def _printed(table: Table, width: int) -> str:
+def _printed(table: Table, width: int | None) -> str:
     from rich.console import Console
 
     target = io.StringIO()
-    Console(file=target, width=width, color_system=None, soft_wrap=False, legacy_windows=False).print(table)
+    Console(file=target, width=width or UNBROKEN, color_system=None, soft_wrap=False, legacy_windows=False).print(table)
     return "\n".join(line.rstrip() for line in target.getvalue().splitlines())
 
 
 def _head(column: StoredColumn) -> str:
-    """The name on short lines, and the unit below it."""
     lines = [""]
-    for part in re.findall(r"[^._]*[._]|[^._]+", column.name.removeprefix("mechanisms.")):
+    for part in re.findall(r"[^._]*[._]|[^._]+", column.name.removeprefix(f"{MECHANISMS}.")):
         if lines[-1] and (lines[-1].endswith(".") or len(lines[-1] + part) > HEAD):
             lines.append("")
         lines[-1] += part
-    sign = pretty(column.display)
-    return "\n".join([*lines, sign] if sign else lines)
+    return "\n".join(filter(None, [*lines, pretty(column.display)]))
 
 
 def shown(value: Any, column: StoredColumn) -> str:

@@ -8,7 +8,7 @@ from dataclasses import dataclass, replace
 from typing import Annotated, Any, Literal, get_args, get_origin
 
 from diecut_report.config import loader
-from diecut_report.config.instances import Instance, Target, substituted
+from diecut_report.config.instances import Instance, substituted
 from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS, Press
 from diecut_report.config.references import Linker, ordered
@@ -17,7 +17,7 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, nearest
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
-from diecut_report.mechanism.inputs import Block, Quantity, Referred, fields, list_inputs
+from diecut_report.mechanism.inputs import Quantity, Referred, fields, list_inputs
 from diecut_report.mechanism.names import SI, Pending, Text
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -25,7 +25,7 @@ MECHANISMS = "mechanisms"
 
 
 class UnknownPath(LookupError):
-    """Report a path that names no input that can be varied, in words."""
+    """Report a path that names no input that can be varied."""
 
 
 @dataclass(frozen=True, eq=False)
@@ -45,6 +45,11 @@ class Input:
         return self.meta.parsed_unit.si if isinstance(self.meta, Quantity) else None
 
     @property
+    def display(self) -> str:
+        """Return the unit that people read it in; empty for what is not a quantity."""
+        return self.meta.unit if isinstance(self.meta, Quantity) else ""
+
+    @property
     def is_integer(self) -> bool:
         return isinstance(self.meta, Quantity) and self.meta.integer
 
@@ -55,36 +60,33 @@ class Input:
 
 
 def find_input(base: Config, path: str) -> Input:
-    """Return the input that a path names; UnknownPath in words, with the nearest known one, where it names none."""
+    """Return the input that a path names; UnknownPath, with the nearest known one, where it names none."""
     instance, keys = _instance(base, path)
     key: KeyPath = tuple(int(part) if part.isdigit() else part for part in keys)
     meta = declared(instance.model, key) if key else None
     if isinstance(meta, type):
-        raise UnknownPath(
-            Phrase(
-                "is a block or a list; vary one of its values, such as {path}.",
-                path=f"{path}.{_first(meta, instance, key)}",
-            )
-        )
+        is_list = ".".join(keys) in list_inputs(instance.model).values()
+        first = f"{path}.{'0.' if is_list else ''}{next(iter(meta.model_fields))}"
+        raise UnknownPath(Phrase("is a block or a list; vary one of its values, such as {path}.", path=first))
     if isinstance(meta, PhaseInput | MechanismInput):
         words = "stands for something of another mechanism, which cannot be varied; vary what it is made of."
         raise UnknownPath(phrase(words))
     if isinstance(meta, CurveInput):
         raise UnknownPath(phrase("is a curve; curves cannot be varied, only numbers, texts and choices."))
     if meta is None:
-        raise UnknownPath(_no_input(base, instance, keys))
+        raise UnknownPath(_no_input(instance, keys))
     _check_list(instance.data, key)
     single = instance.model.spread.get(str(key[0]), ()) if len(key) == 1 else ()
     if any(name in instance.data for name in single):
         words = "is given in the base by its single values; vary one of these: {names}."
         raise UnknownPath(Phrase(words, names=", ".join(single)))
-    model = _home(instance.model, key)
-    field = keys_of(model)[str(key[-1])].field
+    home = declared(instance.model, key[:-1]) if len(key) > 1 else instance.model
+    assert isinstance(home, type)
+    field = keys_of(home)[str(key[-1])].field
     return Input(path, instance.name, key, meta, _with_entries(instance, key, field.annotation), tuple(field.metadata))
 
 
 def _with_entries(instance: Instance, key: KeyPath, annotation: Any) -> Any:
-    """An annotation with the entries of the user's own tables that the key may name."""
     names = instance.own.names(key) if instance.own else ()
     known = [part for part in (annotation, *get_args(annotation)) if get_origin(part) is Literal]
     return Literal[(*(text for part in known for text in get_args(part)), *names)] if names else annotation
@@ -93,7 +95,7 @@ def _with_entries(instance: Instance, key: KeyPath, annotation: Any) -> Any:
 def _instance(base: Config, path: str) -> tuple[Instance, list[str]]:
     first, *rest = path.split(".")
     name, *keys = rest if first == MECHANISMS and rest else [first, *rest]
-    if name not in base.instances or (name == PRESS) != (first == PRESS) or (first not in (MECHANISMS, PRESS)):
+    if name not in base.instances or (name == PRESS) != (first == PRESS) or first not in (MECHANISMS, PRESS):
         raise UnknownPath(_no_instance(base, path))
     instance = base.instances[name]
     if instance is None:
@@ -113,14 +115,14 @@ def _no_instance(base: Config, path: str) -> Phrase:
     if first == "project":
         words = "is in the title block, which cannot be varied; vary fields of {press} and inputs of {mechanisms}."
         return Phrase(words, press=PRESS, mechanisms=MECHANISMS)
-    known = [found for name in base.instances for found in known_paths(base, name)]
-    alike = next((found for found in known if found.endswith(f".{rest[-1] if rest else first}")), None)
+    known = [each for name in base.instances for each in known_paths(base, name)]
+    alike = next((each for each in known if each.endswith(f".{rest[-1] if rest else first}")), None)
     near = Phrase(" (did you mean {key}?)", key=repr(alike)) if alike else nearest(path, known)
     words = "is not a path of an input{near}; paths are {mechanisms}.NAME.KEY and {press}.KEY. Mechanisms: {names}."
     return Phrase(words, near=near, mechanisms=MECHANISMS, press=PRESS, names=", ".join(names))
 
 
-def _no_input(base: Config, instance: Instance, keys: list[str]) -> Phrase:
+def _no_input(instance: Instance, keys: list[str]) -> Phrase:
     name, known = ".".join(keys), _known(instance)
     if not keys:
         return Phrase("names no input; known of {home}: {names}.", home=instance.name, names=", ".join(known))
@@ -129,11 +131,11 @@ def _no_input(base: Config, instance: Instance, keys: list[str]) -> Phrase:
     if name in instance.results:
         words = "is an output of {home}; only inputs can be varied{near}."
         return Phrase(words, home=instance.name, near=nearest(name, known))
-    words = "{name} is not an input of {home}{near}. Known: {names}."
-    listed = ", ".join(_known(instance, each_part=True))
     place = next((part for part in keys if part.isdigit()), "0")  # of the part that is meant
     near = nearest(name, [key.replace(".0.", f".{place}.") for key in known])
-    return Phrase(words, name=repr(name), home=instance.name, near=near, names=listed)
+    words = "{name} is not an input of {home}{near}. Known: {names}."
+    listed = _known(instance, each_part=True)
+    return Phrase(words, name=repr(name), home=instance.name, near=near, names=", ".join(listed))
 
 
 def known_paths(base: Config, name: str) -> list[str]:
@@ -144,34 +146,21 @@ def known_paths(base: Config, name: str) -> list[str]:
 
 
 def _known(instance: Instance, *, each_part: bool = False) -> list[str]:
-    """The inputs of a mechanism; of lists those of the first part, or with ``each_part`` how the parts are numbered."""
+    """Return the inputs of a mechanism; of lists those of the first part, or with ``each_part`` how the parts are numbered."""
     lists = list_inputs(instance.model)
 
     def first(home: str) -> str:
         count = len(instance.data.get(home) or ()) if each_part else 1
         return f"{home}.0…{count - 1}" if count > 1 else f"{home}.0"
 
-    return [f"{first(lists[name])}{name.removeprefix(lists[name])}" if name in lists else name
-            for name, meta in fields(instance.model) if not isinstance(meta, Referred)]  # fmt: skip
-
-
-def _first(block: type[Block], instance: Instance, key: KeyPath) -> str:
-    is_list = ".".join(map(str, key)) in list_inputs(instance.model).values()
-    return ("0." if is_list else "") + next(iter(block.model_fields))
-
-
-def _home(model: type[Block], key: KeyPath) -> type[Block]:
-    """The block that the last key stands in."""
-    home = declared(model, key[:-1]) if len(key) > 1 else model
-    assert isinstance(home, type)
-    return home
+    names = (name for name, meta in fields(instance.model) if not isinstance(meta, Referred))
+    return [f"{first(lists[name])}{name.removeprefix(lists[name])}" if name in lists else name for name in names]
 
 
 def _check_list(data: Any, key: KeyPath) -> None:
     for part in key:
         if isinstance(part, int) and part >= len(data or ()):
-            words = "the list has {n} entries in the base, counted from 0."
-            raise UnknownPath(Phrase(words, n=len(data or ())))
+            raise UnknownPath(Phrase("the list has {n} entries in the base, counted from 0.", n=len(data or ())))
         known = part in data if isinstance(data, dict) else isinstance(data, list)
         data = data[part] if known else None
 
@@ -188,16 +177,16 @@ def with_values(base: Config, values: Mapping[Input, Any]) -> tuple[Config, list
     linker = Linker(instances)
     order, loops = ordered(instances, linker.links)
     changed = replace(base, instances=instances, links=linker.links, order=tuple(order))
-    return changed, [*linker.problems, *loops, *_typed(base, values), *_not_together(changed, values)]
+    return changed, [*linker.problems, *loops, *_typed_beside(base, values), *_wrong_keys(changed, values)]
 
 
 def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance | None:
     if instance is None:
         return None
-    if all(asked.instance != instance.name for asked in values):
+    own = {asked.key: value for asked, value in values.items() if asked.instance == instance.name}
+    if not own:
         return copy(instance)  # with what is known of its inputs; the links are its own
     data = substituted(instance, {}, lambda _, __: None)
-    own = {asked.key: value for asked, value in values.items() if asked.instance == instance.name}
     for key, value in own.items():
         _put(data, key, value)
     declared_as = instance.mechanism.inputs if instance.mechanism else Press
@@ -219,32 +208,32 @@ def _put(data: Any, key: KeyPath, value: Any) -> None:
     data[key[-1]] = value
 
 
-def _not_together(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
-    """What is wrong with the keys that are given, whatever their values are."""
+def _wrong_keys(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
+    """Yield what is wrong with the keys that are given, whatever their values are."""
     for name in dict.fromkeys(asked.instance for asked in values):
         instance = base.instances[name]
         assert instance is not None, "an input of a broken plugin is not found"
-        known = {node[1:]: _stand_in(instance, node[1:], target)
-                 for node, target in base.links.items() if node[0] == name and not target.is_default}  # fmt: skip
-        known |= {
-            asked.key: Pending(asked.path, asked.unit) for asked in values if asked.instance == name and asked.unit
-        }
+        known: dict[KeyPath, Any] = {}
+        for node, target in base.links.items():
+            if node[0] == name and not target.is_default:
+                # the values of a curve that is given as a list must be numbers
+                is_listed = declared(instance.model, node[1:]) is None
+                known[node[1:]] = (
+                    SI(0.0, str(target.unit), target.path)
+                    if is_listed
+                    else Pending(target.path, target.unit, target.is_curve)
+                )
+        own = [asked for asked in values if asked.instance == name and asked.unit]
+        known |= {asked.key: Pending(asked.path, asked.unit) for asked in own}
         data = substituted(instance, {}, lambda _, __: None)
         for key, pending in known.items():
             _put(data, key, pending)
         yield from validate(instance.model, data, instance.place, list(known))[1]
 
 
-def _typed(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
-    """What is given in place of what a block that compares others takes from them."""
+def _typed_beside(base: Config, values: Mapping[Input, Any]) -> Iterator[Problem]:
+    """Yield what is given in place of what a block that compares others takes from them."""
     for asked in values:
         instance = base.instances[asked.instance]
-        taken = loader.compared(instance) if instance else {}
-        if instance and (reference := taken.get(str(asked.key[0]))):
+        if instance and (reference := loader.compared(instance).get(str(asked.key[0]))):
             yield instance.place.problem(asked.key, loader.typed_beside(reference))
-
-
-def _stand_in(instance: Instance, key: KeyPath, target: Target) -> Any:
-    """What stands for a reference where only the keys are judged; the values of a listed curve must be numbers."""
-    is_listed = declared(instance.model, key) is None
-    return SI(0.0, str(target.unit), target.path) if is_listed else Pending(target.path, target.unit, target.is_curve)

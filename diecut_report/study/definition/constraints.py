@@ -19,9 +19,8 @@ from diecut_report.formulas.condition_parts import Name, read
 from diecut_report.formulas.condition_tree import Node as Tree
 from diecut_report.formulas.condition_tree import as_formula, names
 from diecut_report.formulas.conditions import ConditionError
-from diecut_report.formulas.formula import Formula, evaluate
+from diecut_report.formulas.formula import evaluate
 from diecut_report.formulas.tree import Node, symbols, transform
-from diecut_report.mechanism.inputs import Quantity
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -43,10 +42,6 @@ class Term:
     is_truth: bool = False  # an output that is a yes or a no; an input of that sort is a text
 
 
-Find = Callable[[str], Term]
-"""What a path stands for; ConditionError in words where it stands for nothing that a constraint may name."""
-
-
 @dataclass(frozen=True)
 class Constraint:
     """Hold what must hold of a variant; ``values`` says what each name in its tree stands for.
@@ -66,23 +61,28 @@ class Constraint:
 
     def judged(self, rows: Mapping[str, Any]) -> JudgedRows:
         """Return for each row whether it holds and whether it fails; what has no value (a division by zero) does neither."""
-
-        return judged(self.tree, partial(self._value_of, rows), len(rows[self.paths[0]]))
-
-    def shortfall(self, rows: Mapping[str, Any]) -> Array:
-        """Return for each row 0 where it holds, else how far it is from that."""
-        return shortfall(self.tree, partial(self._value_of, rows), len(rows[self.paths[0]]))
-
-    def _value_of(self, rows: Mapping[str, Any], name: str) -> Any:
-        node = self.values[name]
-        if node.op == "sym":
-            return rows[node.args[0]]
-        found = evaluate(node, lambda leaf: _value(leaf, rows))
-        return found if isinstance(found, str) else np.where(np.isfinite(found), found, np.nan)
+        return judged(self.tree, partial(self._value, rows), len(rows[self.paths[0]]))
 
     def holds(self, rows: Mapping[str, Any]) -> Array:
         """Return for each row whether it holds."""
         return self.judged(rows).holds
+
+    def shortfall(self, rows: Mapping[str, Any]) -> Array:
+        """Return for each row 0 where it holds, else how far it is from that."""
+        return shortfall(self.tree, partial(self._value, rows), len(rows[self.paths[0]]))
+
+    def _value(self, rows: Mapping[str, Any], name: str) -> Any:
+        def leaf_value(leaf: Node) -> Any:
+            value = leaf.args[0]
+            if leaf.op == "sym":
+                return np.asarray(rows[value])
+            return value if isinstance(value, str) else np.float64(value)
+
+        node = self.values[name]
+        if node.op == "sym":
+            return rows[node.args[0]]
+        value = evaluate(node, leaf_value)
+        return value if isinstance(value, str) else np.where(np.isfinite(value), value, np.nan)
 
 
 def why_dropped(counts: Mapping[str, Any]) -> str:
@@ -92,18 +92,13 @@ def why_dropped(counts: Mapping[str, Any]) -> str:
     return Phrase(words, n=found, why=WITHOUT_VALUE) if found else ""
 
 
-def _value(leaf: Node, rows: Mapping[str, Any]) -> Any:
-    value = leaf.args[0]
-    return np.asarray(rows[value]) if leaf.op == "sym" else value if isinstance(value, str) else np.float64(value)
+def parse(text: str, find: Callable[[str], Term], known: Collection[str] = ()) -> Constraint:
+    """Read a constraint; ConditionError for what it may not hold, unlike dimensions, or no varied path in it.
 
-
-def parse(text: str, find: Find, known: Collection[str] = ()) -> Constraint:
-    """Read a constraint; ConditionError in words for what it may not hold, unlike dimensions, or no varied path in it.
-
-    ``known``: paths that are taken whole, whatever they are made of.
+    ``find`` says what a path stands for, with ConditionError where a constraint may not name it. ``known``: paths that are
+    taken whole, whatever they are made of.
     """
-    found: dict[str, Node] = {}
-    outputs: list[str] = []
+    found: dict[str, Term] = {}
 
     def name(path: str) -> Name:
         if "." not in path and path not in known:
@@ -112,20 +107,17 @@ def parse(text: str, find: Find, known: Collection[str] = ()) -> Constraint:
                 "texts in quotes"
             )
             raise ConditionError(Phrase("“{path}” is not a path of an input; {advice}.", path=path, advice=advice))
-        term = find(path)
-        found[path] = term.node
-        if term.is_output:
-            outputs.append(path)
+        term = found[path] = find(path)
         if term.is_truth:
             return Name(path, "truth")
         return Name(path, "text") if term.unit is None else Name(path, "number", term.unit, term.display)
 
-    made = Constraint(text, read(text, known, name, EXAMPLE), found, tuple(dict.fromkeys(outputs)))
+    tree = read(text, known, name, EXAMPLE)
+    outputs = tuple(path for path, term in found.items() if term.is_output)
+    made = Constraint(text, tree, {path: term.node for path, term in found.items()}, outputs)
     if not made.paths:
-        words = Phrase(
-            "“{text}” names no varied path, so it would keep all variants or none; name one of vary.", text=text
-        )
-        raise ConditionError(words)
+        words = "“{text}” names no varied path, so it would keep all variants or none; name one of vary."
+        raise ConditionError(Phrase(words, text=text))
     return made
 
 
@@ -133,53 +125,42 @@ def parse(text: str, find: Find, known: Collection[str] = ()) -> Constraint:
 
 
 def term(base: Config, varied: Mapping[str, Input], path: str) -> Term:
-    """Return what a path stands for; ConditionError in words where it is not known before the calculation.
+    """Return what a path stands for; ConditionError where it is not known before the calculation.
 
     ``base`` has stand-ins for what is varied, so that its references are those of every variant.
     """
     if path in varied:
-        return Term(varied[path].unit, Node("sym", (path,)), _display(varied[path]))
+        return Term(varied[path].unit, Node("sym", (path,)), varied[path].display)
     try:
         asked = find_input(base, path)
     except UnknownPath as fault:
         raise ConditionError(Phrase("“{path}”: {fault}", path=path, fault=fault)) from None
     target = base.links.get((asked.instance, *asked.key))
     if target is None:
-        return Term(asked.unit, Node("qty", (_fixed(base, asked),)), _display(asked))
-    if target.expression is None:
-        return _referred(base, varied, asked, target)
-    nodes = [_referred(base, varied, asked, single).node for single in target.terms]
-    known = dict(zip(target.expression.names, nodes, strict=True))
-    return Term(asked.unit, as_formula(target.expression.tree, known), _display(asked))
+        node = Node("qty", (_fixed(base, asked),))
+    elif target.expression is None:
+        node = _referred(base, varied, asked, target)
+    else:
+        nodes = [_referred(base, varied, asked, single) for single in target.terms]
+        node = as_formula(target.expression.tree, dict(zip(target.expression.names, nodes, strict=True)))
+    return Term(asked.unit, node, asked.display)
 
 
-def _display(asked: Input) -> str:
-    return asked.meta.unit if isinstance(asked.meta, Quantity) else ""
-
-
-def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: Target) -> Term:
+def _referred(base: Config, varied: Mapping[str, Input], asked: Input, target: Target) -> Node:
+    """Return the value of what an input refers to, by the formula of its default where it has one."""
     if target.result is not None or target.is_broken:
-        raise ConditionError(
-            Phrase(
-                "“{path}” refers to ${{target}}, which is known only after calculating; in a constraint an "
-                "output is named by itself, as in NAME.OUTPUT.",
-                path=asked.path,
-                target=target.path,
-            )
+        words = (
+            "“{path}” refers to ${{target}}, which is known only after calculating; in a constraint an output is named by "
+            "itself, as in NAME.OUTPUT."
         )
+        raise ConditionError(Phrase(words, path=asked.path, target=target.path))
     head = PRESS if target.instance == PRESS else f"{MECHANISMS}.{target.instance}"
-    found = term(base, varied, ".".join([head, *map(str, target.key)]))
+    node = term(base, varied, ".".join([head, *map(str, target.key)])).node
     if target.formula is None:
-        return found
-    assert isinstance(asked.meta, Quantity), "only quantities have a default that the press gives"
-    return Term(asked.meta.parsed_unit.si, _applied(target.formula, found.node), _display(asked))
-
-
-def _applied(formula: Formula, to: Node) -> Node:
-    """The formula of a default, of what it is derived from."""
-    known = {name: Node("qty", (float(value),)) for name, value in formula.constants.items()}
-    known |= {"π": Node("qty", (math.pi,)), formula.parameters[0]: to}
-    return transform(formula.tree, lambda leaf: known[leaf.args[0]] if leaf.op == "sym" else leaf)
+        return node
+    known = {name: Node("qty", (float(value),)) for name, value in target.formula.constants.items()}
+    known |= {"π": Node("qty", (math.pi,)), target.formula.parameters[0]: node}
+    return transform(target.formula.tree, lambda leaf: known[leaf.args[0]] if leaf.op == "sym" else leaf)
 
 
 def _fixed(base: Config, asked: Input) -> float | str:
@@ -189,4 +170,11 @@ def _fixed(base: Config, asked: Input) -> float | str:
     value = instance.value(asked.key) if name in instance.given else None
     if value is None:
         raise ConditionError(Phrase("“{path}” has no value in the base; give it there, or vary it.", path=asked.path))
-    return str(value).lower() if isinstance(value, bool) else value if isinstance(value, str) else float(value)
+    return stored_value(value)
+
+
+def stored_value(value: Any) -> float | str:
+    """Return a value as a sample holds it: a yes/no as the text that YAML has for it, a whole number as a float."""
+    if isinstance(value, bool):
+        return str(value).lower()
+    return value if isinstance(value, str) else float(value)

@@ -14,32 +14,38 @@ from distributed.comm.addressing import get_address_host_port
 
 from diecut_report import __version__
 from diecut_report.errors import Problem, UserError
-from diecut_report.study.execution.pending import Chunk, Function, Warm, forget, make_known, work
+from diecut_report.study.execution.engines import (
+    CHUNKS_AHEAD,
+    Chunk,
+    Engine,
+    Function,
+    WorkerSetup,
+    forget,
+    prepare,
+    work,
+)
 from diecut_report.text.phrases import Phrase, phrase
 
-AHEAD = 2  # chunks for each thread of a worker
-PATIENCE = 10  # seconds to reach the scheduler and to find a worker
-KEPT = phrase("What was finished is kept: continue with --resume.")
+TIMEOUT = 10  # seconds to reach the scheduler and to find a worker
 
 
-class Dask:
+class Dask(Engine):
     """Calculate on the workers of a scheduler, those that join later too; Dask repeats the chunks of a worker that is lost."""
 
-    lost: tuple[type[BaseException], ...] = ()
-    gave_up: tuple[type[BaseException], ...] = (KilledWorker,)
+    gave_up = (KilledWorker,)
 
-    def __init__(self, address: str, warm: Warm) -> None:
+    def __init__(self, address: str, setup: WorkerSetup) -> None:
+        super().__init__(setup)
         self._address = address if "://" in address else f"tcp://{address}"
-        self._warm = warm
         self._client: Any = None  # Dask's client has no types
         self._executor: Any = None
 
     def __enter__(self) -> Self:
-        logging.getLogger("distributed").setLevel(logging.CRITICAL)  # losses are reported in words, not by tracebacks
-        logging.getLogger("distributed.client").setLevel(logging.CRITICAL)
+        for name in ("distributed", "distributed.client"):  # losses are reported as errors, not by tracebacks
+            logging.getLogger(name).setLevel(logging.CRITICAL)
         self._client = _connected(self._address)
         try:
-            self._make_ready()
+            self._prepare_workers()
         except BaseException:
             self._client.close()
             raise
@@ -51,89 +57,70 @@ class Dask:
             if self._client.status == "running":
                 self._executor.shutdown(wait=kind is None)
                 with suppress(OSError):  # a scheduler that has just ended has nothing left to forget
-                    self._client.unregister_worker_plugin(self._warm.key)
+                    self._client.unregister_worker_plugin(self.setup.key)
         finally:
             self._client.close()
 
-    def _make_ready(self) -> None:
-        """Each worker, also one that joins later, is told what to load."""
+    def _prepare_workers(self) -> None:
         try:
-            self._client.wait_for_workers(1, timeout=PATIENCE)
+            self._client.wait_for_workers(1, timeout=TIMEOUT)
         except TimeoutError as error:
-            words = Phrase(
-                "The Dask scheduler has no workers. Start some: PYTHONSAFEPATH=1 dask worker {address}",
-                address=self._address,
-            )
-            raise UserError(Problem(words)) from error
+            words = "The Dask scheduler has no workers. Start some: PYTHONSAFEPATH=1 dask worker {address}"
+            raise UserError(Problem(Phrase(words, address=self._address))) from error
         try:
-            self._client.register_plugin(_Study(self._warm), name=self._warm.key)
+            self._client.register_plugin(_Study(self.setup), name=self.setup.key)
         except ModuleNotFoundError as error:
-            words = Phrase(
-                "A worker of the Dask cluster has no module {name}: install the program there too.", name=error.name
-            )
-            raise UserError(Problem(words)) from error
+            words = "A worker of the Dask cluster has no module {name}: install the program there too."
+            raise UserError(Problem(Phrase(words, name=error.name))) from error
 
     @property
     def limit(self) -> int:
         """Return how many chunks keep the workers busy that are there now."""
         try:
-            return AHEAD * max(1, int(sum(self._client.nthreads().values())))
+            return CHUNKS_AHEAD * max(1, int(sum(self._client.nthreads().values())))
         except OSError as error:
             raise self._gone() from error
 
     def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
         """Send a chunk to the scheduler."""
-        future: Future[Any] = self._executor.submit(_work, __version__, self._warm.key, function, chunk)
+        future: Future[Any] = self._executor.submit(_work, __version__, self.setup.key, function, chunk)
         return future
 
-    def restart(self) -> None:
-        """Do nothing: Dask itself repeats what was lost."""
-
-    def give_up(self, begun: Iterable[Future[Any]]) -> None:
+    def cancel(self, begun: Iterable[Future[Any]]) -> None:
         """Take them from the scheduler."""
         for future in begun:
             future.cancel()
 
-    def look(self) -> None:
+    def check(self) -> None:
         """Raise UserError where the scheduler is gone."""
         if self._client.status != "running":
             raise self._gone()
 
     def _gone(self) -> UserError:
-        return UserError(
-            Problem(
-                Phrase(
-                    "The Dask scheduler at {address} cannot be reached any more. {kept}",
-                    address=self._address,
-                    kept=KEPT,
-                )
-            )
-        )
+        words = "The Dask scheduler at {address} cannot be reached any more. {kept}"
+        kept = phrase("What was finished is kept: continue with --resume.")
+        return UserError(Problem(Phrase(words, address=self._address, kept=kept)))
 
 
 class _Study(WorkerPlugin):
     """Tells a worker what it is to load for this study; it loads before its first chunk."""
 
-    def __init__(self, warm: Warm) -> None:
-        self._warm = warm
+    def __init__(self, setup: WorkerSetup) -> None:
+        self._setup = setup
 
     def setup(self, worker: object) -> None:
         """Called on each worker, and on those that join later."""
-        make_known(self._warm)
+        prepare(self._setup)
 
     def teardown(self, worker: object) -> None:
         """Called when the study is done."""
-        forget(self._warm.key)
+        forget(self._setup.key)
 
 
 def _work(version: str, key: str, function: Function, chunk: Chunk) -> Any:
     if version != __version__:
-        words = Phrase(
-            "A worker of the Dask cluster has version {theirs} of the program, this is {own}. Install the same.",
-            theirs=__version__,
-            own=version,
-        )
-        raise UserError(Problem(words))
+        words = "A worker of the Dask cluster has version {theirs} of the program, this is {own}. Install the same."
+        raise UserError(Problem(Phrase(words, theirs=__version__, own=version)))
     return work(key, function, chunk)
 
 
@@ -143,19 +130,13 @@ def _connected(address: str) -> Any:
         if address.startswith(("tcp://", "tls://")):
             socket.getaddrinfo(host, port)  # Dask would wait long for a name that nobody knows
         client: Any = Client
-        return client(address, timeout=PATIENCE, set_as_default=False)
+        return client(address, timeout=TIMEOUT, set_as_default=False)
     except ValueError as error:
-        words = Phrase(
-            "{address} is not an address of a Dask scheduler ({error}). Give it as tcp://HOST:PORT.",
-            address=repr(address),
-            error=error,
-        )
-        raise UserError(Problem(words)) from error
+        words = "{address} is not an address of a Dask scheduler ({error}). Give it as tcp://HOST:PORT."
+        raise UserError(Problem(Phrase(words, address=repr(address), error=error))) from error
     except OSError as error:
-        words = Phrase(
+        words = (
             "The Dask scheduler at {address} cannot be reached ({error}). Start it with `dask scheduler`, "
-            "or correct the address.",
-            address=address,
-            error=error,
+            "or correct the address."
         )
-        raise UserError(Problem(words)) from error
+        raise UserError(Problem(Phrase(words, address=address, error=error))) from error

@@ -35,25 +35,25 @@ Values = Mapping[Input, Array | str]
 class NotOnArrays(Exception):
     """Report a plugin that cannot calculate these variants together, or breaks; its kind and what went wrong."""
 
-    def __init__(self, kind: str, words: str) -> None:
-        super().__init__(kind, words)
-        self.kind, self.words = kind, words
+    def __init__(self, kind: str, message: str) -> None:
+        super().__init__(kind, message)
+        self.kind, self.message = kind, message
 
     def __str__(self) -> str:
-        return f"plugin {self.kind!r}: {self.words}"
+        return f"plugin {self.kind!r}: {self.message}"
 
 
 class Mixed(Exception):
     """Report variants that are calculated in another way than the rest, as they lack something that the rest have: a mask of them."""
 
     def __init__(self, rows: Array) -> None:
-        super().__init__()
+        super().__init__(rows)
         self.rows = rows
 
 
 @contextmanager
 def of_plugin(kind: str) -> Iterator[None]:
-    """Tell what breaks within as a fault of the plugin, whose code runs there."""
+    """Report what breaks within as a fault of the plugin, whose code runs there."""
     try:
         yield
     except (Impossible, NotOnArrays, Unproven):
@@ -93,10 +93,9 @@ def calculated(base: Config, values: Values, count: int, tell: Tell = untold) ->
     config, problems = with_values(base, data)
     variants = CalculatedVariants(count, {})
     if problems:
-        variants.reasons = dict.fromkeys(range(count), _words(problems[0]))
-        return variants
-    run = _Rows(config, variants, tell)
-    variants.calculations = run.calculations
+        variants.reasons = dict.fromkeys(range(count), _reason_text(problems[0]))
+    else:
+        variants.calculations = _Rows(config, variants, tell).calculations
     return variants
 
 
@@ -114,11 +113,11 @@ class _Rows(Run):
         """A study compares variants, not mechanisms."""
 
     def _broke(self, instance: Instance, cause: BaseException, words: str = "") -> None:
-        """No mechanism of a variant is left out in silence."""
+        """Leave no mechanism of a variant out in silence."""
         raise NotOnArrays(self.config.kinds[instance.name], words or said(cause)) from cause
 
     def _output(self, calculation: Calculation, name: str, target: Target) -> Any:
-        """A result of all variants; where it is absent that is the variant's reason."""
+        """Return a result of all variants; where it is absent that is the variant's reason."""
         if target.is_mechanism or calculation.axis.get(name) in calculation.domains:
             return output(calculation, name, target)
         require_facts(calculation, name, target)
@@ -134,25 +133,25 @@ class _Rows(Run):
         return SI(without_rounding(column.astype(float), str(target.unit)), str(target.unit), target.path)
 
     def _phase(self, calculation: Calculation, name: str, target: Target) -> PhaseHandle:
-        """A phase of all variants; where it is absent that is the variant's reason."""
+        """Return a phase of all variants; where it is absent that is the variant's reason."""
         handle = PhaseHandle(calculation, name.removeprefix(PREFIX), f"${{{target.path}}}")
         without = [row for row in range(self.variants.count) if not handle.intervals(row)]
         self._reason(without, Phrase("${{path}} does not apply to this machine.", path=target.path))
         return handle
 
     def _with_values(self, instance: Instance, own: dict[Node, Target]) -> dict[str, Any]:
-        """The block's data without what partners do not have: some of the variants alone are told."""
+        """Return the block's data without what partners do not have; Mixed where some of the variants alone lack it."""
         data = super()._with_values(instance, own)
         for key in instance.derived & data.keys():
             value = data[key].value if isinstance(data[key], SI) else None
             if isinstance(value, np.ndarray) and value.ndim:
-                self._told_apart(np.isnan(value))
+                self._require_alike(np.isnan(value))
                 if np.isnan(value).all():
                     del data[key]
         return data
 
-    def _told_apart(self, rows: Array) -> None:
-        """Mixed where some of the variants that can exist are among the rows, and some are not."""
+    def _require_alike(self, rows: Array) -> None:
+        """Raise Mixed where some of the variants that can exist are among the rows, and some are not."""
         known = np.ones(self.variants.count, dtype=bool)
         known[list(self.variants.reasons)] = False
         if (rows & known).any() and (~rows & known).any():
@@ -170,13 +169,15 @@ class _Rows(Run):
 
     def _all_wrong(self, problems: list[Any]) -> None:
         for problem in problems[:1]:
-            self._reason(range(self.variants.count), _words(problem))
+            self._reason(range(self.variants.count), _reason_text(problem))
 
     def _sound(self, instance: Instance, key: KeyPath, value: SI) -> Any:
-        """A column without the values that its key refuses: these variants get a reason, and the value of another one."""
+        """Return a column without the values that its key refuses: these variants get a reason, and the value of another one."""
         meta = declared(instance.model, key)
-        if not isinstance(value.value, np.ndarray) or value.value.ndim == 0:
-            return value if not isinstance(value.value, np.ndarray) else SI(value.value[()], value.unit, value.told)
+        if not isinstance(value.value, np.ndarray):
+            return value
+        if value.value.ndim == 0:
+            return SI(value.value[()], value.unit, value.told)
         if not isinstance(meta, Quantity):  # one value of a curve given as a list
             if value.value.size > 1:
                 words = Phrase("a curve given as a list refers to {told}, which varies", told=value.told)
@@ -191,11 +192,15 @@ class _Rows(Run):
         return SI(column, value.unit, value.told)
 
     def _refused(self, instance: Instance, key: KeyPath, meta: Quantity, value: SI, row: int) -> None:
-        try:
-            words = _valueless(value) if np.isnan(value.value) else meta.validate(value)
-        except ValueError as fault:
-            words = str(fault)
-        self._reason([row], _words(instance.place.problem(key, str(words))))
+        words = "has no value"
+        if np.isnan(value.value) and "${" in value.told:  # an expression gives none
+            words = Phrase("“{told}” has no value: {without_value}", told=value.told, without_value=WITHOUT_VALUE)
+        elif not np.isnan(value.value):
+            try:
+                words = str(meta.validate(value))
+            except ValueError as fault:
+                words = str(fault)
+        self._reason([row], _reason_text(instance.place.problem(key, words)))
 
     def _reason(self, rows: Any, words: str) -> None:
         for row in rows:
@@ -210,46 +215,31 @@ class _Rows(Run):
             with of_plugin(instance.mechanism.kind):
                 found = calculate(instance.mechanism, flatten(block), self.variants.count)
         except ImpossibleTogether as fault:
-            raise NotOnArrays(
-                instance.mechanism.kind, Phrase("it refuses some of many: {reasons}", reasons=fault.reasons[0][1])
-            ) from fault
+            words = Phrase("it refuses some of many: {reasons}", reasons=fault.reasons[0][1])
+            raise NotOnArrays(instance.mechanism.kind, words) from fault
         except (Impossible, Unproven) as fault:
-            self._alone(name, instance, fault)
+            # a single variant that cannot exist
+            key, message = fault.reasons[0] if isinstance(fault, Impossible) else ("", str(fault))
+            self._reason(range(self.variants.count), _flaw_text(instance, key, message))
             return
         found.unfounded = self.bases.unfounded(instance, block)
         self.calculations[name] = found
         for row, (key, message) in found.flaws.items():
-            self._reason([row], _told(instance, key, message))
+            self._reason([row], _flaw_text(instance, key, message))
         for missed in found.withheld.values():
-            self._told_apart(missed)
-
-    def _alone(self, name: str, instance: Instance, fault: Impossible | Unproven) -> None:
-        """A single variant that cannot exist."""
-        key, message = fault.reasons[0] if isinstance(fault, Impossible) else ("", str(fault))
-        self._reason(range(self.variants.count), _told(instance, key, message))
+            self._require_alike(missed)
 
 
-def _told(instance: Instance, path: str, message: str) -> str:
+def _flaw_text(instance: Instance, path: str, message: str) -> str:
     key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
-    return _words(instance.place.problem(key, message))
+    return _reason_text(instance.place.problem(key, message))
 
 
-def _valueless(value: SI) -> str:
-    """What is told of a number that is missing: of what an expression gives, why."""
-    return (
-        Phrase("“{told}” has no value: {without_value}", told=value.told, without_value=WITHOUT_VALUE)
-        if "${" in value.told
-        else "has no value"
-    )
-
-
-def _words(problem: Problem) -> str:
-    """Path and message: where the base stands in its file is the same for all variants."""
+def _reason_text(problem: Problem) -> str:
     return ": ".join(part for part in (problem.path, problem.message) if part)
 
 
 def _filled(data: Any, sound: Callable[[KeyPath, SI], Any], key: KeyPath = ()) -> Any:
-    """The data with each number that is known already made sound."""
     match data:
         case SI():
             return sound(key, data)

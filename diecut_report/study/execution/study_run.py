@@ -1,10 +1,9 @@
-"""A run of a study: chunks of its sample to an engine, results to the folder, then reports and summary."""
+"""A run of a study: refused where it makes no sense, then chunks of its sample to an engine, and results to the folder."""
 
 from __future__ import annotations
 
-import os
 import time
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass, field
 from hashlib import sha256
 from pathlib import Path
@@ -14,21 +13,30 @@ import numpy as np
 
 from diecut_report.config.model import PRESS
 from diecut_report.config.source_hashes import plugin_faults
+from diecut_report.errors import Problem, UserError
 from diecut_report.mechanism.inputs import Quantity
-from diecut_report.study.definition.base_inputs import Input
+from diecut_report.study.definition.constraints import why_dropped
+from diecut_report.study.definition.samples import Sobol
 from diecut_report.study.definition.study_file import Study
 from diecut_report.study.execution import worker
-from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results
-from diecut_report.study.execution.refusals import dask_cluster, without_value
+from diecut_report.study.execution.engines import (
+    Engine,
+    InProcess,
+    WorkerSetup,
+    local_engine,
+    results,
+)
 from diecut_report.study.execution.variant_rows import columns_of, curve_columns
-from diecut_report.study.execution.worker import ChunkClock
+from diecut_report.study.execution.worker import ChunkClock, judged_rows, without_value
 from diecut_report.study.storage.description import Description, ResultColumn, StudySource
 from diecut_report.study.storage.store import Store
+from diecut_report.text.phrases import Phrase, phrase
 
 SMALL = 1024  # variants up to which a pool of processes costs more time than it saves
+LARGEST = 10_000_000  # rows that are calculated without being asked for twice
 PARTS = 16  # at least as many part files in a study that is large enough, so that all processes have work to the end
 PART = (512, 8192)  # least and most variants of a part file
-VALUES = 8_000_000  # numbers of a part file at most, for curves are long
+MAX_PART_VALUES = 8_000_000  # numbers of a part file, for curves are long
 
 
 @dataclass
@@ -71,9 +79,7 @@ class StudyOutcome:
     broken: dict[str, str] = field(default_factory=dict)  # plugins that broke for some variants, and why
     broken_reports: dict[str, str] = field(default_factory=dict)  # plugins that broke in full reports, and why
     notes: tuple[str, ...] = ()  # what else the user should know
-    doubtful: dict[str, list[str]] = field(
-        default_factory=dict
-    )  # foreign plugins whose formulas have faults, and which
+    doubtful: dict[str, list[str]] = field(default_factory=dict)  # foreign plugins with the faults of their formulas
     overran: int = 0  # chunks that were ended for taking too long
 
     @property
@@ -89,9 +95,34 @@ class StudyOutcome:
     @property
     def is_broken(self) -> bool:
         """Return whether a plugin broke for all variants, in a full report, or never came back: a single variant in error does not count."""
-        return bool(self.broken_reports or self.overran) or (
-            bool(self.broken) and self.counts["error"] == self.counts["variants"]
-        )
+        is_useless = bool(self.broken) and self.counts["error"] == self.counts["variants"]
+        return bool(self.broken_reports or self.overran) or is_useless
+
+
+def refuse_unsampled(study: Study) -> None:
+    """Require a sample: a study that says only what is searched for has no variants of its own."""
+    if not study.is_sampled:
+        words = "is missing: this study says by optimise what is searched for. Run it with `diecut-report optimise`, or give a sample."
+        raise UserError(Problem(phrase(words), str(study.file), path="sample"))
+
+
+def refuse_huge(study: Study, agreed: bool) -> None:
+    """Require a yes to a sample that is larger than one would calculate by mistake."""
+    count = study.sample.count
+    if count > LARGEST and not agreed:
+        words = "the sample has {count} variants, more than {largest}. Vary less, or give --yes to calculate them all."
+        message = Phrase(words, count=f"{count:,}", largest=f"{LARGEST:,}")
+        raise UserError(Problem(message, str(study.file), path="sample"))
+
+
+def refuse_empty(study: Study) -> None:
+    """Require that the constraints leave at least one variant."""
+    if not study.constraints or any(found.holds.any() for found in judged_rows(study)):
+        return
+    words = "the constraints drop all {count} variants of the sample{why}. Loosen one of them, or vary other values."
+    why = why_dropped({"without_value": without_value(study)})
+    message = Phrase(words, count=f"{study.sample.count:,}", why=why)
+    raise UserError(Problem(message, str(study.file), path="constraints"))
 
 
 def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell: Tell) -> StudyOutcome:
@@ -99,80 +130,78 @@ def run_study(study: Study, directory: Path, where: Where, *, resume: bool, tell
     store = Store.open(directory, described(study)) if resume else Store.create(directory, described(study))
     with store.lock():
         store.start(facts(study))
-        began, before = time.monotonic(), float(store.state.get("seconds") or 0)
-        overran = 0
-        slow, broken = dict(store.state.get("slow") or {}), dict(store.state.get("broken") or {})
+        began, before = time.monotonic(), store.state
+        outcome = StudyOutcome(store, {}, dict(before.get("slow") or {}), dict(before.get("broken") or {}))
+        outcome.doubtful = _doubtful(study)
 
-        def noted() -> None:
-            told = {"broken": broken} if broken else {}
-            store.note({"slow": slow, "seconds": before + time.monotonic() - began} | told)
+        def note() -> None:
+            broken = {"broken": outcome.broken} if outcome.broken else {}
+            seconds = float(before.get("seconds") or 0) + time.monotonic() - began
+            store.note({"slow": outcome.slow, "seconds": seconds} | broken)
 
         try:
             for done in _calculated(study, store, where, tell):
-                slow |= done.slow  # noted with each part: a run that is killed later has reported it
-                broken |= done.broken
-                overran += done.seconds is None
-                noted()
+                outcome.slow |= done.slow  # noted with each part: a run that is killed later has reported it
+                outcome.broken |= done.broken
+                outcome.overran += done.seconds is None
+                note()
         finally:  # an interrupted run has spent its time too
-            noted()
+            note()
         store.finish({}, without_value(study))
-    return StudyOutcome(store, store.state["counts"], slow, broken, doubtful=_doubtful(study), overran=overran)
+    outcome.counts = store.state["counts"]
+    return outcome
 
 
 def _calculated(study: Study, store: Store, where: Where, tell: Tell) -> Iterator[worker.Done]:
-    """Write each part as soon as it is calculated."""
     there = store.done_parts()
     for path in (path for index, path in store.parts().items() if index not in there):
         path.unlink(missing_ok=True)  # a damaged part is calculated again
-    known = store.counts()
-    counts = Counts(
-        study.sample.count, variants=known["variants"], failed=known.get("fail", 0), errors=known.get("error", 0)
-    )
-    counts.before = sum(len(store.rows(index)) for index in there)
+    known, rows = store.counts(), store.description.part_rows
+    counts = Counts(study.sample.count, 0, known["variants"], known.get("fail", 0), known.get("error", 0))
+    counts.before = sum(len(rows(index)) for index in there)
     tell(counts)
-    missing = store.description.parts - len(there)
+    missing = [index for index in range(store.description.parts) if index not in there]
     if not missing:
         return
     clock = ChunkClock(where.chunk_limit)
-    rows = {index: store.rows(index) for index in range(store.description.parts) if index not in there}
-    chunks = (
-        worker.Chunk(i, own.start, own.stop, clock.limit(len(own))) for i, own in rows.items()
-    )  # when it is begun
-    with engine_for(study, where, missing) as engine:
+    # its limit is that of the time when it is begun
+    chunks = (worker.Chunk(i, rows(i).start, rows(i).stop, clock.limit(len(rows(i)))) for i in missing)
+    with engine_for(study, where, len(missing)) as engine:
         for chunk, done in results(engine, worker.calculate, chunks):
             store.write_part(chunk.part, done.columns)
             if done.seconds is not None:
                 clock.measure(chunk.stop - chunk.start, done.seconds)
+            status = done.columns["status"]
             counts.done += chunk.stop - chunk.start
-            counts.variants += len(done.columns["status"])
-            counts.failed += int(np.sum(done.columns["status"] == "fail"))
-            counts.errors += int(np.sum(done.columns["status"] == "error"))
+            counts.variants += len(status)
+            counts.failed += int(np.sum(status == "fail"))
+            counts.errors += int(np.sum(status == "error"))
             tell(counts)
             yield done
 
 
 def engine_for(study: Study, where: Where, chunks: int, rows: int | None = None) -> Engine:
-    """A Dask cluster where one is named, a pool of processes for many rows (of the sample), this process for few."""
-    warm = Warm(
-        _key(study, where),
-        worker.load,
-        (study.file.read_bytes(), contents(study), tuple(where.plugins), study.base.source_hashes),
-    )
+    """Return a Dask cluster where one is named, a pool of processes for many rows (of the sample), this process for few."""
+    code = study.base.source_hashes
+    known = [study.sha256, study.base.tree.sha256, *study.tables.values(), *where.plugins, *code.values()]
+    args = (study.file.read_bytes(), contents(study), tuple(where.plugins), code)
+    setup = WorkerSetup(sha256("\n".join(known).encode()).hexdigest(), worker.load, args)
     if where.dask:
-        return dask_cluster(where.dask, warm)
-    jobs = min(where.jobs or os.cpu_count() or 1, chunks)
-    return Pool(jobs, warm) if jobs > 1 and (where.jobs or (rows or study.sample.count) > SMALL) else InProcess(warm)
+        return dask_cluster(where.dask, setup)
+    is_large = where.jobs or (rows or study.sample.count) > SMALL
+    return local_engine(where.jobs, chunks, setup) if is_large else InProcess(setup)
 
 
-def _key(study: Study, where: Where) -> str:
-    known = [
-        study.sha256,
-        study.base.tree.sha256,
-        *study.tables.values(),
-        *where.plugins,
-        *study.base.source_hashes.values(),
-    ]
-    return sha256("\n".join(known).encode()).hexdigest()
+def dask_cluster(address: str, setup: WorkerSetup) -> Engine:
+    """Return the workers of the Dask scheduler at this address; UserError where Dask is not installed."""
+    try:
+        from diecut_report.study.execution.dask_cluster import Dask
+    except ModuleNotFoundError as error:
+        if error.name not in ("dask", "distributed"):
+            raise
+        words = "Dask is not installed. Install it with: pip install --require-hashes -r requirements-cluster.lock"
+        raise UserError(Problem(phrase(words))) from error
+    return Dask(address, setup)
 
 
 def contents(study: Study) -> dict[str, bytes]:
@@ -180,12 +209,16 @@ def contents(study: Study) -> dict[str, bytes]:
     return {name: path.read_bytes() for name, path in study.files.items()}
 
 
+# --- what the folder keeps of a study --------------------------------------------------------------------------------
+
+
 def described(study: Study) -> Description:
     """Return the study as its folder keeps it."""
     files = contents(study)
     base = str(study.data["base"])
     columns = [*varied_columns(study), *result_columns(study)]
-    chunk = min(int(np.clip(study.sample.count // PARTS, *PART)), max(1, VALUES // _width(study, columns)))
+    chunk = min(int(np.clip(study.sample.count // PARTS, *PART)), max(1, MAX_PART_VALUES // _width(study, columns)))
+    made = [instance.mechanism for name, instance in study.base.instances.items() if instance and name != PRESS]
     return Description(
         study=StudySource(study.file.name, study.sha256, study.content),
         base=StudySource(base, study.base.tree.sha256, files[base]),
@@ -193,13 +226,13 @@ def described(study: Study) -> Description:
         rows=study.sample.count,
         chunk=chunk,
         tables=tuple(StudySource(name, digest, files[name]) for name, digest in study.tables.items()),
-        plugins=_versions(study),
+        plugins={mechanism.kind: mechanism.version for mechanism in made if mechanism},
         sources=study.base.source_hashes,
     )
 
 
 def _width(study: Study, columns: Sequence[ResultColumn]) -> int:
-    """How many numbers a variant has, curves with as many points as the longest of the base."""
+    """Return how many numbers a variant has, curves with as many points as the longest of the base."""
     models = [instance for instance in study.base.instances.values() if instance is not None]
     points = [instance.data.get("n_points", field.default) for instance in models
               if (field := instance.model.model_fields.get("n_points"))]  # fmt: skip
@@ -207,28 +240,22 @@ def _width(study: Study, columns: Sequence[ResultColumn]) -> int:
     return sum(most if column.kind == "curve" else 1 for column in columns)
 
 
-def _versions(study: Study) -> dict[str, str]:
-    made = [instance.mechanism for name, instance in study.base.instances.items() if instance and name != PRESS]
-    return {mechanism.kind: mechanism.version for mechanism in made if mechanism}
-
-
 def _doubtful(study: Study) -> dict[str, list[str]]:
-    """The kinds of foreign plugins whose formulas have faults, with these."""
+    """Return the kinds of foreign plugins whose formulas have faults, with these."""
     made = [instance.mechanism for instance in study.base.instances.values() if instance]
     return {each.kind: list(faults) for each in made if each and (faults := plugin_faults(each))}
 
 
 def varied_columns(study: Study) -> list[ResultColumn]:
     """Return a column for each varied path."""
-    return [_varied(path, asked) for path, asked in study.inputs.items()]
-
-
-def _varied(path: str, asked: Input) -> ResultColumn:
-    meta = asked.meta
-    if not isinstance(meta, Quantity):
-        return ResultColumn(path, "text", description=meta.description)
-    si = meta.parsed_unit.si
-    return ResultColumn(path, "float", si, meta.unit if meta.unit != si else "", meta.symbol, meta.description)
+    columns = []
+    for path, asked in study.inputs.items():
+        meta, display = asked.meta, asked.display if asked.display != asked.unit else ""
+        if isinstance(meta, Quantity):
+            columns.append(ResultColumn(path, "float", meta.parsed_unit.si, display, meta.symbol, meta.description))
+        else:
+            columns.append(ResultColumn(path, "text", description=meta.description))
+    return columns
 
 
 def result_columns(study: Study) -> list[ResultColumn]:
@@ -239,15 +266,16 @@ def result_columns(study: Study) -> list[ResultColumn]:
         found |= {column.name: column for column in columns_of(base)}
         curves |= {column.name: column for column in curve_columns(base, study.curves)}
     kept = [
-        column for name, column in found.items() if study.outputs is None or ".checks." in name or name in study.outputs
+        each for name, each in found.items() if study.outputs is None or ".checks." in name or name in study.outputs
     ]
     return [*kept, *curves.values()]
 
 
-def facts(study: Study) -> Mapping[str, Any]:
+def facts(study: Study) -> dict[str, Any]:
     """Return what else the summary and questions need to know of the study."""
     objectives = [{"minimise" if each.minimise else "maximise": each.output} for each in study.objectives]
     known: dict[str, Any] = {"varied": list(study.inputs), "objectives": objectives}
     known |= {"doubtful": found} if (found := _doubtful(study)) else {}
-    design = getattr(study.sample, "design", None)
-    return known | ({"design": "saltelli", "n": design.points} if design else {})
+    if isinstance(study.sample, Sobol) and study.sample.indices:
+        known |= {"design": "saltelli", "n": study.sample.points}
+    return known

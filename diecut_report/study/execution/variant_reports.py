@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import os
 from collections.abc import Callable, Iterator, Sequence
 from dataclasses import dataclass
 from pathlib import Path
@@ -16,7 +15,7 @@ from diecut_report.formulas import Array
 from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import Study
-from diecut_report.study.execution.pending import Engine, InProcess, Pool, Warm, results
+from diecut_report.study.execution.engines import WorkerSetup, local_engine, results
 from diecut_report.study.execution.study_run import Where
 from diecut_report.study.storage.state import continuing
 from diecut_report.study.storage.store import Store
@@ -30,7 +29,7 @@ Tell = Callable[[str], None]
 
 @dataclass(frozen=True)
 class Chosen:
-    """Hold the variants that are to have a full report, ascending, and in words what stands against others that were asked for."""
+    """Hold the variants that are to have a full report, ascending, and what stands against others that were asked for."""
 
     variants: tuple[int, ...]
     notes: tuple[str, ...] = ()
@@ -54,26 +53,15 @@ class VariantReport:
     def __str__(self) -> str:
         return Phrase("the full report of variant {number}", number=self.variant)
 
-    def fault(self, why: str) -> str:
-        """Say that a plugin broke in it."""
-        return Phrase("in the full report of variant {number}: {why}", number=self.variant, why=phrase(why))
-
-
-def write_reports(
-    study: Study, store: Store, where: Where, *, agreed: bool, tell: Tell
-) -> tuple[tuple[str, ...], dict[str, str]]:
-    """Write the full reports that the study asks for, as ``reports/ID.html`` and so on; those that are there already are kept.
-
-    Return what was not done, in words, and the plugins that broke, with their faults. ``tell`` hears how far it is. They
-    are made side by side in processes of this machine.
-    """
-    return write_chosen(wanted(study, store), store, where, agreed=agreed, tell=tell)
-
 
 def write_chosen(
     chosen: Chosen, store: Store, where: Where, *, agreed: bool, tell: Tell
 ) -> tuple[tuple[str, ...], dict[str, str]]:
-    """Write the full reports of these variants, as `write_reports` does."""
+    """Write full reports, as ``reports/ID.html`` and so on; those that are there already are kept.
+
+    Return what was not done, and the plugins that broke, with their faults. ``tell`` hears how far it is. They
+    are made side by side in processes of this machine.
+    """
     folder = store.directory / FOLDER
     missing = [v for v in chosen.variants if not all((folder / f"{v}.{ending}").exists() for ending in FORMATS)]
     if len(missing) > MANY and not agreed:
@@ -81,31 +69,25 @@ def write_chosen(
             "{count} variants are to get a full report, each of which takes some seconds; none was made. "
             "Make them all with: {continuing} --yes; or one: report {folder}#{first}"
         )
-        told = continuing(store.directory, store.state["columns"])
-        return (
-            *chosen.notes,
-            Phrase(words, count=f"{len(missing):,}", continuing=told, folder=store.directory, first=missing[0]),
-        ), {}
+        command = continuing(store.directory, store.state["columns"])
+        count = f"{len(missing):,}"
+        note = Phrase(words, count=count, continuing=command, folder=store.directory, first=missing[0])
+        return (*chosen.notes, note), {}
     broken: dict[str, str] = {}
     if missing:
-        with _engine(store, where, len(missing)) as engine:
+        plugins = tuple(where.plugins)
+        key = "\n".join(["reports", str(store.directory), *plugins, where.language or ""])
+        setup = WorkerSetup(key, ReportPlace, (store.directory, plugins, where.language))
+        with local_engine(where.jobs, len(missing), setup) as engine:
             tell(Phrase("full reports: {n} of {total}", n=0, total=len(missing)))
             for done, (report, faults) in enumerate(results(engine, _write, map(VariantReport, missing)), 1):
-                broken |= {kind: report.fault(why) for kind, why in faults.items()}
+                words = "in the full report of variant {number}: {why}"
+                broken |= {kind: Phrase(words, number=report.variant, why=phrase(why)) for kind, why in faults.items()}
                 tell(Phrase("full reports: {n} of {total}", n=done, total=len(missing)))
     return chosen.notes, broken
 
 
-def _engine(store: Store, where: Where, reports: int) -> Engine:
-    plugins = tuple(where.plugins)
-    key = "\n".join(["reports", str(store.directory), *plugins, where.language or ""])
-    warm = Warm(key, ReportPlace, (store.directory, plugins, where.language))
-    jobs = min(where.jobs or os.cpu_count() or 1, reports)
-    return Pool(jobs, warm) if jobs > 1 else InProcess(warm)
-
-
 def _write(place: ReportPlace, report: VariantReport) -> dict[str, str]:
-    """Write a report; the plugins that broke in it, and why."""
     discovery = Discovery([Path(plugin) for plugin in place.plugins])
     config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")
     asked = pipeline.AskedReport(place.language)
@@ -119,7 +101,9 @@ def wanted(study: Study, store: Store) -> Chosen:
     if asked.which == "none":
         return Chosen(())
     objectives = [(each.output, each.minimise) for each in study.objectives] if asked.which == "best" else []
-    columns = _columns(store, ["variant", "status", *(name for name, _ in objectives)])
+    names = dict.fromkeys(["variant", "status", *(name for name, _ in objectives)])
+    table: Any = store.read(list(names)).to_table()
+    columns = {name: table.column(name).to_numpy(zero_copy_only=False) for name in names}
     status, variant = columns["status"], columns["variant"].astype(int)
     if asked.which == "ids":
         possible = set(variant[status != "error"].tolist())
@@ -133,9 +117,8 @@ def wanted(study: Study, store: Store) -> Chosen:
 def _refused(ids: Sequence[int], possible: set[int], stored: Array) -> Iterator[str]:
     known = set(stored.tolist())
     for number in sorted(set(ids) - possible):
-        why = phrase(
-            "it cannot exist; its reason stands in the column error" if number in known else "a constraint drops it"
-        )
+        impossible = "it cannot exist; its reason stands in the column error"
+        why = phrase(impossible if number in known else "a constraint drops it")
         yield Phrase("variant {number} gets no full report: {why}.", number=number, why=why)
 
 
@@ -155,8 +138,3 @@ def best(columns: dict[str, Array], objectives: Sequence[tuple[str, bool]], coun
         total += rankdata(rounded(values), method="min")
     found: Array = among[np.argsort(total, kind="stable")[:count]]
     return found
-
-
-def _columns(store: Store, names: Sequence[str]) -> dict[str, Array]:
-    table: Any = store.read(list(dict.fromkeys(names))).to_table()
-    return {name: table.column(name).to_numpy(zero_copy_only=False) for name in names}

@@ -17,7 +17,7 @@ from diecut_report.errors import PluginError
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.soundness import is_made
-from diecut_report.mechanism.checks import Check, by_part
+from diecut_report.mechanism.checks import by_part
 from diecut_report.mechanism.inputs import POINTS, list_inputs
 from diecut_report.mechanism.mechanism import is_text, missing_keys
 from diecut_report.mechanism.part_steps import PartNames
@@ -61,20 +61,15 @@ PASS, WARN, FAIL, ERROR = 1, 2, 3, 4
 
 
 def columns_of(config: Config) -> list[ResultColumn]:
-    """Return the columns of all outputs and checks of a config's mechanisms."""
+    """Return the columns of all outputs and checks of a config's mechanisms; PluginError where what one declares cannot be read."""
     found: list[ResultColumn] = []
     for name, instance in config.instances.items():
         if instance is not None and instance.mechanism is not None and name != PRESS:
-            found += _declared(name, instance, instance.mechanism.kind)
+            try:
+                found += [*_outputs(name, instance), *_checks(name, instance)]
+            except Exception as cause:
+                raise PluginError(said(cause), instance.mechanism.kind, name) from cause
     return found
-
-
-def _declared(name: str, instance: Instance, kind: str) -> list[ResultColumn]:
-    """Return the columns of a mechanism; PluginError where what it declares cannot be read."""
-    try:
-        return [*_outputs(name, instance), *_checks(name, instance)]
-    except Exception as cause:
-        raise PluginError(said(cause), kind, name) from cause
 
 
 def curve_columns(config: Config, names: Iterable[str]) -> Iterator[ResultColumn]:
@@ -88,7 +83,6 @@ def curve_columns(config: Config, names: Iterable[str]) -> Iterator[ResultColumn
 
 
 def _column(name: str, kind: Kind, display: str, step: Step) -> ResultColumn:
-    """A column of what a step gives: SI, and the unit that the report prints it in."""
     si = unit(display).si
     return ResultColumn(name, kind, si, display if display != si else "", step.symbol, step.description)
 
@@ -103,10 +97,11 @@ def _outputs(name: str, instance: Instance) -> Iterator[ResultColumn]:
             continue
         parts = _names(step, counts[home] if home else None, instance.names_of_parts(step.named_by))
         for part in parts:
-            count = part.role == "count"
-            kind: Kind = "int" if count else _kind(step)
-            one = _column(f"{name}.{part.name}", kind, "1" if count else step.unit, step)
-            yield one if len(parts) == 1 else replace(one, description=_numbered(step, part))
+            is_count = part.role == "count"
+            kind: Kind = "int" if is_count else _kind(step)
+            column = _column(f"{name}.{part.name}", kind, "1" if is_count else step.unit, step)
+            which = "how many in a turn" if is_count else f"no. {part.number}"
+            yield column if len(parts) == 1 else replace(column, description=f"{step.description}: {which}")
 
 
 def _counts(instance: Instance) -> dict[str, int]:
@@ -120,15 +115,9 @@ def _counts(instance: Instance) -> dict[str, int]:
 
 
 def _length(data: Any, path: str) -> int:
-    """Return how many blocks a list has in the config; none where it is not given."""
     for part in path.split("."):
         data = data.get(part) if isinstance(data, Mapping) else None
     return len(data or ())
-
-
-def _numbered(step: Step, part: ResultName) -> str:
-    """Return what one of several results of a step is."""
-    return f"{step.description}: {'how many in a turn' if part.role == 'count' else f'no. {part.number}'}"
 
 
 def _names(step: Step, parts: int | None, parts_names: Sequence[str] | None) -> list[ResultName]:
@@ -146,51 +135,36 @@ def _kind(step: Step) -> Kind:
 
 
 def _checks(name: str, instance: Instance) -> Iterator[ResultColumn]:
-    for check in _reported(instance):
-        yield ResultColumn(f"{name}.checks.{check.id}.utilisation", "float", description=f"{check.title}: utilisation")
-        yield ResultColumn(f"{name}.checks.{check.id}.status", "text", description=f"{check.title}: verdict")
-
-
-def _reported(instance: Instance) -> Iterator[Check]:
     """Yield the checks that are made, or would be with more keys, each id once; self-tests of the calculation have no columns."""
     mechanism = instance.mechanism
     assert mechanism is not None
     ids: set[str] = set()
-    for check in by_part(mechanism.checks, lambda names: _names_of_parts(instance, names)):
+    for check in by_part(mechanism.checks, lambda path: instance.names_of_parts(path) or None):
         if check.id not in ids and is_of_machine(check) and missing_keys(mechanism, check, instance.given) is not None:
             ids.add(check.id)
-            yield check
-
-
-def _names_of_parts(instance: Instance, path: str) -> list[str] | None:
-    """The names that a list's blocks have in the config; None where there is no such list."""
-    return instance.names_of_parts(path) or None
+            column = f"{name}.checks.{check.id}"
+            yield ResultColumn(f"{column}.utilisation", "float", description=f"{check.title}: utilisation")
+            yield ResultColumn(f"{column}.status", "text", description=f"{check.title}: verdict")
 
 
 def output_values(name: str, calc: Calculation) -> dict[str, Array]:
     """Return the outputs of many variants by column; NaN (None for texts and flags) where there is none."""
     found: dict[str, Array] = {}
     for step in calc.steps.values():
-        if (
-            not step.output
-            or isinstance(step, SILENT)
-            or step.id not in calc.values
-            or not _is_counted(calc, calc.axis.get(step.id))
-        ):
+        if not step.output or isinstance(step, SILENT) or step.id not in calc.values:
+            continue
+        home = calc.steps.get(calc.axis.get(step.id, ""))
+        if isinstance(home, PartNames) and home.count is None:  # how many there are is not known ahead
             continue
         values = calc.values[step.id]
-        if isinstance(step, Crossings):
-            values = np.concatenate([calc.values[count_name(step.id)], _wide(values)], axis=1)
+        if isinstance(step, Crossings):  # as many columns as there are for them, NaN where there are fewer
+            places = values[:, :CROSSING_COLUMNS]
+            room = np.full((len(places), CROSSING_COLUMNS - places.shape[1]), np.nan)
+            values = np.concatenate([calc.values[count_name(step.id)], places, room], axis=1)
         parts = None if isinstance(step, Crossings) or step.id not in calc.axis else values.shape[1]
         names = _names(step, parts, calc.inputs.get(step.named_by))
         found |= {f"{name}.{part.name}": values[:, index] for index, part in enumerate(names)}
     return found
-
-
-def _is_counted(calc: Calculation, home: str | None) -> bool:
-    """Whether it is known ahead how many parts rows over something have."""
-    step = calc.steps.get(home or "")
-    return not isinstance(step, PartNames) or step.count is not None
 
 
 def curve_values(calculations: Mapping[str, Calculation], names: Iterable[str]) -> dict[str, list[Array]]:
@@ -206,14 +180,6 @@ def curve_values(calculations: Mapping[str, Calculation], names: Iterable[str]) 
             with of_plugin(calc.mechanism.kind):
                 found[name] = list(calc.curve_samples(curve))
     return found
-
-
-def _wide(places: Array) -> Array:
-    """Crossings in as many columns as there are for them, NaN where there are fewer."""
-    room = np.full((len(places), CROSSING_COLUMNS), np.nan)
-    shown = places[:, :CROSSING_COLUMNS]
-    room[:, : shown.shape[1]] = shown
-    return room
 
 
 @dataclass
@@ -336,18 +302,15 @@ def calculate_rows(
 
 
 def _groups(given: Given, count: int) -> Iterator[tuple[Array, dict[Input, Any]]]:
-    """The variants that have the same texts, and as many points of their curves, by index."""
-    texts = {asked: np.asarray(values, dtype=object) for asked, values in given.items() if _is_common(asked)}
+    """Yield the variants that have the same texts, and as many points of their curves, by index."""
+    common = {asked: values for asked, values in given.items() if asked.unit is None or asked.meta is POINTS}
+    texts = {asked: np.asarray(values, dtype=object) for asked, values in common.items()}
     if not texts:
         yield np.arange(count), {}
         return
     keys = list(zip(*texts.values(), strict=True))
     for key in dict.fromkeys(keys):
         yield np.flatnonzero([other == key for other in keys]), dict(zip(texts, key, strict=True))
-
-
-def _is_common(asked: Input) -> bool:
-    return asked.unit is None or asked.meta is POINTS
 
 
 def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, Any], rows: Rows, chosen: Array) -> None:
@@ -362,15 +325,14 @@ def _group(base: Config, numbers: Mapping[Input, Array], texts: Mapping[Input, A
         if len(chosen) == 1:
             rows.errors[chosen] = str(cause)
             rows.status[chosen] = "error"
-            rows.broken[cause.kind] = cause.words
+            rows.broken[cause.kind] = cause.message
             return
-        rows.slow[cause.kind] = cause.words
+        rows.slow[cause.kind] = cause.message
         for index, row in enumerate(chosen):
             _group(base, {asked: values[[index]] for asked, values in numbers.items()}, texts, rows, np.array([row]))
 
 
 def _kept(variants: CalculatedVariants, rows: Rows, chosen: Array) -> None:
-    """Put what was calculated of some variants into their rows."""
     found = verdicts(variants.calculations, variants.count)
     variants.reasons = {**found.faults, **variants.reasons}
     bad = np.array(sorted(variants.reasons), dtype=int)

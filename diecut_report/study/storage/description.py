@@ -1,4 +1,4 @@
-"""What the results of a study are made of: its files, its columns, its size; and in words, what of it has changed."""
+"""What the results of a study are made of: its files, its columns, its size; and what of it has changed."""
 
 from __future__ import annotations
 
@@ -16,9 +16,10 @@ from diecut_report.text.phrases import Phrase, joined, phrase
 SCHEMA_VERSION = 1
 CHUNK = 8192  # variants a part file
 LINES = 3  # changed lines that a message shows
-SHORT = 12  # digits of a SHA-256 that people read
+SHORT_HASH = 12  # digits of a SHA-256 that people read
 Kind = Literal["float", "int", "bool", "text", "curve"]
 Data = dict[str, Any]
+STATUSES = ("pass", "warn", "fail", "error")
 
 
 @dataclass(frozen=True)
@@ -69,6 +70,10 @@ class Description:
         """Return how many part files the whole study has."""
         return -(-self.rows // self.chunk)
 
+    def part_rows(self, index: int) -> range:
+        """Return the numbers of the sample's rows that make a part."""
+        return range(index * self.chunk, min((index + 1) * self.chunk, self.rows))
+
     @property
     def all_columns(self) -> tuple[ResultColumn, ...]:
         """Return the columns of the part files."""
@@ -89,28 +94,26 @@ VERDICT = (
 
 
 def as_data(description: Description) -> Data:
-    """Return it as it stands in study.json, whose form `state_form` judges by models of pydantic.
-
-    The two differ in each part (hashes in one table, columns by name, with the store's own): converters of a model would be longer.
-    """
+    """Return it as it stands in study.json, whose form `state.StateForm` judges."""
     sources = {"study": description.study, "base": description.base}
+    sources |= {f"table {number}": table for number, table in enumerate(description.tables, 1)}
+    columns = {column.name: vars(column) for column in description.all_columns}
     return {
         "schema_version": SCHEMA_VERSION,
         "program": {"name": "diecut-report", "version": description.program},
         "plugins": dict(description.plugins),
         "source_sha256": dict(description.sources),
-        **{role: source.file for role, source in sources.items()},
+        "study": description.study.file,
+        "base": description.base.file,
         "tables": [table.file for table in description.tables],
-        "sha256": {role: source.sha256 for role, source in sources.items()}
-        | {f"table {number}": table.sha256 for number, table in enumerate(description.tables, 1)},
+        "sha256": {role: source.sha256 for role, source in sources.items()},
         "rows": description.rows,
         "chunk": description.chunk,
-        "columns": {column.name: _about(column) for column in description.all_columns},
+        "columns": {
+            name: {key: value for key, value in about.items() if value and key != "name"}
+            for name, about in columns.items()
+        },
     }
-
-
-def _about(column: ResultColumn) -> Data:
-    return {name: value for name, value in vars(column).items() if value and name != "name"}
 
 
 def from_data(data: Data) -> Description:
@@ -131,49 +134,36 @@ def from_data(data: Data) -> Description:
 
 def changes(before: Description, now: Description) -> Iterator[Problem]:
     """Yield what of a study has changed since its results were begun; the parts' size may differ and is not a change."""
-    yield from _changed(phrase("study file"), before.study, now.study)
-    yield from _changed(phrase("base configuration"), before.base, now.base)
+    file = now.study.file
+    roles = {phrase("study file"): (before.study, now.study), phrase("base configuration"): (before.base, now.base)}
+    for role, (old, new) in roles.items():
+        if old.sha256 != new.sha256:
+            words = "The {role} has changed since the results were begun.{lines}"
+            yield Problem(Phrase(words, role=role, lines=_changed_lines(old, new)), new.file)
     yield from _other_tables(before, now)
     if before.program != now.program:
-        words = Phrase(
-            "The results were begun with version {old} of the program; this is {new}.",
-            old=before.program,
-            new=now.program,
-        )
-        yield Problem(words, now.study.file)
+        words = "The results were begun with version {old} of the program; this is {new}."
+        yield Problem(Phrase(words, old=before.program, new=now.program), file)
     for kind in sorted(before.plugins.keys() | now.plugins.keys()):
-        old, new = (versions.get(kind, phrase("absent")) for versions in (before.plugins, now.plugins))
-        if old != new:
-            yield Problem(
-                Phrase(
-                    "The plugin {kind} was {old} when the results were begun; it is {new}.",
-                    kind=repr(kind),
-                    old=old,
-                    new=new,
-                ),
-                now.study.file,
-            )
-    yield from _other_code(before, now)
-    yield from _other_rows(before, now)
-
-
-def _other_code(before: Description, now: Description) -> Iterator[Problem]:
-    """Tell what calculates by other code than before, though its version may be the same."""
+        was, is_ = (versions.get(kind, phrase("absent")) for versions in (before.plugins, now.plugins))
+        if was != is_:
+            words = "The plugin {kind} was {old} when the results were begun; it is {new}."
+            yield Problem(Phrase(words, kind=repr(kind), old=was, new=is_), file)
     for name in sorted(before.sources.keys() | now.sources.keys()):
-        old, new = (_short(code.get(name, "")) for code in (before.sources, now.sources))
-        if before.sources.get(name) != now.sources.get(name):
-            words = Phrase(
-                "The source of the {name} has changed since the results were begun (SHA-256 {old} then, {new} "
-                "now): variants of both would be mixed. Put it back as it was, or calculate all variants anew "
-                "in another folder.",
-                name=code_told(name),
-                old=old,
-                new=new,
+        if before.sources.get(name) != now.sources.get(name):  # its version may be the same
+            words = (
+                "The source of the {name} has changed since the results were begun (SHA-256 {old} then, {new} now): variants "
+                "of both would be mixed. Put it back as it was, or calculate all variants anew in another folder."
             )
-            yield Problem(words, now.study.file)
+            hashes = {"old": short_hash(before.sources.get(name)), "new": short_hash(now.sources.get(name))}
+            yield Problem(Phrase(words, hashes, name=source_name(name)), file)
+    if before.rows != now.rows:
+        yield Problem(Phrase("The sample had {old} rows, now it has {new}.", old=before.rows, new=now.rows), file)
+    if before.columns != now.columns:
+        yield Problem(_other_columns(before, now), file)
 
 
-def code_told(name: str) -> str:
+def source_name(name: str) -> str:
     """Return what people call a source that has a hash: the program, a plugin, an extension."""
     of, _, own = name.partition(" ")
     if of == "plugin":
@@ -181,48 +171,32 @@ def code_told(name: str) -> str:
     return Phrase("extension {name}", name=own) if of == "extension" else phrase(name)
 
 
-def _short(digest: str) -> str:
-    return digest[:SHORT] or phrase("none")
+def short_hash(digest: str | None) -> str:
+    """Return as much of a hash as people read."""
+    return digest[:SHORT_HASH] if digest else phrase("none")
 
 
 def _other_tables(before: Description, now: Description) -> Iterator[Problem]:
-    old, new = ({table.file: table.sha256 for table in d.tables} for d in (before, now))
+    old, new = ({table.file: table.sha256 for table in each.tables} for each in (before, now))
     for name in (name for name in (old | new) if old.get(name) != new.get(name)):
         words = phrase("has changed since the results were begun") if name in old else phrase("is new in the study")
-        yield Problem(
-            Phrase("This table {words}.", words=words if name in new else phrase("is no longer in the study")), name
-        )
+        words = words if name in new else phrase("is no longer in the study")
+        yield Problem(Phrase("This table {words}.", words=words), name)
 
 
-def _other_rows(before: Description, now: Description) -> Iterator[Problem]:
-    if before.rows != now.rows:
-        yield Problem(
-            Phrase("The sample had {old} rows, now it has {new}.", old=before.rows, new=now.rows), now.study.file
-        )
-    if before.columns != now.columns:
-        old, new = ({column.name: column for column in d.columns} for d in (before, now))
-        names = [name for name in (old | new) if old.get(name) != new.get(name)] or [phrase("their order")]
-        words = Phrase(
-            "The columns of the results differ: {names}{more}.",
-            names=joined(names[:LINES], ", "),
-            more=" …" * (len(names) > LINES),
-        )
-        yield Problem(words, now.study.file)
+def _other_columns(before: Description, now: Description) -> Phrase:
+    old, new = ({column.name: column for column in each.columns} for each in (before, now))
+    names = [name for name in (old | new) if old.get(name) != new.get(name)] or [phrase("their order")]
+    more = " …" * (len(names) > LINES)
+    return Phrase("The columns of the results differ: {names}{more}.", names=joined(names[:LINES], ", "), more=more)
 
 
-def _changed(role: str, before: StudySource, now: StudySource) -> Iterator[Problem]:
-    if before.sha256 != now.sha256:
-        lines = "".join(f"\n    {line}" for line in _lines(before, now))
-        yield Problem(
-            Phrase("The {role} has changed since the results were begun.{lines}", role=role, lines=lines), now.file
-        )
-
-
-def _lines(before: StudySource, now: StudySource) -> list[str]:
-    """The first lines that differ, marked - (before) and + (now), where both contents are known texts."""
+def _changed_lines(before: StudySource, now: StudySource) -> str:
+    """Return the first lines that differ, marked - (before) and + (now), where both contents are known texts."""
     if before.content is None or now.content is None:
-        return []
+        return ""
     old, new = (content.decode("utf-8", "replace").splitlines() for content in (before.content, now.content))
     both = difflib.unified_diff(old, new, n=0, lineterm="")
     found = [line for line in both if line[:1] in "+-" and line[:3] not in ("+++", "---")]
-    return found[: 2 * LINES] + ["…"] * (len(found) > 2 * LINES)
+    shown = found[: 2 * LINES] + ["…"] * (len(found) > 2 * LINES)
+    return "".join(f"\n    {line}" for line in shown)

@@ -1,30 +1,37 @@
-"""Columns of values to tables with schema, units and provenance (pyarrow)."""
+"""The part files of a study: columns of values to Parquet (pyarrow) and back, and whether a file is as the run wrote it."""
 
 from __future__ import annotations
 
 import hashlib
-import json
 import os
 import time
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
 from contextlib import contextmanager, suppress
-from hashlib import sha256
 from pathlib import Path
-from typing import Any, NamedTuple
+from typing import Annotated, Any, NamedTuple
 
 import numpy as np
 import pyarrow as pa
 import pyarrow.parquet as pq
 from numpy.typing import NDArray
+from pydantic import BaseModel, Field, TypeAdapter
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import cache_folder, write
-from diecut_report.study.storage.description import SCHEMA_VERSION, VARIANT, VERDICT, Description, Kind, ResultColumn
-from diecut_report.study.storage.state import STATUSES
+from diecut_report.study.storage.description import (
+    SCHEMA_VERSION,
+    STATUSES,
+    VARIANT,
+    VERDICT,
+    Description,
+    Kind,
+    ResultColumn,
+)
 from diecut_report.text.phrases import Phrase, phrase
 
 Values = NDArray[Any] | Sequence[Any]
+STATUS = VERDICT[0].name
 TYPES: dict[Kind, Any] = {
     "float": pa.float64(),
     "int": pa.int64(),
@@ -32,7 +39,6 @@ TYPES: dict[Kind, Any] = {
     "text": pa.dictionary(pa.int32(), pa.string()),
     "curve": pa.list_(pa.field("element", pa.float64())),  # the name that Parquet gives
 }
-COMPRESSION = "zstd"
 DAMAGED = phrase("This part of the results is damaged or not of this study. Calculate it again with --resume.")
 FOREIGN = phrase("No run of this study has written this part. Move it to another folder, or let --resume remove it.")
 MISSING = phrase("This part of the results is missing. Calculate it again with --resume.")
@@ -40,7 +46,14 @@ MISSING = phrase("This part of the results is missing. Calculate it again with -
 
 def schema_of(description: Description) -> pa.Schema:
     """Return the types of the columns, with unit, symbol and description of each, and where the results come from."""
-    return pa.schema([_field(column) for column in description.all_columns], provenance(description))
+    provenance = {
+        "program": "diecut-report",
+        "version": description.program,
+        "study": description.study.sha256,
+        "base": description.base.sha256,
+        "schema_version": str(SCHEMA_VERSION),
+    }
+    return pa.schema([_field(column) for column in description.all_columns], provenance)
 
 
 def _field(column: ResultColumn) -> pa.Field:
@@ -48,22 +61,10 @@ def _field(column: ResultColumn) -> pa.Field:
     return pa.field(column.name, TYPES[column.kind], column.name != VARIANT.name, about)
 
 
-def provenance(description: Description) -> dict[str, str]:
-    """Return what the schema of each part says of its origin."""
-    return {
-        "program": "diecut-report",
-        "version": description.program,
-        "study": description.study.sha256,
-        "base": description.base.sha256,
-        "schema_version": str(SCHEMA_VERSION),
-    }
-
-
 def table_of(schema: pa.Schema, columns: Mapping[str, Values], variants: NDArray[np.int64]) -> pa.Table:
     """Return the columns as a table; one that is not given holds nulls, for an output that applies to none of the variants."""
-    names = [field.name for field in schema]
-    strange = [name for name in columns if name not in names]
-    if strange or VERDICT[0].name not in columns:
+    strange = [name for name in columns if name not in schema.names]
+    if strange or STATUS not in columns:
         raise ValueError(f"a part needs its status and no columns without description: {', '.join(strange)}")
     arrays = [array_of(field, columns.get(field.name), len(variants)) for field in schema if field.name != VARIANT.name]
     return pa.Table.from_arrays([pa.array(variants), *arrays], schema=schema)
@@ -96,8 +97,12 @@ def array_of(field: pa.Field, values: Values | None, count: int) -> pa.Array:
 def _array(kind: Any, values: Values) -> pa.Array:
     if pa.types.is_dictionary(kind):
         return pa.array(list(values), pa.string()).dictionary_encode()
-    if pa.types.is_list(kind):
-        return _lists(kind, values)
+    if pa.types.is_list(kind):  # curves, one after the other in one array; None where there is none
+        missing = np.array([one is None for one in values], bool)
+        given = [np.asarray(() if one is None else one, float) for one in values]
+        ends = np.append(0, np.cumsum([len(one) for one in given])).astype(np.int32)
+        numbers = _array(kind.value_type, np.concatenate([*given, np.empty(0)]))
+        return pa.ListArray.from_arrays(ends, numbers, kind, mask=pa.array(missing))
     if pa.types.is_floating(kind) and not isinstance(values, np.ndarray):
         values = np.array(values, float)  # None is not a number
     if isinstance(values, np.ndarray) and values.dtype.kind == "f":
@@ -106,21 +111,12 @@ def _array(kind: Any, values: Values) -> pa.Array:
     return pa.array(values, kind)
 
 
-def _lists(kind: Any, values: Values) -> pa.Array:
-    """Curves, one after the other in one array; None where there is none."""
-    missing = np.array([one is None for one in values], bool)
-    given = [np.asarray(one, float) for one in values if one is not None]
-    ends = np.cumsum([0 if one is None else len(one) for one in values])
-    numbers = _array(kind.value_type, np.concatenate([*given, np.empty(0)]))
-    return pa.ListArray.from_arrays(np.append(0, ends).astype(np.int32), numbers, kind, mask=pa.array(missing))
-
-
 def part_content(table: pa.Table) -> memoryview:
     """Return the table as the content of a Parquet file, with a checksum for each page."""
     texts = [field.name for field in table.schema if pa.types.is_dictionary(field.type)]
     sink = pa.BufferOutputStream()
     # numbers that seldom repeat only grow by a dictionary
-    pq.write_table(table, sink, compression=COMPRESSION, use_dictionary=texts, row_group_size=max(len(table), 1),
+    pq.write_table(table, sink, compression="zstd", use_dictionary=texts, row_group_size=max(len(table), 1),
                    write_page_checksum=True)  # fmt: skip
     return memoryview(sink.getvalue())
 
@@ -130,12 +126,10 @@ def readable(path: Path) -> Iterator[None]:
     """Turn what goes wrong in reading a part into a UserError that says what to do."""
     try:
         yield
-    except pa.ArrowException as error:
-        raise UserError(Problem(DAMAGED, str(path))) from error
-    except OSError as error:
-        words = (
-            Phrase("This part cannot be read: {strerror}.", strerror=error.strerror) if error.errno else DAMAGED
-        )  # Parquet's own has no number
+    except (pa.ArrowException, OSError) as error:
+        words = DAMAGED
+        if isinstance(error, OSError) and error.errno:  # Parquet's own has no number
+            words = Phrase("This part cannot be read: {strerror}.", strerror=error.strerror)
         raise UserError(Problem(words, str(path))) from error
 
 
@@ -157,135 +151,103 @@ def columns_of_part(path: Path, schema: pa.Schema, names: Sequence[str]) -> pa.T
 # The memory is the user's own, outside the folder of results: asking writes nothing there, and a copy of a folder is verified anew.
 
 
-LARGE = 4_000_000  # bytes of parts up to which they are verified at each command: it takes some hundredths of a second
+REMEMBERED_SIZE = (
+    4_000_000  # bytes of parts up to which they are verified at each command: it takes some hundredths of a second
+)
 SETTLED = 2_000_000_000  # ns after which a change of a file shows in its times
-FOLDERS = 100  # studies that are remembered
-
-Mark = list[int]
+MAX_FOLDERS = 100  # studies that are remembered
 MARK = ("st_size", "st_mtime_ns", "st_ctime_ns", "st_ino")
 
 
-def mark(path: Path) -> Mark:
-    """Return what changes with a file's content: its size, its times, and its place on the disk."""
-    found = path.stat()
-    return [getattr(found, name) for name in MARK]
+class VerifiedPart(BaseModel):
+    """What is known of a part: the hash of its bytes, what changes with its content, and its variants by status."""
+
+    sha256: str
+    mark: Annotated[list[int], Field(min_length=len(MARK), max_length=len(MARK))]
+    counts: dict[str, int]
 
 
-class Verified:
-    """What is known of the parts of one folder: for each the hash of its bytes, its mark, and its counts by status."""
-
-    def __init__(self, directory: Path) -> None:
-        self._file = _memory(directory)
-        self._known: dict[str, dict[str, Any]] = _read(self._file)
-        self._is_new = False
-
-    def counts(self, path: Path, digest: str, seen: Mark) -> dict[str, int] | None:
-        """Return the counts of a part that was verified to have this hash and has not changed since, None for another."""
-        known = self._known.get(path.name)
-        return dict(known["counts"]) if known and (known["sha256"], known["mark"]) == (digest, seen) else None
-
-    def keep(self, path: Path, digest: str, seen: Mark, counts: Mapping[str, int]) -> None:
-        """Remember a part as it was when ``seen``; one that has just been written may change again within its times."""
-        if time.time_ns() - max(seen[1], seen[2]) > SETTLED:
-            self._known[path.name] = {"sha256": digest, "mark": seen, "counts": dict(counts)}
-            self._is_new = True
-
-    def write(self) -> None:
-        """Keep what is known of a large study for the next command; where that is not possible it is verified again."""
-        if self._file is None or not self._is_new or sum(known["mark"][0] for known in self._known.values()) < LARGE:
-            return
-        with suppress(OSError, UserError):  # costs the next command some time, and nothing else
-            self._file.parent.mkdir(parents=True, exist_ok=True)
-            write(self._file, json.dumps(self._known).encode())
-            for old in sorted(self._file.parent.glob("*.json"), key=lambda path: -path.stat().st_mtime)[FOLDERS:]:
-                old.unlink(missing_ok=True)
+MEMORY = TypeAdapter(dict[str, VerifiedPart])
 
 
-def _memory(directory: Path) -> Path | None:
+def memory_file(directory: Path) -> Path | None:
     """Return the file of the user's cache for this folder, nothing where the user has no home."""
     folder = cache_folder("verified")
-    return folder / f"{sha256(os.fsencode(directory.resolve())).hexdigest()[:32]}.json" if folder else None
+    name = hashlib.sha256(os.fsencode(directory.resolve())).hexdigest()[:32]
+    return folder / f"{name}.json" if folder else None
 
 
-def _read(file: Path | None) -> dict[str, dict[str, Any]]:
-    """Return what is remembered; a memory that cannot be read, or is none, remembers nothing."""
+def remembered(file: Path | None) -> dict[str, VerifiedPart]:
+    """Return what is known of the parts of a folder; a memory that cannot be read, or is none, remembers nothing."""
     try:
-        found = json.loads(file.read_text("utf-8")) if file else {}
-        return {name: known for name, known in found.items() if _is_known(known)}
-    except (OSError, ValueError, AttributeError, RecursionError):
+        return MEMORY.validate_json(file.read_bytes(), strict=True) if file else {}
+    except (OSError, ValueError):
         return {}
 
 
-def _is_known(known: Any) -> bool:
-    if not isinstance(known, dict) or known.keys() != {"sha256", "mark", "counts"}:
-        return False
-    if not isinstance(known["mark"], list) or not isinstance(known["counts"], dict):
-        return False
-    return len(known["mark"]) == len(MARK) and all(
-        isinstance(n, int) for n in (*known["mark"], *known["counts"].values())
-    )
+def remember(file: Path | None, known: dict[str, VerifiedPart]) -> None:
+    """Keep what is known of a large study for the next command; where that is not possible it is verified again."""
+    if file is None or sum(part.mark[0] for part in known.values()) < REMEMBERED_SIZE:
+        return
+    with suppress(OSError, UserError):  # costs the next command some time, and nothing else
+        file.parent.mkdir(parents=True, exist_ok=True)
+        write(file, MEMORY.dump_json(known))
+        for old in sorted(file.parent.glob("*.json"), key=lambda path: -path.stat().st_mtime)[MAX_FOLDERS:]:
+            old.unlink(missing_ok=True)
 
 
 # Whether the part files are those that the run wrote: by the hash of their bytes, and by the variants that they hold.
 
 
-STATUS = VERDICT[0].name
-Entry = Mapping[str, Any]  # of study.json: the hash of a part and how many variants it holds
-
-
-class Judged(NamedTuple):
-    """What is wrong with a part, in words (nothing where it is as it was written), and its variants by status."""
+class CheckedPart(NamedTuple):
+    """Hold what is wrong with a part (nothing where it is as it was written), and its variants by status."""
 
     fault: str
     counts: Mapping[str, int]
 
 
 class PartChecks:
-    """The checks of one folder's parts; what is as it was written is remembered (`Verified`)."""
+    """Check the parts of one folder; what is as it was written is remembered."""
 
     def __init__(self, directory: Path, description: Description) -> None:
         self._description, self._schema = description, schema_of(description)
-        self._verified = Verified(directory)
+        self._file = memory_file(directory)
+        self._known = remembered(self._file)
 
-    def judged(self, found: Mapping[int, Path], entries: Mapping[str, Entry]) -> dict[int, Judged]:
+    def checked(self, found: Mapping[int, Path], entries: Mapping[str, Mapping[str, Any]]) -> dict[int, CheckedPart]:
         """Return what each of these part files is, by what study.json says of them (``part_files``)."""
-        parts = {index: self._judged(index, path, entries.get(path.name)) for index, path in found.items()}
-        self._verified.write()
+        before = dict(self._known)
+        parts = {index: self._check(index, path, entries.get(path.name)) for index, path in found.items()}
+        if self._known != before:
+            remember(self._file, self._known)
         return parts
 
-    def rows(self, index: int) -> range:
-        """Return the numbers of the sample's rows that make a part."""
-        chunk = self._description.chunk
-        return range(index * chunk, min((index + 1) * chunk, self._description.rows))
-
-    def _judged(self, index: int, path: Path, entry: Entry | None) -> Judged:
+    def _check(self, index: int, path: Path, entry: Mapping[str, Any] | None) -> CheckedPart:
         if index >= self._description.parts or entry is None:
-            return Judged(FOREIGN, {})
+            return CheckedPart(FOREIGN, {})
         with readable(path):
-            seen = mark(path)
-            known = self._verified.counts(path, entry["sha256"], seen)
-            if known is not None:
-                return Judged("", known)
-            judged = self._read(index, path, entry)
-        if not judged.fault:
-            self._verified.keep(path, entry["sha256"], seen, judged.counts)
-        return judged
+            state = path.stat()
+            mark = [getattr(state, name) for name in MARK]
+            known = self._known.get(path.name)
+            if known and (known.sha256, known.mark) == (entry["sha256"], mark):
+                return CheckedPart("", known.counts)
+            part = self._read(index, path, entry)
+        # one that has just been written may change again within its times
+        if not part.fault and time.time_ns() - max(mark[1], mark[2]) > SETTLED:
+            self._known[path.name] = VerifiedPart(sha256=entry["sha256"], mark=mark, counts=dict(part.counts))
+        return part
 
-    def _read(self, index: int, path: Path, entry: Entry) -> Judged:
+    def _read(self, index: int, path: Path, entry: Mapping[str, Any]) -> CheckedPart:
         with path.open("rb") as file:
             is_whole = hashlib.file_digest(file, "sha256").hexdigest() == entry["sha256"]
         read = columns_of_part(path, self._schema, [VARIANT.name, STATUS]) if is_whole else None
         if read is None:
-            return Judged(DAMAGED, {})
-        numbers, rows = read[VARIANT.name].to_numpy(), self.rows(index)
+            return CheckedPart(DAMAGED, {})
+        numbers, rows = read[VARIANT.name].to_numpy(), self._description.part_rows(index)
         counts = Counter(map(str, read[STATUS].cast(pa.string()).to_pylist()))
         if len(numbers) != entry["variants"] or not set(counts) <= set(STATUSES):
-            return Judged(DAMAGED, {})
+            return CheckedPart(DAMAGED, {})
         inside = (numbers >= rows.start).all() and (numbers < rows.stop).all() and (np.diff(numbers) > 0).all()
-        other = Phrase(
-            "{damaged} It may hold the variants {start} to {stop}, each once, in their order.",
-            damaged=DAMAGED,
-            start=rows.start,
-            stop=rows.stop - 1,
-        )
-        return Judged("" if inside else other, counts)
+        words = "{damaged} It may hold the variants {start} to {stop}, each once, in their order."
+        other = Phrase(words, damaged=DAMAGED, start=rows.start, stop=rows.stop - 1)
+        return CheckedPart("" if inside else other, counts)

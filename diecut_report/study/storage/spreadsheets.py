@@ -21,60 +21,45 @@ NAME, PROGRAM = "variants", "diecut-report"
 SHEET_ROWS, SHEET_COLUMNS = 1_048_576, 16_384  # what a sheet of a workbook holds
 
 
-def export(store: Store, formats: Iterable[str]) -> tuple[str, ...]:
-    """Write the variants stored so far as DIR/variants.csv or .xlsx, a row each; says what is to be known of the files."""
+def export(store: Store, formats: Iterable[str]) -> list[str]:
+    """Write the variants stored so far as DIR/variants.csv or .xlsx, a row each; returns what is to be known of the files."""
     wanted = list(dict.fromkeys(formats))
     if strange := [name for name in wanted if name not in WRITERS]:
-        words = Phrase(
-            "{strange} is not a format of a table{nearest}. Allowed: {writers}.",
-            strange=repr(strange[0]),
-            nearest=nearest(strange[0], WRITERS),
-            writers=", ".join(WRITERS),
-        )
-        raise UserError(Problem(words))
+        words = "{strange} is not a format of a table{nearest}. Allowed: {writers}."
+        near = nearest(strange[0], WRITERS)
+        raise UserError(Problem(Phrase(words, strange=repr(strange[0]), nearest=near, writers=", ".join(WRITERS))))
     for name in wanted:
         path = store.directory / f"{NAME}.{name}"
         with replaced(path) as temporary:
             WRITERS[name](store, temporary, path)
-    return tuple(_told(store, wanted))
-
-
-def _told(store: Store, formats: list[str]) -> Iterator[str]:
-    """What of the results stands elsewhere than one would look for it."""
-    curves = [column.name for column in store.description.columns if column.kind == "curve"]
-    if curves and formats:
-        yield Phrase(
-            "{files}: without the curves {curves}, which only the Parquet files in {folder} hold.",
-            files=named([f"{NAME}.{name}" for name in formats], " and "),
-            curves=", ".join(curves),
-            folder=store.directory / PARTS,
-        )
-    if "xlsx" in formats and _sheets(store) > 1:
-        yield Phrase(
-            "{file}: {count} variants in {sheets} sheets, as a sheet holds {rows} rows.",
-            file=f"{NAME}.xlsx",
-            count=store.count(),
-            sheets=_sheets(store),
-            rows=SHEET_ROWS,
-        )
+    notes: list[str] = []
+    curves = ", ".join(column.name for column in store.description.columns if column.kind == "curve")
+    if curves and wanted:
+        words = "{files}: without the curves {curves}, which only the Parquet files in {folder} hold."
+        files = named([f"{NAME}.{name}" for name in wanted], " and ")
+        notes.append(Phrase(words, files=files, curves=curves, folder=store.directory / PARTS))
+    if "xlsx" in wanted and (sheets := _sheets(store)) > 1:
+        words = "{file}: {count} variants in {sheets} sheets, as a sheet holds {rows} rows."
+        notes.append(Phrase(words, file=f"{NAME}.xlsx", count=store.count(), sheets=sheets, rows=SHEET_ROWS))
+    return notes
 
 
 def _sheets(store: Store) -> int:
     return max(1, math.ceil(store.count() / (SHEET_ROWS - 1)))
 
 
-def heads(store: Store) -> dict[str, str]:
+def _heads(store: Store) -> dict[str, str]:
     """Return the columns but for curves, and their names with units, `drive.crank_torque_peak [N*m]`, as tables of a study have them."""
     units = {column.name: column.unit for column in store.description.all_columns if column.kind != "curve"}
     return {name: name if unit == "1" else f"{name} [{unit}]" for name, unit in units.items()}
 
 
-def _write_csv(store: Store, temporary: Path, path: Path) -> None:
-    """UTF-8; numbers in their shortest form that reads back the same, nothing for null."""
+def _write_csv(store: Store, temporary: Path, _path: Path) -> None:
+    """Write UTF-8; numbers in their shortest form that reads back the same, nothing for null."""
     import pyarrow as pa
     from pyarrow.csv import CSVWriter
 
-    names = heads(store)
+    names = _heads(store)
     schema = pa.schema([store.schema.field(name).with_name(head) for name, head in names.items()])
     with temporary.open("wb") as file, CSVWriter(file, schema) as writer:
         for batch in store.batches(list(names)):
@@ -82,51 +67,39 @@ def _write_csv(store: Store, temporary: Path, path: Path) -> None:
 
 
 def _write_xlsx(store: Store, temporary: Path, path: Path) -> None:
-    """A workbook; as many sheets as the rows need, each with its heads, which stay in view."""
-    from openpyxl import Workbook
-    from openpyxl.writer.excel import ExcelWriter
-
-    from diecut_report.report.office.workbook import UndatedArchive, closed
-
-    names = heads(store)
+    """Write as many sheets as the rows need, each with its heads, which stay in view."""
+    names = _heads(store)
     if len(names) > SHEET_COLUMNS:
-        words = Phrase(
-            "The results have {count} columns; a sheet holds {sheet_columns}. Use CSV.",
-            count=len(names),
-            sheet_columns=SHEET_COLUMNS,
-        )
-        raise UserError(Problem(words, str(path)))
-    book = Workbook(write_only=True)
-    book.properties.creator = PROGRAM
-    rows = _rows(store, list(names))
-    with room(store.directory), closed(book):  # it keeps each sheet in a temporary file
-        for sheet in range(_sheets(store)):
-            _fill(book.create_sheet(f"{NAME} {sheet + 1}"), list(names.values()), islice(rows, SHEET_ROWS - 1))
-        ExcelWriter(book, UndatedArchive(temporary)).save()
+        words = "The results have {count} columns; a sheet holds {sheet_columns}. Use CSV."
+        raise UserError(Problem(Phrase(words, count=len(names), sheet_columns=SHEET_COLUMNS), str(path)))
+    rows, heads = _rows(store, list(names)), list(names.values())
+    sheets = ((f"{NAME} {n + 1}", chain([heads], islice(rows, SHEET_ROWS - 1))) for n in range(_sheets(store)))
+    with room(store.directory):  # openpyxl keeps each sheet in a temporary file
+        _save(sheets, temporary)
 
 
 def workbook(tables: Mapping[str, list[list[Any]]]) -> bytes:
     """Return tables as a workbook, each in a sheet of its name, with its first row and column in view."""
-    from openpyxl import Workbook
-    from openpyxl.writer.excel import ExcelWriter
-
-    from diecut_report.report.office.workbook import UndatedArchive, closed
-
-    book, content = Workbook(write_only=True), BytesIO()
-    book.properties.creator = PROGRAM
-    with closed(book):
-        for name, (heads, *rows) in tables.items():
-            _fill(book.create_sheet(name), heads, rows)
-        ExcelWriter(book, UndatedArchive(content)).save()
+    content = BytesIO()
+    _save(tables.items(), content)
     return content.getvalue()
 
 
-def _fill(sheet: WriteOnlyWorksheet, names: list[str], rows: Iterable[list[Any]]) -> None:
-    from diecut_report.report.office.workbook import text_cell
+def _save(sheets: Iterable[tuple[str, Iterable[list[Any]]]], target: Path | BytesIO) -> None:
+    from openpyxl import Workbook
+    from openpyxl.writer.excel import ExcelWriter
 
-    sheet.freeze_panes = "B2"
-    for row in chain([names], rows):
-        sheet.append([text_cell(sheet, value) if isinstance(value, str) else value for value in row])
+    from diecut_report.report.office.workbook import UndatedArchive, closed, text_cell
+
+    book = Workbook(write_only=True)
+    book.properties.creator = PROGRAM
+    with closed(book):
+        for name, rows in sheets:
+            sheet: WriteOnlyWorksheet = book.create_sheet(name)
+            sheet.freeze_panes = "B2"
+            for row in rows:
+                sheet.append([text_cell(sheet, value) if isinstance(value, str) else value for value in row])
+        ExcelWriter(book, UndatedArchive(target)).save()
 
 
 def _rows(store: Store, names: list[str]) -> Iterator[list[Any]]:

@@ -1,4 +1,4 @@
-"""study.json, the copies of the study's files, and the lock of the folder that a run writes into."""
+"""study.json: its form, its seal, and what is wrong with one that a hand has changed; the copies of the study's files beside it."""
 
 from __future__ import annotations
 
@@ -6,46 +6,43 @@ import json
 import os
 import reprlib
 import shlex
-import socket
 from collections.abc import Iterator, Mapping
-from contextlib import contextmanager
 from dataclasses import replace
 from hashlib import sha256
 from pathlib import Path, PurePath
 from typing import Annotated, Any, Literal
 
-from filelock import FileLock, Timeout
 from pydantic import BaseModel, ConfigDict, Field, ValidationError
 
 from diecut_report.config.yaml import printable
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.files import content, in_words, refuse_unreadable_name, write
 from diecut_report.study.storage.description import (
+    STATUSES,
     VARIANT,
     VERDICT,
     Data,
     Description,
     Kind,
     StudySource,
-    as_data,
-    changes,
     from_data,
-    libraries,
 )
 from diecut_report.text.phrases import Phrase, joined, phrase
 
-# The form of study.json: what each of its keys may hold, and in words what is wrong with one that a hand has changed.
-
-
-MOST = 5  # faults that are told
+STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
+SEAL = "seal"
+MAX_STATE = 100_000_000  # bytes of study.json; ten thousand columns take some two million
+MAX_REPORTED = 5  # faults that are reported one by one
 EARLIER = ("source_sha256", "part_files", "seal")  # what an earlier version of the program did not write
-MEND = phrase(
+SEARCHED = "violation"  # the column that only the machines of a search have
+REMEDY = phrase(
     "Only batch writes this file: put it back as it was, or calculate the study anew in another "
     "folder with `diecut-report batch STUDY -o DIR`."
 )
+MISSING_KEY = phrase("This key is missing.")
 Digest = Annotated[str, Field(pattern=r"^[0-9a-f]{64}$")]
 Count = Annotated[int, Field(ge=0, le=10**15)]
-STATUSES = ("pass", "warn", "fail", "error")
+Fault = tuple[str, str]  # key, and what is wrong with it
 
 
 class _Form(BaseModel):
@@ -119,9 +116,6 @@ class StateForm(_Form):
     counts: NotedCounts | None = None
 
 
-SEARCHED = "violation"  # the column that only the machines of a search have
-
-
 def continuing(folder: object, columns: object, study: str = "") -> str:
     """Return the command that goes on with the run of a folder whose results have these columns by name, of a study or of a search."""
     is_search = isinstance(columns, Mapping) and SEARCHED in columns
@@ -140,25 +134,29 @@ def check_form(data: Any, file: Path, *, is_final: bool = True) -> None:
         )
         raise UserError(Problem(words, str(file)))
     try:
-        found = StateForm.model_validate(data)
+        form = StateForm.model_validate(data)
     except ValidationError as error:
-        raise _told([_of_pydantic(one) for one in error.errors()], file) from None
-    if disagreeing := list(_disagreeing(found)):
-        raise _told(disagreeing, file)
-    if is_final and found.state == "complete" and (faults := list(_incomplete(found))):
-        raise _told(
-            faults,
-            file,
-            Phrase("Let the program fix it: {continued}", continued=continuing(file.parent, found.columns)),
+        raise _error([_of_pydantic(fault) for fault in error.errors()], file) from None
+    if faults := list(_disagreeing(form)):
+        raise _error(faults, file)
+    if is_final and form.state == "complete" and (faults := list(_incomplete(form))):
+        command = continuing(file.parent, form.columns)
+        raise _error(faults, file, Phrase("Let the program fix it: {continued}", continued=command))
+
+
+def _error(faults: list[Fault], file: Path, remedy: Phrase = REMEDY) -> UserError:
+    shown = [
+        # a key may be written by hand too
+        Problem(
+            joined((words, remedy), " "),
+            str(file),
+            path=key if key.isprintable() and len(key) < 200 else reprlib.repr(key),
         )
-
-
-def _told(faults: list[tuple[str, str]], file: Path, mend: str = MEND) -> UserError:
-    shown = [Problem(joined((words, mend), " "), str(file), path=_short(key)) for key, words in faults[:MOST]]
-    more = len(faults) - len(shown)
-    return UserError(
-        [*shown, *([Problem(Phrase("{more} more keys are wrong.", more=more), str(file))] if more else [])]
-    )
+        for key, words in faults[:MAX_REPORTED]
+    ]
+    if more := len(faults) - len(shown):
+        shown.append(Problem(Phrase("{more} more keys are wrong.", more=more), str(file)))
+    return UserError(shown)
 
 
 # --- each key by itself ----------------------------------------------------------------------------------------------
@@ -180,57 +178,45 @@ NEEDED = {
 }
 
 
-def _of_pydantic(found: Mapping[str, Any]) -> tuple[str, str]:
-    key = ".".join(str(part) for part in found["loc"] if part != "[key]")
-    kind, given = found["type"], _given(found["input"])
-    if kind == "missing":
-        return key, phrase("This key is missing.")
-    if kind == "extra_forbidden":
-        known = [field.alias or name for name, field in StateForm.model_fields.items()]
-        return key, Phrase("This key is unknown{nearest}.", nearest=nearest(key, known))
-    needed = Phrase(NEEDED.get(kind, found["msg"]), {"ge": "", "le": "", "expected": "", **found.get("ctx", {})})
-    return key, Phrase("{given} is given; {needed}.", given=given, needed=needed)
+def _of_pydantic(fault: Mapping[str, Any]) -> Fault:
+    key = ".".join(str(part) for part in fault["loc"] if part != "[key]")
+    if fault["type"] == "missing":
+        return key, MISSING_KEY
+    if fault["type"] == "extra_forbidden":
+        return key, _unknown(key, [field.alias or name for name, field in StateForm.model_fields.items()])
+    limits = {"ge": "", "le": "", "expected": "", **fault.get("ctx", {})}
+    needed = Phrase(NEEDED.get(fault["type"], fault["msg"]), limits)
+    return key, Phrase("{given} is given; {needed}.", given=_given(fault["input"]), needed=needed)
+
+
+def _unknown(key: str, known: Any) -> Phrase:
+    return Phrase("This key is unknown{nearest}.", nearest=nearest(key, known))
 
 
 def _given(value: Any) -> str:
-    """A value of the file, shortened."""
-    if value is None or isinstance(value, bool):
-        return "null" if value is None else str(value).lower()
-    if isinstance(value, dict | list):
-        return phrase("a block of keys") if isinstance(value, dict) else phrase("a list")
+    match value:
+        case None | bool():
+            return json.dumps(value)
+        case dict():
+            return phrase("a block of keys")
+        case list():
+            return phrase("a list")
     return reprlib.repr(value)
-
-
-def _short(key: str) -> str:
-    """A key, which a hand may have written too."""
-    return key if key.isprintable() and len(key) < 200 else reprlib.repr(key)
 
 
 # --- keys that must agree --------------------------------------------------------------------------------------------
 
 
-def _disagreeing(form: StateForm) -> Iterator[tuple[str, str]]:
-    """Return the keys that contradict others."""
-    names = list(form.columns)
-    if names[:1] != [VARIANT.name] or names[-len(VERDICT) :] != [column.name for column in VERDICT]:
-        yield (
-            "columns",
-            Phrase(
-                "They begin with variant and end with {verdict}.",
-                verdict=", ".join(column.name for column in VERDICT),
-            ),
-        )
+def _disagreeing(form: StateForm) -> Iterator[Fault]:
+    names, verdict = list(form.columns), [column.name for column in VERDICT]
+    if names[:1] != [VARIANT.name] or names[-len(verdict) :] != verdict:
+        words = "They begin with variant and end with {verdict}."
+        yield "columns", Phrase(words, verdict=", ".join(verdict))
     sources = {"study", "base", *(f"table {number}" for number in range(1, len(form.tables) + 1))}
     yield from _other_keys("sha256", form.sha256, sources)
-    for name in (name for name in form.varied or () if name not in form.columns):
-        yield (
-            "varied",
-            Phrase(
-                "{given} is given; the name of a column is needed{nearest}.",
-                given=_given(name),
-                nearest=nearest(name, names),
-            ),
-        )
+    for name in (name for name in form.varied or () if name not in names):
+        words = "{given} is given; the name of a column is needed{nearest}."
+        yield "varied", Phrase(words, given=_given(name), nearest=nearest(name, names))
 
 
 def part_name(index: int) -> str:
@@ -238,48 +224,33 @@ def part_name(index: int) -> str:
     return f"part-{index:05d}.parquet"
 
 
-def _incomplete(form: StateForm) -> Iterator[tuple[str, str]]:
-    """Return what of a study that is called complete does not add up."""
+def _incomplete(form: StateForm) -> Iterator[Fault]:
     whole = -(-form.rows // form.chunk)
     first = range(min(whole, len(form.part_files) + 1))  # one that is missing is enough
     yield from _other_keys("part_files", form.part_files, {part_name(index) for index in first})
     if form.parts != whole:
-        yield (
-            "parts",
-            Phrase(
-                "{given} is given; {rows} rows in parts of {chunk} make {whole}.",
-                given=_given(form.parts),
-                rows=form.rows,
-                chunk=form.chunk,
-                whole=whole,
-            ),
-        )
+        words = "{given} is given; {rows} rows in parts of {chunk} make {whole}."
+        yield "parts", Phrase(words, given=_given(form.parts), rows=form.rows, chunk=form.chunk, whole=whole)
     if form.counts is None:
-        yield "counts", phrase("This key is missing.")
+        yield "counts", MISSING_KEY
         return
-    stored = sum(part.variants for part in form.part_files.values())
-    statuses = form.counts.passing + form.counts.warn + form.counts.fail + form.counts.error
+    counts, stored = form.counts, sum(part.variants for part in form.part_files.values())
     for name, given, true in (
-        ("sample", form.counts.sample, form.rows),
-        ("variants", form.counts.variants, stored),
-        ("dropped", form.counts.dropped, form.rows - stored),
-        (", ".join(STATUSES), statuses, stored),
+        ("sample", counts.sample, form.rows),
+        ("variants", counts.variants, stored),
+        ("dropped", counts.dropped, form.rows - stored),
+        (", ".join(STATUSES), counts.passing + counts.warn + counts.fail + counts.error, stored),
     ):
         if given != true:
             yield f"counts.{name}", Phrase("{given} is given; the other keys make {true}.", given=given, true=true)
 
 
-def _other_keys(name: str, given: Mapping[str, Any], needed: set[str]) -> Iterator[tuple[str, str]]:
-    for key in sorted(needed - given.keys()):
-        yield f"{name}.{key}", phrase("This key is missing.")
-    for key in sorted(given.keys() - needed):
-        yield f"{name}.{key}", Phrase("This key is unknown{nearest}.", nearest=nearest(key, needed))
+def _other_keys(name: str, given: Mapping[str, Any], needed: set[str]) -> Iterator[Fault]:
+    yield from ((f"{name}.{key}", MISSING_KEY) for key in sorted(needed - given.keys()))
+    yield from ((f"{name}.{key}", _unknown(key, needed)) for key in sorted(given.keys() - needed))
 
 
-STATE, STUDY, BASE, TABLES = "study.json", "study.yaml", "base.yaml", "tables"
-MAX_STATE = 100_000_000  # bytes of study.json; ten thousand columns take some two million
-LOCK, HOLDER = ".lock", ".lock.json"
-SEAL = "seal"
+# --- read and written ------------------------------------------------------------------------------------------------
 
 
 def read_state(folder: Path, *, sealed: bool = True) -> Data:
@@ -296,18 +267,15 @@ def read_state(folder: Path, *, sealed: bool = True) -> Data:
             "or begin one with -o."
         )
         raise UserError(Problem(words, str(folder)))
+    text = content(path, MAX_STATE, phrase("the file that batch wrote"))
     try:
-        found = json.loads(
-            content(path, MAX_STATE, phrase("the file that batch wrote")).decode("utf-8"), parse_constant=_no_number
-        )
+        found = json.loads(text.decode("utf-8"), parse_constant=_refuse_constant)
     except RecursionError:
-        raise UserError(
-            Problem(Phrase("The state of the study is nested too deep. {mend}", mend=MEND), str(path))
-        ) from None
+        words = Phrase("The state of the study is nested too deep. {mend}", mend=REMEDY)
+        raise UserError(Problem(words, str(path))) from None
     except ValueError as error:
-        raise UserError(
-            Problem(Phrase("The state of the study cannot be read: {error}. {mend}", error=error, mend=MEND), str(path))
-        ) from error
+        words = Phrase("The state of the study cannot be read: {error}. {mend}", error=error, mend=REMEDY)
+        raise UserError(Problem(words, str(path))) from error
     check_form(found, path, is_final=sealed)
     if sealed and not is_sealed(found):
         words = Phrase(
@@ -319,34 +287,33 @@ def read_state(folder: Path, *, sealed: bool = True) -> Data:
     return dict(found)
 
 
-def _no_number(name: str) -> None:
+def _refuse_constant(name: str) -> None:
     raise ValueError(Phrase("{name} is not a number of JSON", name=name))
 
 
 def write_state(folder: Path, state: Mapping[str, Any]) -> None:
     """Put study.json into the folder, whole and sealed; other programs may read it at any time."""
-    content = {key: value for key, value in state.items() if key != SEAL}
-    text = json.dumps(content | {SEAL: _seal(content)}, indent=1, ensure_ascii=False, allow_nan=False)
+    sealed = {**state, SEAL: _seal(state)}
+    text = json.dumps(sealed, indent=1, ensure_ascii=False, allow_nan=False)
     write(folder / STATE, f"{text}\n".encode())
 
 
 def is_sealed(state: Data) -> bool:
     """Return whether nothing was changed since the program wrote it."""
-    return bool(state[SEAL] == _seal({key: value for key, value in state.items() if key != SEAL}))
+    return bool(state[SEAL] == _seal(state))
 
 
-def _seal(content: Data) -> str:
-    """Return the hash of all other keys, in their order."""
-    return sha256(json.dumps(content, allow_nan=False).encode()).hexdigest()
+def _seal(state: Mapping[str, Any]) -> str:
+    others = {key: value for key, value in state.items() if key != SEAL}
+    return sha256(json.dumps(others, allow_nan=False).encode()).hexdigest()
+
+
+# --- the copies of the study's files ---------------------------------------------------------------------------------
 
 
 def read_description(folder: Path, *, sealed: bool = True) -> Description:
-    """Return the study that the folder holds results of, with the copies of its files where they are as they were."""
-    return with_copies(folder, from_data(read_state(folder, sealed=sealed)))
-
-
-def with_copies(folder: Path, found: Description) -> Description:
-    """Return the description with the contents of the study's files, where their copies are as they were."""
+    """Return the study that the folder holds results of, with the contents of its files where their copies are as they were."""
+    found = from_data(read_state(folder, sealed=sealed))
     study, base, *tables = (_with_copy(source, path) for path, source in copies(folder, found).items())
     return replace(found, study=study, base=base, tables=tuple(tables))
 
@@ -358,11 +325,22 @@ def copies(folder: Path, description: Description) -> dict[Path, StudySource]:
     return {folder / name: source for name, source in files.items()}
 
 
+def _with_copy(source: StudySource, path: Path) -> StudySource:
+    try:
+        content = path.read_bytes() if path.is_file() else b""
+    except OSError as error:
+        words = "This copy of {file} cannot be read: {strerror}. Check its permissions."
+        message = Phrase(words, file=source.file, strerror=error.strerror or error)
+        raise UserError(Problem(message, str(path))) from error
+    return replace(source, content=content) if sha256(content).hexdigest() == source.sha256 else source
+
+
 def refuse_sources(folder: Path, target: Path) -> None:
     """Refuse to write over what the study was made of: a file with the content of its copy of study, base or table."""
     if not target.is_file():
         return
-    for source in copies(folder, read_description(folder, sealed=False)).values():
+    description = read_description(folder, sealed=False)
+    for source in (description.study, description.base, *description.tables):
         if source.content is not None and source.content == target.read_bytes():
             words = (
                 "This is {file}, of which the study was made; it would be written over. Choose another place with -o."
@@ -371,32 +349,16 @@ def refuse_sources(folder: Path, target: Path) -> None:
 
 
 def kept(folder: Path) -> dict[str, Path]:
-    """The copies of the base and the tables by their names in the study; UserError where a copy is not as it was."""
+    """Return the copies of the base and the tables by their names in the study; UserError where a copy is not as it was."""
     description = read_description(folder, sealed=False)  # each copy is proved by its own hash
     found = copies(folder, description)
     for path, source in found.items():
         if source.content is None:
             columns = dict.fromkeys(column.name for column in description.columns)
-            words = Phrase(
-                "This copy of {file} is missing or has changed. Continue with the study itself: {continued}",
-                file=source.file,
-                continued=continuing(folder, columns, "STUDY "),
-            )
-            raise UserError(Problem(words, str(path)))
+            words = "This copy of {file} is missing or has changed. Continue with the study itself: {continued}"
+            message = Phrase(words, file=source.file, continued=continuing(folder, columns, "STUDY "))
+            raise UserError(Problem(message, str(path)))
     return {source.file: path for path, source in found.items() if source is not description.study}
-
-
-def _with_copy(source: StudySource, path: Path) -> StudySource:
-    try:
-        content = path.read_bytes() if path.is_file() else b""
-    except OSError as error:
-        words = Phrase(
-            "This copy of {file} cannot be read: {strerror}. Check its permissions.",
-            file=source.file,
-            strerror=error.strerror or error,
-        )
-        raise UserError(Problem(words, str(path))) from error
-    return replace(source, content=content) if sha256(content).hexdigest() == source.sha256 else source
 
 
 def write_copies(folder: Path, description: Description) -> None:
@@ -406,71 +368,3 @@ def write_copies(folder: Path, description: Description) -> None:
             with in_words(path):
                 path.parent.mkdir(exist_ok=True)
             write(path, source.content)
-
-
-def begin(folder: Path, description: Description) -> None:
-    """Make a folder the place of a study's results; it must hold nothing yet."""
-    refuse_used(folder)
-    write_state(folder, as_data(description) | {"part_files": {}, "state": "running"})
-    write_copies(folder, description)
-
-
-def refuse_used(folder: Path) -> None:
-    """Refuse a folder that holds anything."""
-    others = sorted(path.name for path in folder.iterdir() if path.name not in (LOCK, HOLDER))
-    if STATE in others:
-        words = phrase(
-            "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
-        )
-        raise UserError(Problem(words, str(folder)))
-    if others:
-        words = Phrase(
-            "This folder is not empty ({others} is in it). Choose a new one with -o, so that nothing is lost.",
-            others=others[0],
-        )
-        raise UserError(Problem(words, str(folder)))
-
-
-def with_libraries(state: Data) -> Data:
-    """Return the state with the versions of the libraries of this run; where a run continues with others, with both."""
-    before = state.get("libraries", {})
-    now = {name: [*before.get(name, ()), version] for name, version in libraries().items()}
-    return state | {"libraries": {name: list(dict.fromkeys(versions)) for name, versions in now.items()}}
-
-
-def same_study(folder: Path, before: Description, now: Description) -> None:
-    """Refuse to continue the results with another study."""
-    if found := list(changes(before, now)):
-        words = phrase("These results belong to another study; put it back as it was, or choose a new folder with -o.")
-        raise UserError([Problem(words, str(folder)), *found])
-
-
-@contextmanager
-def held(lock: FileLock, folder: Path) -> Iterator[None]:
-    """Hold the folder for this run alone; a run that was killed holds nothing. Told in words: who holds it."""
-    with in_words(folder):
-        try:
-            lock.acquire(timeout=0)
-        except Timeout:
-            raise UserError(
-                Problem(Phrase("Another run uses this folder{holder}.", holder=_holder(folder)), str(folder))
-            ) from None
-    try:
-        write(folder / HOLDER, json.dumps({"process": os.getpid(), "host": socket.gethostname()}).encode())
-        yield
-    finally:
-        (folder / HOLDER).unlink(missing_ok=True)
-        lock.release()
-
-
-def _holder(folder: Path) -> str:
-    """Who holds it, as far as that is known: the run may just be writing or removing its name."""
-    try:
-        found = json.loads((folder / HOLDER).read_text("utf-8"))
-        return Phrase(
-            ": process {process} on {host}. Wait for its end, or choose another folder with -o",
-            process=found["process"],
-            host=found["host"],
-        )
-    except (OSError, ValueError, KeyError, TypeError):
-        return phrase(", and has not given its name. Wait for its end, or choose another folder with -o")

@@ -5,9 +5,12 @@ Each file is whole or absent, whatever ends the run; a run holds the folder alon
 
 from __future__ import annotations
 
+import json
+import os
 import re
+import socket
 from collections import Counter
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterable, Iterator, Mapping, Sequence
 from contextlib import contextmanager
 from dataclasses import replace
 from hashlib import sha256
@@ -16,18 +19,18 @@ from typing import Any
 
 import numpy as np
 import pyarrow as pa
-import pyarrow.compute
 import pyarrow.dataset
 import pyarrow.parquet as pq
-from filelock import FileLock
+from filelock import FileLock, Timeout
 
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import in_words, refuse_special, refuse_unreadable_name, remove_stale, write
 from diecut_report.study.storage import state
-from diecut_report.study.storage.description import VARIANT, Description, as_data
+from diecut_report.study.storage.description import VARIANT, Description, as_data, changes, libraries
 from diecut_report.study.storage.parts import (
     MISSING,
-    Judged,
+    STATUS,
+    CheckedPart,
     PartChecks,
     Values,
     part_content,
@@ -35,16 +38,14 @@ from diecut_report.study.storage.parts import (
     schema_of,
     table_of,
 )
-from diecut_report.study.storage.state import part_name
 from diecut_report.text.phrases import Phrase, phrase
 
+LOCK, HOLDER = ".lock", ".lock.json"
 PARTS = "variants"
 FOLDERS = (PARTS, state.TABLES, "reports")
-OWN_FOLDER = phrase("Results are written into folders of their own; put a folder in its place.")
-NO_PART = phrase("It is not a part of the results. Move it to another folder.")
-NAME = re.compile(r"part-(\d+)\.parquet")
+PART_NAME = re.compile(r"part-(\d+)\.parquet")
 BATCH = 4096  # rows read at a time
-TOLD = 5  # parts that are told to be wrong, each by itself
+MAX_REPORTED = 5  # parts that are reported to be wrong, each by itself
 
 
 class Store:
@@ -53,8 +54,9 @@ class Store:
     def __init__(self, directory: Path, description: Description) -> None:
         self.directory, self.description = directory, description
         self.schema = schema_of(description)
+        self._folder = directory / PARTS
         self._checks = PartChecks(directory, description)
-        self._lock = FileLock(directory / state.LOCK)
+        self._lock = FileLock(directory / LOCK)
 
     @classmethod
     def create(cls, directory: Path, description: Description) -> Store:
@@ -63,10 +65,12 @@ class Store:
         with in_words(directory):
             directory.mkdir(parents=True, exist_ok=True)
             if not (directory / state.STATE).exists():
-                state.refuse_used(directory)
+                refuse_used(directory)
         store = cls(directory, description)
         with store.lock():
-            state.begin(directory, description)
+            refuse_used(directory)
+            state.write_state(directory, as_data(description) | {"part_files": {}, "state": "running"})
+            state.write_copies(directory, description)
         return store
 
     @classmethod
@@ -78,47 +82,94 @@ class Store:
         """
         before = state.read_description(directory, sealed=description is None)
         if description is not None:
-            state.same_study(directory, before, description)
-            now = description
-            study = replace(now.study, file=before.study.file)  # its copy in the folder has another name
-            before = replace(before, study=study, base=now.base, tables=now.tables)  # with their contents
+            if found := list(changes(before, description)):
+                words = "These results belong to another study; put it back as it was, or choose a new folder with -o."
+                raise UserError([Problem(phrase(words), str(directory)), *found])
+            study = replace(description.study, file=before.study.file)  # its copy in the folder has another name
+            before = replace(
+                before, study=study, base=description.base, tables=description.tables
+            )  # with their contents
         return cls(directory, before)
 
     @contextmanager
     def lock(self) -> Iterator[None]:
-        """Keep other runs out of the folder; what a killed run left half-written is removed."""
-        with state.held(self._lock, self.directory):
-            refuse_special((self.directory / name for name in FOLDERS), OWN_FOLDER, folders=True)
+        """Hold the folder for this run alone, as long as it lives; what a killed run left half-written is removed."""
+        with in_words(self.directory):
+            try:
+                self._lock.acquire(timeout=0)
+            except Timeout:
+                words = Phrase("Another run uses this folder{holder}.", holder=self._holder())
+                raise UserError(Problem(words, str(self.directory))) from None
+        holder = self.directory / HOLDER
+        try:
+            write(holder, json.dumps({"process": os.getpid(), "host": socket.gethostname()}).encode())
+            own_folder = phrase("Results are written into folders of their own; put a folder in its place.")
+            refuse_special((self.directory / name for name in FOLDERS), own_folder, folders=True)
             remove_stale(self.directory)
             try:
                 yield
             finally:  # a second Ctrl-C may have come while the first was cleaning up
                 remove_stale(self.directory)
+        finally:
+            holder.unlink(missing_ok=True)
+            self._lock.release()
+
+    def _holder(self) -> str:
+        """Return who holds it, as far as that is known: the run may just be writing or removing its name."""
+        words = ": process {process} on {host}. Wait for its end, or choose another folder with -o"
+        try:
+            found = json.loads((self.directory / HOLDER).read_text("utf-8"))
+            return Phrase(words, process=found["process"], host=found["host"])
+        except (OSError, ValueError, KeyError, TypeError):
+            return phrase(", and has not given its name. Wait for its end, or choose another folder with -o")
+
+    # --- study.json --------------------------------------------------------------------------------------------------
+
+    @property
+    def state(self) -> dict[str, Any]:
+        """Return study.json as it is now."""
+        return state.read_state(self.directory)
+
+    def note(self, facts: Mapping[str, Any]) -> None:
+        """Add facts of the run (seconds, …) to study.json."""
+        state.write_state(self.directory, self.state | dict(facts))
 
     def start(self, facts: Mapping[str, Any]) -> None:
-        """Begin or continue a run: keep what the study is made of, and note facts of it in study.json."""
+        """Begin or continue a run: keep what the study is made of, and note facts of it in study.json.
+
+        Where a run continues with other versions of the libraries, both are noted.
+        """
         state.write_copies(self.directory, self.description)
         before = state.read_state(self.directory, sealed=False)
         if not state.is_sealed(
             before
         ):  # what follows from the study is written anew, the parts have hashes of their own
             before = {key: before[key] for key in ("part_files", "libraries") if key in before}
-        names = {part_name(index) for index in range(self.description.parts)}
-        files = {"part_files": {name: told for name, told in before["part_files"].items() if name in names}}
-        known = state.with_libraries(before | as_data(self.description) | files)
+        names = {state.part_name(index) for index in range(self.description.parts)}
+        files = {name: entry for name, entry in before["part_files"].items() if name in names}
+        noted = before.get("libraries", {})
+        used = {name: list(dict.fromkeys([*noted.get(name, ()), own])) for name, own in libraries().items()}
+        known = before | as_data(self.description) | {"part_files": files, "libraries": used}
         state.write_state(self.directory, known | dict(facts) | {"state": "running"})
 
-    @property
-    def _folder(self) -> Path:
-        return self.directory / PARTS
+    def finish(self, facts: Mapping[str, Any], without_value: int = 0) -> None:
+        """Mark the results as complete, with their counts and facts of the run; all parts must be there.
+
+        ``without_value``: how many of the rows that are not stored were dropped as a constraint has no value for them.
+        """
+        missing = set(range(self.description.parts)) - self.parts().keys()
+        if missing:
+            raise RuntimeError(f"{len(missing)} parts are missing, such as {min(missing)}")
+        counts = self.counts()
+        counts["dropped"] = counts["sample"] - counts["variants"]
+        counts |= {"without_value": without_value} if without_value else {}
+        self.note({**facts, "parts": self.description.parts, "counts": counts, "state": "complete"})
+
+    # --- part files --------------------------------------------------------------------------------------------------
 
     def part(self, index: int) -> Path:
-        """The file of a part, whether it is there or not."""
-        return self._folder / part_name(index)
-
-    def rows(self, index: int) -> range:
-        """The numbers of the sample's rows that make a part."""
-        return self._checks.rows(index)
+        """Return the file of a part, whether it is there or not."""
+        return self._folder / state.part_name(index)
 
     def write_part(self, index: int, columns: Mapping[str, Values]) -> None:
         """Write the variants of one part, whole or not at all.
@@ -138,7 +189,7 @@ class Store:
         write(self.part(index), content)
 
     def _variants(self, index: int, columns: Mapping[str, Values]) -> Any:
-        rows = self.rows(index)
+        rows = self.description.part_rows(index)
         count = len(next(iter(columns.values()), ()))
         found = np.asarray(columns.get(VARIANT.name, range(rows.start, rows.start + count)), np.int64)
         if len(found) and not (rows.start <= found[0] and found[-1] < rows.stop and (np.diff(found) > 0).all()):
@@ -149,59 +200,55 @@ class Store:
 
     def parts(self) -> dict[int, Path]:
         """Return the part files that are there, by index; UserError for a file that only looks like one."""
-        found = sorted(self._folder.glob("part-*.parquet"))
-        for path in found:
-            match = NAME.fullmatch(path.name)
+        found: dict[int, Path] = {}
+        for path in sorted(self._folder.glob("part-*.parquet")):
+            match = PART_NAME.fullmatch(path.name)
             if not match or path != self.part(int(match[1])):
-                raise UserError(
-                    Problem(phrase("This is not a part of the results. Move it to another folder."), str(path))
-                )
-        refuse_special(found, NO_PART)
-        return {int(path.stem.partition("-")[2]): path for path in found}
+                words = phrase("This is not a part of the results. Move it to another folder.")
+                raise UserError(Problem(words, str(path)))
+            found[int(match[1])] = path
+        refuse_special(found.values(), phrase("It is not a part of the results. Move it to another folder."))
+        return found
 
-    def _judged(self) -> dict[int, Judged]:
+    def _checked(self) -> dict[int, CheckedPart]:
         """Return what the part files are. A run may go on meanwhile: it notes each part before it writes it."""
         found = self.parts()
-        return self._checks.judged(found, self.state["part_files"])
+        return self._checks.checked(found, self.state["part_files"])
 
     def done_parts(self) -> set[int]:
         """Return the parts that are as they were written and belong to this study; the others are to be calculated."""
-        return {index for index, judged in self._judged().items() if not judged.fault}
+        return {index for index, part in self._checked().items() if not part.fault}
 
     def whole_parts(self) -> list[Path]:
         """Return the part files, in their order.
 
         UserError where one of them is not as it was written or, in a study that is called complete, where one is missing.
         """
-        told = self.state
-        judged = self._judged()
-        wrong = {index: each.fault for index, each in judged.items() if each.fault}
-        if told["state"] == "complete":
-            wrong |= dict.fromkeys(set(range(self.description.parts)) - judged.keys(), MISSING)
+        known = self.state
+        checked = self._checked()
+        wrong = {index: part.fault for index, part in checked.items() if part.fault}
+        if known["state"] == "complete":
+            wrong |= dict.fromkeys(set(range(self.description.parts)) - checked.keys(), MISSING)
         if wrong:
-            raise UserError(self._told(wrong))
-        if told["state"] == "complete":
-            self._check_counts(told["counts"], judged)
-        return [self.part(index) for index in judged]
-
-    def _told(self, wrong: Mapping[int, str]) -> Iterator[Problem]:
-        for index in sorted(wrong)[:TOLD]:
-            yield Problem(wrong[index], str(self.part(index)))
-        if len(wrong) > TOLD:
-            yield Problem(
-                Phrase("{count} more parts are wrong or missing.", count=len(wrong) - TOLD), str(self._folder)
-            )
-
-    def _check_counts(self, told: Mapping[str, int], judged: Mapping[int, Judged]) -> None:
-        stored = sum((Counter(each.counts) for each in judged.values()), Counter[str]())
-        for status, count in stored.items():
-            if told.get(status, 0) != count:
-                words = Phrase(
-                    "{given} is given; the parts hold {count}. Let --resume count them again.",
-                    given=told.get(status, 0),
-                    count=count,
+            problems = [Problem(wrong[index], str(self.part(index))) for index in sorted(wrong)[:MAX_REPORTED]]
+            if more := len(wrong) - len(problems):
+                problems.append(
+                    Problem(Phrase("{count} more parts are wrong or missing.", count=more), str(self._folder))
                 )
-                raise UserError(Problem(words, str(self.directory / state.STATE), path=f"counts.{status}"))
+            raise UserError(problems)
+        if known["state"] == "complete":
+            self._check_counts(known["counts"], checked.values())
+        return [self.part(index) for index in checked]
+
+    def _check_counts(self, noted: Mapping[str, int], checked: Iterable[CheckedPart]) -> None:
+        stored = sum((Counter(part.counts) for part in checked), Counter[str]())
+        for status, count in stored.items():
+            if noted.get(status, 0) != count:
+                words = "{given} is given; the parts hold {count}. Let --resume count them again."
+                message = Phrase(words, given=noted.get(status, 0), count=count)
+                raise UserError(Problem(message, str(self.directory / state.STATE), path=f"counts.{status}"))
+
+    # --- variants ----------------------------------------------------------------------------------------------------
 
     def read(self, columns: Sequence[str] | None = None) -> pyarrow.dataset.Dataset:
         """Return the variants stored so far as a dataset of these columns (default: all), in their order."""
@@ -219,39 +266,26 @@ class Store:
                     yield batch.select(names)  # "status" reads "status.mass" too, of a mechanism of that name
 
     def count(self) -> int:
-        """How many variants are stored."""
+        """Return how many variants are stored."""
         entries = self.state["part_files"]
         return sum(int(entries[path.name]["variants"]) for path in self.whole_parts())
 
     def counts(self) -> dict[str, int]:
         """Return how many rows the sample has, how many variants are stored of them, and of each status."""
         found: Counter[str] = Counter(sample=self.description.rows, variants=0)
-        for batch in self.batches(["status"]):
-            for each in pyarrow.compute.value_counts(batch.column(0)).to_pylist():
+        for batch in self.batches([STATUS]):
+            for each in batch.column(0).value_counts().to_pylist():
                 found[each["values"]] += each["counts"]
             found["variants"] += batch.num_rows
         return dict(found)
 
-    @property
-    def state(self) -> dict[str, Any]:
-        """Return study.json as it is now."""
-        return state.read_state(self.directory)
 
-    def note(self, facts: Mapping[str, Any]) -> None:
-        """Add facts of the run (seconds, …) to study.json."""
-        state.write_state(self.directory, self.state | dict(facts))
-
-    def finish(self, facts: Mapping[str, Any], without_value: int = 0) -> None:
-        """Mark the results as complete, with their counts and facts of the run; all parts must be there.
-
-        ``without_value``: how many of the rows that are not stored were dropped as a constraint has no value for them.
-        """
-        missing = set(range(self.description.parts)) - self.parts().keys()
-        if missing:
-            raise RuntimeError(
-                Phrase("{count} parts are missing, such as {missing}", count=len(missing), missing=min(missing))
-            )
-        counts = self.counts()
-        counts["dropped"] = counts["sample"] - counts["variants"]
-        counts |= {"without_value": without_value} if without_value else {}
-        self.note({**facts, "parts": self.description.parts, "counts": counts, "state": "complete"})
+def refuse_used(folder: Path) -> None:
+    """Refuse a folder that holds anything."""
+    others = sorted(path.name for path in folder.iterdir() if path.name not in (LOCK, HOLDER))
+    if state.STATE in others:
+        words = "Results of a study are here already. Continue them with --resume, or choose another folder with -o."
+        raise UserError(Problem(phrase(words), str(folder)))
+    if others:
+        words = "This folder is not empty ({others} is in it). Choose a new one with -o, so that nothing is lost."
+        raise UserError(Problem(Phrase(words, others=others[0]), str(folder)))

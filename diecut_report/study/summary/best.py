@@ -1,4 +1,4 @@
-"""The best variants as a table, and the variants that have a full report."""
+"""The best variants, what moves a quantity, and the utilisation matrix: single variants and inputs, as tables."""
 
 from __future__ import annotations
 
@@ -12,9 +12,8 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.study.analysis.answers import rounded, sobol_indices
+from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variants import Stored, StoredColumn
-from diecut_report.study.definition.samples import Saltelli
 from diecut_report.study.summary.data import (
     BANDS,
     SOUND,
@@ -24,7 +23,7 @@ from diecut_report.study.summary.data import (
     named,
     number_of,
     utilised,
-    value_told,
+    value_text,
 )
 from diecut_report.text.translation import said, say
 
@@ -32,7 +31,7 @@ from diecut_report.text.translation import said, say
 
 
 Array = NDArray[Any]
-BLOCK, MOST = 2_000, 20_000  # variants compared at a time; on a front
+BLOCK, MAX_FRONT = 2_000, 20_000  # variants compared at a time; on a front
 FIRST = 10  # variants that are best by a single objective
 
 
@@ -44,10 +43,9 @@ class StoredObjective:
     is_less: bool
 
     @property
-    def told(self) -> str:
+    def label(self) -> str:
         """Return the objective in words."""
-        told = named(self.column)
-        return say("least {quantity}", quantity=told) if self.is_less else say("greatest {quantity}", quantity=told)
+        return say("least {quantity}" if self.is_less else "greatest {quantity}", quantity=named(self.column))
 
 
 @dataclass(frozen=True)
@@ -67,13 +65,9 @@ class Front:
 
 def objectives(stored: Stored) -> tuple[StoredObjective, ...]:
     """Return the study's objectives, as far as numbers are stored for them."""
-    found = []
-    for given in stored.study.get("objectives") or ():
-        for direction, name in given.items():
-            column = stored.columns.get(name)
-            if column is not None and column.is_number:
-                found.append(StoredObjective(column, direction == "minimise"))
-    return tuple(found)
+    given = [each for entry in stored.study.get("objectives") or () for each in entry.items()]
+    known = [(stored.columns[name], way == "minimise") for way, name in given if name in stored.columns]
+    return tuple(StoredObjective(column, is_less) for column, is_less in known if column.is_number)
 
 
 def front(stored: Stored, wanted: tuple[StoredObjective, ...], passing: int) -> Front | None:
@@ -83,20 +77,18 @@ def front(stored: Stored, wanted: tuple[StoredObjective, ...], passing: int) -> 
     """
     if not wanted:
         return None
-    states = "('pass', 'warn')" if passing else "('fail')"
     names = ", ".join(f"CAST({objective.column.sql} AS DOUBLE)" for objective in wanted)
     there = " AND ".join(f"{objective.column.sql} IS NOT NULL" for objective in wanted)
-    found = stored.connection.execute(
-        f"SELECT variant, {names} FROM v WHERE status IN {states} AND {there}"
-    ).fetchnumpy()
-    columns = [np.asarray(column) for column in found.values()]
-    variants, values = columns[0], np.column_stack([column.astype(float) for column in columns[1:]])
+    among = SOUND if passing else "status = 'fail'"
+    found = stored.connection.execute(f"SELECT variant, {names} FROM v WHERE {among} AND {there}").fetchnumpy()
+    variants, *columns = (np.asarray(column) for column in found.values())
     if not len(variants):
         return None
+    values = np.column_stack([column.astype(float) for column in columns])
     costs = rounded(values) * np.array([1.0 if objective.is_less else -1.0 for objective in wanted])
     kept = pareto_best(costs) if len(wanted) > 1 else np.lexsort((variants, costs[:, 0]))[:FIRST]
     order = kept[np.lexsort((variants[kept], costs[kept, 0]))]
-    return Front(wanted, variants[order], values[order], len(variants), bool(passing), len(kept) >= MOST)
+    return Front(wanted, variants[order], values[order], len(variants), bool(passing), len(kept) >= MAX_FRONT)
 
 
 def pareto_best(costs: Array) -> Array:
@@ -108,13 +100,12 @@ def pareto_best(costs: Array) -> Array:
         block = block[~_beaten(costs[block], costs[kept])]
         block = block[~_beaten(costs[block], costs[block])]
         kept = np.concatenate([kept, block])
-        if len(kept) >= MOST:
-            return kept[:MOST]
+        if len(kept) >= MAX_FRONT:
+            return kept[:MAX_FRONT]
     return kept
 
 
 def _beaten(rows: Array, others: Array) -> Array:
-    """Which rows some other row dominates."""
     found = np.zeros(len(rows), dtype=bool)
     for start in range(0, len(others), BLOCK):
         part = others[start : start + BLOCK]
@@ -203,31 +194,50 @@ def influences(stored: Stored, targets: Sequence[StoredColumn]) -> list[Influenc
 
 
 def _sobol(stored: Stored, target: StoredColumn) -> Influence | None:
-    """From the points that lie one after the other in the sample; those of which any variant is missing are left out."""
+    """Judge by the points that lie one after the other in the sample; those of which any variant is missing are left out."""
     inputs = stored.varied
-    order = Saltelli(int(stored.study["n"]), tuple(column.name for column in inputs))
-    size = order.points * order.size
-    found = stored.connection.execute(
-        f"SELECT variant, CAST({target.sql} AS DOUBLE) AS f FROM w WHERE {target.sql} IS NOT NULL AND variant < {size}"
-    ).fetchnumpy()
-    rows, values = np.asarray(found["variant"]), np.full((order.points, order.size), np.nan)
-    values[order.point(rows), order.place(rows)] = np.asarray(found["f"])
+    points, size = int(stored.study["n"]), len(inputs) + 2  # see `Sobol` for the rows of a point
+    sql = f"SELECT variant, CAST({target.sql} AS DOUBLE) AS f FROM w WHERE {target.sql} IS NOT NULL"
+    found = stored.connection.execute(f"{sql} AND variant < {points * size}").fetchnumpy()
+    column = np.full(points * size, np.nan)
+    column[np.asarray(found["variant"])] = np.asarray(found["f"])
+    values = column.reshape(points, size)
     values = values[np.isfinite(values).all(axis=1)]
     indices = sobol_indices(values) if len(values) >= FEWEST else None
     if indices is None:
         return None
-    errors = _half_widths(values)
-    columns = zip(inputs, indices.first.tolist(), indices.total.tolist(), *errors.tolist(), strict=True)
-    shares = [Share(*each) for each in columns]
-    return Influence(target, True, tuple(sorted(shares, key=lambda s: -(s.total or 0.0))), values.size)
+    columns = zip(inputs, *indices.tolist(), *_half_widths(values).tolist(), strict=True)
+    shares = sorted((Share(*each) for each in columns), key=lambda share: -(share.total or 0.0))
+    return Influence(target, True, tuple(shares), values.size)
+
+
+def sobol_indices(values: Array) -> Array | None:
+    """Return first and total indices, shape (2, paths), from the values of a quantity, (points, paths + 2) in the order of `Sobol`.
+
+    They say what part of the variance an input causes alone, and in what part it takes part at all: by Saltelli et al. 2010,
+    Computer Physics Communications 181, 259–270, table 2 (b), and by Jansen 1999, Computer Physics Communications 117, 35–43 (table
+    2 (f) there). Both are estimates and may lie a little outside 0 … 1. A point of which any value is missing is left out whole, since
+    its rows only count together. None where fewer than two points remain or the quantity is the same in all of them.
+    """
+    complete = values[np.isfinite(values).all(axis=1)]
+    if len(complete) < 2:
+        return None
+    both = complete[:, :2]
+    scale, middle, variance = np.abs(both).max(), both.mean(), both.var()
+    if variance <= (1e-14 * scale) ** 2:
+        return None
+    a, b, ab = complete[:, :1] - middle, complete[:, 1:2] - middle, complete[:, 2:] - middle
+    first = (b * (ab - a)).mean(axis=0) / variance
+    total = ((a - ab) ** 2).mean(axis=0) / (2 * variance)
+    return np.array([first, total])
 
 
 def _half_widths(values: Array) -> Array:
-    """Half the widths of the 95 % intervals, of first and total indices, by drawing the points again (bootstrap)."""
+    """Return half the widths of the 95 % intervals, of first and total indices, by drawing the points again (bootstrap)."""
     draw = np.random.default_rng(0)
     some = values[:REDRAWN]
     again = [sobol_indices(some[draw.integers(0, len(some), len(some))]) for _ in range(DRAWS)]
-    spread = np.array([(each.first, each.total) for each in again if each is not None]).std(axis=0)
+    spread = np.array([each for each in again if each is not None]).std(axis=0)
     widths: Array = SURE * spread * math.sqrt(len(some) / len(values))
     return widths
 
@@ -236,12 +246,12 @@ def _half_widths(values: Array) -> Array:
 
 
 def _ranks(stored: Stored, target: StoredColumn) -> Influence | None:
-    """The correlation of the ranks of a quantity and of each input, both without what the other inputs explain."""
+    """Judge by the correlation of the ranks of a quantity and of each input, both without what the other inputs explain."""
     goal, columns = _read(stored, target)
     columns = {column: values for column, values in columns.items() if np.isfinite(values).any()}
-    there = (
-        np.all([np.isfinite(values) for values in columns.values()], axis=0) if columns else np.zeros(len(goal), bool)
-    )
+    there = np.ones(len(goal), bool) if columns else np.zeros(len(goal), bool)
+    for values in columns.values():
+        there &= np.isfinite(values)
     goal = goal[there]
     columns = {column: values[there] for column, values in columns.items()}
     columns = {column: values for column, values in columns.items() if len(values) and np.ptp(values) > 0}
@@ -255,7 +265,6 @@ def _ranks(stored: Stored, target: StoredColumn) -> Influence | None:
 
 
 def _read(stored: Stored, target: StoredColumn) -> tuple[Array, dict[StoredColumn, Array]]:
-    """A quantity and the inputs of the variants that have it, of many a part."""
     asked = ", ".join(f"{number_of(stored, column)} AS i{index}" for index, column in enumerate(stored.varied))
     count = stored.rows(f"SELECT count({target.sql}) FROM w")[0][0]
     every = max(1, math.ceil(count / RANKED))
@@ -267,7 +276,7 @@ def _read(stored: Stored, target: StoredColumn) -> tuple[Array, dict[StoredColum
 
 
 def _terms(column: StoredColumn, values: Array) -> Array:
-    """What stands for an input in the regression: its ranks; for words a column for each but the first."""
+    """Return what stands for an input in the regression: its ranks; for words a column for each but the first."""
     if column.kind != "text":
         return ranks(values)[:, None]
     known = np.unique(values)[1:]
@@ -295,25 +304,23 @@ def _partial(parts: Sequence[Array], index: int, goal: Array) -> float | None:
     mine = parts[index]
     others = [each for place, each in enumerate(parts) if place != index and not _alike(mine, each)]
     other = np.column_stack(others) if others else np.zeros((len(goal), 0))
-    own, left = _without(other, mine), _without(other, goal[:, None])[:, 0]
+    own, left = _residual(other, mine), _residual(other, goal[:, None])[:, 0]
     size = float(left @ left)
     if (own**2).sum() < 1e-6 * (mine**2).sum() or size < 1e-12 * float(goal @ goal):
         return None
-    rest = _without(own, left[:, None])[:, 0]
+    rest = _residual(own, left[:, None])[:, 0]
     share = math.sqrt(max(0.0, 1.0 - float(rest @ rest) / size))
     return math.copysign(share, float(own[:, 0] @ left)) if mine.shape[1] == 1 else share
 
 
 def _alike(one: Array, two: Array) -> bool:
-    """Whether two inputs go up and down together."""
     if one.shape[1] > 1 or two.shape[1] > 1:
         return False
     size = math.sqrt(float((one**2).sum() * (two**2).sum()))
     return abs(float((one * two).sum())) > ALIKE * size
 
 
-def _without(others: Array, values: Array) -> Array:
-    """What a linear regression on the others leaves."""
+def _residual(others: Array, values: Array) -> Array:
     left: Array = values - others @ np.linalg.lstsq(others, values, rcond=None)[0] if others.shape[1] else values
     return left
 
@@ -331,8 +338,9 @@ def ranks(values: Array) -> Array:
 
 ALL, REPORTED, BEST, WORST_ONES = 80, 15, 15, 10  # rows: up to which all variants stand, else of each sort
 ACROSS = 14  # checks in a table
-LISTED = 200  # links to full reports
+MAX_REPORTS = 200  # links to full reports
 IDLE = 0.1  # utilisation that a check of the matrix reaches in some variant
+MAX_INPUTS = 6  # columns of inputs in the table of the best
 
 
 class MatrixCell(NamedTuple):
@@ -352,15 +360,8 @@ class MatrixRow(NamedTuple):
     cells: list[MatrixCell]
 
 
-class Group(NamedTuple):
-    """Hold variants that stand together in the matrix, under a title that says why."""
-
-    title: str
-    variants: list[int]
-
-
 class Matrix(NamedTuple):
-    """Hold part of the matrix: numbers and names of its checks, and its rows in groups."""
+    """Hold part of the matrix: numbers and names of its checks, and its rows in groups, each with a title that says why."""
 
     checks: list[tuple[int, str]]
     groups: list[tuple[str, list[MatrixRow]]]
@@ -369,101 +370,6 @@ class Matrix(NamedTuple):
     def rows(self) -> list[MatrixRow]:
         """Return the rows of all groups."""
         return [row for _, rows in self.groups for row in rows]
-
-
-def report_of(folder: Path, variant: int) -> str:
-    """Return the full report of a variant, from the summary's place, if there is one."""
-    for ending in ("html", "pdf"):
-        if (folder / "reports" / f"{variant}.{ending}").is_file():
-            return f"reports/{variant}.{ending}"
-    return ""
-
-
-def reported(folder: Path) -> list[int]:
-    """Return the variants that have a full report."""
-    files = (folder / "reports").glob("*.*") if (folder / "reports").is_dir() else []
-    return sorted({int(file.stem) for file in files if file.stem.isdecimal() and file.suffix in (".html", ".pdf")})
-
-
-def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[Group]:
-    """Return the best first, then those with reports, then the most overloaded; of a small study all variants. Each stands once."""
-    reports = reported(stored.folder)
-    first = say("Best: first by the objective") if len(_goals(stored)) == 1 else say("Best: on the Pareto front")
-    groups = [Group(_cut(first, len(best), BEST), list(best[:BEST]))]
-    if total <= ALL:
-        groups += [
-            Group(say("Others that pass, with most margin first"), _numbers(stored, SOUND, "NULLS LAST")),
-            Group(
-                say("Failing variants, the least overloaded first"), _numbers(stored, "status = 'fail'", "NULLS LAST")
-            ),
-            Group(say("Impossible variants"), _numbers(stored, "status = 'error'", "")),
-        ]
-    else:
-        groups += [
-            Group(_cut(say("Others with a full report"), len(reports), REPORTED), reports[:REPORTED]),
-            Group(
-                say("Fail: the {n} most overloaded variants", n=WORST_ONES),
-                _numbers(stored, "status = 'fail'", f"DESC NULLS FIRST, variant LIMIT {WORST_ONES}"),
-            ),
-        ]
-    return list(_once(groups))
-
-
-def _goals(stored: Stored) -> Sequence[object]:
-    return stored.study.get("objectives") or ()
-
-
-def _cut(title: str, count: int, most: int) -> str:
-    return say("{title} (the first {most} of {n})", title=title, most=most, n=count) if count > most else title
-
-
-def _numbers(stored: Stored, where: str, order: str) -> list[int]:
-    order = order if "variant" in order else f"{order}, variant"
-    return [row[0] for row in stored.rows(f"SELECT variant FROM w WHERE {where} ORDER BY {WORST.sql} {order}")]
-
-
-def _once(groups: Iterable[Group]) -> Iterator[Group]:
-    known: set[int] = set()
-    for title, variants in groups:
-        new = [int(variant) for variant in variants if variant not in known]
-        known |= set(new)
-        if new:
-            yield Group(title, new)
-
-
-def telling(used: Sequence[Utilisation]) -> list[Utilisation]:
-    """Return the checks that stand in the matrix: those that do not always pass with ease."""
-    return [row for row in used if row.failing or row.warning or (row.greatest or 0.0) > IDLE]
-
-
-def matrices(stored: Stored, groups: Sequence[Group], checks: Sequence[str]) -> Iterator[Matrix]:
-    """Yield the matrix in parts that fit on paper."""
-    for start in range(0, len(checks), ACROSS):
-        part = list(checks[start : start + ACROSS])
-        numbers = [(start + index + 1, said(stored.check_told(name))) for index, name in enumerate(part)]
-        rows = _rows(stored, [variant for group in groups for variant in group.variants], part)
-        found = [(group.title, [rows[one] for one in group.variants if one in rows]) for group in groups]
-        yield Matrix(numbers, [(title, some) for title, some in found if some])
-
-
-def _rows(stored: Stored, variants: Sequence[int], checks: Sequence[str]) -> dict[int, MatrixRow]:
-    asked = ", ".join(column.sql for check in checks for column in stored.checks[check])
-    listed = ", ".join(str(variant) for variant in variants) or "NULL"
-    found = {}
-    for variant, status, *values in stored.rows(f"SELECT variant, status, {asked} FROM v WHERE variant IN ({listed})"):
-        cells = [_cell(value, made) for value, made in zip(values[::2], values[1::2], strict=True)]
-        found[variant] = MatrixRow(variant, report_of(stored.folder, variant), status, cells)
-    return found
-
-
-def _cell(value: float | None, made: str | None) -> MatrixCell:
-    failing = made == "fail"
-    if value is None:
-        return MatrixCell("✗" if failing else "–" if made is None else "✓", "u4" if failing else "none", failing)
-    return MatrixCell(utilised(value), f"u{sum(value > limit for limit in BANDS)}", failing)
-
-
-INPUTS = 6  # columns of inputs
 
 
 class Best(NamedTuple):
@@ -485,43 +391,121 @@ class ListedReport(NamedTuple):
     status: str
 
 
+def report_of(folder: Path, variant: int) -> str:
+    """Return the full report of a variant, from the summary's place, if there is one."""
+    files = (f"reports/{variant}.{ending}" for ending in ("html", "pdf"))
+    return next((file for file in files if (folder / file).is_file()), "")
+
+
+def reported(folder: Path) -> list[int]:
+    """Return the variants that have a full report."""
+    files = (folder / "reports").glob("*.*") if (folder / "reports").is_dir() else []
+    return sorted({int(file.stem) for file in files if file.stem.isdecimal() and file.suffix in (".html", ".pdf")})
+
+
+def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[tuple[str, list[int]]]:
+    """Return the best first, then those with reports, then the most overloaded; of a small study all variants. Each stands once."""
+    is_single = len(stored.study.get("objectives") or ()) == 1
+    first = say("Best: first by the objective") if is_single else say("Best: on the Pareto front")
+    groups = [_cut(first, best, BEST)]
+    if total <= ALL:
+        passing, failing = (
+            say("Others that pass, with most margin first"),
+            say("Failing variants, the least overloaded first"),
+        )
+        groups += [
+            (passing, _numbers(stored, SOUND, "NULLS LAST, variant")),
+            (failing, _numbers(stored, "status = 'fail'", "NULLS LAST, variant")),
+            (say("Impossible variants"), _numbers(stored, "status = 'error'", ", variant")),
+        ]
+    else:
+        overloaded = say("Fail: the {n} most overloaded variants", n=WORST_ONES)
+        order = f"DESC NULLS FIRST, variant LIMIT {WORST_ONES}"
+        groups.append(_cut(say("Others with a full report"), reported(stored.folder), REPORTED))
+        groups.append((overloaded, _numbers(stored, "status = 'fail'", order)))
+    return list(_once(groups))
+
+
+def _cut(title: str, variants: Sequence[int], most: int) -> tuple[str, list[int]]:
+    if len(variants) > most:
+        title = say("{title} (the first {most} of {n})", title=title, most=most, n=len(variants))
+    return title, list(variants[:most])
+
+
+def _numbers(stored: Stored, where: str, order: str) -> list[int]:
+    return [number for (number,) in stored.rows(f"SELECT variant FROM w WHERE {where} ORDER BY {WORST.sql} {order}")]
+
+
+def _once(groups: Iterable[tuple[str, list[int]]]) -> Iterator[tuple[str, list[int]]]:
+    known: set[int] = set()
+    for title, variants in groups:
+        new = [variant for variant in variants if variant not in known]
+        known |= set(new)
+        if new:
+            yield title, new
+
+
+def telling(used: Sequence[Utilisation]) -> list[Utilisation]:
+    """Return the checks that stand in the matrix: those that do not always pass with ease."""
+    return [row for row in used if row.failing or row.warning or (row.greatest or 0.0) > IDLE]
+
+
+def _of_variants(stored: Stored, variants: Iterable[int], asked: Sequence[str]) -> dict[int, tuple[Any, ...]]:
+    listed = ", ".join(map(str, variants)) or "NULL"
+    rows = stored.rows(f"SELECT {', '.join(['variant', *asked])} FROM w WHERE variant IN ({listed})")
+    return {number: tuple(values) for number, *values in rows}
+
+
+def matrices(stored: Stored, groups: Sequence[tuple[str, list[int]]], checks: Sequence[str]) -> Iterator[Matrix]:
+    """Yield the matrix in parts that fit on paper."""
+    for start in range(0, len(checks), ACROSS):
+        part = list(checks[start : start + ACROSS])
+        numbers = [(start + index + 1, said(stored.check_label(name))) for index, name in enumerate(part)]
+        asked = ["status", *(column.sql for check in part for column in stored.checks[check])]
+        rows = _of_variants(stored, [variant for _, some in groups for variant in some], asked)
+        found = [(title, [_row(stored, one, *rows[one]) for one in some if one in rows]) for title, some in groups]
+        yield Matrix(numbers, [(title, some) for title, some in found if some])
+
+
+def _row(stored: Stored, variant: int, status: str, *values: Any) -> MatrixRow:
+    cells = [_cell(value, made) for value, made in zip(values[::2], values[1::2], strict=True)]
+    return MatrixRow(variant, report_of(stored.folder, variant), status, cells)
+
+
+def _cell(value: float | None, made: str | None) -> MatrixCell:
+    failing = made == "fail"
+    if value is None:
+        return MatrixCell("✗" if failing else "–" if made is None else "✓", "u4" if failing else "none", failing)
+    return MatrixCell(utilised(value), f"u{sum(value > limit for limit in BANDS)}", failing)
+
+
 def columns(stored: Stored, goals: Sequence[StoredObjective]) -> list[StoredColumn]:
     """Return objectives and inputs that the table of the best shows."""
-    return list(dict.fromkeys([*(goal.column for goal in goals), *stored.varied[:INPUTS]]))
+    return list(dict.fromkeys([*(goal.column for goal in goals), *stored.varied[:MAX_INPUTS]]))
 
 
 def best(stored: Stored, variants: Sequence[int], shown: Sequence[StoredColumn]) -> list[Best]:
     """Return the rows of that table, in the order of the variants."""
-    asked = ", ".join(["status", WORST.sql, "governing", *(column.sql for column in shown)])
-    rows = {
-        row[0]: row[1:] for row in stored.rows(f"SELECT variant, {asked} FROM w WHERE variant IN ({_list(variants)})")
-    }
-    return [_row(stored, one, rows[one], shown) for one in variants]
+    rows = _of_variants(stored, variants, ["status", WORST.sql, "governing", *(column.sql for column in shown)])
+    found = []
+    for one in variants:
+        status, worst, governing, *values = rows[one]
+        used, check = (
+            "–" if worst is None else utilised(worst),
+            said(stored.check_label(governing)) if governing else "",
+        )
+        texts = [_value_label(value, column) for value, column in zip(values, shown, strict=True)]
+        found.append(Best(one, report_of(stored.folder, one), status, used, check, texts))
+    return found
 
 
-def _row(stored: Stored, variant: int, row: Sequence[Any], shown: Sequence[StoredColumn]) -> Best:
-    status, worst, governing, *values = row
-    return Best(
-        variant,
-        report_of(stored.folder, variant),
-        status,
-        "–" if worst is None else utilised(worst),
-        said(stored.check_told(governing)) if governing else "",
-        [_told(value, column) for value, column in zip(values, shown, strict=True)],
-    )
-
-
-def _told(value: Any, column: StoredColumn) -> str:
+def _value_label(value: Any, column: StoredColumn) -> str:
     if value is None:
         return "–"
-    return display(float(value), column) if column.is_number else value_told(value)
+    return display(float(value), column) if column.is_number else value_text(value)
 
 
 def reports(stored: Stored, variants: Sequence[int]) -> list[ListedReport]:
     """Return the full reports of these variants."""
-    states = dict(stored.rows(f"SELECT variant, status FROM v WHERE variant IN ({_list(variants)})"))
-    return [ListedReport(one, report_of(stored.folder, one), states[one]) for one in variants if one in states]
-
-
-def _list(variants: Sequence[int]) -> str:
-    return ", ".join(map(str, variants)) or "NULL"
+    states = _of_variants(stored, variants, ["status"])
+    return [ListedReport(one, report_of(stored.folder, one), *states[one]) for one in variants if one in states]

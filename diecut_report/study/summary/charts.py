@@ -3,8 +3,8 @@
 from __future__ import annotations
 
 from collections.abc import Callable, Mapping, Sequence
-from functools import partial
-from typing import Any, NamedTuple
+from functools import partial, wraps
+from typing import Any, Concatenate, NamedTuple, ParamSpec
 
 import numpy as np
 from matplotlib.axes import Axes
@@ -17,8 +17,9 @@ from numpy.typing import NDArray
 from diecut_report.report.figures.diagram import WIDTH
 from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, plain, text_size
 from diecut_report.report.text import number
-from diecut_report.study.analysis.variants import STATUSES, StoredColumn
-from diecut_report.study.summary.best import Front, Influence, Share
+from diecut_report.study.analysis.variants import StoredColumn
+from diecut_report.study.storage.description import STATUSES
+from diecut_report.study.summary.best import Front, Influence
 from diecut_report.study.summary.data import (
     WORDS,
     Density,
@@ -30,11 +31,12 @@ from diecut_report.study.summary.data import (
     named,
     reach,
     titled,
-    value_told,
+    value_text,
     wrapped,
 )
 from diecut_report.text.translation import decimal_sign, localised, said, say
 
+P = ParamSpec("P")
 COLOURS = {"pass": "#6f9fc0", "warn": "#d9a13a", "fail": "#a3161a", "error": "#9aa4ae"}
 ORDER = ("pass", "warn", "fail")  # from the back to the front
 FOOT, HEAD = 24.0, 22.0  # points below and above a small diagram
@@ -43,9 +45,14 @@ LABEL = 240.0  # points of a name beside a bar
 MOST_BARS = 15  # inputs of an influence
 
 
-def chart(build: Callable[[], Figure], told: str, key: str) -> Svg:
-    """Return a drawn chart, named by its text alternative."""
-    return drawn(build, told, key)
+def charted(build: Callable[P, Figure]) -> Callable[Concatenate[str, str, P], Svg]:
+    """Draw what a function builds: the chart takes its text alternative and its key before the function's own arguments."""
+
+    @wraps(build)
+    def chart(told: str, key: str, /, *args: P.args, **named: P.kwargs) -> Svg:
+        return drawn(partial(build, *args, **named), told, key)
+
+    return chart
 
 
 def panel(sheet: Figure, left: float, bottom: float, wide: float, high: float) -> Axes:
@@ -60,12 +67,9 @@ def panel(sheet: Figure, left: float, bottom: float, wide: float, high: float) -
 # --- bars ------------------------------------------------------------------------------------------------------------
 
 
-def shares(counts: dict[str, int], told: str) -> Svg:
-    """Return one bar: the variants by status."""
-    return chart(partial(_shares, counts), told, "counts")
-
-
-def _shares(counts: dict[str, int]) -> Figure:
+@charted
+def shares(counts: dict[str, int]) -> Figure:
+    """Build one bar: the variants by status."""
     sheet = canvas(WIDTH, 34)
     axes = panel(sheet, 1, 4, WIDTH - 2, 26)
     total, start = sum(counts.values()) or 1, 0.0
@@ -74,14 +78,8 @@ def _shares(counts: dict[str, int]) -> Figure:
         axes.barh(0, share, 1, start, color=COLOURS[status], edgecolor="white", linewidth=0.8)
         words = localised(f"{said(WORDS[status])} {100 * share:.3g} %")
         if text_size(words)[0] + 8 < share * WIDTH:
-            axes.text(
-                start + share / 2,
-                0,
-                words,
-                ha="center",
-                va="center_baseline",
-                color="white" if status == "fail" else INK,
-            )
+            colour = "white" if status == "fail" else INK
+            axes.text(start + share / 2, 0, words, ha="center", va="center_baseline", color=colour)
         start += share
     axes.set_xlim(0, 1)
     axes.set_axis_off()
@@ -93,25 +91,22 @@ class Bar(NamedTuple):
 
     name: str
     parts: Sequence[float]
-    told: str
+    text: str
 
 
-def stacked(rows: Sequence[Bar], colours: Sequence[str], told: str, key: str) -> Svg:
-    """Return horizontal bars of counts, each of several parts."""
-    return chart(partial(_stacked, rows, colours), told, key)
-
-
-def _stacked(rows: Sequence[Bar], colours: Sequence[str]) -> Figure:
+@charted
+def stacked(rows: Sequence[Bar], colours: Sequence[str]) -> Figure:
+    """Build horizontal bars of counts, each of several parts."""
     labels = [wrapped(row.name, LABEL, FONT_SIZE, 1) for row in rows]
     sheet, names = canvas(WIDTH, 17.0 * len(rows) + 8), max(text_size(label)[0] for label in labels) + 10
-    behind = max(text_size(row.told, 8)[0] for row in rows) + 10
+    behind = max(text_size(row.text, 8)[0] for row in rows) + 10
     axes = panel(sheet, names, 4, WIDTH - names - behind, 17.0 * len(rows))
     for place, row in zip(range(len(rows))[::-1], rows, strict=True):
         start = 0.0
         for part, colour in zip(row.parts, colours, strict=True):
             axes.barh(place, part, 0.66, start, color=colour)
             start += part
-        axes.annotate(row.told, (start, place), (4, 0), textcoords="offset points", va="center_baseline", size=8)
+        axes.annotate(row.text, (start, place), (4, 0), textcoords="offset points", va="center_baseline", size=8)
     axes.set_yticks(range(len(rows))[::-1], labels, va="center_baseline")
     _bare(axes, len(rows))
     axes.set_xlim(0, max(sum(row.parts) for row in rows) or 1)
@@ -128,12 +123,9 @@ def _bare(axes: Axes, rows: int) -> None:
         side.set_visible(False)
 
 
-def influence(found: Influence, told: str, key: str) -> Svg:
-    """Return the inputs of an influence, as bars; for Sobol indices the total behind the first."""
-    return chart(partial(_influence, found), told, key)
-
-
-def _influence(found: Influence) -> Figure:
+@charted
+def influence(found: Influence) -> Figure:
+    """Build the inputs of an influence as bars; for Sobol indices the total behind the first."""
     rows = found.telling[:MOST_BARS]
     sheet = canvas(WIDTH, 17.0 * len(rows) + 26)
     labels = [wrapped(named(share.column), LABEL, FONT_SIZE, 1) for share in rows]
@@ -142,8 +134,8 @@ def _influence(found: Influence) -> Figure:
     for place, share in zip(range(len(rows))[::-1], rows, strict=True):
         if share.total is not None:
             axes.barh(place, share.total, 0.66, color="#c3d4e0", xerr=share.total_error, error_kw=_whisker(SOFT))
-        axes.barh(place, share.first, 0.66 if share.total is None else 0.34, color=_colour(share),
-                  xerr=share.first_error, error_kw=_whisker(INK))  # fmt: skip
+        colour, high = ACCENT if share.first >= 0 else "#b06a2c", 0.66 if share.total is None else 0.34
+        axes.barh(place, share.first, high, color=colour, xerr=share.first_error, error_kw=_whisker(INK))
     axes.set_yticks(range(len(rows))[::-1], labels, va="center_baseline")
     _bare(axes, len(rows))
     axes.tick_params(axis="x", bottom=True, labelbottom=True)
@@ -153,10 +145,6 @@ def _influence(found: Influence) -> Figure:
     return sheet
 
 
-def _colour(share: Share) -> str:
-    return ACCENT if share.first >= 0 else "#b06a2c"
-
-
 def _whisker(colour: str) -> dict[str, Any]:
     return {"ecolor": colour, "elinewidth": 0.7, "capsize": 1.5}
 
@@ -164,12 +152,9 @@ def _whisker(colour: str) -> dict[str, Any]:
 # --- distributions ---------------------------------------------------------------------------------------------------
 
 
-def distributions(found: Sequence[Histogram], told: str) -> Svg:
-    """Return histograms three in a row, each by status."""
-    return chart(partial(_distributions, found), told, "distributions")
-
-
-def _distributions(found: Sequence[Histogram]) -> Figure:
+@charted
+def distributions(found: Sequence[Histogram]) -> Figure:
+    """Build histograms three in a row, each by status."""
     rows, high = -(-len(found) // 3), 74.0
     wide = (WIDTH - 2 * 16) / 3
     sheet = canvas(WIDTH, rows * (high + FOOT + HEAD))
@@ -178,7 +163,7 @@ def _distributions(found: Sequence[Histogram]) -> Figure:
         left, below = column * (wide + 16) + SCALE, (rows - row - 1) * (high + FOOT + HEAD) + FOOT
         axes = panel(sheet, left, below, wide - SCALE - 12, high)
         _bars(axes, each)
-        _title(axes, each.column, wide - SCALE)
+        axes.set_title(wrapped(titled(each.column), wide - SCALE - 12, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
     return sheet
 
 
@@ -205,33 +190,20 @@ def _bars(axes: Axes, each: Histogram) -> None:
         axes.spines[side].set_visible(False)
 
 
-def _title(axes: Axes, column: StoredColumn, wide: float) -> None:
-    """The quantity above a diagram, on two lines where it is long."""
-    axes.set_title(wrapped(titled(column), wide - 12, 7.5, 2), pad=3, size=7.5, linespacing=1.05)
-
-
 # Charts of single variants: points over two quantities, lines over many.
 
 
+# from red, where no variant passes, over grey to blue, where all do
 SHADES = LinearSegmentedColormap.from_list("shares", [COLOURS["fail"], "#c9c2c0", "#2f6f9e"])
 LEGEND = 16.0  # points of a legend below a chart
 MARKERS = {"pass": "o", "warn": "^", "fail": "x"}
 
 
+@charted
 def scatter(
-    drawn_from: SampledVariants,
-    pairs: Sequence[tuple[StoredColumn, StoredColumn]],
-    told: str,
-    key: str,
-    front: Front | None = None,
-) -> Svg:
-    """Return two quantities of each variant, by status; one pair large, several in rows of three."""
-    return chart(partial(_scatter, drawn_from, pairs, front), told, key)
-
-
-def _scatter(
-    drawn_from: SampledVariants, pairs: Sequence[tuple[StoredColumn, StoredColumn]], front: Front | None
+    drawn_from: SampledVariants, pairs: Sequence[tuple[StoredColumn, StoredColumn]], front: Front | None = None
 ) -> Figure:
+    """Build two quantities of each variant, by status; one pair large, several in rows of three."""
     across = 1 if len(pairs) == 1 else 3
     wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3 - 4, 96.0)
     under = LEGEND if across == 1 else 0.0
@@ -240,13 +212,8 @@ def _scatter(
     for index, (x, y) in enumerate(pairs):
         row, column = divmod(index, across)
         axes = panel(sheet, 44 + column * (wide + 44), (rows - row - 1) * pitch + 40 + under, wide, high)
-        _points(
-            axes,
-            drawn_from,
-            x,
-            y,
-            float(np.clip((9000 if across == 1 else 2500) / len(drawn_from.status), 3 if across > 1 else 7, 24)),
-        )
+        most, least = (9000, 7) if across == 1 else (2500, 3)
+        _points(axes, drawn_from, x, y, float(np.clip(most / len(drawn_from.status), least, 24)))
         _front(axes, front, x, y)
         _named(axes, drawn_from, x, y, wide)
     if across == 1:
@@ -259,25 +226,14 @@ def _points(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredC
         here = drawn_from.status == STATUSES.index(status)
         if here.any():
             across, up = (_spread(drawn_from, column, here) * factor(column) for column in (x, y))
+            look: dict[str, Any] = {"c": COLOURS[status], "marker": MARKERS[status], "alpha": 0.75}
             width = 0.8 if status == "fail" else 0
-            axes.scatter(
-                across,
-                up,
-                s=size,
-                c=COLOURS[status],
-                marker=MARKERS[status],
-                linewidths=width,
-                label=said(WORDS[status]),
-                alpha=0.75,
-            )
+            axes.scatter(across, up, s=size, linewidths=width, label=said(WORDS[status]), **look)
 
 
-def cells(found: Density, told: str, key: str, front: Front | None = None) -> Svg:
-    """Return where all variants of a large study lie over two quantities: a square for each cell that has some."""
-    return chart(partial(_cells, found, front), told, key)
-
-
-def _cells(found: Density, front: Front | None) -> Figure:
+@charted
+def cells(found: Density, front: Front | None = None) -> Figure:
+    """Build where all variants of a large study lie over two quantities: a square for each cell that has some."""
     wide, high, foot = WIDTH - 60, 230.0, 40.0 + LEGEND
     sheet = canvas(WIDTH, high + foot + HEAD)
     axes = panel(sheet, 44, foot, wide, high)
@@ -290,27 +246,20 @@ def _cells(found: Density, front: Front | None) -> Figure:
     most = min(wide / len(x), high / len(y)) - 0.6
     side = most * (0.3 + 0.7 * np.log1p(counts) / np.log1p(counts.max()))
     order = np.argsort(share, kind="stable")
-    axes.scatter(
-        x[i][order], y[j][order], s=side[order] ** 2, c=[shade(each) for each in share[order]], marker="s", linewidths=0
-    )
+    colours = [SHADES(each) for each in share[order]]
+    axes.scatter(x[i][order], y[j][order], s=side[order] ** 2, c=colours, marker="s", linewidths=0)
     _front(axes, front, found.x, found.y)
     _titles(axes, found.x, found.y, wide)
     for told, part in ((say("none passes"), 0.0), (say("half pass"), 0.5), (say("all pass"), 1.0)):
-        axes.plot([], [], "s", color=shade(part), markersize=5, label=told)
+        axes.plot([], [], "s", color=SHADES(part), markersize=5, label=told)
     _legend(sheet, axes)
     return sheet
 
 
 def _legend(sheet: Figure, axes: Axes) -> None:
-    """The legend below the chart, where no point lies."""
     handles, names = axes.get_legend_handles_labels()
     left = axes.get_position().x0
     sheet.legend(handles, names, loc="lower left", bbox_to_anchor=(left, 0), ncols=len(names), borderaxespad=0)
-
-
-def shade(share: float) -> Any:
-    """Return a colour from red, where no variant passes, over grey to blue, where all do."""
-    return SHADES(share)
 
 
 def near(values: NDArray[Any]) -> NDArray[Any]:
@@ -323,7 +272,7 @@ def near(values: NDArray[Any]) -> NDArray[Any]:
 
 
 def _spread(drawn_from: SampledVariants, column: StoredColumn, here: NDArray[Any]) -> NDArray[Any]:
-    """Values of some variants; words a little to both sides of their place, so that points do not cover each other."""
+    """Return values of some variants; words a little to both sides of their place, so that points do not cover each other."""
     values: NDArray[Any] = near(drawn_from.values[column.name])
     if column.name in drawn_from.words:
         values = values + 0.5 * (np.arange(len(values)) * 0.618 % 1 - 0.5)
@@ -337,20 +286,13 @@ def _front(axes: Axes, front: Front | None, x: StoredColumn, y: StoredColumn) ->
         return
     values = front.values[:, [names.index(x.name), names.index(y.name)]] * (factor(x), factor(y))
     values = values[np.argsort(values[:, 0])]
-    step = (
-        "steps-post" if front.objectives[names.index(x.name)].is_less else "steps-pre"
-    )  # round what the front betters
-    line = "-" if len(names) == 2 else "none"
-    axes.plot(
-        *values.T,
-        linestyle=line,
-        drawstyle=step,
-        marker="D",
-        color=INK,
-        markersize=3.4 if len(values) < 60 else 1.2,
-        linewidth=0.9,
-        label=say("Pareto front"),
-    )
+    is_less = front.objectives[names.index(x.name)].is_less
+    look: dict[str, Any] = {
+        "linestyle": "-" if len(names) == 2 else "none",
+        "drawstyle": "steps-post" if is_less else "steps-pre",  # round what the front betters
+        "markersize": 3.4 if len(values) < 60 else 1.2,
+    }
+    axes.plot(*values.T, marker="D", color=INK, linewidth=0.9, label=say("Pareto front"), **look)
 
 
 def _named(axes: Axes, drawn_from: SampledVariants, x: StoredColumn, y: StoredColumn, wide: float) -> None:
@@ -410,23 +352,17 @@ def drawn_lines(sample: SampledVariants) -> DrawnLines:
 
 
 def _evenly(places: Array) -> Array:
-    """At most so many places of many, at equal distances."""
     if len(places) <= MOST:
         return places
     found: Array = places[np.linspace(0, len(places) - 1, MOST).round().astype(int)]
     return found
 
 
+@charted
 def parallel(
-    sample: SampledVariants, lines: DrawnLines, columns: Sequence[StoredColumn], ends: Mapping[str, Ends], told: str
-) -> Svg:
-    """Return the variants as lines over upright axes, passing ones in front; the darker a field of an axis, the more of it passes."""
-    return chart(partial(_parallel, sample, lines, columns, ends), told, "parallel")
-
-
-def _parallel(
     sample: SampledVariants, lines: DrawnLines, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]
 ) -> Figure:
+    """Build the variants as lines over upright axes, passing ones in front; the darker a field of an axis, the more of it passes."""
     pitch = (WIDTH - 2 * SIDE) / (len(columns) - 1)
     names = [wrapped(titled(column), min(pitch, 100) - 6, SMALL, 6) for column in columns]
     foot = 18 + 8.8 * max(name.count("\n") + 1 for name in names)
@@ -447,7 +383,7 @@ def _parallel(
 
 
 def _scaled(sample: SampledVariants, columns: Sequence[StoredColumn], ends: Mapping[str, Ends]) -> Array:
-    """The heights of all variants on all axes, from 0 to 1; words a little to both sides of their place."""
+    """Return the heights of all variants on all axes, from 0 to 1; words a little to both sides of their place."""
     found = []
     for column in columns:
         values, (low, top, _) = sample.values[column.name], ends[column.name]
@@ -468,7 +404,7 @@ def _lines(axes: Axes, sample: SampledVariants, lines: DrawnLines, scaled: Array
 
 
 def _fields(axes: Axes, place: int, heights: Array, status: Array, wide: float) -> None:
-    """Fields along an axis, the darker the larger the share of its variants that do not fail."""
+    """Draw fields along an axis, the darker the larger the share of its variants that do not fail."""
     there = np.isfinite(heights) & (status != STATUSES.index("error"))
     edges = np.linspace(0, 1, FIELDS + 1)
     every, sound = (
@@ -476,15 +412,13 @@ def _fields(axes: Axes, place: int, heights: Array, status: Array, wide: float) 
     )
     for low, high, count, good in zip(edges, edges[1:], every, sound, strict=False):
         if count:
-            share = good / count
-            look: dict[str, Any] = {"facecolor": "white", "edgecolor": "#9aa4ae", "linewidth": 0.4, "zorder": 2.6}
-            axes.add_patch(Rectangle((place - wide / 2, low), wide, high - low, clip_on=False, **look))
-            dark: dict[str, Any] = {"facecolor": DARK, "alpha": float(share), "linewidth": 0, "zorder": 2.7}
-            axes.add_patch(Rectangle((place - wide / 2, low), wide, high - low, clip_on=False, **dark))
+            pale: dict[str, Any] = {"facecolor": "white", "edgecolor": "#9aa4ae", "linewidth": 0.4, "zorder": 2.6}
+            dark: dict[str, Any] = {"facecolor": DARK, "alpha": float(good / count), "linewidth": 0, "zorder": 2.7}
+            for look in (pale, dark):
+                axes.add_patch(Rectangle((place - wide / 2, low), wide, high - low, clip_on=False, **look))
 
 
 def _scale(axes: Axes, place: int, column: StoredColumn, ends: Ends, words: list[str] | None, room: float) -> None:
-    """The ends of an upright axis; of words each at its place."""
     low, top, is_cut = ends
     if words is None:
         _fitted(axes, display(low, column), (place, 0), -3, room)
@@ -493,12 +427,12 @@ def _scale(axes: Axes, place: int, column: StoredColumn, ends: Ends, words: list
     box = {"facecolor": "white", "edgecolor": "none", "alpha": 0.85, "pad": 0.6}
     for index, word in list(enumerate(words))[:: -(-len(words) // MOST_WORDS)]:
         height = (index + SPREAD) / (top - low + 2 * SPREAD)
-        said = wrapped(value_told(word), room, 6.0, 2)
+        said = wrapped(value_text(word), room, 6.0, 2)
         axes.annotate(said, (place, height), ha="center", va="center", size=6.0, bbox=box, zorder=4, linespacing=1.0)
 
 
 def _fitted(axes: Axes, text: str, place: tuple[float, float], above: float, room: float) -> None:
-    """A text in letters that are small enough to leave its neighbours their room."""
+    """Write a text in letters that are small enough to leave its neighbours their room."""
     size = 7.0
     while size > LEAST and text_size(text, size)[0] > room:
         size -= 0.5
@@ -506,7 +440,6 @@ def _fitted(axes: Axes, text: str, place: tuple[float, float], above: float, roo
 
 
 def _text(axes: Axes, text: str, place: tuple[float, float], above: float, size: float) -> None:
-    """A text above or below a place, some points away."""
     side = "bottom" if above > 0 else "top"
     axes.annotate(
         text, place, (0, above), textcoords="offset points", ha="center", va=side, size=size, linespacing=1.05

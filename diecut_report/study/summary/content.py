@@ -3,34 +3,23 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from typing import Any, NamedTuple
 
 from diecut_report.config import yaml
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.validation import ASSUMED
-from diecut_report.config.yaml import printable
+from diecut_report.config.yaml import KeyPath, printable
 from diecut_report.report.text import number
-from diecut_report.study.analysis.variants import MECHANISMS, Stored, StoredColumn
+from diecut_report.study.analysis.variants import Stored, StoredColumn
+from diecut_report.study.definition.base_inputs import MECHANISMS
 from diecut_report.study.definition.constraints import why_dropped
+from diecut_report.study.storage.description import StudySource, source_name
 from diecut_report.study.summary import best, data
-from diecut_report.study.summary import data as passing_values
-from diecut_report.study.summary import data as verdict_counts
-from diecut_report.study.summary.data import (
-    WORST,
-    Failure,
-    Reason,
-    Spread,
-    Utilisation,
-    named,
-    titled,
-    utilised,
-    value_told,
-    variants,
-)
+from diecut_report.study.summary.data import WORST, Spread, named, titled, utilised, value_text, variants
 from diecut_report.study.summary.figures import Figures, Ranked, SummaryFigure, ranked
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import localised, said, say, say_counted
 
 # What the study asks, as its file says it.
@@ -43,14 +32,13 @@ METHODS = {
     "sobol": phrase("Sobol sequence"),
     "table": phrase("rows of a table"),
 }
-Path = tuple[str | int, ...]
 NAME = re.compile(r"[A-Za-z_][\w.]*")
 
 
 class AskedInput(NamedTuple):
     """Hold a varied input: what people call it, its symbol, its path, and its values as written, a choice in words too."""
 
-    told: str
+    text: str
     symbol: str
     path: str
     values: str
@@ -59,7 +47,7 @@ class AskedInput(NamedTuple):
 class AskedText(NamedTuple):
     """Hold an objective or a constraint: in words, and as the study file has it."""
 
-    told: str
+    text: str
     typed: str
 
 
@@ -73,96 +61,79 @@ class Asked(NamedTuple):
     reports: str
 
 
+def _parsed(source: StudySource) -> yaml.Tree | None:
+    """Return what stands in the kept copy of a file; None where the copy is gone or changed."""
+    return yaml.parse(source.content.decode("utf-8-sig"), source.file) if source.content is not None else None
+
+
 def asked_questions(stored: Stored) -> Asked | None:
     """Return what the kept copy of the study file says; None where the copy is gone or changed."""
-    content = stored.description.study.content
-    if content is None:
+    tree = _parsed(stored.description.study)
+    if tree is None:
         return None
-    tree = yaml.parse(content.decode("utf-8-sig"), stored.description.study.file)
-    data: Mapping[str, Any] = tree.data
+    given: Mapping[str, Any] = tree.data
+    objectives = [(way, str(name)) for each in given.get("objectives") or () for way, name in each.items()]
     return Asked(
-        list(_questions_facts(stored, tree, data)),
+        list(_asked_facts(stored, tree)),
         [_input(stored, tree, path) for path in stored.study.get("varied") or ()],
-        [_objective(stored, way, str(name)) for each in data.get("objectives") or () for way, name in each.items()],
-        [AskedText(_quantities(stored, str(each)), str(each)) for each in data.get("constraints") or ()],
-        _reports(tree, data.get("reports")),
+        [_objective(_column_of(stored, name), way, name) for way, name in objectives],
+        [AskedText(_quantities(stored, str(each)), str(each)) for each in given.get("constraints") or ()],
+        say("none") if given.get("reports") is None else written(tree, ("reports",)),
     )
 
 
-def outputs(stored: Stored) -> list[str]:
-    """Return the outputs that the study file asks for by their names; none where it keeps all, or its copy is gone."""
-    content = stored.description.study.content
-    if content is None:
-        return []
-    data: Mapping[str, Any] = yaml.parse(content.decode("utf-8-sig"), stored.description.study.file).data
-    return [str(name) for name in data.get("outputs") or ()]
-
-
-def _questions_facts(stored: Stored, tree: yaml.Tree, data: Mapping[str, Any]) -> list[tuple[str, str]]:
-    sample, counts = data.get("sample") or {}, stored.study.get("counts") or {}
+def _asked_facts(stored: Stored, tree: yaml.Tree) -> Iterator[tuple[str, str]]:
+    sample, counts = tree.data.get("sample") or {}, stored.study.get("counts") or {}
     method = str(sample.get("method", ""))
-    facts = [(say("Base"), str(data.get("base", stored.description.base.file)))]
-    facts.append(
-        (say("Sample"), said(METHODS.get(method, method)) + (f": {sample['file']}" if "file" in sample else ""))
-    )
-    facts += [(name, written(tree, ("sample", key))) for key, name in (("count", say("Count")),) if key in sample]
+    yield say("Base"), str(tree.data.get("base", stored.description.base.file))
+    yield say("Sample"), said(METHODS.get(method, method)) + (f": {sample['file']}" if "file" in sample else "")
+    if "count" in sample:
+        yield say("Count"), written(tree, ("sample", "count"))
     if method in ("latin_hypercube", "sobol"):
-        facts.append((say("Seed"), written(tree, ("sample", "seed")) if "seed" in sample else say("0 (none is given)")))
+        yield say("Seed"), written(tree, ("sample", "seed")) if "seed" in sample else say("0 (none is given)")
     if sample.get("indices"):
-        facts.append((say("Sobol indices"), say("yes: each of the points above is a group of variants")))
+        yield say("Sobol indices"), say("yes: each of the points above is a group of variants")
     if "sample" in counts and counts["sample"] != sample.get("count"):
-        facts.append((say("Variants of the sample"), variants(int(counts["sample"]))))
-    if data.get("constraints"):
-        facts.append(
-            (say("Dropped by the constraints"), variants(int(counts.get("dropped") or 0)) + said(why_dropped(counts)))
-        )
-    return facts
+        yield say("Variants of the sample"), variants(int(counts["sample"]))
+    if tree.data.get("constraints"):
+        yield say("Dropped by the constraints"), _dropped(counts)
 
 
-def _objective(stored: Stored, way: str, name: str) -> AskedText:
-    column, typed = _column_of(stored, name), f"{way}: {name}"
+def _dropped(counts: Mapping[str, Any]) -> str:
+    return variants(int(counts.get("dropped") or 0)) + said(why_dropped(counts))
+
+
+def _objective(column: StoredColumn | None, way: str, name: str) -> AskedText:
+    typed = f"{way}: {name}"
     words = "least {quantity}" if way == "minimise" else "greatest {quantity}"
-    return AskedText(say(words, quantity=named(column)) if column else typed, typed if column else "")
+    return AskedText(say(words, quantity=named(column)), typed) if column else AskedText(typed, "")
 
 
 def _quantities(stored: Stored, expression: str) -> str:
-    """What the names in an expression are called."""
-    columns = [_column_of(stored, name) for name in dict.fromkeys(NAME.findall(expression))]
-    return ", ".join(_with_symbol(column) for column in columns if column)
-
-
-def _with_symbol(column: StoredColumn) -> str:
-    return named(column) + (f" {column.symbol}" if column.symbol else "")
+    found = (_column_of(stored, name) for name in dict.fromkeys(NAME.findall(expression)))
+    return ", ".join(f"{named(column)} {column.symbol}".rstrip() for column in found if column)
 
 
 def _column_of(stored: Stored, name: str) -> StoredColumn | None:
-    """The column that a study means by a name, with ``mechanisms.`` or without."""
-    return stored.columns.get(name) or stored.columns.get(f"{MECHANISMS}{name}")
+    """Return the column that a study means by a name, with ``mechanisms.`` or without."""
+    return stored.columns.get(name) or stored.columns.get(f"{MECHANISMS}.{name}")
 
 
 def _input(stored: Stored, tree: yaml.Tree, path: str) -> AskedInput:
-    column = stored.columns.get(path)
-    given = path in (tree.data.get("vary") or {})
-    values = _values(tree, ("vary", path)) if given else _column(tree)
+    """Return a varied input with its values as they are written; choices in words, with what is typed behind them."""
+    column, place = stored.columns.get(path), ("vary", path)
+    given = (tree.data.get("vary") or {}).get(path)
+    if given is None:
+        values = say("a column of {table}", table=tree.typed(("sample", "file")) or phrase("the table"))
+    elif isinstance(given, list) and any(isinstance(each, str) and value_text(each) != each for each in given):
+        told = [(value_text(each), written(tree, (*place, index))) for index, each in enumerate(given)]
+        values = ", ".join(typed if words == typed else f"{words} ({typed})" for words, typed in told)
+    else:
+        values = written(tree, place)
     return AskedInput(named(column) if column else path, column.symbol if column else "", path, values)
 
 
-def _values(tree: yaml.Tree, place: Path) -> str:
-    """Values as they are written; choices in words, with what is typed behind them."""
-    value = tree.data
-    for step in place:
-        value = value[step]
-    if not isinstance(value, list) or not any(isinstance(each, str) and value_told(each) != each for each in value):
-        return written(tree, place)
-    told = [(value_told(each), written(tree, (*place, index))) for index, each in enumerate(value)]
-    return ", ".join(typed if words == typed else f"{words} ({typed})" for words, typed in told)
-
-
-def _column(tree: yaml.Tree) -> str:
-    return say("a column of {table}", table=tree.typed(("sample", "file")) or phrase("the table"))
-
-
-def written(tree: yaml.Tree, path: Path) -> str:
+def written(tree: yaml.Tree, path: KeyPath) -> str:
     """Return a value as the file says it: lists with commas, a range as ``from A to B``, other keys with their names."""
     value = tree.data
     for step in path:
@@ -172,37 +143,32 @@ def written(tree: yaml.Tree, path: Path) -> str:
     if not isinstance(value, dict):
         return tree.typed(path) or ""
     parts = {str(key): written(tree, (*path, key)) for key in value}
-    head = (
-        [say("from {least} to {most}", least=parts.pop("from"), most=parts.pop("to"))]
-        if {"from", "to"} <= parts.keys()
-        else []
-    )
-    kind = parts.pop("distribution", "")
-    head += [kind] if kind else []
+    head = []
+    if {"from", "to"} <= parts.keys():
+        head.append(say("from {least} to {most}", least=parts.pop("from"), most=parts.pop("to")))
+    if law := parts.pop("distribution", ""):
+        head.append(law)
     if "table" in parts:
-        table = parts.pop("table")
-        column = parts.pop("column", "")
-        head.append(
-            say("column {column} of the table {table}", column=column, table=table)
-            if column
-            else say("the table {table}", table=table)
-        )
+        table, column = parts.pop("table"), parts.pop("column", "")
+        words = "column {column} of the table {table}" if column else "the table {table}"
+        head.append(say(words, column=column, table=table))
     return ", ".join([*head, *(f"{key} {text}" for key, text in parts.items())])
 
 
-def _reports(tree: yaml.Tree, given: Any) -> str:
-    return say("none") if given is None else written(tree, ("reports",))
-
+# --- the whole page --------------------------------------------------------------------------------------------------
 
 SAMPLED = 1_500  # variants in the charts of points
-NUMBERS, FEWEST = 200_000, 400  # that the page carries for the chart of any two quantities; variants of them at least
-TARGETS, MOST_TARGETS = 5, 12  # quantities that influence is reported of, and with the outputs that the study asks for
-PANELS, CHECKS, RANGES, POINTS = (
+MAX_NUMBERS, MIN_DRAWN = (
+    200_000,
+    400,
+)  # that the page carries for the chart of any two quantities; variants of them at least
+TARGETS, MAX_TARGETS = 5, 12  # quantities that influence is reported of, and with the outputs that the study asks for
+MAX_PANELS, MAX_CHECKS, MAX_RANGES, MAX_QUANTITIES = (
     12,
     4,
     36,
     30,
-)  # histograms, checks of them, rows of ranges, quantities of the charts on paper
+)  # histograms, checks of them, ranges, quantities of charts
 
 
 @dataclass
@@ -218,10 +184,10 @@ class Summary:
     statuses: dict[str, int]
     facts: list[tuple[str, str]]
     asked: Asked | None
-    failures: list[Failure]
-    governing: list[verdict_counts.Governing]
-    passing: list[passing_values.PassingValues]
-    utilisations: list[Utilisation]
+    failures: list[data.Failure]
+    governing: list[data.Governing]
+    passing: list[data.PassingValues]
+    utilisations: list[data.Utilisation]
     unmade: list[str]
     unchecked: int
     assumed: int
@@ -230,7 +196,7 @@ class Summary:
     is_whole: bool
     spreads: list[Spread]
     more_spreads: int
-    reasons: list[Reason]
+    reasons: list[data.Reason]
     reports: list[best.ListedReport]
     more_reports: int
     front: best.Front | None
@@ -264,15 +230,9 @@ class Summary:
     @property
     def status(self) -> str:
         """Return what the whole looks like: pass where some variant passes all checks, on nothing assumed and by formulas without faults."""
-        return (
-            "incomplete"
-            if (self.doubtful or self.unchecked or self.assumed) and self.statuses["pass"]
-            else "pass"
-            if self.statuses["pass"]
-            else "warn"
-            if self.statuses["warn"]
-            else "fail"
-        )
+        if self.statuses["pass"]:
+            return "incomplete" if self.doubtful or self.unchecked or self.assumed else "pass"
+        return "warn" if self.statuses["warn"] else "fail"
 
 
 def content(stored: Stored, discovery: Discovery) -> Summary:
@@ -280,155 +240,113 @@ def content(stored: Stored, discovery: Discovery) -> Summary:
     data.prepare(stored)
     states = data.statuses(stored)
     total = sum(states.values())
-    spreads = _spreads(stored, total)
     goals = best.objectives(stored)
+    aims = [goal.column for goal in goals]
+    spreads = _spreads(stored, aims, total)
     front = best.front(stored, goals, states["pass"] + states["warn"])
     varying = [spread.column for spread in spreads.values() if _is_telling(spread)]
     used = data.utilisations(stored)
-    asked = [column for column in varying if column.name in outputs(stored)]
-    main = _main(stored, goals, varying, asked, [row.check for row in used if row.failing or row.warning])
-    found = best.influences(stored, main[: min(TARGETS + len(asked), MOST_TARGETS)])
-    choices = _choices(stored, varying, main)
-    sample = data.sample(stored, choices[:POINTS], SAMPLED)
-    drawn = min(SAMPLED, max(FEWEST, NUMBERS // max(1, len(choices))))
-    made, failures = [row for row in used if row.is_made], verdict_counts.failures(stored, used)
-    governing = verdict_counts.governing(
-        stored,
-        {
-            check
-            for check, (column, _) in stored.checks.items()
-            if column.name in spreads and not spreads[column.name].varies
-        },
-    )
-    figures = Figures(stored, states, sample, front, main, spreads)
+    made, failures = [row for row in used if row.is_made], data.failures(stored, used)
+    still = {
+        check for check, (each, _) in stored.checks.items() if each.name in spreads and not spreads[each.name].varies
+    }
+    governing = data.governing(stored, still)
+    asked = [column for column in varying if column.name in _asked_outputs(stored)]
+    main = _main(stored, aims, varying, asked, used)
+    found = best.influences(stored, main[: min(TARGETS + len(asked), MAX_TARGETS)])
+    inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
+    choices = list(dict.fromkeys([*inputs, *main]))
+    sample = data.sample(stored, choices[:MAX_QUANTITIES], SAMPLED)
+    drawn = min(SAMPLED, max(MIN_DRAWN, MAX_NUMBERS // max(1, len(choices))))
     first, reports = [int(variant) for variant in front.variants] if front else [], best.reported(stored.folder)
     ranges = [spreads[c.name] for c in (*stored.varied, *main) if c in varying and ".checks." not in c.name]
-    panels = _panels(stored, goals, [*(row.check for row in failures), *(row.check for row in governing)], varying)
-    groups = best.chosen(stored, total, first)
-    shown = best.columns(stored, goals)
+    # the quantities of histograms: objectives, utilisations of failing and governing checks, inputs, then the others
+    limiting = dict.fromkeys([*(row.check for row in failures), *(row.check for row in governing)])
+    limits = [stored.checks[check][0] for check in limiting if check in stored.checks]
+    wanted = dict.fromkeys([*aims, WORST, *limits[:MAX_CHECKS], *stored.varied, *limits, *varying])
+    panels = [spreads[column.name] for column in wanted if column in varying][:MAX_PANELS]
+    groups, shown, matrix = best.chosen(stored, total, first), best.columns(stored, goals), best.telling(made)
+    base = _parsed(stored.description.base)
     return Summary(
-        title=_title(stored), folder=printable(stored.folder.resolve().name), study=stored.study, files=_files(stored),
-        checks={check: said(stored.check_told(check)) for check in stored.checks},
-        total=total, statuses=states, facts=_facts(stored, total), asked=asked_questions(stored),
-        failures=failures, governing=governing, passing=passing_values.values(stored),
+        title=_title(stored, base), folder=printable(stored.folder.resolve().name), study=stored.study, files=_files(stored),
+        checks={check: said(stored.check_label(check)) for check in stored.checks},
+        total=total, statuses=states, facts=list(_facts(stored, total)), asked=asked_questions(stored),
+        failures=failures, governing=governing, passing=data.passing_values(stored),
         utilisations=made, unmade=[row.check for row in used if not row.is_made],
-        unchecked=len(verdict_counts.unchecked(stored)), assumed=_assumed(_base(stored)),
-        idle=len(made) - len(best.telling(made)),
-        matrices=list(best.matrices(stored, groups, [row.check for row in best.telling(made)])),
+        unchecked=sum(row.unchecked > 0 for row in used), assumed=_assumed(base.data if base else None),
+        idle=len(made) - len(matrix), matrices=list(best.matrices(stored, groups, [row.check for row in matrix])),
         is_whole=total <= best.ALL,
-        spreads=ranges[:RANGES], more_spreads=max(0, len(ranges) - RANGES),
+        spreads=ranges[:MAX_RANGES], more_spreads=max(0, len(ranges) - MAX_RANGES),
         reasons=data.reasons(stored, discovery) if states["error"] else [],
-        reports=best.reports(stored, reports[: best.LISTED]), more_reports=max(0, len(reports) - best.LISTED),
+        reports=best.reports(stored, reports[: best.MAX_REPORTS]), more_reports=max(0, len(reports) - best.MAX_REPORTS),
         front=front, best_head=[titled(column) for column in shown], best=best.best(stored, first[: best.BEST], shown),
-        is_sobol=best.is_saltelli(stored), ranked=ranked(found, figures) if found else None,
+        is_sobol=best.is_saltelli(stored), ranked=ranked(found) if found else None,
         slow=dict(stored.study.get("slow") or {}), doubtful=list(stored.study.get("doubtful") or ()),
-        figures=figures.all(failures, [spreads[column.name] for column in panels][:PANELS], found),
+        figures=Figures(stored, states, sample, front, main, spreads).all(failures, panels, found),
         any_two=data.sample(stored, choices, drawn), varied=stored.varied, choices=choices,
     )  # fmt: skip
 
 
-def _panels(
-    stored: Stored, goals: tuple[best.StoredObjective, ...], checks: list[str], varying: list[StoredColumn]
+def _main(
+    stored: Stored,
+    aims: list[StoredColumn],
+    varying: list[StoredColumn],
+    asked: list[StoredColumn],
+    used: list[data.Utilisation],
 ) -> list[StoredColumn]:
-    """The quantities of histograms: objectives, utilisations of failing and governing checks, inputs, then the others."""
-    limits = [stored.checks[check][0] for check in dict.fromkeys(checks) if check in stored.checks]
-    wanted = [*(goal.column for goal in goals), WORST, *limits[:CHECKS], *stored.varied, *limits, *varying]
-    return [column for column in dict.fromkeys(wanted) if column in varying]
+    """Return what matters, the first most: objectives, utilisation of all checks, outputs that are asked for, checks that fail most, others."""
+    failing = [stored.checks[row.check][0] for row in used if row.failing or row.warning]
+    outputs = [column for column in varying if column not in stored.varied]
+    return [column for column in dict.fromkeys([*aims, WORST, *asked, *failing, *outputs]) if column in varying]
+
+
+def _asked_outputs(stored: Stored) -> set[str]:
+    """Return the outputs that the study file asks for by their names; none where it keeps all, or its copy is gone."""
+    tree = _parsed(stored.description.study)
+    return {str(name) for name in tree.data.get("outputs") or ()} if tree else set()
 
 
 def _is_telling(spread: Spread) -> bool:
-    """Whether a quantity varies; a utilisation that is next to nothing tells nothing."""
+    """Return whether a quantity varies; a utilisation that is next to nothing tells nothing."""
     return spread.varies and (".checks." not in spread.column.name or spread.values[-1] > best.IDLE)
 
 
-def _spreads(stored: Stored, total: int) -> dict[str, Spread]:
-    """The ranges of inputs and outputs, and of the greatest utilisation."""
-    goals = [goal.column for goal in best.objectives(stored)]
+def _spreads(stored: Stored, goals: list[StoredColumn], total: int) -> dict[str, Spread]:
     used = [value for value, _ in stored.checks.values()]
     columns = [*stored.varied, *([WORST] if stored.checks else []), *stored.outputs, *goals, *used]
     return data.spreads(stored, list(dict.fromkeys(columns)), total)
 
 
-def _main(
-    stored: Stored,
-    goals: tuple[best.StoredObjective, ...],
-    varying: list[StoredColumn],
-    asked: list[StoredColumn],
-    failing: list[str],
-) -> list[StoredColumn]:
-    """What matters, the first most: objectives, utilisation of all checks, outputs that are asked for, checks that fail most, other outputs."""
-    inputs = {column.name for column in stored.varied}
-    aims = [goal.column for goal in goals if goal.column in varying]
-    worst = [WORST] if WORST in varying else []
-    failed = [stored.checks[check][0] for check in failing if stored.checks[check][0] in varying]
-    return list(
-        dict.fromkeys([*aims, *worst, *asked, *failed, *(column for column in varying if column.name not in inputs)])
-    )
-
-
-def _choices(stored: Stored, varying: list[StoredColumn], main: list[StoredColumn]) -> list[StoredColumn]:
-    """The quantities of the charts of points and lines: inputs, outputs, utilisations; what matters most first."""
-    inputs = [column for column in stored.varied if column in varying or column.kind in ("text", "bool")]
-    return list(dict.fromkeys([*inputs, *main]))
-
-
-def _facts(stored: Stored, total: int) -> list[tuple[str, str]]:
-    """The run in a few numbers."""
-    study, counts = stored.study, stored.study.get("counts") or {}
-    facts = [
-        (say("Variants calculated"), variants(total)),
-        (say("Varied"), say_counted(len(stored.varied), "{n} input", "{n} inputs")),
-    ]
+def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
+    counts = stored.study.get("counts") or {}
+    yield say("Variants calculated"), variants(total)
+    yield say("Varied"), say_counted(len(stored.varied), "{n} input", "{n} inputs")
     if counts.get("dropped"):
-        facts.append((say("Left out by constraints"), variants(int(counts["dropped"])) + said(why_dropped(counts))))
-    facts += _margin(stored)
-    seconds = float(study.get("seconds") or 0)
+        yield say("Left out by constraints"), _dropped(counts)
+    found = data.margin(stored) if stored.checks else None
+    if found is not None:
+        others = found.shared - 1
+        words = ", and {n} other variant with the same", ", and {n} other variants with the same"
+        more = say_counted(others, *words, n=number(str(others))) if others else ""
+        check, used = said(stored.check_label(found.check)), utilised(found.utilisation)
+        told = "variant {n}{more}: utilisation {used} at most, by “{check}”"
+        yield say("Most margin"), say(told, n=found.variant, more=more, used=used, check=check)
+    seconds = float(stored.study.get("seconds") or 0)
     if seconds > 0:
-        facts.append((say("Calculated in"), localised(f"{seconds:.3g} s")))
-    return facts
+        yield say("Calculated in"), localised(f"{seconds:.3g} s")
 
 
-def _title(stored: Stored) -> str:
-    """The title of the base's project, else the study's file."""
-    return str((_base(stored).get("project") or {}).get("title") or printable(stored.description.study.file))
-
-
-def _base(stored: Stored) -> Any:
-    """What stands in the base; nothing where its copy is not as it was."""
-    content = stored.description.base.content
-    return yaml.parse(content.decode(), "base").data if content else {}
+def _title(stored: Stored, base: yaml.Tree | None) -> str:
+    project = base.data.get("project") if base else None
+    return str((project or {}).get("title") or printable(stored.description.study.file))
 
 
 def _assumed(data: Any) -> int:
-    """How many values of a configuration say that they are assumed."""
     parts = data.values() if isinstance(data, dict) else data if isinstance(data, list) else ()
     return (isinstance(data, dict) and data.get("basis") == ASSUMED) + sum(map(_assumed, parts))
 
 
-def _margin(stored: Stored) -> list[tuple[str, str]]:
-    """Which of the variants that do not fail keeps most from its limits."""
-    found = verdict_counts.margin(stored) if stored.checks else None
-    if found is None:
-        return []
-    others = found.shared - 1
-    words = ", and {n} other variant with the same", ", and {n} other variants with the same"
-    more = say_counted(others, *words, n=number(str(others))) if others else ""
-    check, used = said(stored.check_told(found.check)), utilised(found.utilisation)
-    told = "variant {n}{more}: utilisation {used} at most, by “{check}”"
-    return [(say("Most margin"), say(told, n=found.variant, more=more, used=used, check=check))]
-
-
 def _files(stored: Stored) -> list[tuple[str, str]]:
-    """The files that the study was made from, and the code that calculated it, with their SHA-256."""
     made = stored.description
-    code = [(say("the source of the {name}", name=_code(name)), digest) for name, digest in made.sources.items()]
+    code = [(say("the source of the {name}", name=source_name(name)), digest) for name, digest in made.sources.items()]
     return [*((printable(source.file), source.sha256) for source in (made.study, made.base, *made.tables)), *code]
-
-
-def _code(name: str) -> Phrase:
-    """What a part of the code is called: ``plugin cylinder_drive``."""
-    kind = name.removeprefix("plugin ")
-    return phrase(name) if kind == name else Phrase("plugin {kind}", kind=kind)
-
-
-# The summary as HTML (one file, no network) and as PDF.

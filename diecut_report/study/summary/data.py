@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Collection, Iterator, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass
 from itertools import pairwise
 from typing import Any, NamedTuple
@@ -17,8 +17,9 @@ from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.figures.style import plain, text_size
 from diecut_report.report.text import joined, number
-from diecut_report.study.analysis.answers import told_reason
-from diecut_report.study.analysis.variants import STATUSES, UTILISATION, Stored, StoredColumn, text
+from diecut_report.study.analysis.answers import reason_text
+from diecut_report.study.analysis.variants import UTILISATION, Stored, StoredColumn, text
+from diecut_report.study.storage.description import STATUSES
 from diecut_report.text.phrases import phrase, worded
 from diecut_report.text.translation import decimal_sign, localised, said, say, say_counted
 
@@ -34,13 +35,12 @@ WORDS = {"pass": phrase("pass"), "warn": phrase("warning"), "fail": phrase("fail
 
 def named(column: StoredColumn) -> str:
     """Return a quantity as people call it: ``Radius of the bore (cylinder)``."""
-    return said(column.told)
+    return said(column.label)
 
 
 def titled(column: StoredColumn) -> str:
     """Return a quantity with the unit that people read."""
-    sign = pretty(column.display)
-    return named(column) + (f", {sign}" if sign else "")
+    return ", ".join(filter(None, [named(column), pretty(column.display)]))
 
 
 def wrapped(words: str, wide: float, size: float, most: int) -> str:
@@ -48,30 +48,24 @@ def wrapped(words: str, wide: float, size: float, most: int) -> str:
 
     Of what does not fit on so many lines the last line stays, with the mechanism and the unit.
     """
+
+    def fits(line: str) -> bool:
+        return text_size(plain(line.rstrip()), size)[0] <= wide
+
     lines = [""]
-    for part in _pieces(words, wide, size):
-        if lines[-1] and text_size(plain((lines[-1] + part).rstrip()), size)[0] > wide:
-            lines.append("")
-        lines[-1] += part
-    if len(lines) > most:
-        kept = [line.rstrip() for line in lines[: most - 1]]
-        lines = [*kept, _shortened(" ".join(line.strip() for line in lines[most - 1 :]), wide, size)]
-    return plain("\n".join(line.rstrip() for line in lines))
-
-
-def _pieces(words: str, wide: float, size: float) -> Iterator[str]:
     for word in re.findall(r"[^ ]+ ?| ", words):
-        fits = text_size(plain(word), size)[0] <= wide
-        yield from [word] if fits else re.findall(r"[^._]*[._]|[^._]+", word)
-
-
-def _shortened(words: str, wide: float, size: float) -> str:
-    """As much of the beginning of a name as fits on a line before its end in brackets."""
-    head, bracket, tail = words.rpartition(" (")
-    head, tail = (head, f"… ({tail}") if bracket else (words, "…")
-    while head and text_size(plain(head.rstrip() + tail), size)[0] > wide:
-        head = head[:-1]
-    return head.rstrip() + tail
+        for part in [word] if fits(word) else re.findall(r"[^._]*[._]|[^._]+", word):
+            if lines[-1] and not fits(lines[-1] + part):
+                lines.append("")
+            lines[-1] += part
+    if len(lines) > most:
+        rest = " ".join(line.strip() for line in lines[most - 1 :])
+        head, bracket, tail = rest.rpartition(" (")  # as much of the beginning as fits before the end in brackets
+        head, tail = (head, f"… ({tail}") if bracket else (rest, "…")
+        while head and not fits(head.rstrip() + tail):
+            head = head[:-1]
+        lines = [*lines[: most - 1], head.rstrip() + tail]
+    return plain("\n".join(line.rstrip() for line in lines))
 
 
 def factor(column: StoredColumn) -> float:
@@ -93,7 +87,7 @@ def quantity(value: float, column: StoredColumn) -> str:
     return joined(display(value, column), pretty(column.display))
 
 
-def value_told(value: Any) -> str:
+def value_text(value: Any) -> str:
     """Return a value that is not a number: the words of a choice, yes or no."""
     if isinstance(value, str):
         return said(worded(value))
@@ -128,31 +122,16 @@ def percent(part: float, whole: float) -> str:
     return localised(text)
 
 
+# --- all variants ----------------------------------------------------------------------------------------------------
+
 Array = NDArray[Any]
 FAILING = '"failing checks"'  # SQL: how many checks of a variant fail
 SOUND = "status IN ('pass', 'warn')"  # SQL: no check fails
 BANDS = (0.5, 0.8, 1.0, 1.25)  # limits between the classes of utilisation
-BINS, FEWEST = 24, 6  # classes of a histogram
+MAX_BINS, MIN_BINS = 24, 6  # classes of a histogram
 CELLS = (52, 34)  # across and upwards, in a chart of where variants lie
 AT_ONCE, EXACT = 16, 100_000  # columns in a query; rows up to which the median is exact
-REASONS = 15
-
-
-class Utilisation(NamedTuple):
-    """Hold a check over all variants: how many in each class of utilisation, without one, its statuses, and its greatest value."""
-
-    check: str
-    bands: tuple[int, ...]
-    without: int
-    passing: int
-    warning: int
-    failing: int
-    greatest: float | None
-
-    @property
-    def is_made(self) -> bool:
-        """Return whether any variant has this check."""
-        return self.passing + self.warning + self.failing > 0
+MAX_REASONS = 15
 
 
 class Spread(NamedTuple):
@@ -167,6 +146,11 @@ class Spread(NamedTuple):
         """Return whether its values differ by more than rounding."""
         least, greatest = self.values[0], self.values[-1]
         return greatest - least > 1e-9 * max(abs(least), abs(greatest))
+
+    @property
+    def reach(self) -> float:
+        """Return up to where a chart shows it."""
+        return reach(self.values[0], *self.values[3:])
 
 
 class Histogram(NamedTuple):
@@ -195,7 +179,7 @@ class Density(NamedTuple):
 class Reason(NamedTuple):
     """Hold why variants could not be calculated, how many, and one of them."""
 
-    told: str
+    text: str
     variants: int
     example: int
 
@@ -208,6 +192,12 @@ class SampledVariants:
     status: Array
     values: dict[str, Array]
     words: dict[str, list[str]]
+
+    def thinned(self, most: int) -> SampledVariants:
+        """Return every so many of them, as they are in no order of sizes."""
+        step = max(1, -(-len(self.variants) // most))
+        values = {name: column[::step] for name, column in self.values.items()}
+        return SampledVariants(self.variants[::step], self.status[::step], values, self.words)
 
 
 def prepare(stored: Stored) -> None:
@@ -230,59 +220,40 @@ def statuses(stored: Stored) -> dict[str, int]:
     return {status: int(found.get(status, 0)) for status in STATUSES}
 
 
-def utilisations(stored: Stored) -> list[Utilisation]:
-    """Return each check over all variants, those with the most failures first."""
-    found = [part for names in chunks(list(stored.checks)) for part in _utilisations(stored, names)]
-    return sorted(found, key=lambda row: (-row.failing, -row.warning, -(row.greatest or 0.0), row.check))
-
-
-def _utilisations(stored: Stored, names: Sequence[str]) -> Iterator[Utilisation]:
-    asked = [part for name in names for part in _asked(*stored.checks[name])]
-    row = stored.rows(f"SELECT {', '.join(asked)} FROM v")[0]
-    size = len(asked) // len(names)
-    for index, name in enumerate(names):
-        part = row[index * size : (index + 1) * size]
-        yield Utilisation(name, tuple(part[:-5]), *part[-5:])
-
-
-def _asked(value: StoredColumn, status: StoredColumn) -> Iterator[str]:
-    edges = [None, *BANDS, None]
-    for low, high in pairwise(edges):
-        limits = ([f"{value.sql} > {low!r}"] if low else []) + ([f"{value.sql} <= {high!r}"] if high else [])
-        yield f"count(*) FILTER ({' AND '.join(limits)})"
-    yield f"count(*) FILTER ({value.sql} IS NULL AND {status.sql} IS NOT NULL)"
-    for known in ("pass", "warn", "fail"):
-        yield f"count(*) FILTER ({status.sql} = {text(known)})"
-    yield f"max({value.sql})"
-
-
-def chunks(items: list[Any]) -> Iterator[list[Any]]:
-    """Yield as many columns at a time as a query asks for."""
+def _of_each(
+    stored: Stored, items: Sequence[Any], asked: Callable[[Any], Sequence[str]], table: str
+) -> Iterator[tuple[Any, tuple[Any, ...]]]:
+    """Yield each of many items with what a query over all variants gives for it, some items a query."""
     for start in range(0, len(items), AT_ONCE):
-        yield items[start : start + AT_ONCE]
+        part = [(item, asked(item)) for item in items[start : start + AT_ONCE]]
+        row = stored.rows(f"SELECT {', '.join(each for _, terms in part for each in terms)} FROM {table}")[0]
+        for item, terms in part:
+            yield item, row[: len(terms)]
+            row = row[len(terms) :]
 
 
 def spreads(stored: Stored, columns: Sequence[StoredColumn], total: int) -> dict[str, Spread]:
     """Return the range of each quantity; those that no variant has are left out."""
     quantile = "quantile_cont" if total <= EXACT else "approx_quantile"
+
+    def asked(column: StoredColumn) -> list[str]:
+        name = column.sql
+        middle = [f"{quantile}({name}, {share})" for share in (0.05, 0.5, 0.95)]
+        return [f"min({name})", *middle, f"max({name})", f"count({name})"]
+
+    numbers = [column for column in columns if column.is_number]
     found = {}
-    for part in chunks([column for column in columns if column.is_number]):
-        asked = ", ".join(
-            f"min({c.sql}), {quantile}({c.sql}, 0.05), {quantile}({c.sql}, 0.5), {quantile}({c.sql}, 0.95), max({c.sql}), count({c.sql})"
-            for c in part
-        )
-        row = stored.rows(f"SELECT {asked} FROM w")[0]
-        for index, column in enumerate(part):
-            *values, count = row[6 * index : 6 * index + 6]
-            if count:
-                found[column.name] = Spread(column, tuple(map(float, values)), count)  # type: ignore[arg-type]  # five of them
+    for column, (low, some, middle, most, high, count) in _of_each(stored, numbers, asked, "w"):
+        if count:
+            values = (float(low), float(some), float(middle), float(most), float(high))
+            found[column.name] = Spread(column, values, count)
     return found
 
 
 def histogram(stored: Stored, spread: Spread) -> Histogram:
     """Return the distribution of a quantity, by status; of a utilisation no class lies on both sides of 1."""
-    column, low, high = spread.column, spread.values[0], reach(spread.values[0], spread.values[3], spread.values[-1])
-    bins = int(np.clip(2 * spread.present**0.5, FEWEST, BINS))
+    column, low, high = spread.column, spread.values[0], spread.reach
+    bins = int(np.clip(2 * spread.present**0.5, MIN_BINS, MAX_BINS))
     is_open, at = high < spread.values[-1], ""
     if is_utilisation(column) and low < 1 < high:
         below = max(1, round((1 - low) / (high - low) * bins))
@@ -303,14 +274,13 @@ def histogram(stored: Stored, spread: Spread) -> Histogram:
 def density(stored: Stored, x: Spread, y: Spread) -> Density:
     """Return all variants over two quantities, counted in cells."""
     across, up = CELLS
-    (left, right), (low, high) = ((each.values[0], reach(each.values[0], *each.values[3:])) for each in (x, y))
-    places = f"{_place(x.column, left, right, across)} AS i, {_place(y.column, low, high, up)} AS j"
+    places = f"{_place(x.column, x.values[0], x.reach, across)} AS i, {_place(y.column, y.values[0], y.reach, up)} AS j"
     there = f"{x.column.sql} IS NOT NULL AND {y.column.sql} IS NOT NULL"
     sql = f"SELECT {places}, count(*), count(*) FILTER ({SOUND}) FROM w WHERE {there} GROUP BY ALL"
     counts, sound = np.zeros((2, up, across), dtype=int)
     for i, j, all_, good in stored.rows(sql):
         counts[j, i], sound[j, i] = all_, good
-    edges = np.linspace(left, right, across + 1), np.linspace(low, high, up + 1)
+    edges = np.linspace(x.values[0], x.reach, across + 1), np.linspace(y.values[0], y.reach, up + 1)
     return Density(x.column, y.column, *edges, counts, sound)
 
 
@@ -320,7 +290,7 @@ def reach(low: float, most: float, high: float) -> float:
 
 
 def _place(column: StoredColumn, low: float, high: float, cells: int) -> str:
-    """SQL for the cell of a quantity, from 0; what lies outside counts in the outermost ones."""
+    """Return SQL for the cell of a quantity, from 0; what lies outside counts in the outermost ones."""
     at = f"floor(({column.sql} - {low!r}) / {high - low!r} * {cells})"
     return f"CAST(greatest(0, least({at}, {cells - 1})) AS BIGINT)"
 
@@ -330,37 +300,33 @@ def reasons(stored: Stored, discovery: Discovery) -> list[Reason]:
     alike = r"regexp_replace(error, '[-+]?[0-9]+[.]?[0-9]*([eE][-+]?[0-9]+)?', '…', 'g')"
     sql = (
         f"SELECT arg_min(error, variant), count(*) AS n, min(variant) FROM v WHERE status = 'error' "
-        f"GROUP BY {alike} ORDER BY n DESC, 3 LIMIT {REASONS}"
+        f"GROUP BY {alike} ORDER BY n DESC, 3 LIMIT {MAX_REASONS}"
     )
     return [
-        Reason(told_reason(stored, example, told, discovery) if told else say("no reason was given"), count, example)
-        for told, count, example in stored.rows(sql)
+        Reason(reason_text(stored, example, why, discovery) if why else say("no reason was given"), count, example)
+        for why, count, example in stored.rows(sql)
     ]
 
 
 def sample(stored: Stored, columns: Sequence[StoredColumn], most: int) -> SampledVariants:
     """Return so many variants drawn without regard to their values, the same ones each time, in the order of the sample."""
     words = {column.name: _words(stored, column) for column in columns if column.kind == "text"}
-    asked = [_number(column, words) for column in columns]
     known = ", ".join(map(text, STATUSES))
+    asked = ["variant", f"list_position([{known}], status) - 1", *(_number(each, words) for each in columns)]
     inside = f"variant IN (SELECT variant FROM v ORDER BY hash(variant), variant LIMIT {most})"
-    sql = f"SELECT {', '.join(['variant', f'list_position([{known}], status) - 1', *asked])} FROM w WHERE {inside} ORDER BY variant"
-    rows = np.array(stored.rows(sql), dtype=float).reshape(-1, len(columns) + 2)
+    found = stored.rows(f"SELECT {', '.join(asked)} FROM w WHERE {inside} ORDER BY variant")
+    rows = np.array(found, dtype=float).reshape(-1, len(asked))
     values = {column.name: rows[:, index + 2] for index, column in enumerate(columns)}
     return SampledVariants(rows[:, 0].astype(int), rows[:, 1].astype(int), values, words)
 
 
 def _words(stored: Stored, column: StoredColumn) -> list[str]:
-    return [
-        row[0]
-        for row in stored.rows(
-            f"SELECT DISTINCT {column.sql} FROM v WHERE {column.sql} IS NOT NULL ORDER BY 1 LIMIT 50"
-        )
-    ]
+    sql = f"SELECT DISTINCT {column.sql} FROM v WHERE {column.sql} IS NOT NULL ORDER BY 1 LIMIT 50"
+    return [word for (word,) in stored.rows(sql)]
 
 
 def _number(column: StoredColumn, words: dict[str, list[str]]) -> str:
-    """A quantity as a float: a text by its place among the words, yes as one."""
+    """Return a quantity as a float: a text by its place among the words, yes as one."""
     if column.kind == "text":
         return f"CAST(list_position([{', '.join(map(text, words[column.name]))}], {column.sql}) - 1 AS DOUBLE)"
     return f"CAST({column.sql} AS DOUBLE)"
@@ -371,17 +337,16 @@ def number_of(stored: Stored, column: StoredColumn) -> str:
     return _number(column, {column.name: _words(stored, column)} if column.kind == "text" else {})
 
 
-# Which values pass: the share of the variants that do not fail, by value or class of each varied input.
+# --- which values pass: the share of the variants that do not fail, by value or class of each varied input ------------
 
-
-CLASSES, FEW, MOST = 5, 8, 12  # of a range; values that stand one by one, of numbers and of words
-INPUTS = 12
+CLASSES, MAX_NUMBERS, MAX_WORDS = 5, 8, 12  # of a range; values that stand one by one, of numbers and of words
+MAX_INPUTS = 12
 
 
 class PassingValue(NamedTuple):
     """Hold a value or class of an input: how many variants have it, and how many of them do not fail."""
 
-    told: str
+    text: str
     variants: int
     passing: int
 
@@ -394,64 +359,66 @@ class PassingValues(NamedTuple):
     more: int = 0
 
     @property
-    def reach(self) -> float:
+    def range(self) -> float:
         """Return how far the shares of its values lie apart."""
         shares = [row.passing / row.variants for row in self.rows if row.variants]
         return max(shares) - min(shares)
 
 
-def values(stored: Stored) -> list[PassingValues]:
+def passing_values(stored: Stored) -> list[PassingValues]:
     """Return the varied inputs that have more than one value, in the study's order; of many those whose values differ most."""
-    found = [each for column in stored.varied for each in [_values(stored, column)] if len(each.rows) > 1]
-    kept = sorted(found, key=lambda each: -each.reach)[:INPUTS]
+    found = [each for column in stored.varied if len((each := _passing(stored, column)).rows) > 1]
+    kept = sorted(found, key=lambda each: -each.range)[:MAX_INPUTS]
     return [each for each in found if each in kept]
 
 
-def _values(stored: Stored, column: StoredColumn) -> PassingValues:
+def _passing(stored: Stored, column: StoredColumn) -> PassingValues:
+    def counted(by: str, order: str) -> list[tuple[Any, int, int]]:
+        return stored.rows(
+            f"SELECT {by} AS place, count(*) AS n, count(*) FILTER ({SOUND}) AS good FROM v "
+            f"WHERE {column.sql} IS NOT NULL GROUP BY place ORDER BY {order}"
+        )
+
     if not column.is_number:
-        return _passing_values_words(stored, column)
-    low, high, count = stored.rows(f"SELECT min({column.sql}), max({column.sql}), count(DISTINCT {column.sql}) FROM v")[
-        0
-    ]
-    if count < 2:
-        return PassingValues(column, [])
-    return _one_by_one(stored, column) if count <= FEW else _classes(stored, column, float(low), float(high))
-
-
-def _counted(stored: Stored, column: StoredColumn, by: str, order: str) -> list[tuple[Any, int, int]]:
-    return stored.rows(
-        f"SELECT {by} AS place, count(*) AS n, count(*) FILTER ({SOUND}) AS good FROM v WHERE {column.sql} IS NOT NULL "
-        f"GROUP BY place ORDER BY {order}"
-    )
-
-
-def _passing_values_words(stored: Stored, column: StoredColumn) -> PassingValues:
-    rows = _counted(stored, column, column.sql, "good / n DESC, n DESC, place")
-    told = [PassingValue(value_told(value), count, good) for value, count, good in rows]
-    return PassingValues(column, told[:MOST], max(0, len(told) - MOST))
-
-
-def _one_by_one(stored: Stored, column: StoredColumn) -> PassingValues:
-    rows = _counted(stored, column, column.sql, "place")
-    return PassingValues(
-        column, [PassingValue(display(float(value), column), count, good) for value, count, good in rows]
-    )
-
-
-def _classes(stored: Stored, column: StoredColumn, low: float, high: float) -> PassingValues:
-    """Classes of equal width; a value at a limit belongs to the class above it."""
-    wide = (high - low) / CLASSES
+        rows = [
+            PassingValue(value_text(value), *counts)
+            for value, *counts in counted(column.sql, "good / n DESC, n DESC, place")
+        ]
+        return PassingValues(column, rows[:MAX_WORDS], max(0, len(rows) - MAX_WORDS))
+    sql = f"SELECT min({column.sql}), max({column.sql}), count(DISTINCT {column.sql}) FROM v"
+    low, high, count = stored.rows(sql)[0]
+    if count <= MAX_NUMBERS:
+        rows = [PassingValue(display(float(value), column), *counts) for value, *counts in counted(column.sql, "place")]
+        return PassingValues(column, rows)
+    wide = (high - low) / CLASSES  # a value at a limit belongs to the class above it
     at = f"CAST(least(floor(({column.sql} - {low!r}) / {wide!r}), {CLASSES - 1}) AS BIGINT)"
-    known = {int(place): (count, good) for place, count, good in _counted(stored, column, at, "place")}
+    known = {int(place): counts for place, *counts in counted(at, "place")}
     edges = [display(low + wide * index, column) for index in range(CLASSES + 1)]
-    told = [f"{edges[index]} … {edges[index + 1]}" for index in range(CLASSES)]
-    return PassingValues(column, [PassingValue(told[index], *known.get(index, (0, 0))) for index in range(CLASSES)])
+    named_ = enumerate(f"{one} … {other}" for one, other in pairwise(edges))
+    return PassingValues(column, [PassingValue(told, *known.get(index, (0, 0))) for index, told in named_])
 
 
-# What fails and what holds: in how many variants each check fails, governs, or is the only one; what governs those that pass.
+# --- what fails and what holds ---------------------------------------------------------------------------------------
+
+SAME_MARGIN = 1e-6  # relative difference up to which two margins are shared
 
 
-SAME = 1e-6  # relative difference up to which two margins are shared
+class Utilisation(NamedTuple):
+    """Hold a check over all variants: how many in each class of utilisation, without one, its statuses, and its greatest value."""
+
+    check: str
+    bands: tuple[int, ...]
+    without: int
+    passing: int
+    warning: int
+    failing: int
+    unchecked: int  # as a limit or another key is not given
+    greatest: float | None
+
+    @property
+    def is_made(self) -> bool:
+        """Return whether any variant has this check."""
+        return self.passing + self.warning + self.failing > 0
 
 
 class Failure(NamedTuple):
@@ -483,34 +450,38 @@ class Margin(NamedTuple):
     shared: int
 
 
+def utilisations(stored: Stored) -> list[Utilisation]:
+    """Return each check over all variants, those with the most failures first."""
+
+    def asked(check: str) -> list[str]:
+        value, status = (column.sql for column in stored.checks[check])
+        bands = [
+            f"{value} <= {BANDS[0]!r}",
+            *(f"{value} > {low!r} AND {value} <= {high!r}" for low, high in pairwise(BANDS)),
+        ]
+        states = [f"{status} = {text(known)}" for known in ("pass", "warn", "fail", "not_checked")]
+        conditions = [*bands, f"{value} > {BANDS[-1]!r}", f"{value} IS NULL AND {status} IS NOT NULL", *states]
+        return [*(f"count(*) FILTER ({each})" for each in conditions), f"max({value})"]
+
+    each = _of_each(stored, list(stored.checks), asked, "v")
+    found = [Utilisation(check, row[: len(BANDS) + 1], *row[len(BANDS) + 1 :]) for check, row in each]
+    return sorted(found, key=lambda row: (-row.failing, -row.warning, -(row.greatest or 0.0), row.check))
+
+
 def failures(stored: Stored, used: Sequence[Utilisation]) -> list[Failure]:
     """Return the checks that fail or warn in any variant, those with the most failures first."""
     sql = "SELECT governing, count(*) FROM v WHERE status = 'fail' AND governing IS NOT NULL GROUP BY governing"
     governed = dict(stored.rows(sql))
     rows = [row for row in used if row.failing or row.warning]
-    alone = _alone(stored, [row.check for row in rows])
-    found = [Failure(row.check, row.failing, governed.get(row.check, 0), alone[row.check], row.warning) for row in rows]
+
+    def asked(check: str) -> list[str]:
+        return [f"count(*) FILTER ({stored.checks[check][1].sql} = 'fail')"]
+
+    only = {
+        check: row[0] for check, row in _of_each(stored, [row.check for row in rows], asked, f"w WHERE {FAILING} = 1")
+    }
+    found = [Failure(row.check, row.failing, governed.get(row.check, 0), only[row.check], row.warning) for row in rows]
     return sorted(found, key=lambda row: (-row.failing, -row.governing, -row.warning, row.check))
-
-
-def _alone(stored: Stored, checks: list[str]) -> dict[str, int]:
-    """In how many variants each check is the only one that fails."""
-    found: dict[str, int] = {}
-    for part in chunks(checks):
-        asked = (f"count(*) FILTER ({stored.checks[check][1].sql} = 'fail')" for check in part)
-        row = stored.rows(f"SELECT {', '.join(asked)} FROM w WHERE {FAILING} = 1")[0]
-        found |= dict(zip(part, row, strict=True))
-    return found
-
-
-def unchecked(stored: Stored) -> list[str]:
-    """Return the checks that are not made in some variant, as a limit or another key is not given."""
-    found: list[str] = []
-    for part in chunks(list(stored.checks)):
-        asked = (f"count(*) FILTER ({stored.checks[check][1].sql} = 'not_checked')" for check in part)
-        row = stored.rows(f"SELECT {', '.join(asked)} FROM v")[0]
-        found += [check for check, count in zip(part, row, strict=True) if count]
-    return found
 
 
 def governing(stored: Stored, still: Collection[str] = ()) -> list[Governing]:
@@ -529,6 +500,6 @@ def margin(stored: Stored) -> Margin | None:
     least = stored.rows(f"SELECT min({WORST.sql}) {there}")[0][0]
     if least is None:
         return None
-    alike = f"{there} AND {WORST.sql} <= {least * (1 + SAME)!r}"
+    alike = f"{there} AND {WORST.sql} <= {least * (1 + SAME_MARGIN)!r}"
     one, check, shared = stored.rows(f"SELECT min(variant), arg_min(governing, variant), count(*) {alike}")[0]
     return Margin(one, least, check, shared)

@@ -11,14 +11,14 @@ import numpy as np
 
 from diecut_report.report.figures.style import Svg
 from diecut_report.report.text import number
-from diecut_report.study.analysis.variants import STATUSES, Stored, StoredColumn
+from diecut_report.study.analysis.variants import Stored, StoredColumn
+from diecut_report.study.storage.description import STATUSES
 from diecut_report.study.summary import charts, data
 from diecut_report.study.summary.best import Front, Influence, Share
-from diecut_report.study.summary.charts import DrawnLines, Ends, drawn_lines, near, parallel
+from diecut_report.study.summary.charts import Ends, drawn_lines, near
 from diecut_report.study.summary.data import (
     WORDS,
     Failure,
-    Histogram,
     SampledVariants,
     Spread,
     named,
@@ -30,8 +30,7 @@ from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import localised, said, say, say_counted
 
 DENSE = 5_000  # variants from which a chart counts them in cells
-AXES, GOVERNING, LINES = 8, 15, 400  # upright axes, bars of governing checks, lines between the axes
-
+MAX_AXES, MAX_FAILURES, MAX_POINTS = 8, 15, 400  # upright axes, bars of failing checks, points of each small chart
 PALE = "#e0a3a1"  # of failures that another check governs
 FAR = phrase("Values that lie far above the others stand at the edge.")
 
@@ -55,235 +54,185 @@ class Figures:
     main: list[StoredColumn]
     spreads: dict[str, Spread]
 
+    @property
+    def total(self) -> int:
+        """Return how many variants there are."""
+        return sum(self.states.values())
+
     def all(
         self, failures: Sequence[Failure], spreads: Sequence[Spread], ranked: Sequence[Influence]
     ) -> dict[str, SummaryFigure]:
         """Return every chart that the study has something for, by its key."""
         found = {
-            "counts": self.counts(),
-            "failures": self.failures(failures) if failures else None,
-            "distributions": self.distributions(spreads) if spreads else None,
-            "parallel": self.parallel(),
-            "pair": self.pair(),
-            "grid": self.grid(ranked),
+            "counts": self._counts(),
+            "failures": self._failures(failures) if failures else None,
+            "distributions": self._distributions(spreads) if spreads else None,
+            "parallel": self._parallel(),
+            "pair": self._pair(),
+            "grid": self._grid(ranked),
         }
         return {key: figure for key, figure in found.items() if figure is not None}
 
-    def counts(self) -> SummaryFigure:
-        """Return the variants by status."""
-        total = sum(self.states.values())
-        told = ", ".join(
-            f"{said(WORDS[status])} {count} ({percent(count, total)})" for status, count in self.states.items()
-        )
-        title = say("Variants by status: {told}.", told=told)
-        return SummaryFigure(charts.shares(self.states, title), say("Variants by status."), told)
+    def _counts(self) -> SummaryFigure:
+        parts = self.states.items()
+        told = ", ".join(f"{said(WORDS[status])} {count} ({percent(count, self.total)})" for status, count in parts)
+        svg = charts.shares(say("Variants by status: {told}.", told=told), "counts", self.states)
+        return SummaryFigure(svg, say("Variants by status."), told)
 
-    def failures(self, failures: Sequence[Failure]) -> SummaryFigure:
-        """Return in how many variants the checks fail and govern."""
-        rows = failures[:GOVERNING]
+    def _failures(self, failures: Sequence[Failure]) -> SummaryFigure:
+        rows = [(row, said(self.stored.check_label(row.check))) for row in failures[:MAX_FAILURES]]
+        words = "{check} fails in {failing}, governs {governing} of them, warns in {warning}"
         told = "; ".join(
-            say(
-                "{check} fails in {failing}, governs {governing} of them, warns in {warning}",
-                check=self._check(row),
-                failing=row.failing,
-                governing=row.governing,
-                warning=row.warning,
-            )
-            for row in rows
+            say(words, check=name, failing=row.failing, governing=row.governing, warning=row.warning)
+            for row, name in rows
         )
         caption = say(
             "Variants in which a check fails: those that it governs (dark red) and those in which another check is "
             "overloaded more (pale red); those with a warning (yellow)."
         )
-        if (left := len(failures) - GOVERNING) > 0:
+        if (left := len(failures) - MAX_FAILURES) > 0:
             caption += " " + say_counted(left, "{n} rarer check is left out.", "{n} rarer checks are left out.")
         colours = [charts.COLOURS["fail"], PALE, charts.COLOURS["warn"]]
-        bars = [
-            charts.Bar(
-                self._check(row),
-                (row.governing, row.failing - row.governing, row.warning),
-                _behind(row),
-            )
-            for row in rows
-        ]
-        return SummaryFigure(charts.stacked(bars, colours, f"{told}.", "failures"), caption, told)
+        parts = [(row.governing, row.failing - row.governing, row.warning) for row, _ in rows]
+        bars = [charts.Bar(name, part, _behind(row)) for (row, name), part in zip(rows, parts, strict=True)]
+        return SummaryFigure(charts.stacked(f"{told}.", "failures", bars, colours), caption, told)
 
-    def _check(self, row: Failure) -> str:
-        return said(self.stored.check_told(row.check))
-
-    def distributions(self, spreads: Sequence[Spread]) -> SummaryFigure:
-        """Return the distributions of the quantities that matter."""
+    def _distributions(self, spreads: Sequence[Spread]) -> SummaryFigure:
         found = [data.histogram(self.stored, spread) for spread in spreads]
-        told = "; ".join(_distributed(each, spread) for each, spread in zip(found, spreads, strict=True))
+        told = "; ".join(map(_distributed, spreads))
         caption = say(
             "Distributions over all variants: pass (blue), warning (yellow), fail (red), each on top of the other; "
             "heights count variants, the number is that of the highest bar."
         )
         if any(each.is_open for each in found):
             caption += " " + say("Where a few variants lie far above the others (≥), the last bar holds them all.")
-        return SummaryFigure(charts.distributions(found, f"{told}."), caption, told)
+        return SummaryFigure(charts.distributions(f"{told}.", "distributions", found), caption, told)
 
-    def influence(self, found: Influence) -> SummaryFigure:
-        """Return the influence of the inputs on a quantity."""
-        if found.is_sobol:
-            told = "; ".join(
-                say(
-                    "{quantity}: first {first}, total {total}",
-                    quantity=named(share.column),
-                    first=localised(f"{share.first:.2f}"),
-                    total=localised(f"{share.total or 0:.2f}"),
-                )
-                for share in found.telling
-            )
-            words = "Influence on {target}. Dark: first index; pale: total index; lines: 95 % intervals."
-        else:
-            told = "; ".join(localised(f"{named(share.column)}: {share.first:+.2f}") for share in found.telling)
-            words = (
-                "Influence on {target}: partial rank correlation; to the right, a greater input gives a greater result."
-            )
-        caption = say(words, target=named(found.target))
-        told = say("Influence on {target}: {told}", target=named(found.target), told=told)
-        return SummaryFigure(
-            charts.influence(found, f"{told}.", Phrase("influence of {name}", name=found.target.name)), caption, told
-        )
-
-    def parallel(self) -> SummaryFigure | None:
-        """Return parallel coordinates of inputs and of what matters."""
-        inputs = [column for column in self.stored.varied if column.name in self.sample.values][: AXES - 2]
-        goals = [column for column in self.main if column.name in self.sample.values][: max(2, AXES - len(inputs))]
-        columns = [column for column in (*inputs, *goals) if np.isfinite(self.sample.values[column.name]).any()][:AXES]
+    def _parallel(self) -> SummaryFigure | None:
+        values = self.sample.values
+        inputs = [column for column in self.stored.varied if column.name in values][: MAX_AXES - 2]
+        goals = [column for column in self.main if column.name in values][: max(2, MAX_AXES - len(inputs))]
+        columns = [each for each in (*inputs, *goals) if np.isfinite(values[each.name]).any()][:MAX_AXES]
         if len(columns) < 2 or not (self.sample.status != STATUSES.index("error")).any():
             return None
         lines = drawn_lines(self.sample)
-        shown = variants(len(lines.sound) + len(lines.failing))
-        told = say("{variants} as lines over {names}", variants=shown, names=", ".join(map(named, columns)))
-        title = say("Parallel coordinates: {told}.", told=told)
-        svg = parallel(self.sample, lines, columns, self._ends(columns), title)
-        return SummaryFigure(svg, self._of_lines(lines, columns), told)
-
-    def _of_lines(self, lines: DrawnLines, columns: Sequence[StoredColumn]) -> str:
-        """What stands below the lines: what they are, and by which rule they were chosen."""
+        sound, failing = len(lines.sound), len(lines.failing)
+        told = say(
+            "{variants} as lines over {names}", variants=variants(sound + failing), names=", ".join(map(named, columns))
+        )
         caption = say(
             "Each line is a variant, from input to result: dark those that pass, in front; dashed those with a warning; pale "
             "those that fail. The darker a field of an axis, the larger the share of the variants there that pass. "
             "The ends of the axes are those of all variants."
         )
         rule = "Of {variants} so many are drawn, evenly taken from the sample: {sound} of those that pass, {failing} of those that fail."
-        sound, failing = len(lines.sound), len(lines.failing)
-        is_whole = lines.is_whole and sum(self.states.values()) == len(self.sample.status)
-        drawn = say(rule, variants=variants(sum(self.states.values())), sound=sound, failing=failing)
-        told = [caption, say("All variants are drawn.") if is_whole else drawn]
-        return " ".join([*told, *([said(FAR)] if self._reach_far(self.sample, columns) else [])])
+        is_whole = lines.is_whole and self.total == len(self.sample.status)
+        all_ = say("All variants are drawn.")
+        drawn = all_ if is_whole else say(rule, variants=variants(self.total), sound=sound, failing=failing)
+        title = say("Parallel coordinates: {told}.", told=told)
+        svg = charts.parallel(title, "parallel", self.sample, lines, columns, self._ends(columns))
+        return SummaryFigure(svg, f"{caption} {drawn}{self._far(self.sample, columns)}", told)
 
     def _ends(self, columns: Sequence[StoredColumn]) -> dict[str, Ends]:
-        """The ends of upright axes over all variants."""
         found: dict[str, Ends] = {}
         for name in (column.name for column in columns):
             if name in self.spreads:
-                low, _, _, most, high = self.spreads[name].values
-                top = data.reach(low, most, high)
-                found[name] = (low, top, top < high)
+                spread = self.spreads[name]
+                found[name] = (spread.values[0], spread.reach, spread.reach < spread.values[-1])
             else:
                 last = len(self.sample.words[name]) - 1 if name in self.sample.words else 1
                 found[name] = (0.0, float(last), False)
         return found
 
-    def pair(self) -> SummaryFigure | None:
-        """Return the first two quantities that matter, with the front."""
-        pair = self._goals()
-        if pair is None or not self.stored.study.get("objectives"):
+    def _pair(self) -> SummaryFigure | None:
+        known = [column for column in self.main if column.name in self.sample.values]
+        if len(known) < 2 or not self.stored.study.get("objectives"):
             return None
-        x, y = pair
-        front = (
-            self.front
-            if self.front and {x.name, y.name} <= {goal.column.name for goal in self.front.objectives}
-            else None
-        )
+        x, y = known[:2]
+        goals = {goal.column.name for goal in self.front.objectives} if self.front else set()
+        front = self.front if {x.name, y.name} <= goals else None
         told = self._over(x, y)
         if front:
             words = "; Pareto front of {variants}, from variant {first} to {last}"
             first, last = front.variants[0], front.variants[-1]
             told += say(words, variants=variants(len(front.variants)), first=first, last=last)
-        words = "{y} over {x}, with the Pareto front." if front else "{y} over {x}."
-        caption = say(words, y=named(y), x=named(x))
-        if sum(self.states.values()) > DENSE and {x.name, y.name} <= self.spreads.keys():
-            return self._cells(x, y, front, caption, told)
-        caption = f"{caption} {self._drawn(self.sample, pair)}"
-        return SummaryFigure(
-            charts.scatter(self.sample, [pair], say("Scatter of {told}.", told=told), "pair", front),
-            caption,
-            told,
-        )
+        caption = say("{y} over {x}, with the Pareto front." if front else "{y} over {x}.", y=named(y), x=named(x))
+        if self.total > DENSE and {x.name, y.name} <= self.spreads.keys():
+            found = data.density(self.stored, self.spreads[x.name], self.spreads[y.name])
+            words = "Counted in cells are {variants}: the larger a square, the more variants; its colour is the share that does not fail."
+            counted = say(words, variants=variants(int(found.counts.sum())))
+            svg = charts.cells(say("Density of {told}.", told=told), "pair", found, front)
+        else:
+            counted = self._drawn(self.sample, [x, y])
+            svg = charts.scatter(say("Scatter of {told}.", told=told), "pair", self.sample, [(x, y)], front)
+        return SummaryFigure(svg, f"{caption} {counted}", told)
 
-    def _cells(self, x: StoredColumn, y: StoredColumn, front: Front | None, caption: str, told: str) -> SummaryFigure:
-        found = data.density(self.stored, self.spreads[x.name], self.spreads[y.name])
-        words = "Counted in cells are {variants}: the larger a square, the more variants; its colour is the share that does not fail."
-        caption = f"{caption} {say(words, variants=variants(int(found.counts.sum())))}"
-        title = say("Density of {told}.", told=told)
-        return SummaryFigure(charts.cells(found, title, "pair", front), caption, told)
-
-    def _goals(self) -> tuple[StoredColumn, StoredColumn] | None:
-        known = [column for column in self.main if column.name in self.sample.values]
-        return (known[0], known[1]) if len(known) > 1 else None
-
-    def grid(self, ranked: Sequence[Influence]) -> SummaryFigure | None:
-        """Return what matters over the inputs that move it most."""
-        known = [found for found in ranked[:3] if found.target.name in self.sample.values]
-        pairs = [(share.column, found.target) for found in known for share in self._drawable(found)[:2]]
+    def _grid(self, ranked: Sequence[Influence]) -> SummaryFigure | None:
+        """Return what matters over the inputs that move it most, as far as an axis of numbers can carry them."""
+        values = self.sample.values
+        known = [found for found in ranked[:3] if found.target.name in values]
+        moving = [[each.column for each in found.telling if each.column.is_number] for found in known]
+        drawable = [[column for column in columns if column.name in values][:2] for columns in moving]
+        pairs = [(column, found.target) for found, some in zip(known, drawable, strict=True) for column in some]
         if not pairs:
             return None
-        some = _thinned(self.sample, LINES)
+        some = self.sample.thinned(MAX_POINTS)
         told = "; ".join(self._over(x, y) for x, y in pairs)
         drawn = self._drawn(some, [column for pair in pairs for column in pair])
         caption = f"{say('Each quantity over the inputs that move it most.')} {drawn}"
-        title = say("Scatter: {told}.", told=told)
-        return SummaryFigure(charts.scatter(some, pairs, title, "grid"), caption, told)
+        return SummaryFigure(charts.scatter(say("Scatter: {told}.", told=told), "grid", some, pairs), caption, told)
 
     def _over(self, x: StoredColumn, y: StoredColumn) -> str:
-        return say("{y} over {x}, {told}", y=named(y), x=named(x), told=self._correlated(x, y))
-
-    def _drawable(self, found: Influence) -> list[Share]:
-        """The inputs that an axis of numbers can carry."""
-        return [share for share in found.telling if share.column.is_number and share.column.name in self.sample.values]
-
-    def _correlated(self, x: StoredColumn, y: StoredColumn) -> str:
+        """Name two quantities, with their correlation where there is one."""
         one, two = self.sample.values[x.name], self.sample.values[y.name]
         there = np.isfinite(one) & np.isfinite(two)
-        if there.sum() < 3 or not np.ptp(one[there]) > 0 or not np.ptp(two[there]) > 0:
-            return variants(int(there.sum()))
-        found = localised(f"{np.corrcoef(one[there], two[there])[0, 1]:.2f}")
-        return say("{variants}, correlation {found}", variants=variants(int(there.sum())), found=found)
+        told = variants(int(there.sum()))
+        if there.sum() >= 3 and np.ptp(one[there]) > 0 and np.ptp(two[there]) > 0:
+            found = localised(f"{np.corrcoef(one[there], two[there])[0, 1]:.2f}")
+            told = say("{variants}, correlation {found}", variants=told, found=found)
+        return say("{y} over {x}, {told}", y=named(y), x=named(x), told=told)
 
     def _drawn(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
-        """How many of the variants a chart has, and whether some of them are out of its reach."""
-        total, drawn = sum(self.states.values()), len(some.variants)
-        of_all = say("Of {variants}, a sample of {drawn} is drawn.", variants=variants(total), drawn=variants(drawn))
-        told = say("All variants are drawn.") if drawn == total else of_all
-        return f"{told} {said(FAR)}" if self._reach_far(some, columns) else told
+        drawn = len(some.variants)
+        of_all = say(
+            "Of {variants}, a sample of {drawn} is drawn.", variants=variants(self.total), drawn=variants(drawn)
+        )
+        return (say("All variants are drawn.") if drawn == self.total else of_all) + self._far(some, columns)
 
-    def _reach_far(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> bool:
-        """Whether some variants are out of a chart's reach."""
-        return any((near(values) < values).any() for values in (some.values[column.name] for column in columns))
+    def _far(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
+        """Return what to add where some variants are out of a chart's reach."""
+        is_far = any((near(values) < values).any() for values in (some.values[column.name] for column in columns))
+        return f" {said(FAR)}" if is_far else ""
+
+
+def influence_figure(found: Influence) -> SummaryFigure:
+    """Return the influence of the inputs on a quantity."""
+    target = named(found.target)
+    if found.is_sobol:
+        words = "Influence on {target}. Dark: first index; pale: total index; lines: 95 % intervals."
+        each = "{quantity}: first {first}, total {total}"
+        numbers = [(named(share.column), f"{share.first:.2f}", f"{share.total or 0:.2f}") for share in found.telling]
+        told = "; ".join(
+            say(each, quantity=name, first=localised(one), total=localised(all_)) for name, one, all_ in numbers
+        )
+    else:
+        words = "Influence on {target}: partial rank correlation; to the right, a greater input gives a greater result."
+        told = "; ".join(localised(f"{named(share.column)}: {share.first:+.2f}") for share in found.telling)
+    told = say("Influence on {target}: {told}", target=target, told=told)
+    key = Phrase("influence of {name}", name=found.target.name)
+    return SummaryFigure(charts.influence(f"{told}.", key, found), say(words, target=target), told)
 
 
 def _behind(row: Failure) -> str:
-    """What stands behind the bar of a check."""
     told = say("{n}, governs {governing}", n=number(str(row.failing)), governing=number(str(row.governing)))
     warned = say_counted(row.warning, "{n} warning", "{n} warnings", n=number(str(row.warning)))
     return ", ".join([*([told] if row.failing else []), *([warned] if row.warning else [])])
 
 
-def _distributed(each: Histogram, spread: Spread) -> str:
+def _distributed(spread: Spread) -> str:
     low, _, middle, _, high = (quantity(value, spread.column) for value in spread.values)
     words = "{quantity} from {low} to {high}, half of the variants below {middle}"
-    return say(words, quantity=named(each.column), low=low, high=high, middle=middle)
-
-
-def _thinned(sample: SampledVariants, most: int) -> SampledVariants:
-    """Every so-manieth variant of a sample, which is in no order of sizes."""
-    step = max(1, -(-len(sample.variants) // most))
-    values = {name: column[::step] for name, column in sample.values.items()}
-    return SampledVariants(sample.variants[::step], sample.status[::step], values, sample.words)
+    return say(words, quantity=named(spread.column), low=low, high=high, middle=middle)
 
 
 # The influence of the inputs as a table with charts.
@@ -301,12 +250,12 @@ class Ranked(NamedTuple):
     variants: str
 
 
-def ranked(found: list[Influence], figures: Figures) -> Ranked:
+def ranked(found: list[Influence]) -> Ranked:
     """Return one table for all quantities, its inputs in the order of the first of them."""
     by_target = [{share.column: share for share in each.shares} for each in found]
     inputs = list(dict.fromkeys(column for shares in by_target for column in shares))
     rows = [(named(column), [_share(shares.get(column)) for shares in by_target]) for column in inputs]
-    drawn = [figures.influence(each) for each in found if each.is_certain and each.telling][:CHARTED]
+    drawn = [influence_figure(each) for each in found if each.is_certain and each.telling][:CHARTED]
     return Ranked([named(each.target) for each in found], rows, drawn, variants(max(each.variants for each in found)))
 
 

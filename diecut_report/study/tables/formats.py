@@ -1,222 +1,350 @@
-"""Parquet files as headers and cells, judged by their footer before they are unpacked."""
+"""Files of tables (CSV, Parquet, XLSX) as headers and cells, none unpacked to more than is bearable.
+
+The libraries are imported where they are needed. What is wrong is a UserError that does not yet name the file.
+"""
 
 from __future__ import annotations
 
+import codecs
+import csv
+import re
 import warnings
 from collections.abc import Iterable, Iterator
 from contextlib import contextmanager
-from dataclasses import dataclass
 from typing import Any, BinaryIO
 from xml.parsers import expat
 from zipfile import ZipFile
 
-from diecut_report.study.tables.cells import (
-    MAX_CELLS,
-    MAX_COLUMNS,
-    OTHER_FORM,
-    SMALLER,
-    Cells,
-    UnreadableTable,
-    judge_size,
-    judge_unpacked,
-)
-from diecut_report.text.phrases import Phrase, phrase
+import numpy as np
 
-KIND = ".parquet"
+from diecut_report.errors import Problem, UserError
+from diecut_report.study.tables.cells import Cells
+from diecut_report.text.phrases import Phrase, joined, phrase
+
+MAX_BYTES = {".csv": 200_000_000, ".parquet": 200_000_000, ".xlsx": 25_000_000}
+MAX_UNPACKED = {".parquet": 500_000_000, ".xlsx": 100_000_000}  # what the packed file holds, in bytes
+MAX_CELLS = {".csv": 10_000_000, ".parquet": 10_000_000, ".xlsx": 500_000}
+MAX_COLUMNS = 16_384  # as many as a sheet of a workbook holds
+CHUNK = 1 << 20  # bytes that are looked at together
+SMALLER = phrase("Give fewer rows or columns")
+OTHER_FORM = phrase("save the table as CSV or Parquet, which may be larger")
+NO_ROWS = phrase("the table has no rows below its header; give at least one")
+NO_HEADER = phrase("row 1 is empty; it must hold the names of the columns")
+
+Columns = tuple[list[tuple[str, str | None]], list[Cells]]
+"""What heads each column, with the unit that the file stores beside it, and its cells."""
+
+
+def unreadable(message: str, row: int | None = None) -> UserError:
+    """Return the error of a file that is no table, with the row where it is known."""
+    return UserError(Problem(message, line=row))
+
+
+def _advice(kind: str) -> str:
+    return joined((SMALLER, OTHER_FORM), ", or ") if kind == ".xlsx" else SMALLER
+
+
+def check_size(kind: str, rows: int, columns: int) -> None:
+    """Refuse a table of more cells than a file of this type may have."""
+    if columns > MAX_COLUMNS:
+        words = "has {columns} columns; at most {max_columns} are allowed. {smaller}"
+        raise unreadable(Phrase(words, columns=columns, max_columns=MAX_COLUMNS, smaller=SMALLER))
+    if rows * columns > MAX_CELLS[kind]:
+        most = Phrase("at most {max_cells} cells are allowed", max_cells=f"{MAX_CELLS[kind]:,}")
+        words = "has {rows} rows × {columns} columns; {most}. {advice}"
+        counts = {"rows": f"{rows:,}", "columns": f"{columns:,}"}
+        raise unreadable(Phrase(words, counts, most=most, advice=_advice(kind)))
+
+
+def check_unpacked(kind: str, size: int) -> None:
+    """Refuse a file whose content, unpacked, takes more bytes than is bearable."""
+    if size > MAX_UNPACKED[kind]:
+        most = Phrase("at most {max_unpacked} MB are allowed", max_unpacked=f"{MAX_UNPACKED[kind] / 1e6:g}")
+        words = "holds {size} MB when it is unpacked; {most}. {advice}"
+        raise unreadable(Phrase(words, size=f"{size / 1e6:.1f}", most=most, advice=_advice(kind)))
+
+
+def _no_memory() -> UserError:
+    return unreadable(Phrase("needs more memory than there is. {smaller}", smaller=SMALLER))
+
+
+# --- CSV ---------------------------------------------------------------------------------------------------------------
+
+DELIMITERS = ",;\t"
+NOT_UTF8 = phrase("is not in UTF-8; save it as “CSV UTF-8”")
+MAX_LINE = 1_000_000  # bytes of a row
+MAX_REPORTED = 100  # rows of another length that are reported one by one
+
+
+def read_csv(file: BinaryIO) -> Columns:
+    """Return the headers and the cells of all columns of a CSV file."""
+    import pyarrow
+    from pyarrow import csv as arrow_csv
+
+    names, delimiter = _csv_header(file)
+    check_size(".csv", _csv_rows(file), len(names))
+    wrong: list[Problem] = []
+    others = 0
+
+    def skip(row: Any) -> str:
+        nonlocal others
+        words = "row {number} has {actual_columns} cells, the header {expected_columns}; fill up or quote"
+        counts = {"actual_columns": row.actual_columns, "expected_columns": row.expected_columns}
+        if len(wrong) < MAX_REPORTED:
+            wrong.append(Problem(Phrase(words, counts, number=row.number), line=row.number))
+        else:
+            others += 1
+        return "skip"
+
+    try:
+        table = arrow_csv.read_csv(
+            file,
+            arrow_csv.ReadOptions(use_threads=False, skip_rows=1, column_names=[str(i) for i in range(len(names))]),
+            arrow_csv.ParseOptions(delimiter=delimiter, ignore_empty_lines=False, invalid_row_handler=skip),
+            arrow_csv.ConvertOptions(column_types={str(i): pyarrow.string() for i in range(len(names))}),
+        )
+    except pyarrow.ArrowMemoryError as error:
+        raise _no_memory() from error
+    except pyarrow.ArrowException as error:
+        raise unreadable(_csv_fault(str(error))) from error
+    if wrong:
+        words = "{more} more rows have not as many cells as the header"
+        raise UserError([*wrong, *([Problem(Phrase(words, more=others))] if others else [])])
+    blank = _blank_rows(table)
+    rows = tuple((np.flatnonzero(blank) + 2).tolist())
+    return [(name, None) for name in names], [Cells(column, 2, rows) for column in table.filter(~blank).columns]
+
+
+def _csv_header(file: BinaryIO) -> tuple[list[str], str]:
+    """Return the cells of the first row, and what separates them: the comma, or what the first row has more of."""
+    line = re.split(rb"[\r\n]", file.readline(MAX_LINE), maxsplit=1)[0]
+    if len(line) == MAX_LINE:
+        raise unreadable(phrase("row 1 is too long; it must hold the names of the columns"), 1)
+    try:
+        first = line.decode("utf-8-sig")
+    except UnicodeDecodeError as error:
+        raise unreadable(NOT_UTF8) from error
+    if not first.strip():
+        raise unreadable(NO_HEADER, 1)
+    delimiter = max(DELIMITERS, key=first.count)
+    if first.count(delimiter) >= 2 * MAX_COLUMNS:  # before it is parted; some may stand in quotes
+        check_size(".csv", 0, first.count(delimiter) + 1)
+    try:
+        return next(csv.reader([first], delimiter=delimiter)), delimiter
+    except csv.Error as error:
+        words = "row 1 cannot be read: {error}; it must hold the names of the columns"
+        raise unreadable(Phrase(words, error=error), 1) from error
+
+
+def _csv_rows(file: BinaryIO) -> int:
+    """Return how many rows there may be; the file stands at its beginning again. UserError where it is no text, or a quotation is open."""
+    file.seek(0)
+    feeds = returns = quotes = 0
+    decoder = codecs.getincrementaldecoder("utf-8")()
+    try:
+        while chunk := file.read(CHUNK):
+            decoder.decode(chunk)  # Arrow prints a traceback for a row of another length that is not in UTF-8
+            feeds, returns = feeds + chunk.count(b"\n"), returns + chunk.count(b"\r")
+            quotes += chunk.count(b'"')
+        decoder.decode(b"", final=True)
+    except UnicodeDecodeError as error:
+        raise unreadable(NOT_UTF8) from error
+    if quotes % 2:  # Arrow takes what follows the last one, whatever it is, for one cell
+        words = "has {quotes} quotation marks, so that one is not closed; within a quoted cell it is doubled"
+        raise unreadable(Phrase(words, quotes=quotes))
+    file.seek(0)
+    return max(feeds, returns)
+
+
+def _csv_fault(message: str) -> str:
+    if "straddling" in message or "out of sync" in message:
+        words = (
+            "has a row that ends in another line, or is longer than 1 MB; look for a quotation mark that is not closed"
+        )
+        return phrase(words)
+    is_empty = "Empty" in message or "Could not skip" in message
+    return NO_ROWS if is_empty else Phrase("is not a CSV file: {message}", message=message)
+
+
+def _blank_rows(table: Any) -> Any:
+    from pyarrow import compute
+
+    empty = (compute.equal(compute.utf8_trim_whitespace(column), "").to_numpy() for column in table.columns)
+    blank = np.logical_and.reduce([np.asarray(column, dtype=bool) for column in empty])
+    if table.num_columns == 1:
+        blank[: np.max(np.flatnonzero(~blank), initial=-1) + 1] = False
+    return blank
+
+
+# --- Parquet -----------------------------------------------------------------------------------------------------------
+
 ROWS = 65_536  # read at a time
-FOOTER = 10_000_000  # bytes of a text in the footer, which tells the columns
-
-Header = tuple[str, str | None]
+MAX_FOOTER_TEXT = 10_000_000  # bytes of a text in the footer, which describes the columns
 
 
-def read(file: BinaryIO) -> tuple[list[Header], list[Cells]]:
-    """The headers, with the units that stand beside them, and the cells of all columns."""
+def read_parquet(file: BinaryIO) -> Columns:
+    """Return the headers and the cells of all columns of a Parquet file, judged by its footer before it is unpacked."""
     import pyarrow
 
     try:
-        table = _table(file)
+        table = _parquet_table(file)
         units = [((field.metadata or {}).get(b"unit") or b"").decode() or None for field in table.schema]
-        columns = [Cells(column, 1) for column in table.columns]  # their pieces as they are: one piece would be a copy
     except pyarrow.ArrowMemoryError as error:
-        raise UnreadableTable(Phrase("needs more memory than there is. {smaller}", smaller=SMALLER)) from error
+        raise _no_memory() from error
     except (pyarrow.ArrowException, OSError, ValueError, OverflowError) as error:  # Parquet says OSError of damage too
         if getattr(error, "errno", None):
             raise
-        told = " ".join(str(error).split())
-        raise UnreadableTable(Phrase("is not a Parquet file, or a damaged one: {told}", told=told)) from error
-    return list(zip(table.column_names, units, strict=True)), columns
+        words = "is not a Parquet file, or a damaged one: {told}"
+        raise unreadable(Phrase(words, told=" ".join(str(error).split()))) from error
+    # their pieces as they are: one piece would be a copy
+    return list(zip(table.column_names, units, strict=True)), [Cells(column, 1) for column in table.columns]
 
 
-def _table(file: BinaryIO) -> Any:
-    """The table, its texts whole, read a piece at a time and no further than is bearable."""
+def _parquet_table(file: BinaryIO) -> Any:
+    """Return the table, its texts whole, read a piece at a time and no further than is bearable."""
     import pyarrow
     from pyarrow import parquet
 
-    limits = {"thrift_string_size_limit": FOOTER, "thrift_container_size_limit": 4 * MAX_COLUMNS}
+    limits = {"thrift_string_size_limit": MAX_FOOTER_TEXT, "thrift_container_size_limit": 4 * MAX_COLUMNS}
     metadata = parquet.ParquetFile(file, **limits).metadata
-    _judge(metadata)
-    schema = metadata.schema.to_arrow_schema()
-    _refuse_kinds(schema)
+    check_size(".parquet", metadata.num_rows, metadata.num_columns)
+    groups = [metadata.row_group(number) for number in range(metadata.num_row_groups)]
+    check_unpacked(".parquet", sum(max(group.total_byte_size, 0) for group in groups))
+    plain, texts = _plain_schema(metadata.schema.to_arrow_schema())
     # texts that repeat stay one text each until their whole size is known
-    texts = [field.name for field in schema if _is_text(_plain_type(field.type))]
     source = parquet.ParquetFile(file, read_dictionary=texts, page_checksum_verification=True, **limits)
-    plain = pyarrow.schema([pyarrow.field(f.name, _plain_type(f.type), metadata=f.metadata) for f in schema])
     pieces, size = [], 0
     for batch in source.iter_batches(ROWS):
-        size += sum(_size(column) for column in batch.columns)
-        judge_unpacked(KIND, size)
-        whole = [_decoded(column).cast(field.type) for column, field in zip(batch.columns, plain, strict=True)]
-        pieces.append(pyarrow.RecordBatch.from_arrays(whole, schema=plain))
+        size += sum(_whole_size(column) for column in batch.columns)
+        check_unpacked(".parquet", size)
+        columns = [column.cast(field.type) for column, field in zip(batch.columns, plain, strict=True)]
+        pieces.append(pyarrow.RecordBatch.from_arrays(columns, schema=plain))
     return pyarrow.Table.from_batches(pieces, plain)
 
 
-def _judge(metadata: Any) -> None:
-    judge_size(KIND, metadata.num_rows, metadata.num_columns)
-    groups = [metadata.row_group(number) for number in range(metadata.num_row_groups)]
-    judge_unpacked(KIND, sum(max(group.total_byte_size, 0) for group in groups))
+def _plain_schema(schema: Any) -> tuple[Any, list[str]]:
+    """Return the columns without dictionaries, and which of them are texts; UserError where one is neither numbers nor texts."""
+    import pyarrow
+    from pyarrow import types
 
-
-def _refuse_kinds(schema: Any) -> None:
-    wrong = [field for field in schema if not _is_plain(field.type)]
+    kinds = [field.type.value_type if types.is_dictionary(field.type) else field.type for field in schema]
+    plain = pyarrow.schema([field.with_type(kind) for field, kind in zip(schema, kinds, strict=True)])
+    texts = [field.name for field in plain if types.is_string(field.type) or types.is_large_string(field.type)]
+    is_number = (types.is_integer, types.is_floating, types.is_decimal)
+    words = "column {name} holds {type}; numbers or texts are needed"
+    wrong = [
+        Problem(Phrase(words, name=field.name, type=field.type))
+        for field in plain
+        if field.name not in texts and not any(holds(field.type) for holds in is_number)
+    ]
     if wrong:
-        words = "column {name} holds {type}; numbers or texts are needed"
-        raise UnreadableTable((Phrase(words, name=field.name, type=field.type), None) for field in wrong)
+        raise UserError(wrong)
+    return plain, texts
 
 
-def _is_plain(kind: Any) -> bool:
-    from pyarrow import types
-
-    kind = _plain_type(kind)
-    return _is_text(kind) or types.is_integer(kind) or types.is_floating(kind) or types.is_decimal(kind)
-
-
-def _is_text(kind: Any) -> bool:
-    from pyarrow import types
-
-    return bool(types.is_string(kind) or types.is_large_string(kind))
-
-
-def _plain_type(kind: Any) -> Any:
-    from pyarrow import types
-
-    return kind.value_type if types.is_dictionary(kind) else kind
-
-
-def _size(column: Any) -> int:
-    """How many bytes a column takes with its texts whole."""
+def _whole_size(column: Any) -> int:
+    """Return how many bytes a column takes with its texts whole."""
     from pyarrow import compute, types
 
     if not types.is_dictionary(column.type):
         return int(column.nbytes)
-    if not _is_text(column.type.value_type):
+    if not (types.is_string(column.type.value_type) or types.is_large_string(column.type.value_type)):
         return len(column) * 8
     lengths = compute.binary_length(column.dictionary)
     return int(compute.sum(lengths.take(column.indices)).as_py() or 0) + 4 * len(column)
 
 
-def _decoded(column: Any) -> Any:
-    from pyarrow import types
+# --- XLSX --------------------------------------------------------------------------------------------------------------
 
-    return column.dictionary_decode() if types.is_dictionary(column.type) else column
-
-
-# XLSX workbooks as headers and cells, judged before they are unpacked.
-
-
-WORKBOOKS_KIND = ".xlsx"
 DAMAGED = phrase("is not an XLSX workbook, or a damaged one; save it again as .xlsx")
 MAX_MEMBERS = 10_000
-MAX_ELEMENTS = 4 * MAX_CELLS[WORKBOOKS_KIND]  # a cell has up to three
-MAX_OTHERS = 200_000  # that are no part of a cell or a text: styles, widths, merged cells
-OF_CELLS = {"row", "c", "v", "f", "is", "si", "t", "r"}
+MAX_ELEMENTS = 4 * MAX_CELLS[".xlsx"]  # a cell has up to three
+MAX_OTHER_ELEMENTS = 200_000  # that are no part of a cell or a text: styles, widths, merged cells
+CELL_ELEMENTS = {"row", "c", "v", "f", "is", "si", "t", "r"}
 MAX_ROWS = 1_048_576  # of a sheet
-MAX_PLACES = 20 * MAX_CELLS[WORKBOOKS_KIND]  # with the empty ones before the last cell of each row
+MAX_PLACES = 20 * MAX_CELLS[".xlsx"]  # with the empty ones before the last cell of each row
 ENCODINGS = {"", "utf-8", "us-ascii", "iso-8859-1"}  # in which "<" is the byte that it is in ASCII
 UTF_16 = (b"\xff\xfe", b"\xfe\xff")
 COMMENTS = ((b"<!--", b"-->"), (b"<?", b"?>"))
-CHUNK = 1 << 20
 LONG = phrase("holds a text of more than a million letters; a cell has some dozens. Save it again")
 MANY = Phrase(
     "has more than {max_cells} cells, or as many other parts. {smaller}, or {other_form}",
-    max_cells=format(MAX_CELLS[WORKBOOKS_KIND], ","),
+    max_cells=f"{MAX_CELLS['.xlsx']:,}",
     smaller=SMALLER,
     other_form=OTHER_FORM,
 )
 
-Rows = list[list[Any]]
 
-
-def workbooks_read(file: BinaryIO, sheet: str | None) -> tuple[list[Header], list[Cells]]:
-    """The headers and the cells of a sheet, the first one unless it is named."""
+def read_xlsx(file: BinaryIO) -> Columns:
+    """Return the headers and the cells of the first sheet of a workbook, which is judged before it is unpacked."""
     import openpyxl
 
-    with _damaged(), warnings.catch_warnings():
+    with _damage_reported(), warnings.catch_warnings():
         warnings.simplefilter("ignore")  # of styles and checks of cells that openpyxl leaves out
-        _judge_archive(file)
+        _check_archive(file)
         book = openpyxl.load_workbook(file, read_only=True, data_only=True, keep_links=False)
         try:
-            rows = _rows(book, sheet)
+            sheet = book.worksheets[0]
+            sheet.reset_dimensions()  # the stored size may be wrong
+            rows = list(_bounded(sheet.iter_rows(values_only=True)))
         finally:
             book.close()
-    return _from_rows(rows)
+    return _columns(rows)
 
 
 @contextmanager
-def _damaged() -> Iterator[None]:
+def _damage_reported() -> Iterator[None]:
     """What goes wrong in a damaged file is any exception: of zipfile, zlib, expat or openpyxl, which trusts what it reads."""
     try:
         yield
-    except (UnreadableTable, OSError):
+    except (UserError, OSError):
         raise
     except MemoryError as error:
-        raise UnreadableTable(Phrase("needs more memory than there is. {smaller}", smaller=SMALLER)) from error
+        raise _no_memory() from error
     except Exception as error:
-        raise UnreadableTable(DAMAGED) from error
+        raise unreadable(DAMAGED) from error
 
 
-# --- before it is unpacked ---------------------------------------------------------------------------------------------
-
-
-def _judge_archive(file: BinaryIO) -> None:
+def _check_archive(file: BinaryIO) -> None:
     """Refuse what would unpack to too much, by the archive's directory, and by the elements of its members."""
+    elements = others = 0
+
+    def count(name: str, _attributes: Any) -> None:  # each element takes memory, however short it is
+        nonlocal elements, others
+        elements += 1
+        others += name.rpartition(":")[2] not in CELL_ELEMENTS
+        if elements > MAX_ELEMENTS or others > MAX_OTHER_ELEMENTS:
+            raise unreadable(MANY)
+
     with ZipFile(file) as archive:
         members = archive.infolist()
         if len(members) > MAX_MEMBERS:
-            raise UnreadableTable(
-                Phrase("has {count} files within; a workbook has some dozens. Save it again", count=len(members))
-            )
-        judge_unpacked(WORKBOOKS_KIND, sum(member.file_size for member in members))
-        seen = _Seen()
+            words = "has {count} files within; a workbook has some dozens. Save it again"
+            raise unreadable(Phrase(words, count=len(members)))
+        check_unpacked(".xlsx", sum(member.file_size for member in members))
         for member in members:
             with archive.open(member) as unpacked:
-                _look(unpacked, seen)
+                _check_member(unpacked, count)
 
 
-@dataclass
-class _Seen:
-    """How many elements the members have so far; each takes memory, however short it is."""
-
-    elements: int = 0
-    others: int = 0
-
-    def __call__(self, name: str, _attributes: Any) -> None:
-        """Count one more; UnreadableTable where they are too many."""
-        self.elements += 1
-        self.others += name.rpartition(":")[2] not in OF_CELLS
-        if self.elements > MAX_ELEMENTS or self.others > MAX_OTHERS:
-            raise UnreadableTable(MANY)
-
-
-def _look(unpacked: Any, seen: _Seen) -> None:
+def _check_member(unpacked: Any, count: Any) -> None:
     """Look at a member: nothing in it declares entities or another encoding, and no text or comment is endless."""
+
+    def declared(_version: str, encoding: str | None, _standalone: int) -> None:
+        if (encoding or "").lower() not in ENCODINGS:
+            refuse()
+
+    def refuse(*_: Any) -> None:
+        raise unreadable(DAMAGED)
+
     parser = expat.ParserCreate()
-    parser.XmlDeclHandler, parser.StartDoctypeDeclHandler, parser.StartElementHandler = _declared, _refuse, seen
+    parser.XmlDeclHandler, parser.StartDoctypeDeclHandler, parser.StartElementHandler = declared, refuse, count
     begun, awaited = False, list[bytes]()
     while chunk := unpacked.read(CHUNK):
         if not begun and (b"\0" in chunk[:4] or chunk.startswith(UTF_16)):
-            _refuse()
+            refuse()
         if len(chunk) == CHUNK and (b"<" not in chunk or any(end not in chunk for end in awaited)):
-            raise UnreadableTable(LONG)
+            raise unreadable(LONG)
         begun, awaited = True, [end for begin, end in COMMENTS if chunk.rfind(begin) > chunk.rfind(end)]
         try:
             parser.Parse(chunk, False)
@@ -224,32 +352,8 @@ def _look(unpacked: Any, seen: _Seen) -> None:
             return
 
 
-def _declared(_version: str, encoding: str | None, _standalone: int) -> None:
-    if (encoding or "").lower() not in ENCODINGS:
-        _refuse()
-
-
-def _refuse(*_: Any) -> None:
-    raise UnreadableTable(DAMAGED)
-
-
-# --- rows --------------------------------------------------------------------------------------------------------------
-
-
-def _rows(book: Any, sheet: str | None) -> Rows:
-    if sheet is not None and sheet not in book.sheetnames:
-        raise UnreadableTable(
-            Phrase(
-                "has no sheet “{sheet}”; its sheets: {sheetnames}", sheet=sheet, sheetnames=", ".join(book.sheetnames)
-            )
-        )
-    worksheet = book[sheet] if sheet is not None else book.worksheets[0]
-    worksheet.reset_dimensions()  # the stored size may be wrong
-    return list(_bounded(worksheet.iter_rows(values_only=True)))
-
-
 def _bounded(rows: Iterable[tuple[Any, ...]]) -> Iterator[list[Any]]:
-    """The rows without the empty cells at their ends; UnreadableTable as soon as they are more than a table may have."""
+    """Yield the rows without the empty cells at their ends; UserError as soon as they are more than a table may have."""
     places = cells = 0
     for number, row in enumerate(rows, 1):
         kept = list(row)
@@ -258,27 +362,26 @@ def _bounded(rows: Iterable[tuple[Any, ...]]) -> Iterator[list[Any]]:
         places, cells = places + len(row), cells + len(kept)
         if number > MAX_ROWS or places > MAX_PLACES:
             raise _far(number)
-        if cells > MAX_CELLS[WORKBOOKS_KIND]:
-            raise UnreadableTable(MANY)
+        if cells > MAX_CELLS[".xlsx"]:
+            raise unreadable(MANY)
         yield kept
 
 
-def _from_rows(rows: Rows) -> tuple[list[Header], list[Cells]]:
+def _columns(rows: list[list[Any]]) -> Columns:
     while rows and not rows[-1]:
         rows.pop()
     if not rows or not rows[0]:
-        raise UnreadableTable([(phrase("row 1 is empty; it must hold the names of the columns"), 1)])
+        raise unreadable(NO_HEADER, 1)
     width = max(len(row) for row in rows)
-    blank = {place for place, row in enumerate(rows, 1) if width > 1 and not row}
-    judge_size(WORKBOOKS_KIND, len(rows) - len(blank), width)
+    blank = [place for place, row in enumerate(rows, 1) if width > 1 and not row]
+    check_size(".xlsx", len(rows) - len(blank), width)
     if len(rows) * width > MAX_PLACES:
         raise _far(len(rows))
-    kept = [row + [None] * (width - len(row)) for place, row in enumerate(rows, 1) if place not in blank]
-    headers: list[Header] = [("" if value is None else str(value), None) for value in kept[0]]
-    columns = list(zip(*kept[1:], strict=True)) or [()] * width
-    skipped = tuple(sorted(blank))
-    return headers, [Cells(list(column), 2, skipped) for column in columns]
+    heads, *kept = [row + [None] * (width - len(row)) for row in rows if row or width == 1]
+    columns = list(zip(*kept, strict=True)) or [()] * width
+    headers: list[tuple[str, str | None]] = [("" if head is None else str(head), None) for head in heads]
+    return headers, [Cells(list(column), 2, tuple(blank)) for column in columns]
 
 
-def _far(row: int) -> UnreadableTable:
-    return UnreadableTable(Phrase("has a cell far from the others, in row {row}; delete what stands there", row=row))
+def _far(row: int) -> UserError:
+    return unreadable(Phrase("has a cell far from the others, in row {row}; delete what stands there", row=row))

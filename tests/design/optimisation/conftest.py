@@ -15,7 +15,7 @@ NO_PAGE = SimpleNamespace(page=lambda _: "", sheets=lambda _: b"")
 @pytest.fixture(autouse=True)
 def _without_memory(monkeypatch: pytest.MonkeyPatch) -> None:
     """Nothing of a test stays in the user's cache."""
-    monkeypatch.setattr(parts, "LARGE", float("inf"))
+    monkeypatch.setattr(parts, "REMEMBERED_SIZE", float("inf"))
 
 
 @pytest.fixture

@@ -109,7 +109,7 @@ def test_it_speaks_ukrainian(tmp_path: Path, capfd: Any) -> None:
 def test_a_cluster_that_cannot_be_reached_is_told_before_anything_is_written(
     tmp_path: Path, capfd: Any, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("diecut_report.study.execution.dask_cluster.PATIENCE", 1)
+    monkeypatch.setattr("diecut_report.study.execution.dask_cluster.TIMEOUT", 1)
     assert optimised(search_file(tmp_path), tmp_path / "out", "--dask", "tcp://127.0.0.1:1") == 2
     assert "The Dask scheduler at tcp://127.0.0.1:1 cannot be reached" in capfd.readouterr().err
     assert not (tmp_path / "out").exists()

@@ -1,4 +1,7 @@
-"""Chunks of a study on their way through an engine: what an engine is, what its workers do, and `results`."""
+"""Where chunks are calculated: in this process, in a pool of processes, or on a Dask cluster; `results` submits, awaits and retries them.
+
+The same function on the same chunks gives the same results on each engine.
+"""
 
 from __future__ import annotations
 
@@ -6,6 +9,7 @@ import ctypes
 import os
 import signal
 import threading
+from abc import ABC, abstractmethod
 from collections import deque
 from collections.abc import Callable, Iterable, Iterator
 from concurrent.futures import FIRST_COMPLETED, CancelledError, Future, ProcessPoolExecutor, wait
@@ -14,7 +18,7 @@ from contextlib import contextmanager
 from dataclasses import dataclass, field
 from multiprocessing import connection, parent_process
 from multiprocessing.context import SpawnContext, SpawnProcess
-from typing import Any, Protocol, Self
+from typing import Any, Self
 
 from threadpoolctl import threadpool_limits
 
@@ -23,12 +27,13 @@ from diecut_report.text.phrases import Phrase
 
 Chunk = Any
 Function = Callable[[Any, Chunk], Any]  # (what the worker has loaded, chunk) -> result
-TRIES = 3  # how often a chunk may lose its process
-PATIENCE = 1.0  # seconds between looks whether the engine is still there
+MAX_TRIES = 3  # how often a chunk may lose its process
+POLL_INTERVAL = 1.0  # seconds between looks whether the engine is still there
+CHUNKS_AHEAD = 2  # chunks for each process: one that it works on, one that waits
 
 
 @dataclass(frozen=True)
-class Warm:
+class WorkerSetup:
     """Hold what each worker loads once before its first chunk: ``load(*args)``; ``key`` (a sha256) tells it from others.
 
     It is pickled: functions of modules, arguments of plain data. Each thread of a worker loads its own, so that
@@ -40,45 +45,45 @@ class Warm:
     args: tuple[Any, ...] = ()
 
 
-class ChunkFailed(Exception):
-    """Report that a chunk could not be calculated: which one, and the exception that came up in it (`cause`)."""
+class Engine(ABC):
+    """Calculate chunks; to be entered before the first and left after the last.
 
-    def __init__(self, chunk: Chunk, cause: BaseException) -> None:
-        super().__init__(chunk, cause)
-        self.chunk, self.cause = chunk, cause
+    ``lost``: what a chunk raises when its process has ended, and the chunk is to be repeated; ``gave_up``: what it raises when the
+    engine itself has repeated it and lost its process too often.
+    """
 
-    def __str__(self) -> str:
-        return f"{self.chunk}: {type(self.cause).__name__}: {self.cause}"
+    lost: tuple[type[BaseException], ...] = ()
+    gave_up: tuple[type[BaseException], ...] = ()
 
-
-class Engine(Protocol):
-    """Describe a place to calculate; to be entered before its first chunk and left after its last."""
-
-    @property
-    def lost(self) -> tuple[type[BaseException], ...]:
-        """Return what a chunk raises when its process has ended, and the chunk is to be repeated."""
-
-    @property
-    def gave_up(self) -> tuple[type[BaseException], ...]:
-        """Return what a chunk raises when the engine itself has repeated it and lost its process too often."""
+    def __init__(self, setup: WorkerSetup) -> None:
+        self.setup = setup
 
     @property
     def limit(self) -> int:
         """Return how many chunks keep it busy."""
+        return 1
 
-    def __enter__(self) -> Self: ...
-    def __exit__(self, kind: type[BaseException] | None, error: BaseException | None, trace: object) -> None: ...
+    def __enter__(self) -> Self:
+        return self
+
+    @abstractmethod
+    def __exit__(self, kind: type[BaseException] | None, *_: object) -> None: ...
+
+    @abstractmethod
     def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
         """Begin a chunk."""
 
     def restart(self) -> None:
         """Begin again after a process was lost; chunks begun before are gone."""
+        return
 
-    def give_up(self, begun: Iterable[Future[Any]]) -> None:
+    def cancel(self, begun: Iterable[Future[Any]]) -> None:
         """Drop the chunks that were begun."""
+        return
 
-    def look(self) -> None:
-        """Raise UserError in words where the engine is gone."""
+    def check(self) -> None:
+        """Raise UserError where the engine is gone."""
+        return
 
 
 def results(
@@ -86,20 +91,21 @@ def results(
 ) -> Iterator[tuple[Chunk, Any]]:
     """Yield the chunks with their results, in the order in which they are ready; to be used within ``with engine:``.
 
-    At most ``limit`` chunks are in flight (default: what keeps the engine busy), so memory stays flat however many there are.
-    Ends with ChunkFailed where a chunk raises, with UserError where its process was lost three times. In-flight chunks
-    are cancelled when it ends early, by an exception, Ctrl-C or the caller.
+    At most ``limit`` chunks are pending (default: what keeps the engine busy), so memory stays flat however many there are.
+    Ends with what a chunk raises, with a note of which it was, and with UserError where its process was lost three times. Pending
+    chunks are cancelled when it ends early, by an exception, Ctrl-C or the caller.
     """
-    in_flight = _InFlightChunks(engine, function, iter(chunks), limit)
+    pending = _PendingChunks(engine, function, iter(chunks), limit)
     try:
-        while in_flight.fill():
-            yield from in_flight.landed()
+        while pending.fill():
+            yield from pending.completed()
     finally:
-        in_flight.cancel()
+        if pending.waiting:
+            engine.cancel(pending.waiting)
 
 
 @dataclass
-class _InFlightChunks:
+class _PendingChunks:
     """The chunks that are being calculated, and those that lost their process and wait for another try."""
 
     engine: Engine
@@ -107,37 +113,32 @@ class _InFlightChunks:
     source: Iterator[Chunk]
     limit: int | None
     waiting: dict[Future[Any], tuple[Chunk, int]] = field(default_factory=dict)  # with the processes lost so far
-    again: deque[tuple[Chunk, int]] = field(default_factory=deque)
+    retries: deque[tuple[Chunk, int]] = field(default_factory=deque)
 
     def fill(self) -> bool:
-        """Begin as many chunks as may be in flight; whether there are any.
+        """Begin as many chunks as may be pending; return whether there are any.
 
         A chunk that lost its process twice runs alone: if it is lost again, it and no other is the cause.
         """
         while len(self.waiting) < (self.limit or self.engine.limit):
-            alone = [lost for _, lost in (*self.waiting.values(), *tuple(self.again)[:1]) if lost == TRIES - 1]
-            if (alone and self.waiting) or (following := self._next()) is None:
+            alone = [lost for _, lost in (*self.waiting.values(), *tuple(self.retries)[:1]) if lost == MAX_TRIES - 1]
+            if alone and self.waiting:
                 break
-            self._begin(*following)
+            following = self.retries.popleft() if self.retries else next(((chunk, 0) for chunk in self.source), None)
+            if following is None:
+                break
+            try:
+                self.waiting[self.engine.submit(self.function, following[0])] = following
+            except self.engine.lost:  # the pool broke since the last look, which this chunk had no part in
+                self.retries.append(following)
+                self._restart()
         return bool(self.waiting)
 
-    def _next(self) -> tuple[Chunk, int] | None:
-        if self.again:
-            return self.again.popleft()
-        return next(((chunk, 0) for chunk in self.source), None)
-
-    def _begin(self, chunk: Chunk, lost: int) -> None:
-        try:
-            self.waiting[self.engine.submit(self.function, chunk)] = chunk, lost
-        except self.engine.lost:  # the pool broke since the last look, which this chunk had no part in
-            self.again.append((chunk, lost))
-            self._restart()
-
-    def landed(self) -> Iterator[tuple[Chunk, Any]]:
+    def completed(self) -> Iterator[tuple[Chunk, Any]]:
         """Wait for chunks that are ready and give them; after a lost process, begin again."""
-        done, _ = wait(self.waiting, PATIENCE, FIRST_COMPLETED)
-        self.engine.look()
-        lost = {future for future in done if self._is_lost(future)}
+        done, _ = wait(self.waiting, POLL_INTERVAL, FIRST_COMPLETED)
+        self.engine.check()
+        lost = {each for each in done if not each.cancelled() and isinstance(each.exception(), self.engine.lost)}
         for future in done - lost:
             chunk, _ = self.waiting.pop(future)
             yield chunk, self._result(future, chunk)
@@ -150,52 +151,45 @@ class _InFlightChunks:
         except (PluginError, UserError):
             raise
         except self.engine.gave_up as error:
-            raise _gave_up(chunk) from error
+            raise _lost_too_often(chunk) from error
         except (Exception, CancelledError) as error:
-            raise ChunkFailed(chunk, error) from error
-
-    def _is_lost(self, future: Future[Any]) -> bool:
-        return not future.cancelled() and isinstance(future.exception(), self.engine.lost)
+            error.add_note(f"while calculating {chunk}")
+            raise
 
     def _restart(self) -> None:
-        """Begin all in-flight chunks again; one that has lost too many processes is reported."""
+        """Begin all pending chunks again; one that has lost too many processes is reported."""
         for chunk, lost in self.waiting.values():
-            if lost + 1 >= TRIES:
-                raise _gave_up(chunk)
-            self.again.append((chunk, lost + 1))
+            if lost + 1 >= MAX_TRIES:
+                raise _lost_too_often(chunk)
+            self.retries.append((chunk, lost + 1))
         self.waiting.clear()
         self.engine.restart()
 
-    def cancel(self) -> None:
-        """Give up the in-flight chunks."""
-        if self.waiting:
-            self.engine.give_up(self.waiting)
 
-
-def _gave_up(chunk: Chunk) -> UserError:
+def _lost_too_often(chunk: Chunk) -> UserError:
     words = Phrase(
         "The process that calculates {chunk} ended by itself {tries} times or more; most often memory "
         "ran out, or a plugin computed far longer than --chunk-limit allows. What was finished is kept: "
         "continue with --resume, and with fewer --jobs or workers with more memory.",
         chunk=chunk,
-        tries=TRIES,
+        tries=MAX_TRIES,
     )
     return UserError(Problem(words))
 
 
-# what runs in a worker: what it is to load, by key, and for each thread what it has loaded last
-_known: dict[str, Warm] = {}
+# what runs in a worker: its setups by key, and for each thread what it has loaded last
+_setups: dict[str, WorkerSetup] = {}
 _loaded = threading.local()
 
 
-def make_known(warm: Warm) -> None:
-    """Tell a worker what to load before its first chunk."""
-    _known[warm.key] = warm
+def prepare(setup: WorkerSetup) -> None:
+    """Note in a worker what it is to load before its first chunk."""
+    _setups[setup.key] = setup
 
 
 def forget(key: str) -> None:
-    """Tell a worker that it is done with it."""
-    _known.pop(key, None)
+    """Free in a worker what it has loaded."""
+    _setups.pop(key, None)
     if getattr(_loaded, "key", None) == key:
         _loaded.key, _loaded.value = None, None
 
@@ -203,84 +197,68 @@ def forget(key: str) -> None:
 def work(key: str, function: Function, chunk: Chunk) -> Any:
     """Calculate a chunk in a worker, with what this thread has loaded for it."""
     if getattr(_loaded, "key", None) != key:
-        warm = _known[key]
+        setup = _setups[key]
         _loaded.key, _loaded.value = None, None  # frees the one before
-        _loaded.value = warm.load(*warm.args)
+        _loaded.value = setup.load(*setup.args)
         _loaded.key = key
     return function(_loaded.value, chunk)
 
 
-class InProcess:
+class InProcess(Engine):
     """Calculate each chunk in this process, one after the other."""
 
-    lost: tuple[type[BaseException], ...] = ()
-    gave_up: tuple[type[BaseException], ...] = ()
-    limit = 1
-
-    def __init__(self, warm: Warm) -> None:
-        self._warm = warm
-
     def __enter__(self) -> Self:
-        make_known(self._warm)
+        prepare(self.setup)
         return self
 
     def __exit__(self, *_: object) -> None:
-        forget(self._warm.key)
+        forget(self.setup.key)
 
     def submit(self, function: Function, chunk: Chunk) -> Future[Any]:
         """Calculate the chunk now."""
         future: Future[Any] = Future()
         try:
-            future.set_result(work(self._warm.key, function, chunk))
+            future.set_result(work(self.setup.key, function, chunk))
         except Exception as error:
             future.set_exception(error)
         return future
 
-    def restart(self) -> None:
-        """Do nothing: no process can be lost here."""
 
-    def give_up(self, begun: Iterable[Future[Any]]) -> None:
-        """Do nothing: each chunk is done already."""
-
-    def look(self) -> None:
-        """Do nothing: this process is always there."""
-
-
-# Chunks in processes of this machine.
-
+# --- processes of this machine ---------------------------------------------------------------------------------------
 
 SAFE_PATH = "PYTHONSAFEPATH"
-AHEAD = 2  # chunks for each process: one that it works on, one that waits
 
 
-class Pool:
+def local_engine(jobs: int | None, chunks: int, setup: WorkerSetup) -> Engine:
+    """Return so many processes (default: one for each core), or this process where one is enough."""
+    count = min(jobs or os.cpu_count() or 1, chunks)
+    return Pool(count, setup) if count > 1 else InProcess(setup)
+
+
+class Pool(Engine):
     """Calculate in ``jobs`` processes, each started anew (spawn), that end with this one; a process that dies is replaced."""
 
-    lost: tuple[type[BaseException], ...] = (BrokenProcessPool,)
-    gave_up: tuple[type[BaseException], ...] = ()
+    lost = (BrokenProcessPool,)
 
-    def __init__(self, jobs: int, warm: Warm) -> None:
-        self._jobs, self._warm = jobs, warm
+    def __init__(self, jobs: int, setup: WorkerSetup) -> None:
+        super().__init__(setup)
+        self._jobs = jobs
         self._context = _Processes()
         self._executor: ProcessPoolExecutor | None = None
 
     @property
     def limit(self) -> int:
-        """Return how many chunks keep it busy."""
-        return AHEAD * self._jobs
+        return CHUNKS_AHEAD * self._jobs
 
     @property
     def processes(self) -> list[int]:
         """Return the numbers of the processes that are alive."""
         return [process.pid for process in self._context.started if process.is_alive() and process.pid is not None]
 
-    def __enter__(self) -> Self:
-        return self
-
     def __exit__(self, kind: type[BaseException] | None, *_: object) -> None:
         """Wait for the processes, or end them where the run was ended early."""
         if kind is not None:
-            self._end()
+            self.restart()
         elif self._executor is not None:
             self._executor.shutdown()
 
@@ -288,31 +266,28 @@ class Pool:
         """Begin a chunk in the next process that is free."""
         with _interrupt_held_back(), _current_folder_apart():
             if self._executor is None:
-                self._executor = ProcessPoolExecutor(self._jobs, self._context, _begin, (self._warm,))
-            return self._executor.submit(work, self._warm.key, function, chunk)
+                self._executor = ProcessPoolExecutor(self._jobs, self._context, _begin, (self.setup,))
+            return self._executor.submit(work, self.setup.key, function, chunk)
 
     def restart(self) -> None:
-        """Start new processes; chunks of the old ones are gone."""
-        self._end()
-        self._executor = None
-
-    def give_up(self, begun: Iterable[Future[Any]]) -> None:
-        """End the processes: chunks that are cancelled while their processes end would be told of it, and fail."""
-        self.restart()
-
-    def look(self) -> None:
-        """End all processes where one has died, so that the chunks of all report it."""
-        if connection.wait([process.sentinel for process in self._context.started], 0):
-            self._kill()
-
-    def _end(self) -> None:
+        """End all processes; new ones are started for the next chunk."""
         self._kill()
         if self._executor is not None:
             self._executor.shutdown()
         self._context.started.clear()
+        self._executor = None
+
+    def cancel(self, begun: Iterable[Future[Any]]) -> None:
+        """End the processes: chunks that are cancelled while their processes end would be told of it, and fail."""
+        self.restart()
+
+    def check(self) -> None:
+        """End all processes where one has died, so that the chunks of all report it."""
+        if connection.wait([process.sentinel for process in self._context.started], 0):
+            self._kill()
 
     def _kill(self) -> None:
-        """A process may have died in the middle of a result: its rest would be awaited as long as anybody could write it."""
+        """End the processes. One may have died in the middle of a result: its rest would be awaited as long as anybody could write it."""
         for process in self._context.started:
             process.kill()
         if self._executor is not None:
@@ -321,7 +296,7 @@ class Pool:
 
 @contextmanager
 def _interrupt_held_back() -> Iterator[None]:
-    """A Ctrl-C meanwhile counts afterwards: a process that has half begun could not be ended."""
+    """Let a Ctrl-C meanwhile count afterwards: a process that has half begun could not be ended."""
     if threading.current_thread() is not threading.main_thread():
         yield
         return
@@ -352,7 +327,7 @@ class _Process(SpawnProcess):
     """A process that no Ctrl-C reaches, from its beginning on: this one ends it."""
 
     def start(self) -> None:
-        """Begin with the signal blocked, which the new process takes over."""
+        """Begin with the signal blocked, which the new process inherits."""
         before = signal.pthread_sigmask(signal.SIG_BLOCK, [signal.SIGINT])
         try:
             super().start()
@@ -373,10 +348,10 @@ class _Processes(SpawnContext):
         return process
 
 
-def _begin(warm: Warm) -> None:
-    """A process does not outlive its parent."""
+def _begin(setup: WorkerSetup) -> None:
+    """Prepare a process, which is not to outlive its parent."""
     threading.Thread(target=_end_with_parent, daemon=True).start()
-    make_known(warm)
+    prepare(setup)
 
 
 def _end_with_parent() -> None:
@@ -390,16 +365,23 @@ def _end_with_parent() -> None:
 
 
 TRIM_THRESHOLD, MMAP_THRESHOLD = -1, -3  # parameters of glibc's mallopt, as malloc.h numbers them
-KEPT = 1 << 30  # bytes that may lie free at the end of the heap
-LARGEST = 1 << 25  # bytes of the largest array on the heap; glibc allows no more
+MAX_FREE_HEAP = 1 << 30  # bytes that may lie free at the end of the heap
+MAX_HEAP_ARRAY = 1 << 25  # bytes of the largest array on the heap; glibc allows no more
 
 
 def settle() -> None:
-    """Make this process ready, before its first chunk."""
-    threadpool_limits(
-        1, "blas"
-    )  # small products gain nothing by threads, and threads of several processes wait for each other
-    keep_freed_memory()
+    """Make this process ready, before its first chunk.
+
+    Small products gain nothing by threads, and threads of several processes wait for each other. Memory that is freed is kept,
+    as taking it anew for each chunk costs a fifth of the time; where the C library has no such setting, nothing changes.
+    """
+    threadpool_limits(1, "blas")
+    try:
+        mallopt = ctypes.CDLL(None).mallopt
+    except (AttributeError, OSError, TypeError):  # another C library than glibc, or a system without one to ask
+        return
+    mallopt(TRIM_THRESHOLD, MAX_FREE_HEAP)
+    mallopt(MMAP_THRESHOLD, MAX_HEAP_ARRAY)
 
 
 @contextmanager
@@ -407,16 +389,3 @@ def one_thread() -> Iterator[None]:
     """Let linear algebra take one thread meanwhile, as in the program's own processes: with more, sums may differ in their last digit."""
     with threadpool_limits(1, "blas"):
         yield
-
-
-def keep_freed_memory() -> None:
-    """Let this process keep memory that is freed, as taking it anew for each chunk costs a fifth of the time.
-
-    Where the C library has no such setting, nothing changes.
-    """
-    try:
-        mallopt = ctypes.CDLL(None).mallopt
-    except (AttributeError, OSError, TypeError):  # another C library than glibc, or a system without one to ask
-        return
-    mallopt(TRIM_THRESHOLD, KEPT)
-    mallopt(MMAP_THRESHOLD, LARGEST)
