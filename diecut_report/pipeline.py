@@ -15,6 +15,7 @@ from diecut_report.config.yaml import Tree
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, nearest
 from diecut_report.results.changes import compare_with
 from diecut_report.results.conclusion import doubtful
+from diecut_report.results.model import FollowedAdviceRecord, MoveRecord, ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.text.phrases import Phrase, phrase
@@ -26,12 +27,15 @@ if TYPE_CHECKING:
 FORMATS = ("html", "pdf", "docx", "xlsx", "json")
 DRAWN = FORMATS[:-1]  # of a report that can be made again from its results
 
-Data = dict[str, Any]
 Tell = Callable[[str], None]
-Weigh = Callable[[Config, Data], list[Data]]  # which assumed values move a governing check
-Follow = Callable[[Config, Data], Data | None]  # what comes of the advice of all failing checks together
+Weigh = Callable[[Config, ResultsRecord], list[MoveRecord]]  # which assumed values move a governing check
+Follow = Callable[
+    [Config, ResultsRecord], FollowedAdviceRecord | None
+]  # what comes of the advice of all failing checks together
 Judge = Callable[[Config], list[Problem]]
-Matter = Callable[[Config], Data | None]  # what a chapter on the influence of inputs tells, where one is asked for
+Matter = Callable[
+    [Config], dict[str, Any] | None
+]  # what a chapter on the influence of inputs tells, where one is asked for
 Source = Path | Tree  # a configuration: its file, or what was read and changed
 
 NO_PANGO = phrase(
@@ -61,12 +65,12 @@ class AskedReport(NamedTuple):
     only: tuple[str, ...] = ()
     house: HouseStyle | None = None
 
-    def told(self, results: Data) -> None:
-        """Say it in the results, of which alone the report is made."""
-        results["project"] |= {"language": self.language} if self.language else {}
-        results["report"] |= {"detail": self.detail} if self.detail else {}
-        results["report"] |= {"only": list(self.only)} if self.only else {}
-        results["report"] |= {"template_sha256": self.house.sha256} if self.house else {}
+    def noted(self, results: ResultsRecord) -> ResultsRecord:
+        """Return the results, of which alone the report is made, with what is wanted."""
+        asked = {"detail": self.detail, "only": list(self.only), "template_sha256": self.house and self.house.sha256}
+        language = {"language": self.language} if self.language else {}
+        report = results.report.with_(**{key: each for key, each in asked.items() if each})
+        return results.with_(project=results.project.with_(**language), report=report)
 
 
 AS_CONFIGURED = AskedReport()
@@ -77,7 +81,7 @@ Places = dict[tuple[str, str], str]  # of a mechanism's name and the id of a fig
 class ReportOutcome:
     """What came out: the results document, the files written, and the plugins that broke."""
 
-    results: Data
+    results: ResultsRecord
     written: tuple[Path, ...]
     broken: tuple[PluginError, ...]
     warnings: tuple[str, ...] = ()
@@ -112,7 +116,7 @@ def calc(
 
 def report(
     config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
-    weigh: Weigh | None = None, former: Data | None = None, follow: Follow | None = None, matter: Matter | None = None,
+    weigh: Weigh | None = None, former: ResultsRecord | None = None, follow: Follow | None = None, matter: Matter | None = None,
 ) -> ReportOutcome:  # fmt: skip
     """The report in the asked formats, as ``NAME.html``, ``NAME.pdf`` … in the folder, and the exports beside it.
 
@@ -122,8 +126,8 @@ def report(
     results, broken, places = _calculated(
         config, discovery, tell, formats, weigh, only=asked.only, follow=follow, matter=matter
     )
-    asked.told(results)
-    compare_with(former, results)
+    results = asked.noted(results)
+    results = compare_with(former, results) if former else results
     catalogues = catalogues_of(results, discovery, formats)
     contents, undrawn = rendered(results, formats, tell, catalogues, asked.house)
     files_beside, unwritten = exported(results, tell)
@@ -137,20 +141,20 @@ def report(
     )
 
 
-def catalogues_of(results: Data, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:
+def catalogues_of(results: ResultsRecord, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:
     """Return the catalogues for a report of these results; UserError where the words of one of their mechanisms are not complete."""
     printed = set(DRAWN) & set(formats)
-    language = results["project"].get("language") or SOURCE_LANGUAGE
+    language = results.project.language
     return catalogues_for(language if printed else SOURCE_LANGUAGE, _kinds(results), discovery, file)
 
 
-def untranslated(results: Data, catalogues: Catalogues) -> list[str]:
+def untranslated(results: ResultsRecord, catalogues: Catalogues) -> list[str]:
     """Return in words which foreign plugins of a report have words that stay English."""
     return lacking(catalogues, _kinds(results))
 
 
-def _kinds(results: Data) -> list[str]:
-    return [mechanism["kind"] for mechanism in results["mechanisms"].values()]
+def _kinds(results: ResultsRecord) -> list[str]:
+    return [mechanism.kind for mechanism in results.mechanisms.values()]
 
 
 def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
@@ -183,7 +187,7 @@ def _refuse_unknown(config: Config, only: Sequence[str]) -> None:
 def _calculated(
     source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None, *,
     find: Find | None = None, only: Sequence[str] = (), follow: Follow | None = None, matter: Matter | None = None,
-) -> tuple[Data, tuple[PluginError, ...], Places]:  # fmt: skip
+) -> tuple[ResultsRecord, tuple[PluginError, ...], Places]:  # fmt: skip
     tell(phrase("reading the configuration"))
     config = load_config(source, discovery, find=find)
     _refuse_unknown(config, only)
@@ -193,16 +197,15 @@ def _calculated(
 
     run = compute(config, lambda name: tell(Phrase("calculating {name}", name=name)))
     results = document(run)
-    if weigh is not None and results["summary"]["assumed"] and not run.errors:
+    if weigh is not None and results.summary.assumed and not run.errors:
         tell(phrase("weighing what is assumed"))
-        results["summary"]["moves"] = weigh(config, results)
-    if follow is not None and results["summary"]["fail"] and not run.errors:
+        results = results.with_(summary=results.summary.with_(moves=weigh(config, results)))
+    if follow is not None and results.summary.fail and not run.errors:
         tell(phrase("following the advice"))
-        found = follow(config, results)
-        results["summary"] |= {"advice": found} if found else {}
+        results = results.with_(summary=results.summary.with_(advice=follow(config, results)))
     if matter is not None and config.report.influence and not run.errors:
         tell(phrase("changing one input after the other"))
-        results["influence"] = matter(config)
+        results = results.with_(influence=matter(config) or {})
     return results, (*run.errors.values(), *_failed(results)), _places(run)
 
 
@@ -215,26 +218,24 @@ def _places(run: Run) -> Places:
     return figures | exports
 
 
-def _failed(results: Data) -> Iterator[PluginError]:
+def _failed(results: ResultsRecord) -> Iterator[PluginError]:
     """The figures and exports that could not be made."""
-    for name, mechanism in {**results["mechanisms"], **results.get("comparisons", {})}.items():
-        for what in ("figure", "export"):
-            failed = (each for each in mechanism[f"{what}s"] if "error" in each)
-            yield from (
-                PluginError(f"{what} {each['id']!r}: {each['error']}", mechanism["kind"], name) for each in failed
-            )
+    for name, mechanism in results.calculated.items():
+        made = [("figure", each.id, each.error) for each in mechanism.figures]
+        made += [("export", each.id, each.error) for each in mechanism.exports]
+        yield from (PluginError(f"{what} {id!r}: {error}", mechanism.kind, name) for what, id, error in made if error)
 
 
-def _broken(results: Data, places: Places, lost: Lost) -> PluginError:
+def _broken(results: ResultsRecord, places: Places, lost: Lost) -> PluginError:
     """What showed only in drawing that it cannot be drawn."""
-    mechanism = {**results["mechanisms"], **results.get("comparisons", {})}[lost.mechanism]
+    mechanism = results.calculated[lost.mechanism]
     words = Phrase("{what} {id} cannot be drawn: {words} ({places})", what=lost.what, id=repr(lost.id), words=lost.words,
         places=places[lost.mechanism, lost.id])  # fmt: skip
-    return PluginError(words, mechanism["kind"], lost.mechanism)
+    return PluginError(words, mechanism.kind, lost.mechanism)
 
 
 def rendered(
-    results: Data,
+    results: ResultsRecord,
     formats: Sequence[str],
     tell: Tell,
     catalogues: Catalogues | None = None,
@@ -259,24 +260,23 @@ def rendered(
             contents["docx"] = rendering.docx()
         if "xlsx" in formats:
             contents["xlsx"] = rendering.xlsx()
-        undrawn += [Lost("figure", each.mechanism, each.figure["id"], each.words) for each in rendering.faults]
+        undrawn += [Lost("figure", each.mechanism, each.id, each.words) for each in rendering.faults]
     return {ending: contents[ending] for ending in formats}, undrawn
 
 
-def exported(results: Data, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
+def exported(results: ResultsRecord, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:
     """Return the profiles of the mechanisms as tables and drawings, by the ending of their file: ``INSTANCE.cam_1.dxf``.
 
     Beside them those that cannot be written.
     """
-    calculated = {**results["mechanisms"], **results.get("comparisons", {})}
-    if not any(mechanism["exports"] for mechanism in calculated.values()):
+    if not any(mechanism.exports for mechanism in results.calculated.values()):
         return {}, []
     tell(phrase("drawing the profiles"))
     from diecut_report.report.profile_files import written
 
     files, faults = written(results)
     return files, [
-        Lost("export", name, export["id"], f"{type(cause).__name__}: {cause}") for name, export, cause in faults
+        Lost("export", name, export.id, f"{type(cause).__name__}: {cause}") for name, export, cause in faults
     ]
 
 

@@ -51,7 +51,7 @@ def test_the_tappet_of_the_references_follows_a_curve_in_either_form(tmp_path: P
     calc = engine_calculate(tappet, flatten(in_form(tappet.inputs, keys).model_validate(keys)))
     lift = 1 if key == "inertia" else 0.4
     assert calc["effort_max"][0, 0] == pytest.approx(3 * lift * CLOSED["acceleration"](1 / 4 - 1e-15, 2), rel=1e-9)
-    assert mechanism_results(calc, {})["outputs"]["effort_max"]["unit"] == unit
+    assert mechanism_results(calc, {}).outputs["effort_max"].unit == unit
 
 
 def test_a_page_tells_each_unit_with_its_key_and_lists_spectra() -> None:

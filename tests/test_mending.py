@@ -74,7 +74,7 @@ def taken_over(press: dict[str, Any], mended: dict[str, Any], path: str) -> None
 
 def calculated(folder: Path, data: dict[str, Any]) -> dict[str, Any]:
     """The results of a press."""
-    return document(compute(loaded(folder, yaml.safe_dump(data, sort_keys=False)), lambda _: None))
+    return document(compute(loaded(folder, yaml.safe_dump(data, sort_keys=False)), lambda _: None)).data()
 
 
 def verdicts(results: dict[str, Any]) -> dict[str, set[str]]:

@@ -18,9 +18,11 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.report import rendering
 from diecut_report.results.conclusion import governing
+from diecut_report.results.model import CheckRecord, ResultsRecord
 from diecut_report.results.results_file import results_text
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, saved
 from tests.processes import Example
+from tests.records import filled
 
 ALL = Discovery([GOOD, BROKEN])
 FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
@@ -30,7 +32,7 @@ def silent(doing: str) -> None:
     """Progress that nobody sees."""
 
 
-def results(path: Path, discovery: Discovery = DISCOVERY) -> dict[str, Any]:
+def results(path: Path, discovery: Discovery = DISCOVERY) -> ResultsRecord:
     """The results document of a config."""
     return pipeline.calc(path, discovery, silent)[0].results
 
@@ -57,9 +59,9 @@ def test_the_document_holds_what_the_contract_names(tmp_path: Path) -> None:
 
 
 def test_press_fields_are_si_with_their_text_in_the_display_unit(tmp_path: Path) -> None:
-    press = results(saved(tmp_path, LEVER))["press"]
-    assert press["name"] == "P"
-    told = [(f["path"], f["value"], f["unit"], f["display"]) for f in press["fields"]]
+    press = results(saved(tmp_path, LEVER)).press
+    assert press.name == "P"
+    told = [(f.path, f.value, f.unit, f.display.data()) for f in press.fields]
     assert told == [
         ("press.productivity", 6000 / 3600, "1/s", {"text": "6000", "unit": "1/h"}),
         ("press.sheet.length", 0.7, "m", {"text": "700", "unit": "mm"}),
@@ -76,19 +78,19 @@ def test_press_fields_are_si_with_their_text_in_the_display_unit(tmp_path: Path)
 )
 def test_the_resolved_config_gives_the_same_results(tmp_path: Path, text: str) -> None:
     first = results(saved(tmp_path, text))
-    again = results(saved(tmp_path, json.dumps(first["config"]["resolved"]), "again.yaml"))
-    for name, data in first["mechanisms"].items():
-        assert again["mechanisms"][name]["outputs"] == data["outputs"]
-        assert again["mechanisms"][name]["checks"] == data["checks"]
-    assert again["press"] == first["press"]
+    again = results(saved(tmp_path, json.dumps(first.config.resolved), "again.yaml"))
+    for name, data in first.mechanisms.items():
+        assert again.mechanisms[name].outputs == data.outputs
+        assert again.mechanisms[name].checks == data.checks
+    assert again.press == first.press
 
 
 def test_the_results_text_is_strict_json_with_exact_floats() -> None:
-    data = {"a": {"b": {"c": {"d": {"e": 0.1 + 0.2}}}}, "list": [1e-300, True, None], "none": {}}
-    text = results_text(data)
-    assert json.loads(text) == data and "0.30000000000000004" in text
+    resolved = {"a": {"b": {"c": {"d": {"e": 0.1 + 0.2}}}}, "list": [1e-300, True, None], "none": {}}
+    text = results_text(filled(ResultsRecord, {"config": {"resolved": resolved}}))
+    assert json.loads(text)["config"]["resolved"] == resolved and "0.30000000000000004" in text
     with pytest.raises(ValueError, match="not JSON compliant"):
-        results_text({"a": float("nan")})
+        results_text(filled(ResultsRecord, {"config": {"resolved": {"a": float("nan")}}}))
 
 
 def test_equal_inputs_give_equal_bytes_in_every_process(example: Example) -> None:
@@ -96,8 +98,9 @@ def test_equal_inputs_give_equal_bytes_in_every_process(example: Example) -> Non
     assert (example.code, example.told) == (1, pipeline.calc(EXAMPLE, Discovery([]), silent)[1])
 
 
-def check_(status: str, utilisation: float | None) -> dict[str, Any]:
-    return {"id": f"{status} {utilisation}", "class": "strength", "status": status, "utilisation": utilisation}
+def check_(status: str, utilisation: float | None) -> CheckRecord:
+    data = {"id": f"{status} {utilisation}", "class": "strength", "status": status, "utilisation": utilisation}
+    return filled(CheckRecord, data)
 
 
 @pytest.mark.parametrize(
@@ -110,12 +113,12 @@ def check_(status: str, utilisation: float | None) -> dict[str, Any]:
         ([check_("warn", None), check_("pass", 0.99)], "warn None"),
     ],
 )
-def test_the_worst_check_governs(checks: list[dict[str, Any]], expected: str) -> None:
-    assert governing({"m": {"checks": checks}}) == {"mechanism": "m", "check": expected}
+def test_the_worst_check_governs(checks: list[CheckRecord], expected: str) -> None:
+    assert str(governing({"m": checks})) == f"m.{expected}"
 
 
 def test_without_checks_nothing_governs() -> None:
-    assert governing({"m": {"checks": []}}) is None
+    assert governing({"m": []}) is None
 
 
 # --- broken plugins and impossible machines --------------------------------------------------------------------------
@@ -132,24 +135,24 @@ def test_a_broken_mechanism_is_in_error_and_the_others_are_kept(tmp_path: Path, 
         "  c: {kind: lever, force: 1, arm: '${b.arm}'}\n"
     )
     outcome, _ = pipeline.calc(saved(tmp_path, text), ALL, silent)
-    found = outcome.results["mechanisms"]
-    assert {name: data["status"] for name, data in found.items()} == {
+    found = outcome.results.mechanisms
+    assert {name: data.status for name, data in found.items()} == {
         "a": "fail",
         "x": "error",
         "b": "skipped",
         "c": "skipped",
     }
-    assert outcome.results["status"] == "error"
-    assert f"mechanism 'x' of plugin '{kind}'" in found["x"]["error"] and words in found["x"]["error"]
-    assert found["b"]["error"] == "It refers to x, which gives no results."
-    assert found["a"]["outputs"]["moment"]["value"] == 200
-    assert [str(error) for error in outcome.broken] == [found["x"]["error"]]
-    json.dumps(outcome.results, allow_nan=False)
+    assert outcome.results.status == "error"
+    assert f"mechanism 'x' of plugin '{kind}'" in found["x"].error and words in found["x"].error
+    assert found["b"].error == "It refers to x, which gives no results."
+    assert found["a"].outputs["moment"].value == 200
+    assert [str(error) for error in outcome.broken] == [found["x"].error]
+    results_text(outcome.results)
 
 
 def test_a_broken_mechanism_still_has_every_part_of_a_result(tmp_path: Path) -> None:
-    found = results(saved(tmp_path, LEVER + "  x: {kind: breaks_at_import}\n"), ALL)["mechanisms"]
-    assert found["x"].keys() == (found["a"].keys() | {"error"}) - {"plugin_file", "plugin_check"}
+    found = results(saved(tmp_path, LEVER + "  x: {kind: breaks_at_import}\n"), ALL).mechanisms
+    assert found["x"].data().keys() == (found["a"].data().keys() | {"error"}) - {"plugin_file", "plugin_check"}
 
 
 COMPARED = LEVER + "  x: {kind: breaks_in_comparison}\n"
@@ -158,20 +161,20 @@ BOTH = "rod_comparison-a-x"
 
 def test_a_broken_comparison_is_in_error_and_the_mechanisms_are_kept(tmp_path: Path) -> None:
     outcome, _ = pipeline.calc(saved(tmp_path, COMPARED), ALL, silent)
-    found = outcome.results["comparisons"][BOTH]
-    assert (found["status"], outcome.results["status"]) == ("error", "error")
-    assert (found["kind"], found["title"], found["plugin_version"]) == ("rod_comparison", "Lever and rod compared", "2")
-    assert found["between"] == ["a", "x"]
-    assert "RuntimeError: the comparison fell over" in found["error"]
-    assert [str(error) for error in outcome.broken] == [found["error"]]
-    assert {data["status"] for data in outcome.results["mechanisms"].values()} == {"pass"}
-    assert outcome.results["mechanisms"]["x"]["outputs"]["result"]["value"] == 0.01
-    json.dumps(outcome.results, allow_nan=False)
+    found = outcome.results.comparisons[BOTH]
+    assert (found.status, outcome.results.status) == ("error", "error")
+    assert (found.kind, found.title, found.plugin_version) == ("rod_comparison", "Lever and rod compared", "2")
+    assert found.between == ["a", "x"]
+    assert "RuntimeError: the comparison fell over" in found.error
+    assert [str(error) for error in outcome.broken] == [found.error]
+    assert {data.status for data in outcome.results.mechanisms.values()} == {"pass"}
+    assert outcome.results.mechanisms["x"].outputs["result"].value == 0.01
+    results_text(outcome.results)
 
 
 def test_a_broken_comparison_still_has_every_part_of_a_result(tmp_path: Path) -> None:
     found = results(saved(tmp_path, COMPARED), ALL)
-    assert found["comparisons"][BOTH].keys() == found["mechanisms"]["a"].keys() | {"error", "between"}
+    assert found.comparisons[BOTH].data().keys() == found.mechanisms["a"].data().keys() | {"error", "between"}
 
 
 def test_an_impossible_machine_is_bad_input_at_its_key(tmp_path: Path) -> None:
@@ -191,8 +194,8 @@ def test_an_impossible_machine_is_bad_input_at_its_key(tmp_path: Path) -> None:
 class Painted:
     """A rendering that costs nothing."""
 
-    def __init__(self, results: dict[str, Any], *_: object) -> None:
-        self.title = results["project"]["title"]
+    def __init__(self, results: ResultsRecord, *_: object) -> None:
+        self.title = results.project.title
         self.faults: list[Any] = []
 
     def html(self) -> str:

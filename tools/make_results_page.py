@@ -6,35 +6,28 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from diecut_report.results.form import FORM_VERSION, results_schema
+from diecut_report.results.model import FORM_VERSION, results_schema
 
 PAGE = Path(__file__).parents[1] / "docs" / "results-file.md"
 ADDED = {  # by the version of the form; a test holds them against its hashes
-    "1.0": "the first that is described here",
-    "1.1": "`plugin_check` of a mechanism and of a comparison",
-    "1.2": "`value` of a place, `over` of an extreme or a mean",
-    "1.3": "`form_version`; `influence` of the file and of `report`",
-    "1.4": "`taken` of a table, `chosen` of a printed quantity",
-    "1.5": "`table_rows` and `series` of a formula",
-    "1.6": "`parts` of a phase",
-    "1.7": "`conclusion` of `summary`",
+    "2.0": "a text with values is a [message](#message) where it stands; `wordings` is gone",
 }
 HISTORY = "\n".join(f"| {version} | {told} |" for version, told in ADDED.items())
 INTRODUCTION = f"""\
 # The results file
 
-Made from the types in `diecut_report/results/form` by `python tools/make_results_page.py`. Form {FORM_VERSION}.
+Made from the types in `diecut_report/results/model` by `python tools/make_results_page.py`. Form {FORM_VERSION}.
 
 `diecut-report calc press.yaml -o press.json`, `report --format json`, and `results.save("press.json")` of [a script](python.md)
 write it; every PDF and HTML report carries it. [What the verdict says](results.md) tells what its checks mean.
 `diecut-report schema results` gives the JSON Schema of what stands here.
 
-The form has a version, `form_version` of the file and in the schema's `$id`. Its first number, `schema_version` of the file, rises when a key changes
-its name or meaning, or is not written any more; the second one with each addition: a key, a block, a word that a text may be. A change of numbers
-or texts alone changes no version. A program that reads the file passes over keys that it does not know.
+The form has a version, `form_version` of the file and in the schema's `$id`. Its first number rises when a key changes its name or meaning, or is
+not written any more; the second one with each addition: a key, a block, a word that a text may be. A change of numbers or texts alone changes no
+version. `schema_version` is that of the contract that scripts rely on. A script that reads the file passes over keys that it does not know.
 
-`render`, `extract`, `verify` and `diff` read results of an older form with the same first number, as far as these hold what they need. Results of
-another first number they refuse with both versions and what to do, and end with 2; so they do where a key is missing that they need.
+`render`, `extract`, `verify` and `diff` read files of form 1 too, which kept how texts were made in a block of their own (`wordings`). They refuse
+what is not as the program writes it, with both versions where these differ, and end with 2.
 
 | form | what was added |
 | --- | --- |

@@ -46,6 +46,7 @@ from diecut_report.config.loader import SHOWN as STANDARD_INPUT
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, refusal
 from diecut_report.results.conclusion import conclusion, doubtful_kinds, is_open
+from diecut_report.results.model import CheckRecord, ResultsRecord
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
 from diecut_report.text.translation import localised, said, say, say_counted, speaking, spoken_language
@@ -153,7 +154,6 @@ def _data(found: JudgedFile) -> dict[str, Any]:
 # The verdict on standard error, and the exit code that follows from it.
 
 
-Data = Mapping[str, Any]
 ORDER = ("fail", "warn", "not_checked")
 COLOURED = {"bad": "error", "incomplete": "warn"}  # states with the colour of another one
 WORDS = {
@@ -168,34 +168,34 @@ WORDS = {
 }
 
 
-def exit_code(results: Data, *, is_broken: bool, is_strict: bool) -> int:
+def exit_code(results: ResultsRecord, *, is_broken: bool, is_strict: bool) -> int:
     """Return 3 where something broke, 1 where a check fails or something is skipped, or, strict, where one warns or is not made."""
     if is_broken:
         return PLUGIN_BROKE
-    found = results["summary"]
+    found = results.summary
     counted = ORDER if is_strict else ORDER[:1]
-    is_whole = not any(data["status"] == "skipped" for data in results["mechanisms"].values())
+    is_whole = not any(data.status == "skipped" for data in results.mechanisms.values())
     is_doubtful = is_strict and doubtful_kinds(results)
-    return PASSED if is_whole and not is_doubtful and not any(found[status] for status in counted) else CHECK_FAILED
+    return PASSED if is_whole and not is_doubtful and not any(found.of(status) for status in counted) else CHECK_FAILED
 
 
-def verdict_lines(results: Data, discovery: Discovery | None = None) -> list[Line]:
+def verdict_lines(results: ResultsRecord, discovery: Discovery | None = None) -> list[Line]:
     """Return the checks that do not pass, in words, the worst first, and the verdict on all; in the language that is spoken.
 
     ``discovery`` knows where plugins of others have their words.
     """
     results = _translated(results, discovery)
     skipped = [
-        (marked("skipped"), f" {name}: {data['error']}")
-        for name, data in results["mechanisms"].items()
-        if data["status"] == "skipped"
+        (marked("skipped"), f" {name}: {data.error}")
+        for name, data in results.mechanisms.items()
+        if data.status == "skipped"
     ]
     lines = [*_checks(results, "fail"), *skipped, *_checks(results, "warn"), *_checks(results, "not_checked")]
-    note = [results["comparisons_left_out"]["message"]] if "comparisons_left_out" in results else []
+    note = [results.comparisons_left_out.message] if results.comparisons_left_out else []
     return [*lines, *note, _whole(results)]
 
 
-def _translated(results: Data, discovery: Discovery | None) -> Data:
+def _translated(results: ResultsRecord, discovery: Discovery | None) -> ResultsRecord:
     """The results in the language that is spoken."""
     if spoken_language() == SOURCE_LANGUAGE:
         return results
@@ -204,11 +204,11 @@ def _translated(results: Data, discovery: Discovery | None) -> Data:
     return translated(results, spoken_catalogues(discovery))
 
 
-def _checks(results: Data, status: str) -> Iterator[Line]:
-    for name, data in results["mechanisms"].items():
-        for made in data["checks"]:
-            if made["status"] == status and made["class"] != "numerical":
-                yield marked(status), f" {name}: {made['title']}. {_message(made)}"
+def _checks(results: ResultsRecord, status: str) -> Iterator[Line]:
+    for name, data in results.mechanisms.items():
+        for made in data.checks:
+            if made.status == status and made.check_class != "numerical":
+                yield marked(status), f" {name}: {made.title}. {_message(made)}"
 
 
 def marked(status: str) -> str:
@@ -216,20 +216,20 @@ def marked(status: str) -> str:
     return coloured(said(WORDS.get(status, status)), COLOURED.get(status, status))
 
 
-def _message(made: Data) -> str:
+def _message(made: CheckRecord) -> str:
     """A check's message; the line of one that is not made begins with these words."""
-    message = str(made["message"]).removeprefix(say("Not checked: "))
-    is_key = made["status"] == "not_checked" and message.startswith(made["missing"][0])
+    message = str(made.message).removeprefix(say("Not checked: "))
+    is_key = made.status == "not_checked" and message.startswith(made.missing[0])
     return message if is_key else message[0].upper() + message[1:]
 
 
-def _whole(results: Data) -> Line:
-    found = results["summary"]
-    state = "fail" if found["fail"] else "warn" if is_open(results) else "pass"
+def _whole(results: ResultsRecord) -> Line:
+    found = results.summary
+    state = "fail" if found.fail else "warn" if is_open(results) else "pass"
     parts = [coloured(said(conclusion(results)), state)]
-    if found["governing"]:
-        parts.append(say("Governing: {check}.", check=found["governing"]))
-    if held := found["numerical"]["pass"]:
+    if found.governing:
+        parts.append(say("Governing: {check}.", check=found.governing))
+    if held := found.numerical.passing:
         words = "{n} self-test of the calculation holds.", "{n} self-tests of the calculation hold."
         parts.append(say_counted(held, *words))
     return tuple(part for each in parts for part in (" ", each))[1:]

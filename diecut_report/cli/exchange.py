@@ -7,7 +7,7 @@ import sys
 from collections.abc import Iterator
 from contextlib import redirect_stdout
 from pathlib import Path
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 import click
 
@@ -41,7 +41,6 @@ from diecut_report.cli.output import (
 from diecut_report.config.catalogues import spoken_catalogues
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import Problem, UserError, refusal
-from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
 from diecut_report.text.translation import said, say, speaking
 
@@ -49,6 +48,7 @@ if TYPE_CHECKING:
     from diecut_report.exchange.carried import CarriedResults
     from diecut_report.exchange.verification import Agreement, Difference, Found, Verification
     from diecut_report.report.pages.firm_templates import HouseStyle
+    from diecut_report.results.model import ChangesRecord, ResultsRecord
 
 
 # What `verify` found of a report, as lines for a terminal.
@@ -59,8 +59,8 @@ SHOWN = 20  # differences that are told
 
 def verification_lines(carried: CarriedResults, found: Verification) -> Iterator[str]:
     """Give what was found of a report line by line, and last whether everything agrees."""
-    project = carried.results["project"]
-    named = [str(project.get(key) or "") for key in ("title", "document_number", "revision")]
+    project = carried.results.project
+    named = (project.title, project.document_number, project.revision)
     yield f"{carried.path}: {', '.join(map(cell, filter(None, named)))}"
     yield _line(say("program"), found.program)
     yield from (_line(say("plugins"), told) for told in found.plugins)
@@ -215,7 +215,7 @@ def render(
     if not quiet:
         tell_written(outcome.written)
         tell(checking.verdict_lines(outcome.results, discovery))
-    is_broken = bool(lost) or outcome.results["status"] == "error"
+    is_broken = bool(lost) or outcome.results.status == "error"
     return checking.exit_code(outcome.results, is_broken=is_broken, is_strict=strict)
 
 
@@ -245,21 +245,19 @@ def diff(
         text = _changes(found, [results for results, _ in sides], discovery, form, all_rows)
     tell(str(error) for _, broken in sides for error in broken)
     emit_or_write(text, target, new)
-    is_broken = any(broken for _, broken in sides) or sides[1][0]["status"] == "error"
+    is_broken = any(broken for _, broken in sides) or sides[1][0].status == "error"
     return checking.exit_code(sides[1][0], is_broken=is_broken, is_strict=False)
 
 
-def _changes(
-    found: dict[str, Any], sides: list[dict[str, Any]], discovery: Discovery, form: str, all_rows: bool
-) -> str:
+def _changes(found: ChangesRecord, sides: list[ResultsRecord], discovery: Discovery, form: str, all_rows: bool) -> str:
     """The changes in a format: as JSON neutral, as a page in the language that is asked for, else in that of the new project."""
     old, new = sides
     if form == "json":
-        return as_json(found, indent=1)
+        return as_json(found.data(), indent=1)
     from diecut_report.exchange.rendering import lines, page, said_changes
 
     if form == "html":
-        with speaking(asked_language() or new["project"].get("language") or SOURCE_LANGUAGE):
+        with speaking(asked_language() or new.project.language):
             return page(said_changes(found, old, new, spoken_catalogues(discovery)))
     return as_lines(lines(said_changes(found, old, new, spoken_catalogues(discovery)), all_rows=all_rows))
 

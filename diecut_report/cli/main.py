@@ -312,7 +312,7 @@ def schema(kind: str | None, folders: tuple[Path, ...], quiet: bool) -> int:
         emit_json(study_schema())
         return PASSED
     if kind == "results":
-        from diecut_report.results.form import results_schema
+        from diecut_report.results.model import results_schema
 
         emit_json(results_schema())
         return PASSED

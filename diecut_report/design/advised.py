@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Container, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Container, Iterable, Iterator, Sequence
 from dataclasses import dataclass, field
 from typing import Any
 
@@ -24,6 +24,7 @@ from diecut_report.errors import PluginError, UserError
 from diecut_report.formulas import Array
 from diecut_report.mechanism.inputs import Block, Quantity
 from diecut_report.results.advised_changes import AdvisedChange, advised_changes
+from diecut_report.results.model import AdvisedChangeRecord, CheckRecord, FollowedAdviceRecord, ResultsRecord
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
 from diecut_report.text.phrases import Phrase
 
@@ -63,7 +64,7 @@ class Advised:
         return not self.numbers and not self.choices
 
 
-def advised(config: Config, failing: Iterable[tuple[str, Data]]) -> Advised:
+def advised(config: Config, failing: Iterable[tuple[str, CheckRecord]]) -> Advised:
     """Return what failing checks, each with its name, advise by their first way that can be taken; of several bounds of one input the furthest.
 
     The numbers of their other ways are ``others``.
@@ -74,7 +75,7 @@ def advised(config: Config, failing: Iterable[tuple[str, Data]]) -> Advised:
         instance = config.instances.get(home)
         model = instance.model if instance else Block
         is_taken = False
-        for way in advised_changes(str(check["message"]), model.model_fields, texts_of(model)):
+        for way in advised_changes(check.message, model.model_fields, texts_of(model)):
             known = Advised({}, {}) if is_taken else found
             taken = [_take(config, known, f"{MECHANISMS}.{home}.{change.key}", change) for change in way]
             is_taken = is_taken or any(taken)
@@ -108,16 +109,16 @@ def _take(config: Config, found: Advised, path: str, change: AdvisedChange) -> b
 # Whether a machine passes when the advice of all its failing checks is followed at once: for the first page of its report.
 
 
-def followed(config: Config, results: Mapping[str, Any]) -> Data | None:
+def followed(config: Config, results: ResultsRecord) -> FollowedAdviceRecord | None:
     """Return the changes that failing checks advise, and which checks fail in the machine with all of them; None where none is advised.
 
     ``error`` is why there is no such machine, None where there is one.
     """
     failing = [
-        (f"{name}.{check['id']}", check)
-        for name, data in results["mechanisms"].items()
-        for check in data["checks"]
-        if check["status"] == "fail"
+        (f"{name}.{check.id}", check)
+        for name, data in results.mechanisms.items()
+        for check in data.checks
+        if check.status == "fail"
     ]
     advice = advised(config, failing)
     if advice.is_empty:
@@ -129,8 +130,8 @@ def followed(config: Config, results: Mapping[str, Any]) -> Data | None:
         return None
     told = {design.asked.path: design.told(value) for design, value in advice.numbers.values()}
     told |= {path: text for path, (_, text) in advice.choices.items()}
-    changes = [{"path": path.removeprefix(f"{MECHANISMS}."), "value": text} for path, text in told.items()]
-    return {"changes": changes, "failing": made.failing(0), "error": made.reasons[0]}
+    changes = [AdvisedChangeRecord(path=path.removeprefix(f"{MECHANISMS}."), value=text) for path, text in told.items()]
+    return FollowedAdviceRecord(changes=changes, failing=list(made.failing(0)), error=made.reasons[0])
 
 
 # The smallest changes with which no check fails: sequential linear programming, every step calculated before it is taken.

@@ -7,7 +7,7 @@ import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import partial
-from typing import Any, Literal, TypeVar
+from typing import Any, Literal, NamedTuple, TypeVar
 
 import numpy as np
 
@@ -178,16 +178,29 @@ def _beside(
     return varied(config, given, count, [each.asked for each in asked if each.asked is not None])
 
 
+class _VariedCheck(NamedTuple):
+    """A check of today's machine among others, as far as its weight follows from it."""
+
+    id: str
+    status: str
+    utilisation: float
+    presumed: bool
+    check_class: str = ""
+    sized_to_limit: bool = False
+
+
 def _governing(made: VariedMachines) -> list[str]:
     """The check that governs each mechanism today, by the rules of the results; the one that governs the machine first."""
-    checks: dict[str, list[dict[str, Any]]] = {}
+    checks: dict[str, list[_VariedCheck]] = {}
     for name in made.checks:
         home, _, own = name.partition(".")
         if np.isfinite(ratio := float(made.check(name, UTILISATION)[0])):
-            known = {"id": f"{home}{CHECKS}{own}", "class": "", "status": made.check(name)[0], "utilisation": ratio}
-            checks.setdefault(home, []).append(known | {"presumed": bool(made.check(name, NO_RESERVE)[0])})
+            no_reserve = bool(made.check(name, NO_RESERVE)[0])
+            checks.setdefault(home, []).append(
+                _VariedCheck(f"{home}{CHECKS}{own}", made.check(name)[0], ratio, no_reserve)
+            )
     used = [max(filter(may_govern, own), key=weight, default=None) for own in checks.values()]
-    return [found["id"] for found in sorted(filter(None, used), key=weight, reverse=True)[:MOST_CHECKS]]
+    return [found.id for found in sorted(filter(None, used), key=weight, reverse=True)[:MOST_CHECKS]]
 
 
 def _tornado(

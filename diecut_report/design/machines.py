@@ -27,6 +27,7 @@ from diecut_report.mechanism.inputs import Quantity
 from diecut_report.results.checks import check_results, checks_of, is_of_machine, is_sized, judged
 from diecut_report.results.conclusion import failed_self_tests, governing
 from diecut_report.results.mechanism import SelfTestFailed
+from diecut_report.results.model import CheckRecord
 from diecut_report.results.press_run import Run, Tell
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution.press_batch import CalculatedVariants, untold
@@ -272,7 +273,7 @@ class ProvedMachine:
     tree: Tree
     config: Config
     calculations: Mapping[str, Calculation]
-    checked: Mapping[str, list[Data]]
+    checked: Mapping[str, list[CheckRecord]]
 
     @cached_property
     def outputs(self) -> dict[str, float]:
@@ -280,9 +281,9 @@ class ProvedMachine:
         found = {n: v for name, calc in self.calculations.items() for n, v in output_values(name, calc).items()}
         return {name: float(v[0]) for name, v in found.items() if v.dtype.kind in "fi" and v[0] == v[0]}
 
-    def checks(self, status: str) -> list[tuple[str, Data]]:
+    def checks(self, status: str) -> list[tuple[str, CheckRecord]]:
         """Return its checks of a status, each with its name ``drive.crank_torque``."""
-        return [(f"{name}.{each['id']}", each) for name, each in self._each() if each["status"] == status]
+        return [(f"{name}.{each.id}", each) for name, each in self._each() if each.status == status]
 
     @property
     def status(self) -> str:
@@ -291,10 +292,10 @@ class ProvedMachine:
     @property
     def governing(self) -> str | None:
         """Return the check that governs."""
-        found = governing({name: {"checks": checks} for name, checks in self.checked.items()})
-        return f"{found['mechanism']}.{found['check']}" if found else None
+        found = governing(self.checked)
+        return str(found) if found else None
 
-    def _each(self) -> Iterator[tuple[str, Data]]:
+    def _each(self) -> Iterator[tuple[str, CheckRecord]]:
         yield from ((name, each) for name, checks in self.checked.items() for each in checks)
 
 
@@ -328,7 +329,7 @@ class _CheckedRun(Run):
     """One way through the graph that judges each mechanism and prints nothing."""
 
     def __init__(self, config: Config, tell: Any) -> None:
-        self.checked: dict[str, list[Data]] = {}
+        self.checked: dict[str, list[CheckRecord]] = {}
         super().__init__(config, tell)
 
     def _comparisons(self) -> None:
@@ -338,4 +339,4 @@ class _CheckedRun(Run):
         checks = check_results(calculation)
         if failed := failed_self_tests(checks):
             raise SelfTestFailed(failed)
-        self.checked[instance.name] = [each for each in checks if each["class"] != "numerical"]
+        self.checked[instance.name] = [each for each in checks if each.check_class != "numerical"]

@@ -10,12 +10,13 @@ import zlib
 from collections.abc import Iterator, Mapping
 from dataclasses import dataclass
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 from diecut_report.config.own_tables import logo_fault, name_fault
 from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.results_form import results_of
 from diecut_report.files import content, write_all
+from diecut_report.results.model import CarriedConfigRecord, ResultsRecord
 from diecut_report.results.results_file import config_content, logo_content, table_contents
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -79,7 +80,7 @@ class CarriedResults:
     path: Path
     form: Form
     content: bytes
-    results: dict[str, Any]
+    results: ResultsRecord
     results_content: bytes
     config_content: bytes
     tables: dict[str, bytes]
@@ -98,8 +99,8 @@ def carried_results(path: Path) -> CarriedResults:
         raise UserError(Problem(words, str(path)))
     found = _results_content(whole, form, str(path))
     results = results_of(found, str(path))
-    config, tables = _config(whole, form, results, str(path)), _tables(results, str(path))
-    former = _tables({"config": results["former"]}, str(path)) if results.get("former") else {}
+    config, tables = _config(whole, form, results.config, str(path)), _tables(results.config, str(path))
+    former = _tables(results.former, str(path)) if results.former else {}
     return CarriedResults(path, form, whole, results, found, config, tables, former)
 
 
@@ -139,9 +140,9 @@ def _attached(whole: bytes, name: str, file: str) -> bytes | None:
     return attachment(whole, name, MOST_RESULTS, file)
 
 
-def _config(whole: bytes, form: Form, results: dict[str, Any], file: str) -> bytes:
+def _config(whole: bytes, form: Form, config: CarriedConfigRecord, file: str) -> bytes:
     """The configuration in the results; that of the PDF, which is attached for a reader's convenience, must be the same."""
-    found = config_content(results)
+    found = config_content(config)
     if form == "pdf" and _attached(whole, "config.yaml", file) not in (None, found):
         words = phrase(
             "The configuration that is attached is not the one in the attached results. Somebody has "
@@ -151,8 +152,8 @@ def _config(whole: bytes, form: Form, results: dict[str, Any], file: str) -> byt
     return found
 
 
-def _tables(results: dict[str, Any], file: str) -> dict[str, bytes]:
-    found, logo = table_contents(results), logo_content(results)
+def _tables(config: CarriedConfigRecord, file: str) -> dict[str, bytes]:
+    found, logo = table_contents(config), logo_content(config)
     faults = [
         Problem(Phrase("The name of a table {fault}.", fault=fault), file)
         for name in found

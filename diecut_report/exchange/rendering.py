@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Iterable, Iterator, Sequence
 from pathlib import Path
-from typing import Any
 
 from markupsafe import Markup
 
@@ -13,19 +12,18 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError
 from diecut_report.exchange.carried import MOST as SIDES_MOST
 from diecut_report.exchange.carried import carried_results, form_of
-from diecut_report.exchange.results_form import other_form, parsed
+from diecut_report.exchange.results_form import other_form
 from diecut_report.files import content, write_all
 from diecut_report.report.chapters.front import ChangedCheck, ChangedRow, printed_changes
 from diecut_report.report.pages import html
 from diecut_report.report.pages.firm_templates import HouseStyle
-from diecut_report.report.text import Catalogue, translated
+from diecut_report.report.text import Catalogue, translated_changes
 from diecut_report.results.conclusion import doubtful
-from diecut_report.results.results_file import encoded
+from diecut_report.results.model import ChangedDocumentRecord, ChangesRecord, ResultsRecord
 from diecut_report.text.catalogues import Catalogues
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import say, spoken_language
 
-TEMPLATE = "template_sha256"
 Contents = dict[str, bytes]
 Tell = Callable[[str], None]
 
@@ -44,28 +42,20 @@ def render(
     Return what was written, and the figures and exports that could not be drawn. UserError where nothing can be made of the file.
     """
     carried = carried_results(file)
-    pipeline.AskedReport(language).told(carried.results)
-    if template_of(carried.results) or house:  # the pages are set with other templates than those were
-        asked = carried.results.get("report")
-        kept = {key: value for key, value in asked.items() if key != TEMPLATE} if isinstance(asked, dict) else {}
-        carried.results["report"] = kept | ({TEMPLATE: house.sha256} if house else {})
-    catalogues = pipeline.catalogues_of(carried.results, discovery, formats, str(file))
-    contents, lost = document(carried.results, formats, tell, str(file), catalogues, house)
-    beside, unwritten = pipeline.exported(carried.results, tell)
+    results = pipeline.AskedReport(language, house=house).noted(carried.results)
+    if not house:  # the pages may be set with other templates than those were
+        results = results.with_(report=results.report.with_(template_sha256=""))
+    catalogues = pipeline.catalogues_of(results, discovery, formats, str(file))
+    contents, lost = document(results, formats, tell, str(file), catalogues, house)
+    beside, unwritten = pipeline.exported(results, tell)
     files = {folder / f"{file.stem}.{ending}": content for ending, content in (contents | beside).items()}
     write_all(files, keep=file)
-    warnings = (*pipeline.untranslated(carried.results, catalogues), *doubtful(carried.results))
-    return pipeline.ReportOutcome(carried.results, tuple(files), (), warnings), [*lost, *unwritten]
-
-
-def template_of(results: dict[str, Any]) -> str:
-    """Return the hash of the templates that a report was set with; nothing where they are the program's alone."""
-    asked = results.get("report")
-    return str(asked.get(TEMPLATE, "")) if isinstance(asked, dict) else ""
+    warnings = (*pipeline.untranslated(results, catalogues), *doubtful(results))
+    return pipeline.ReportOutcome(results, tuple(files), (), warnings), [*lost, *unwritten]
 
 
 def document(
-    results: dict[str, Any],
+    results: ResultsRecord,
     formats: Sequence[str],
     tell: Tell,
     file: str,
@@ -83,7 +73,7 @@ def document(
             "The report cannot be made of these results: {told}. Give results as the program wrote them.",
             told=_told(cause),
         )
-        why = other_form(results)
+        why = other_form(results.data())
         raise UserError([Problem(words, file), *([Problem(why, file)] if why else [])]) from cause
 
 
@@ -107,8 +97,8 @@ def _told(cause: Exception) -> str:
     return f"{type(cause).__name__}: {cause}"
 
 
-def _refuse_many_sheets(results: dict[str, Any], formats: Sequence[str], file: str) -> None:
-    count = len(results["mechanisms"])
+def _refuse_many_sheets(results: ResultsRecord, formats: Sequence[str], file: str) -> None:
+    count = len(results.mechanisms)
     if "pdf" in formats and count > MAX_PRINTED_MECHANISMS:
         words = Phrase(
             "There are {count} mechanisms; a PDF has at most {most}. Leave it out with --format html.",
@@ -121,7 +111,7 @@ def _refuse_many_sheets(results: dict[str, Any], formats: Sequence[str], file: s
 # What changed between two calculations, as one HTML file without scripts or network.
 
 
-def page(changes: Mapping[str, Any]) -> str:
+def page(changes: ChangesRecord) -> str:
     """Return the page of the changes of `results.changes`."""
     words = Catalogue(spoken_language())
     made = printed_changes(changes, words)
@@ -141,7 +131,7 @@ MOST = {"changed_checks": 40, "changed_inputs": 40, "changed_outputs": 20}  # ro
 Cells = Sequence[str]
 
 
-def lines(changes: Mapping[str, Any], *, all_rows: bool = False) -> Iterator[str]:
+def lines(changes: ChangesRecord, *, all_rows: bool = False) -> Iterator[str]:
     """Give the changes of `results.changes` line by line; of the results the first ones, with the others counted."""
     words = Catalogue(spoken_language())
     made = printed_changes(changes, words)
@@ -161,20 +151,19 @@ def lines(changes: Mapping[str, Any], *, all_rows: bool = False) -> Iterator[str
 
 
 def said_changes(
-    changes: Mapping[str, Any], old: Mapping[str, Any], new: Mapping[str, Any], catalogues: Catalogues
-) -> Mapping[str, Any]:
+    changes: ChangesRecord, old: ResultsRecord, new: ResultsRecord, catalogues: Catalogues
+) -> ChangesRecord:
     """Return the changes with their texts in the language of the catalogues; ``old`` and ``new`` are the results of both sides."""
-    for data in old["mechanisms"].values():
-        catalogues.of(data["kind"])
-    found: Mapping[str, Any] = translated({**new, "changes": changes}, catalogues)["changes"]
-    return found
+    for data in (*old.calculated.values(), *new.calculated.values()):
+        catalogues.of(data.kind)
+    return translated_changes(changes, catalogues)
 
 
-def _head(name: str, side: Mapping[str, Any], words: Catalogue) -> Cells:
-    counts = [f"{n} {words[status]}" for status, n in side["checks"].items() if n and status != "pass"]
-    revision = say("revision {name}", name=side["revision"]) if side["revision"] else ""
-    governing = say("governing {check}", check=side["governing"]) if side["governing"] else ""
-    return name, side["file"], revision, words[side["status"]], ", ".join(counts), governing
+def _head(name: str, side: ChangedDocumentRecord, words: Catalogue) -> Cells:
+    counts = [f"{n} {words[status]}" for status, n in side.checks.items() if n and status != "pass"]
+    revision = say("revision {name}", name=side.revision) if side.revision else ""
+    governing = say("governing {check}", check=side.governing) if side.governing else ""
+    return name, side.file, revision, words[side.status], ", ".join(counts), governing
 
 
 def _check(row: ChangedCheck, words: Catalogue) -> Cells:
@@ -214,12 +203,12 @@ def _aligned(rows: Sequence[Cells], indent: str = "  ") -> Iterator[str]:
 
 def side(
     given: pipeline.Source, discovery: Discovery, tell: Callable[[str], None]
-) -> tuple[dict[str, Any], tuple[PluginError, ...]]:
+) -> tuple[ResultsRecord, tuple[PluginError, ...]]:
     """Return the results of one side, and the plugins that broke where it was calculated; UserError where it cannot be read."""
     if isinstance(given, Path) and _carries_results(given):
         return carried_results(given).results, ()
-    outcome, text = pipeline.calc(given, discovery, tell)
-    return parsed(encoded(text), ""), outcome.broken
+    outcome, _ = pipeline.calc(given, discovery, tell)
+    return outcome.results, outcome.broken
 
 
 def _carries_results(path: Path) -> bool:

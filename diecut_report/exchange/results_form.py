@@ -7,17 +7,18 @@ import math
 import re
 from base64 import b64decode
 from collections.abc import Mapping
-from typing import Annotated, Any, Literal, NoReturn
+from typing import Any, NoReturn
 
-from pydantic import BaseModel, ConfigDict, Field, ValidationError, model_validator
+from pydantic import ValidationError
 from pydantic_core import ErrorDetails
 
 from diecut_report.config.own_tables import MAX_FILES as MOST_TABLES
 from diecut_report.config.yaml import CONTROL
 from diecut_report.errors import MAX_SHOWN, MAX_TEXT, Problem, UserError
+from diecut_report.exchange import form_1
 from diecut_report.pictures import MAX_BYTES as MOST_OF_PICTURE
 from diecut_report.pictures import media_type
-from diecut_report.results.form import FORM_VERSION, SCHEMA_VERSION
+from diecut_report.results.model import FORM_VERSION, SCHEMA_VERSION, ConfigRecord, LogoRecord, ResultsRecord
 from diecut_report.text.phrases import Phrase, phrase
 
 # Results of another form than the program writes: which they are of, and what is told where they cannot be used.
@@ -42,7 +43,7 @@ def refuse_other_form(results: Mapping[str, Any], file: str) -> None:
         theirs=Phrase("form {version}", version=told if _is_version(told) else str(given)[:20]),
         by=_by(results),
         own=FORM_VERSION,
-        first=f"{SCHEMA_VERSION}.",
+        first="1.",
         what=phrase(what),
     )
     raise UserError(Problem(words, file, path="schema_version"))
@@ -75,163 +76,46 @@ def _is_version(told: object) -> bool:
 
 MOST_VALUES = 10_000_000  # of a results file
 ASK = phrase("Give a results file as the program wrote it.")
-Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=1000)]
-Id = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=200)]
-Status = Literal["pass", "warn", "fail", "error", "skipped"]
 
 
-class _PartOfResults(BaseModel):
-    model_config = ConfigDict(strict=True, extra="allow", allow_inf_nan=False, hide_input_in_errors=True)
-
-
-class ShownForm(_PartOfResults):
-    """A number as it is printed: neutral text and unit."""
-
-    text: str
-    unit: str
-
-
-class RowForm(_PartOfResults):
-    """An input or an output."""
-
-    value: Any
-    unit: str
-    symbol: str
-    description: str
-    display: ShownForm
-
-
-class CheckForm(_PartOfResults):
-    """A check."""
-
-    id: str
-    title: str
-    status: Literal["pass", "warn", "fail", "not_checked"]
-    kind: Annotated[str, Field(alias="class")]
-    utilisation: float | None
-    message: str
-
-
-class ExportForm(_PartOfResults):
-    """A profile that is written beside a report; its id is part of a file's name."""
-
-    id: Id
-
-
-class MechanismForm(_PartOfResults):
-    """The results of a mechanism."""
-
-    kind: str
-    title: str
-    plugin_version: str
-    status: Status
-    inputs: dict[str, RowForm]
-    outputs: dict[str, RowForm]
-    checks: list[CheckForm]
-    exports: list[ExportForm]
-
-
-class FileForm(_PartOfResults):
-    """A file whose text stands in the results: a table of the user's own."""
-
-    file: Annotated[str, Field(max_length=MAX_TEXT)]
-    sha256: str
-    source_text: str
-
-
-class LogoForm(_PartOfResults):
-    """A picture in the results, judged as one that a configuration names."""
-
-    file: Annotated[str, Field(max_length=MAX_TEXT)]
-    sha256: str
-    media_type: str
-    base64: Annotated[str, Field(max_length=4 * MOST_OF_PICTURE // 3 + 4)]
-
-    @model_validator(mode="after")
-    def draws(self) -> LogoForm:
-        """The picture is one, and of its type."""
-        content = b64decode(self.base64, validate=True)  # binascii's error is a ValueError
-        if media_type(content) != self.media_type:
-            raise ValueError(Phrase("the logo is not {media_type}", media_type=self.media_type))
-        return self
-
-
-class ConfigForm(FileForm):
-    """The configuration in the results."""
-
-    materials: Annotated[list[FileForm], Field(max_length=MOST_TABLES)] = []
-    logo: LogoForm | None = None
-
-
-class PressForm(_PartOfResults):
-    """The press."""
-
-    name: str
-    fields: list[RowForm]
-
-
-class ProgramForm(_PartOfResults):
-    """The program that calculated."""
-
-    name: Literal["diecut-report"]
-    version: str
-    libraries: dict[str, str] = {}
-
-
-class AdvisedForm(_PartOfResults):
-    """A change that is advised."""
-
-    path: str
-    value: str
-
-
-class AdviceForm(_PartOfResults):
-    """What comes of the advice of all failing checks together."""
-
-    changes: list[AdvisedForm]
-    failing: list[str]
-    error: str | None
-
-
-class CountsForm(_PartOfResults):
-    """How many checks there are of each status."""
-
-    passing: Annotated[int, Field(alias="pass")]
-    warn: int
-    fail: int
-    not_checked: int
-    advice: AdviceForm | None = None
-
-
-class ResultsForm(_PartOfResults):
-    """As much of the results file as is relied on."""
-
-    schema_version: Literal[1]
-    program: ProgramForm
-    config: ConfigForm
-    former: ConfigForm | None = None
-    project: dict[str, Any]
-    press: PressForm
-    status: Status
-    governing: dict[str, str] | None
-    summary: CountsForm
-    mechanisms: dict[Name, MechanismForm]
-    comparisons: dict[Name, dict[str, Any]] = {}
-
-
-def results_of(content: bytes, file: str) -> dict[str, Any]:
+def results_of(content: bytes, file: str) -> ResultsRecord:
     """Return results from the bytes of their file; UserError with what is wrong with them."""
     found = parsed(content, file)
     refuse_other_form(found, file)
+    _refuse_hidden(found, file)
     try:
-        ResultsForm.model_validate(found)
+        results = form_1.results_of(found) if form_1.is_own(found) else ResultsRecord.model_validate(found)
     except ValidationError as error:
         faults = error.errors(include_url=False)
         problems = [Problem(_words(fault), file, path=_path(fault["loc"])) for fault in faults[:MAX_SHOWN]]
         why = other_form(found)
         raise UserError([*([Problem(why, file)] if why else []), *problems]) from None
-    _refuse_hidden(found, file)
-    return found
+    _refuse_files(results.config, file)
+    return results
+
+
+def _refuse_files(config: ConfigRecord, file: str) -> None:
+    """Refuse files in the results that a configuration could not name."""
+    if len(config.materials) > MOST_TABLES or len(config.file) > MAX_TEXT:
+        raise UserError(Problem(Phrase("is not what stands there in results. {ask}", ask=ASK), file, path="config"))
+    if config.logo and not _is_drawn(config.logo):
+        words = Phrase("the logo is not {media_type}", media_type=config.logo.media_type)
+        raise UserError(
+            Problem(
+                Phrase("is not what stands there in results: {told}. {ask}", told=words, ask=ASK),
+                file,
+                path="config.logo",
+            )
+        )
+
+
+def _is_drawn(logo: LogoRecord) -> bool:
+    if len(logo.base64) > 4 * MOST_OF_PICTURE // 3 + 4:
+        return False
+    try:
+        return media_type(b64decode(logo.base64, validate=True)) == logo.media_type
+    except ValueError:  # binascii's error is one
+        return False
 
 
 def _words(fault: ErrorDetails) -> Phrase:

@@ -14,19 +14,17 @@ from typing import Any, NamedTuple
 
 from diecut_report import pipeline
 from diecut_report.config import yaml
-from diecut_report.config.model import DETAILS
 from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree
 from diecut_report.errors import PluginError, UserError
 from diecut_report.exchange.carried import CarriedResults
-from diecut_report.exchange.rendering import TEMPLATE, document, template_of
-from diecut_report.exchange.results_form import parsed
+from diecut_report.exchange.rendering import document
 from diecut_report.exchange.signatures import Signature, signatures
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.results.changes import compare_with
-from diecut_report.results.results_file import config_content, encoded, results_text
-from diecut_report.text.catalogues import languages
+from diecut_report.results.model import CarriedConfigRecord, ProgramRecord, ResultsRecord
+from diecut_report.results.results_file import config_content
 from diecut_report.text.phrases import Counted, Phrase, cell, joined, phrase
 
 # Two results documents held against each other, value by value: how many numbers agree, how exactly, and which differ.
@@ -125,10 +123,8 @@ def _named(part: Value, index: int) -> object:
 # The results document of a report made once more: from the configuration that it carries and the options that it tells, by this program.
 
 
-RecalculationData = dict[str, Any]
 Found = tuple[str, bool]  # what was found, in words, and whether it is as it should be
 SHORT = 12  # of a hash, as in a report
-CHANGES = ("changes", "former")
 
 
 class ReportParts(NamedTuple):
@@ -142,13 +138,13 @@ class ReportParts(NamedTuple):
 class Recalculation(NamedTuple):
     """Hold the results document as the program makes it now, the plugins that broke, and what was found of the report's options."""
 
-    results: RecalculationData
+    results: ResultsRecord
     broken: tuple[PluginError, ...]
     options: tuple[Found, ...]
 
 
 def recalculated(
-    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], parts: ReportParts, previous: RecalculationData | None
+    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], parts: ReportParts, previous: ResultsRecord | None
 ) -> Recalculation:  # fmt: skip
     """Return the results document that this program makes of the configuration and the options in a report.
 
@@ -158,18 +154,17 @@ def recalculated(
     given = carried.results
     weigh, follow, matter = parts if _is_report(carried) else (None, None, None)
     with _tables(carried.tables) as find:
-        tree = _tree(given["config"], f"{carried.path} (its configuration)")
+        tree = _tree(given.config, f"{carried.path} (its configuration)")
         outcome, _ = pipeline.calc(tree, discovery, tell, weigh=weigh, find=find, follow=follow, matter=matter)
     results, asked = outcome.results, _asked(given, outcome.results)
     former, lost = _former(carried, discovery, tell, previous)
     options = _options(given, results, asked)
-    asked.told(results)
-    compare_with(former, results)
-    again = parsed(encoded(results_text(results)), "")
-    if isinstance(template_of(given), str) and template_of(given):
-        again["report"][TEMPLATE] = template_of(given)  # judged with the pages
-    if lost:
-        again |= {key: given[key] for key in CHANGES if key in given}
+    again = asked.noted(results)
+    again = compare_with(former, again) if former else again
+    again = again.with_(
+        report=again.report.with_(template_sha256=given.report.template_sha256)
+    )  # judged with the pages
+    again = again.with_(changes=given.changes, former=given.former) if lost else again
     return Recalculation(
         again, outcome.broken, (options, *([lost] if lost else ()), *_other_changes(given, again, previous))
     )
@@ -177,14 +172,14 @@ def recalculated(
 
 def _is_report(carried: CarriedResults) -> bool:
     """Whether the results are those of a report; a results file without any of its parts is as ``calc`` writes it."""
-    summary = carried.results["summary"]
-    return carried.form != "json" or "moves" in summary or "advice" in summary or "influence" in carried.results
+    results = carried.results
+    return carried.form != "json" or bool(results.summary.moves or results.summary.advice or results.influence)
 
 
-def _tree(said: Mapping[str, Any], file: str) -> Tree:
+def _tree(config: CarriedConfigRecord, file: str) -> Tree:
     """A configuration in a report; it is called as the report calls it, and problems name the report."""
-    tree = yaml.parse(said["source_text"], file)
-    return Tree(tree.root, tree.file, tree.text, sha256(config_content({"config": said})).hexdigest(), said["file"])
+    tree = yaml.parse(config.source_text, file)
+    return Tree(tree.root, tree.file, tree.text, sha256(config_content(config)).hexdigest(), config.file)
 
 
 @contextmanager
@@ -201,26 +196,20 @@ def _tables(contents: Mapping[str, bytes]) -> Iterator[Find]:
 # --- options of the command that the configuration does not tell ------------------------------------------------------
 
 
-def _asked(given: RecalculationData, again: RecalculationData) -> pipeline.AskedReport:
+def _asked(given: ResultsRecord, again: ResultsRecord) -> pipeline.AskedReport:
     """The options that a report tells, as far as the command takes them; what it does not take differs from what comes out now."""
-    asked = given["report"] if isinstance(given.get("report"), dict) else {}
-    language, detail, only = given["project"].get("language"), asked.get("detail"), asked.get("only")
-    is_only = isinstance(only, list) and all(isinstance(name, str) and name in again["mechanisms"] for name in only)
-    return pipeline.AskedReport(
-        language if language in languages() else None,
-        detail if detail in DETAILS else None,
-        tuple(dict.fromkeys(only)) if is_only and only else (),
-    )
+    only = given.report.only if again.mechanisms.keys() >= set(given.report.only) else []
+    return pipeline.AskedReport(given.project.language, given.report.detail, tuple(dict.fromkeys(only)))
 
 
-def _options(given: RecalculationData, again: RecalculationData, asked: pipeline.AskedReport) -> Found:
+def _options(given: ResultsRecord, again: ResultsRecord, asked: pipeline.AskedReport) -> Found:
     """The options in words: what a report shows by them does not follow from its configuration."""
     told = [
-        f"--language {asked.language}" if asked.language not in (None, again["project"]["language"]) else "",
-        f"--detail {asked.detail}" if asked.detail not in (None, again["report"]["detail"]) else "",
+        f"--language {asked.language}" if asked.language != again.project.language else "",
+        f"--detail {asked.detail}" if asked.detail != again.report.detail else "",
         f"--only {','.join(asked.only)}" if asked.only else "",
-        f"--template (SHA-256 {template_of(given)[:SHORT]})" if template_of(given) else "",
-        f"--previous {_former_file(given)}" if "changes" in given else "",
+        f"--template (SHA-256 {given.report.template_sha256[:SHORT]})" if given.report.template_sha256 else "",
+        f"--previous {_former_file(given)}" if given.changes else "",
     ]
     named = " ".join(filter(None, told))
     if not named:
@@ -230,42 +219,40 @@ def _options(given: RecalculationData, again: RecalculationData, asked: pipeline
     return Phrase("made with {options}; all else follows from the configuration", options=named), True
 
 
-def _former_file(given: RecalculationData) -> str:
-    said = given.get("former")
-    return f"{cell(said['file'])} (SHA-256 {said['sha256'][:SHORT]})" if said else "…"
+def _former_file(given: ResultsRecord) -> str:
+    former = given.former
+    return f"{cell(former.file)} (SHA-256 {former.sha256[:SHORT]})" if former else "…"
 
 
 # --- the former revision -----------------------------------------------------------------------------------------------
 
 
 def _former(
-    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], previous: RecalculationData | None
-) -> tuple[RecalculationData | None, Found | None]:
+    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], previous: ResultsRecord | None
+) -> tuple[ResultsRecord | None, Found | None]:
     """The results of the former revision, or what keeps the changes since then from being proved."""
-    said = carried.results.get("former")
-    if previous is not None or "changes" not in carried.results:
+    former = carried.results.former
+    if previous is not None or not carried.results.changes:
         return previous, None
-    if not said:
+    if not former:
         words = phrase(
             "not proved: the report does not carry the former configuration; --previous FILE names the former report"
         )
         return None, (words, False)
     try:
         with _tables(carried.former_tables) as find:
-            tree = _tree(said, f"{carried.path} (its former configuration)")
+            tree = _tree(former, f"{carried.path} (its former configuration)")
             outcome, _ = pipeline.calc(tree, discovery, tell, find=find)
     except UserError:
         words = phrase(
             "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
         )
         return None, (words, False)
-    return parsed(encoded(results_text(outcome.results)), ""), None
+    return outcome.results, None
 
 
-def _other_changes(
-    given: RecalculationData, again: RecalculationData, previous: RecalculationData | None
-) -> Iterator[Found]:
-    if previous is None and given.get("changes") != again.get("changes"):
+def _other_changes(given: ResultsRecord, again: ResultsRecord, previous: ResultsRecord | None) -> Iterator[Found]:
+    if previous is None and given.changes != again.changes:
         words = "not those that come of the former configuration in the report; where another program calculated that, --previous FILE proves them"
         yield phrase(words), False
 
@@ -305,7 +292,7 @@ def compared(
 
 def other_templates(carried: CarriedResults, house: HouseStyle | None) -> str:
     """Return why the pages cannot be compared with the templates that are given; nothing where they can."""
-    asked = template_of(carried.results)
+    asked = carried.results.report.template_sha256
     if asked == (house.sha256 if house else ""):
         return ""
     own = Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
@@ -323,9 +310,6 @@ def _set_again(
 
 
 Data = Mapping[str, Any]
-OF_PROGRAM = ("version", "source_sha256", "extensions")
-OF_CODE = ("plugin_version", "plugin_sha256")
-"""What tells of the code and is held against the program's own apart from the numbers."""
 VERSION = re.compile(r"\d[\w.+-]{0,40}", re.ASCII)  # of a library
 
 
@@ -359,7 +343,7 @@ class Verification:
 
 def verify(
     carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], parts: ReportParts, *, pages: bool = True,
-    trusted: Path | None = None, house: HouseStyle | None = None, previous: Data | None = None,
+    trusted: Path | None = None, house: HouseStyle | None = None, previous: ResultsRecord | None = None,
 ) -> Verification:  # fmt: skip
     """Calculate the configuration of a report again and hold the report against that; without ``pages`` its results alone.
 
@@ -368,9 +352,9 @@ def verify(
     """
     results = carried.results
     signed = signatures(carried.content, trusted) if carried.form == "pdf" else []
-    again = recalculated(carried, discovery, tell, parts, dict(previous) if previous is not None else None)
+    again = recalculated(carried, discovery, tell, parts, previous)
     program = _program(results, again.results)
-    plugins = list(_plugins(_calculated(results), _calculated(again.results)))
+    plugins = list(_plugins(results, again.results))
     numbers = agreement(_compared(results, again.results, program), _compared(again.results, again.results, program))
     is_same = program[1] and not numbers.differences
     shown = _pages(carried, signed, house, discovery, tell, is_same=is_same) if pages else None
@@ -389,39 +373,31 @@ def _pages(
     return compared(carried, signed, house, discovery, tell)
 
 
-def _compared(results: Data, again: Data, program: Found) -> Data:
+def _compared(results: ResultsRecord, again: ResultsRecord, program: Found) -> Data:
     """What must come out again: all that the results hold, but what has a line of its own, as it tells of the code."""
-    kept = dict(results)
-    known = again["program"]["libraries"]
+    known = again.program.libraries
     libraries = {
         name: known[name] if name in known and VERSION.fullmatch(version) else version
-        for name, version in results["program"].get("libraries", {}).items()
+        for name, version in results.program.libraries.items()
     }
-    kept["program"] = {k: v for k, v in results["program"].items() if k not in OF_PROGRAM} | {"libraries": libraries}
-    for group in ("mechanisms", "comparisons"):
-        if group in results:
-            kept[group] = {
-                name: {k: v for k, v in data.items() if k not in OF_CODE} for name, data in results[group].items()
-            }
-    if not program[1]:
-        kept.pop("form_version", None)
-    return kept
+    no_code = {"plugin_version": "", "plugin_sha256": ""}
+    made = results.with_(
+        program=again.program.with_(name=results.program.name, libraries=libraries),
+        mechanisms={name: data.with_(**no_code) for name, data in results.mechanisms.items()},
+        comparisons={name: data.with_(**no_code) for name, data in results.comparisons.items()},
+    )
+    return (made if program[1] else made.with_(form_version=again.form_version)).data()
 
 
-def _calculated(results: Data) -> Data:
-    return {**results["mechanisms"], **results.get("comparisons", {})}
-
-
-def _program(first: Data, again: Data) -> Found:
-    first, again = first["program"], again["program"]
-    named = f"{first['name']} {first['version']}"
-    old, new = (str(each.get("source_sha256", "")) for each in (first, again))
-    if (first["version"], old, first.get("extensions")) == (again["version"], new, again.get("extensions")):
+def _program(first_results: ResultsRecord, again_results: ResultsRecord) -> Found:
+    first, again = first_results.program, again_results.program
+    named, old, new = f"{first.name} {first.version}", first.source_sha256, again.source_sha256
+    if (first.version, old, first.extensions) == (again.version, new, again.extensions):
         return Phrase(
             "{named}, source {old}: the same{others}", named=named, old=old[:SHORT], others=_others(first, again)
         ), True
-    if first["version"] != again["version"]:
-        return Phrase("{named} made the report, this is {version}", named=named, version=again["version"]), False
+    if first.version != again.version:
+        return Phrase("{named} made the report, this is {version}", named=named, version=again.version), False
     if old != new:
         return Phrase(
             "{named}, but its source is another one ({old} then, {new} now)",
@@ -432,9 +408,9 @@ def _program(first: Data, again: Data) -> Found:
     return Phrase("{named}, but its extensions are others", named=named), False
 
 
-def _others(first: Data, again: Data) -> str:
+def _others(first: ProgramRecord, again: ProgramRecord) -> str:
     """Which libraries have another version now, where the report tells theirs: it may explain what differs."""
-    old, new = first.get("libraries", {}), again["libraries"]
+    old, new = first.libraries, again.libraries
     told = [
         Phrase("{name} {old} then, {new} now", name=name, old=version, new=new.get(name) or phrase("none"))
         for name, version in old.items()
@@ -443,7 +419,7 @@ def _others(first: Data, again: Data) -> str:
     return "; " + phrase(joined(told, ", ")) if told else ""
 
 
-def _plugins(first: Data, again: Data) -> Iterator[Found]:
+def _plugins(first: ResultsRecord, again: ResultsRecord) -> Iterator[Found]:
     """One line for all kinds that are the same, one for each other; mechanisms of one kind have the same code."""
     old, now = _codes(first), _codes(again)
     same = [kind for kind, codes in old.items() if now.get(kind) == codes]
@@ -459,12 +435,11 @@ def _plugins(first: Data, again: Data) -> Iterator[Found]:
     yield from ((Phrase("{kind}: not in the report", kind=kind), False) for kind in now if kind not in old)
 
 
-def _codes(calculated: Data) -> dict[str, set[tuple[str, str]]]:
+def _codes(results: ResultsRecord) -> dict[str, set[tuple[str, str]]]:
     """The versions and sources of each kind."""
     found: dict[str, set[tuple[str, str]]] = {}
-    for data in calculated.values():
-        code = str(data.get("plugin_version", "")), str(data.get("plugin_sha256", ""))
-        found.setdefault(str(data.get("kind", "")), set()).add(code)
+    for data in results.calculated.values():
+        found.setdefault(data.kind, set()).add((data.plugin_version, data.plugin_sha256))
     return found
 
 
@@ -474,9 +449,10 @@ def _named_code(code: tuple[str, str]) -> str:
 
 def _config(carried: CarriedResults) -> Found:
     """Whether the configuration and its tables are those whose hashes the report names."""
-    said = carried.results["config"]
-    contents = {said["file"]: carried.config_content} | carried.tables
-    hashes = {file["file"]: str(file["sha256"]) for file in (*said.get("materials", ()), *_logo(said), said)}
+    config = carried.results.config
+    contents = {config.file: carried.config_content} | carried.tables
+    files = (*config.materials, *([config.logo] if config.logo else ()), config)
+    hashes = {file.file: file.sha256 for file in files}
     for name, content in contents.items():
         found = sha256(content).hexdigest()
         if found != hashes[name]:
@@ -487,14 +463,10 @@ def _config(carried: CarriedResults) -> Found:
                 found=found[:SHORT],
             )
             return words, False
-    told = {"files": ", ".join(map(cell, contents)), "digest": said["sha256"][:SHORT]}
+    told = {"files": ", ".join(map(cell, contents)), "digest": config.sha256[:SHORT]}
     return Counted(
         len(contents),
         "{files}, SHA-256 {digest}: the one that the report names",
         "{files}, SHA-256 {digest}: the ones that the report names",
         told,
     ), True
-
-
-def _logo(said: Data) -> list[Data]:
-    return [said["logo"]] if "logo" in said else []

@@ -23,6 +23,7 @@ from diecut_report.report.pages.html import filled_page, folder
 from diecut_report.report.reader_data import figure_readings
 from diecut_report.report.text import Catalogue, figure_translated, quantity, tidy
 from diecut_report.results.checks import NOT_CHECKED
+from diecut_report.results.model import CheckRecord, CurveRecord, FigureRecord, QuantityRecord
 from diecut_report.results.press_run import Tell
 from diecut_report.study.execution.press_batch import untold
 from diecut_report.text.phrases import phrase
@@ -60,10 +61,10 @@ def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str])
     return {
         "title": str((machine.config.tree.data.get("project") or {}).get("title") or machine.tree.name),
         "status": run.status,
-        "summary": run.summary,
-        "conclusion": said(run.summary["conclusion"]),
+        "summary": run.summary.data(),
+        "conclusion": said(run.summary.conclusion),
         "is_open": run.is_open,
-        "start": {"status": start.run.status, "summary": start.run.summary},
+        "start": {"status": start.run.status, "summary": start.run.summary.data()},
         "mechanisms": [
             _mechanism(name, machine, start, edits)
             for name in (PRESS, *(each for each in machine.config.instances if each != PRESS))
@@ -92,12 +93,12 @@ def _mechanism(name: str, machine: LiveMachine, start: LiveMachine, edits: Mappi
             "skipped": False,
         }
     is_there = name in run.calculations
-    before = {check["id"]: check for check in start.run.checks.get(name, ())}
+    before = {check.id: check for check in start.run.checks.get(name, ())}
     return own | {
         "name": name,
         "title": said(instance.mechanism.title, kind),
         "skipped": not is_there,
-        "checks": [_check(each, kind, before.get(each["id"])) for each in run.checks.get(name, ()) if each["class"] != "numerical"],
+        "checks": [_check(each, kind, before.get(each.id)) for each in run.checks.get(name, ()) if each.check_class != "numerical"],
         "outputs": list(_outputs(name, kind, machine, start)) if is_there else [],
         "figures": [_text(title, kind) for title in run.figure_titles(name)] if is_there else [],
     }  # fmt: skip
@@ -167,18 +168,17 @@ def _plain(number: float) -> float:
     return float(f"{number:.12g}")
 
 
-def _check(check: Mapping[str, Any], kind: str, before: Mapping[str, Any] | None) -> Data:
-    ratio = check.get("utilisation")
+def _check(check: CheckRecord, kind: str, before: CheckRecord | None) -> Data:
+    ratio = check.utilisation
     return {
-        "id": check["id"],
-        "title": _text(check["title"], kind),
-        "class": check["class"],
-        "status": check["status"],
-        "utilisation": ratio if isinstance(ratio, int | float) and math.isfinite(ratio) else None,
-        "message": _text(check.get("message"), kind),
-        "advice": _text(check.get("advice"), kind),
-        "start_status": before["status"] if before else "",
-        "start_utilisation": before.get("utilisation") if before else None,
+        "id": check.id,
+        "title": _text(check.title, kind),
+        "class": check.check_class,
+        "status": check.status,
+        "utilisation": ratio,
+        "message": _text(check.message, kind),
+        "start_status": before.status if before else "",
+        "start_utilisation": before.utilisation if before else None,
     }
 
 
@@ -188,19 +188,16 @@ def _outputs(name: str, kind: str, machine: LiveMachine, start: LiveMachine) -> 
         first = before.get(key)
         yield {
             "id": key,
-            "text": _text(output["description"], kind),
-            "symbol": output["symbol"],
+            "text": _text(output.description, kind),
+            "symbol": output.symbol,
             "shown": _shown(output),
             "start": "" if first is None else _shown(first),
-            "change": _change(output["value"], first and first["value"]),
+            "change": _change(output.value, first and first.value),
         }
 
 
-def _shown(output: Mapping[str, Any]) -> str:
-    display = output.get("display")
-    if not display:
-        return str(output["value"])
-    return localised(quantity(display["text"], display["unit"]))
+def _shown(output: QuantityRecord) -> str:
+    return localised(quantity(output.display.text, output.display.unit))
 
 
 def _change(value: Any, first: Any) -> float | None:
@@ -230,16 +227,18 @@ class Pictures:
         return known[1]
 
 
-def _pictures_of_run_shown(machine: LiveMachine, mechanism: str, index: int) -> Data:
-    """The figure as data; a chart to which this machine gives no panel is not among them, though its title is told."""
+def _pictures_of_run_shown(machine: LiveMachine, mechanism: str, index: int) -> FigureRecord:
+    """The figure; a chart to which this machine gives no panel is not among them, though its title is told."""
     declared = shown_figures(machine.run.calculations[mechanism])[index]
-    found = next((figure for figure in machine.run.figures(mechanism) if figure["id"] == declared.id), None)
+    found = next((figure for figure in machine.run.figures(mechanism) if figure.id == declared.id), None)
     if found is None:
         raise refusal("{title}: there is nothing of this machine to show.", title=declared.title)
     return found
 
 
-def _in_words(machine: LiveMachine, mechanism: str, figure: Data) -> tuple[Data, Data]:
+def _in_words(
+    machine: LiveMachine, mechanism: str, figure: FigureRecord
+) -> tuple[FigureRecord, dict[str, CurveRecord]]:
     """The figure and the curves of its mechanism, in the language that is spoken."""
     curves, catalogues = machine.run.curves(mechanism), catalogues_spoken()
     if catalogues is None:
@@ -247,12 +246,12 @@ def _in_words(machine: LiveMachine, mechanism: str, figure: Data) -> tuple[Data,
     return figure_translated(figure, curves, machine.run.calculations[mechanism].mechanism.kind, catalogues)
 
 
-def _drawn(figure: Data, curves: Data, mechanism: str, index: int) -> Data:
+def _drawn(figure: FigureRecord, curves: Mapping[str, CurveRecord], mechanism: str, index: int) -> Data:
     from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
 
     words = Catalogue(spoken_language())
     try:
-        if figure["type"] in ("plot", "chart") and (readings := figure_readings(mechanism, figure, curves, words)):
+        if figure.type in ("plot", "chart") and (readings := figure_readings(mechanism, figure, curves, words)):
             return {"plot": readings}
         return {"svg": render(figure, curves, words, f"{mechanism}-{index}").text}
     except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
@@ -364,12 +363,12 @@ def _unmoved(machine: LiveMachine, moved: Config, found: VariedMachines) -> Data
     """The lines of the checks that are not calculated again: today's, where the machine exists."""
     checks = ((name, check) for name, own in machine.run.checks.items() if name not in moved.instances for check in own)
     return {
-        f"{name}.{check['id']}": {
-            "utilisation": [_effects_told(check["utilisation"]) if there else None for there in found.exists],
-            "status": [check["status"] if there else "" for there in found.exists],
+        f"{name}.{check.id}": {
+            "utilisation": [_effects_told(check.utilisation) if there else None for there in found.exists],
+            "status": [check.status if there else "" for there in found.exists],
         }
         for name, check in checks
-        if check["class"] != "numerical" and check["status"] != NOT_CHECKED
+        if check.check_class != "numerical" and check.status != NOT_CHECKED
     }
 
 

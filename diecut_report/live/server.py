@@ -28,6 +28,7 @@ from watchfiles import awatch
 from diecut_report.errors import PluginError, UserError, refusal
 from diecut_report.live.page import Pictures, assets, effect, page, page_data
 from diecut_report.live.session import LiveMachine, LiveReports, LiveSession, in_time
+from diecut_report.results.model import ResultsRecord
 from diecut_report.text.phrases import phrase
 from diecut_report.text.translation import said, say
 
@@ -207,11 +208,15 @@ class LiveApplication:
 
         return made
 
+    def _document(self, machine: LiveMachine) -> ResultsRecord:
+        with in_time(self.session.file):
+            return machine.run.document()
+
     async def _report(self, request: Request) -> Response:
         machine = self.session.machine
         if machine is None:
             return Response(say("There is no machine to report of yet; see the faults of the file."), 409)
-        results = await self._done(self._of_last(lambda last: last.run.document()))
+        results = await self._done(lambda: self._document(machine))
         made = await self.reports.made(results, request.path_params["form"])
         return Response(made.content, media_type=made.media_type, headers=made.headers)
 

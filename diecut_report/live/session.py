@@ -20,6 +20,7 @@ from diecut_report.design.inputs import DesignChoice, DesignInput, given_choices
 from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.files import write
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.text.phrases import phrase
@@ -246,7 +247,7 @@ class LiveReports:
         self.folders, self.language = folders, language
         self._one = asyncio.Lock()
 
-    async def made(self, results: dict[str, Any], form: str) -> MadeReport:
+    async def made(self, results: ResultsRecord, form: str) -> MadeReport:
         """Return the report of these results as ``html`` or ``pdf``; UserError in the words of the command where it cannot be made."""
         if form not in MEDIA_TYPES:
             raise refusal(

@@ -176,7 +176,7 @@ def results(calc: Calculation) -> Data:
             lines = rows(calc, step)
             marked = {"taken": taken} if (taken := _taken(calc, step, lines)) else {}
             found[step.id] = {"description": step.description, "columns": columns, "rows": lines} | marked
-    return {"listings": found} if found else {}
+    return found
 
 
 def _taken(calc: Calculation, step: Listing, lines: list[list[Cell]]) -> list[int]:

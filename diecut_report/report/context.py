@@ -10,18 +10,18 @@ from diecut_report.report.chapters.front import CarriedFile, PrintedChanges, car
 from diecut_report.report.chapters.sources import numbered
 from diecut_report.report.document import ReportDocument, document
 from diecut_report.report.equations import Equations, Typesetter
-from diecut_report.report.model import Item
+from diecut_report.report.model import Drawn, Item
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.report.scope import BRIEF, FULL, parts
 from diecut_report.report.symbols import DeclaredLetters, declared_letters
 from diecut_report.report.text import Catalogue, translated
-from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
+from diecut_report.results.model import CurveRecord, FigureRecord, ResultsRecord
+from diecut_report.text.catalogues import Catalogues
 
 if TYPE_CHECKING:
     from diecut_report.report.figures.by_type import Raster
     from diecut_report.report.figures.style import SizesSize, Svg
 
-Data = Mapping[str, Any]
 Drawing = TypeVar("Drawing")
 
 
@@ -30,8 +30,13 @@ class DrawingFault(NamedTuple):
 
     mechanism: str
     number: str
-    figure: Mapping[str, Any]
+    figure: Drawn
     cause: Exception
+
+    @property
+    def id(self) -> str:
+        """Its id."""
+        return self.figure.id if isinstance(self.figure, FigureRecord) else self.number
 
     @property
     def words(self) -> str:
@@ -43,10 +48,10 @@ class Material:
     """The parts of the report of a results document."""
 
     def __init__(
-        self, results: Mapping[str, Any], catalogues: Catalogues | None = None, house: HouseStyle | None = None
+        self, results: ResultsRecord, catalogues: Catalogues | None = None, house: HouseStyle | None = None
     ) -> None:
         self.results, self.house = results, house
-        self.words = Catalogue(results["project"].get("language") or SOURCE_LANGUAGE)
+        self.words = Catalogue(results.project.language)
         self.catalogues = catalogues or Catalogues(self.words.language)
         self.typesetter = Typesetter()
         self.faults: list[DrawingFault] = []
@@ -57,7 +62,7 @@ class Material:
         return document(marked(self.said), Equations(self.words, self.typesetter.measure), self.words)
 
     @cached_property
-    def said(self) -> Mapping[str, Any]:
+    def said(self) -> ResultsRecord:
         """The results with their texts in the report's language, and papers by their numbers."""
         return numbered(translated(self.results, self.catalogues))
 
@@ -69,7 +74,7 @@ class Material:
     @cached_property
     def changes(self) -> PrintedChanges | None:
         """What changed since the former revision, where the results tell that."""
-        return printed_changes(self.said["changes"], self.words) if "changes" in self.said else None
+        return printed_changes(self.said.changes, self.words) if self.said.changes else None
 
     @cached_property
     def carried(self) -> tuple[CarriedFile, ...]:
@@ -79,8 +84,8 @@ class Material:
     @property
     def logo(self) -> str:
         """The organisation's logo as a data address; nothing where there is none."""
-        logo = self.results["config"].get("logo")
-        return f"data:{logo['media_type']};base64,{logo['base64']}" if logo else ""
+        logo = self.results.config.logo
+        return f"data:{logo.media_type};base64,{logo.base64}" if logo else ""
 
     @cached_property
     def figures(self) -> dict[str, Svg]:
@@ -101,21 +106,23 @@ class Material:
         calculated = dict(parts(self.said))
         for chapter in self.document.chapters:
             for number, figure in chapter.figures:
-                if "error" in figure:
+                if figure.error:
                     continue
                 try:
-                    found[number] = self._sized(draw, number, figure, calculated[chapter.name]["curves"])
+                    found[number] = self._sized(draw, number, figure, calculated[chapter.name].curves)
                 except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
                     if all(fault.number != number for fault in self.faults):
                         self.faults.append(DrawingFault(chapter.name, number, figure, cause))
             for number in _left_alone(chapter.pairs, found):
-                curves = calculated[chapter.name]["curves"]
+                curves = calculated[chapter.name].curves
                 found[number] = draw(dict(chapter.figures)[number], curves, self.words, number, self._whole)
-        for number, figure in self.document.influence.figures if self.document.influence else ():
-            found[number] = self._sized(draw, number, figure, {})
+        for number, tornado in self.document.influence.figures if self.document.influence else ():
+            found[number] = self._sized(draw, number, tornado, {})
         return found
 
-    def _sized(self, draw: Callable[..., Drawing], number: str, figure: Data, curves: Data) -> Drawing:
+    def _sized(
+        self, draw: Callable[..., Drawing], number: str, figure: Drawn, curves: Mapping[str, CurveRecord]
+    ) -> Drawing:
         """A figure in the size of its place; one whose texts take more than half the width has it alone."""
         from diecut_report.report.figures.style import WIDEST_HALF
         from diecut_report.report.figures.style import SizesSize as Size
@@ -146,8 +153,7 @@ class Material:
     def why_not_drawn(self, number: str) -> str:
         """Why a figure that could not be drawn could not."""
         figure = dict(pair for chapter in self.document.chapters for pair in chapter.figures)[number]
-        told: str = figure.get("error", "")
-        return told or next(fault.words for fault in self.faults if fault.number == number)
+        return figure.error or next(fault.words for fault in self.faults if fault.number == number)
 
 
 def _left_alone(pairs: Sequence[tuple[str, ...]], drawn: Mapping[str, Any]) -> Iterator[str]:

@@ -26,8 +26,15 @@ from diecut_report.report.model import CheckRow, PrintedChapter, QuantityRow, qu
 from diecut_report.report.scope import BRIEF, FULL, Scope, parts, scope
 from diecut_report.report.symbols import BOLD, drawn, measured
 from diecut_report.report.text import Catalogue
-from diecut_report.results.checks import calculated, is_doubtful
 from diecut_report.results.conclusion import conclusion, is_open
+from diecut_report.results.model import (
+    ChangedDocumentRecord,
+    ConfigRecord,
+    PressRecord,
+    ProgramRecord,
+    ProjectRecord,
+    ResultsRecord,
+)
 from diecut_report.text.translation import said, speaking
 
 # What each sheet says of the document: title, number, revision, date, status, and whether it may be released at all.
@@ -63,29 +70,27 @@ class TitleBlock:
         return [(key, self.project[f"{key}_by"]) for key in SIGNERS if key != "norm_checked" or is_asked]
 
 
-def title_block(results: Data, words: Catalogue) -> TitleBlock:
+def title_block(results: ResultsRecord, words: Catalogue) -> TitleBlock:
     """Return what the sheets of a report say of it."""
-    asked = results.get("report", {})
+    asked = results.report
     is_held = held(results)
-    status = asked.get("status", DRAFT)
+    status = asked.status
     shown = words["not_released"] if is_held and status == RELEASED else words[f"status_{status}"]
-    return TitleBlock(
-        _texts(results["project"], words), results["press"]["name"], asked.get("frame", PLAIN), shown, is_held
-    )
+    return TitleBlock(_texts(results.project, words), results.press.name, asked.frame, shown, is_held)
 
 
-def held(results: Data) -> bool:
+def held(results: ResultsRecord) -> bool:
     """Return whether a calculation cannot be released: a check fails, is not made, something could not be calculated, or formulas have faults."""
-    parts = calculated(results)
-    is_left = any(check["status"] == "not_checked" for data in parts for check in data.get("checks", ()))
-    return is_left or any(map(is_doubtful, parts)) or results["status"] not in ("pass", "warn")
+    parts = results.calculated.values()
+    is_left = any(check.status == "not_checked" for data in parts for check in data.checks)
+    return is_left or any(data.is_doubtful for data in parts) or results.status not in ("pass", "warn")
 
 
-def _texts(project: Data, words: Catalogue) -> Data:
+def _texts(project: ProjectRecord, words: Catalogue) -> Data:
     """The project's texts; what is not given is empty, but for the type of the document."""
-    revisions = [{key: str(row.get(key) or "") for key in REVISION} for row in project.get("revisions") or ()]
-    found = {key: str(project.get(key) or "") for key in FIELDS}
-    return found | {"document_type": found["document_type"] or words["calculation"], "revisions": revisions}
+    revisions = [{key: getattr(row, key) or "" for key in REVISION} for row in project.revisions]
+    found = {key: getattr(project, key) or "" for key in FIELDS}
+    return found | {"document_type": project.document_type or words["calculation"], "revisions": revisions}
 
 
 def machine_named(name: str, words: Catalogue) -> str:
@@ -108,7 +113,7 @@ class ReportDocument:
     """A whole report."""
 
     block: TitleBlock
-    press: Data
+    press: PressRecord
     status: str
     verdict: str
     is_open: bool
@@ -121,8 +126,8 @@ class ReportDocument:
     press_rows: list[QuantityRow]
     chapters: list[PrintedChapter]
     sources: list[tuple[str, str]]
-    program: Data
-    config: Data
+    program: ProgramRecord
+    config: ConfigRecord
     words: Catalogue
     assumed: AssumedLine | None = None
     detail: str = FULL
@@ -180,7 +185,7 @@ class ReportDocument:
         return str(self.project["title"])
 
 
-def document(results: Data, equations: Equations, words: Catalogue) -> ReportDocument:
+def document(results: ResultsRecord, equations: Equations, words: Catalogue) -> ReportDocument:
     """The report of the results."""
     whole, block = scope(results), title_block(results, words)
     results = whole.results
@@ -190,8 +195,8 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
     decimal = words["decimal"]
     return ReportDocument(
         block=block,
-        press=results["press"],
-        status=results["status"],
+        press=results.press,
+        status=results.status,
         verdict=_verdict(results, words),
         is_open=is_open(results),
         counts=_begun([*_counts(every, words), *_left_out(results)]),
@@ -205,11 +210,11 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
             *followed_line(results, words, every),
         ],
         failures=_failures(checks),
-        press_rows=[rested(quantity_row(row, decimal), row, words) for row in results["press"]["fields"]],
+        press_rows=[rested(quantity_row(row, decimal), row, words) for row in results.press.fields],
         chapters=chapters,
         sources=_sources(results),
-        program=results["program"],
-        config=results["config"],
+        program=results.program,
+        config=results.config,
         words=words,
         assumed=assumed_line(results, words),
         detail=whole.detail,
@@ -219,7 +224,7 @@ def document(results: Data, equations: Equations, words: Catalogue) -> ReportDoc
     )
 
 
-def _verdict(results: Data, words: Catalogue) -> str:
+def _verdict(results: ResultsRecord, words: Catalogue) -> str:
     """The first line on the whole."""
     with speaking(words.language):
         return said(conclusion(results))
@@ -227,18 +232,18 @@ def _verdict(results: Data, words: Catalogue) -> str:
 
 def _chapters(whole: Scope, equations: Equations, words: Catalogue) -> list[PrintedChapter]:
     results = whole.results
-    stem = PurePath(results["config"]["file"]).stem
+    stem = PurePath(results.config.file).stem
     told: dict[str, ToldBefore] = {}
     chapters = []
     for name, data in parts(results):
-        letter, kind = whole.letters[name], data["kind"]
+        letter, kind = whole.letters[name], data.kind
         known = told.setdefault(kind, ToldBefore())
         chapters.append(chapter(letter, name, data, equations, words, stem, whole.detail, known))
         told[kind] = known.next(letter)
     _tell_apart(chapters)
-    mechanisms = {part.name: part for part in chapters[: len(results["mechanisms"])]}
+    mechanisms = {part.name: part for part in chapters[: len(results.mechanisms)]}
     for part, (_, data) in zip(chapters, parts(results), strict=True):
-        part.between = [mechanisms[name] for name in data.get("between", ())]
+        part.between = [mechanisms[name] for name in data.between]
     return chapters
 
 
@@ -283,54 +288,53 @@ def _doubts(chapters: list[PrintedChapter], words: Catalogue) -> Iterator[str]:
 def _shown(whole: Scope, words: Catalogue) -> Iterator[str]:
     """That mechanisms are left out of the report, and the verdict of the whole press."""
     if whole.is_part:
-        told = {"n": len(whole.results["mechanisms"]), "total": whole.total, "status": words[whole.status]}
+        told = {"n": len(whole.results.mechanisms), "total": whole.total, "status": words[whole.status]}
         yield words.say("only_part", **told)
 
 
-def _left_out(results: Data) -> Iterator[str]:
+def _left_out(results: ResultsRecord) -> Iterator[str]:
     """Words on the comparisons that are not made."""
-    if "comparisons_left_out" in results:
-        yield results["comparisons_left_out"]["message"].removesuffix(".")
+    if results.comparisons_left_out:
+        yield results.comparisons_left_out.message.removesuffix(".")
 
 
-def _governing(results: Data, checks: list[CheckRow]) -> CheckRow | None:
-    named = results.get("governing")
+def _governing(results: ResultsRecord, checks: list[CheckRow]) -> CheckRow | None:
+    named = results.governing
     if not named:
         return None
-    return next(row for row in checks if (row.mechanism, row.id) == (named["mechanism"], named["check"]))
+    return next(row for row in checks if (row.mechanism, row.id) == (named.mechanism, named.check))
 
 
-def _sources(results: Data) -> list[tuple[str, str]]:
+def _sources(results: ResultsRecord) -> list[tuple[str, str]]:
     """All sources of the mechanisms, each once, with its ids; several papers of one volume share an id."""
     found: dict[str, dict[str, None]] = {}
     for _, data in parts(results):
-        for source in data.get("sources", ()):
-            found.setdefault(source["citation"], {})[source["id"]] = None
+        for source in data.sources:
+            found.setdefault(source.citation, {})[source.id] = None
     named = ((", ".join(sorted(ids)), citation) for citation, ids in found.items())
     return sorted(named, key=lambda source: (not source[0].startswith("["), source[0].casefold(), source[1]))
 
 
-def former(changes: Data, words: Catalogue) -> str:
+def former(old: ChangedDocumentRecord, new: ChangedDocumentRecord, words: Catalogue) -> str:
     """The title of what changed since the former document, which its revision names, or its file."""
-    old, new = changes["old"], changes["new"]
-    is_revision = old["revision"] and old["revision"] != new["revision"]
+    is_revision = old.revision and old.revision != new.revision
     return words.say(
-        "changes_since_revision" if is_revision else "changes_since", name=old["revision" if is_revision else "file"]
+        "changes_since_revision" if is_revision else "changes_since", name=old.revision if is_revision else old.file
     )
 
 
 def _contents(
-    chapters: list[PrintedChapter], words: Catalogue, detail: str, results: Data
+    chapters: list[PrintedChapter], words: Catalogue, detail: str, results: ResultsRecord
 ) -> Iterator[tuple[str, str, str, int]]:
     """Anchor, number, title and depth of all that has a heading."""
     yield "summary", "1", words["summary"], 1
-    if changes := results.get("changes"):
-        yield "changes", "", former(changes, words), 1
+    if changes := results.changes:
+        yield "changes", "", former(changes.old, changes.new, words), 1
     if detail == BRIEF:
         yield "key-results", "2", words["key_results"], 1
         yield from ((part.anchor, part.letter, part.title, 2) for part in chapters)
         return
-    if results.get("influence"):
+    if results.influence:
         yield "influence", "", words["influence"], 1
     yield "press", "2", words["press_data"], 1
     for part in chapters:

@@ -5,14 +5,14 @@ from __future__ import annotations
 import re
 from collections.abc import Callable, Mapping
 from functools import reduce
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 import mathra
 from math_core import LatexToMathML
 
 from diecut_report.report.mathematics import Latex, Linear, Tree, escaped, factors, terms, with_units
+from diecut_report.results.model import ItemRecord, PlaceRecord, ShownRecord
 
-Item = Mapping[str, Any]
 Measure = Callable[[str], float]  # the width of LaTeX in em
 
 WIDTH = 48.0  # of the text column, in em of the formulas' size
@@ -91,12 +91,12 @@ class Equations:
         self.latex = Latex(words, words["decimal"])
         self.linear = Linear(words, words["decimal"])
 
-    def of(self, item: Item) -> Equation | None:
+    def of(self, item: ItemRecord) -> Equation | None:
         """The equation of an item; None where there is nothing to typeset."""
         links = self._links(item)
-        head, place = self._symbol(item["symbol"]), self._place(item)
-        if item.get("relation"):
-            _, _, left, right = item["relation"]
+        head, place = self._symbol(item.symbol), self._place(item)
+        if item.relation:
+            _, _, left, right = item.relation
             return self._stacked([EquationRow(self._link(left), [self._link(right)]), EquationRow(head, links, place)])
         if not links:
             return None
@@ -105,17 +105,17 @@ class Equations:
             return Equation(whole.latex(), whole.text(), (whole,))
         return self._stacked(self._rows(whole))
 
-    def condition(self, item: Item) -> Equation | None:
+    def condition(self, item: ItemRecord) -> Equation | None:
         """The condition of the branch taken: in symbols, and with its numbers."""
-        links = [self._link(tree) for tree in (item.get("condition"), item.get("condition_substituted")) if tree]
+        links = [self._link(tree) for tree in (item.condition, item.condition_substituted) if tree]
         if not links:
             return None
         row = EquationRow(Link(), links, joint=":")
         return Equation(r":\quad ".join(link.latex for link in links), ": ".join(link.text for link in links), (row,))
 
-    def definitions(self, item: Item) -> list[Equation]:
+    def definitions(self, item: ItemRecord) -> list[Equation]:
         """What the names stand for by which the item's formula calls others: where k_t(x) = …"""
-        rows = [EquationRow(self._link(each["defined"]), [self._link(each["as"])]) for each in item.get("where", ())]
+        rows = [EquationRow(self._link(each.defined), [self._link(each.stands_for)]) for each in item.where]
         return [
             Equation(row.latex(), row.text(), (row,))
             if self.measure(row.latex()) <= self.width
@@ -123,38 +123,38 @@ class Equations:
             for row in rows
         ]
 
-    def _links(self, item: Item) -> list[Link]:
+    def _links(self, item: ItemRecord) -> list[Link]:
         """What stands behind the symbol: the formula, the numbers in it, and the result."""
-        result = self._result(item["result"])
-        if item["type"] == "reduction":
+        result = self._result(item.outcome)
+        if item.type == "reduction":
             return [*self._reduced(item), result]
-        trees = [tree for tree in (item.get("equation"), item.get("substituted")) if tree]
+        trees = [tree for tree in (item.equation, item.substituted) if tree]
         links = [self._link(tree) for tree in trees]
-        links += [self._result(item["bridge"])] if "bridge" in item else []
-        links = _without_copies(links, result, item["symbol"])
-        return [*links, result] if trees or item["type"] in ("found", "lookup") else []
+        links += [self._result(item.bridge)] if item.bridge else []
+        links = _without_copies(links, result, item.symbol)
+        return [*links, result] if trees or item.type in ("found", "lookup") else []
 
     def _link(self, tree: Tree) -> Link:
         tree = with_units(tree)
         return Link(self.latex(tree), self.linear(tree), tree, tree)
 
-    def _result(self, result: Item) -> Link:
-        text, unit = result["text"], result["unit"]
+    def _result(self, result: ShownRecord | PlaceRecord) -> Link:
+        text, unit = result.text, result.unit
         return Link(self.latex.quantity(text, unit), self.linear.quantity(text, unit), form=["qty", text, unit])
 
     def _symbol(self, name: str) -> Link:
         return Link(self.latex.symbol(name), self.linear.symbol(name), form=["sym", name]) if name else Link()
 
-    def _reduced(self, item: Item) -> list[Link]:
+    def _reduced(self, item: ItemRecord) -> list[Link]:
         """What is taken of a curve or of repeated parts: max V, mean M …"""
-        name, operation = item["of"], item["operation"]
+        name, operation = item.of, item.operation
         if not name or operation == "pick":
             return []
         curve, plain, of = self.latex.symbol(name), self.linear.symbol(name), ["sym", name]
         if operation == "abs_max":
             form = ["call", "max", ["call", "abs", of]]
             return [Link(rf"\max \left| {curve} \right|", f"max |{plain}|", form=form)]
-        if "over" in item or operation in ("derivative", "accumulated"):
+        if item.over or operation in ("derivative", "accumulated"):
             return [self._of_calculus(item, self._symbol(name))]
         word = SIGNS.get(operation, operation)
         if operation in OPERATORS:
@@ -163,30 +163,32 @@ class Equations:
         word = self.words[operation]
         return [Link(rf"\operatorname{{{word}}} {curve}", f"{word} {plain}", form=["call", word, of])]
 
-    def _of_calculus(self, item: Item, curve: Link) -> Link:
+    def _of_calculus(self, item: ItemRecord, curve: Link) -> Link:
         """The derivative of a curve, or its integral: up to the place that is shown, or over all of its abscissa."""
-        by = self._symbol(item["over" if "over" in item else "at"]["symbol"])
+        place = item.over or item.at
+        assert place is not None, "a curve is taken over something"
+        by = self._symbol(place.symbol)
         differential = rf"\mathrm{{d}}{by.latex}"
-        if item["operation"] == "derivative":
+        if item.operation == "derivative":
             form = ["derivative", curve.form, by.form]
             return Link(
                 rf"\frac{{\mathrm{{d}}{curve.latex}}}{{{differential}}}", f"d{curve.text}/d{by.text}", form=form
             )
-        end = self._result(item["over"]) if "over" in item else by
+        end = self._result(item.over) if item.over else by
         latex = rf"\int_{{0}}^{{{end.latex}}} {curve.latex}\,{differential}"
         form = ["integral", curve.form, by.form, end.form]
         bounds = self.words["from_nought"].format(end=end.text)
         return Link(latex, f"∫ {curve.text} d{by.text} {bounds}", form=form)
 
-    def _place(self, item: Item) -> Link:
+    def _place(self, item: ItemRecord) -> Link:
         """Where a curve's numbers are shown, or where an extreme lies."""
-        at = item.get("at")
+        at = item.at
         if not at:
             return Link()
         place, word = self._result(at), self.words["at"]
-        latex = rf"\quad\text{{{escaped(word)} }}{self.latex.symbol(at['symbol'])} = {place.latex}"
-        form = ["place", word, ["sym", at["symbol"]], place.form]
-        return Link(latex, f" {word} {at['symbol']} = {place.text}", form=form)
+        latex = rf"\quad\text{{{escaped(word)} }}{self.latex.symbol(at.symbol)} = {place.latex}"
+        form = ["place", word, ["sym", at.symbol], place.form]
+        return Link(latex, f" {word} {at.symbol} = {place.text}", form=form)
 
     def _rows(self, whole: EquationRow) -> list[EquationRow]:
         """The formula in the first row, the numbers in it and the result in the second, or each in its own."""

@@ -6,7 +6,7 @@ import math
 from collections.abc import Collection, Iterator, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from itertools import groupby
-from typing import Any
+from typing import Any, NamedTuple
 
 from markupsafe import Markup
 
@@ -16,9 +16,32 @@ from diecut_report.report.chapters.value_tables import RecordTable, ValueRow
 from diecut_report.report.equations import Equation
 from diecut_report.report.symbols import SymbolRow, symbol
 from diecut_report.report.text import is_words, joined, number, quantity, value_in_words
+from diecut_report.results.model import AbsentRecord, FigureRecord, ItemRecord, QuantityRecord
 
-Data = Mapping[str, Any]
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
+
+
+@dataclass(frozen=True)
+class TornadoFigure:
+    """What each input moves of one number; ``today`` is the number without a change."""
+
+    title: str
+    today: float
+    bars: list[dict[str, Any]]
+    type: str = "tornado"
+    error: str = ""
+
+
+Drawn = FigureRecord | TornadoFigure
+
+
+class ListedNumbers(NamedTuple):
+    """A table of one quantity of parts that have numbers alone, which is set in a line."""
+
+    table: ItemRecord
+
+
+Step = ItemRecord | ListedNumbers
 
 
 @dataclass(frozen=True)
@@ -174,11 +197,11 @@ class PrintedChapter:
     curves: list[PrintedTable] = field(default_factory=list)
     phases: list[PrintedTable] = field(default_factory=list)
     phases_absent: list[str] = field(default_factory=list)
-    figures: list[tuple[str, Data]] = field(default_factory=list)
+    figures: list[tuple[str, FigureRecord]] = field(default_factory=list)
     pairs: tuple[tuple[str, ...], ...] = ()  # the numbers of figures that stand side by side
     loose: list[Item] = field(default_factory=list)
     files: list[File] = field(default_factory=list)
-    absent: list[Data] = field(default_factory=list)
+    absent: list[AbsentRecord] = field(default_factory=list)
     symbols: list[SymbolRow] = field(default_factory=list)
     are_defaults_told: bool = False  # whether some of the defaults are those of that chapter
     is_named: bool = False  # whether its title ends in its name
@@ -208,37 +231,37 @@ class PrintedChapter:
         return "incomplete" if self.status == "pass" and is_left else self.status
 
 
-def quantity_row(row: Data, decimal: str, description: str = "", names: Collection[str] = ()) -> QuantityRow:
+def quantity_row(row: QuantityRecord, decimal: str, description: str = "", names: Collection[str] = ()) -> QuantityRow:
     """A quantity of the results as a row of a table; another description may stand for its own."""
-    shown, at = row["display"], row.get("at")
+    shown, at = row.display, row.at
     place = Markup("")
     if at:
-        place = symbol(at["symbol"]) + f" = {quantity(at['text'], at['unit'], decimal)}"
+        place = symbol(at.symbol) + f" = {quantity(at.text, at.unit, decimal)}"
     text = number(value_in_words(row, names), decimal)
     return QuantityRow(
-        description=description or row["description"],
-        symbol=symbol(row["symbol"]),
+        description=description or row.description,
+        symbol=symbol(row.symbol),
         value=text,
-        unit=pretty(shown["unit"]),
-        source=row.get("source", ""),
+        unit=pretty(shown.unit),
+        source=row.source,
         at=place,
-        key=row.get("path", ""),
-        wordy=is_words(shown["text"]) and not pretty(shown["unit"]),
-        changed=row.get("changed", ""),
+        key=row.path,
+        wordy=is_words(shown.text) and not pretty(shown.unit),
+        changed=row.before,
     )
 
 
-def rests(row: Data, words: Mapping[str, str]) -> list[str]:
+def rests(row: QuantityRecord, words: Mapping[str, str]) -> list[str]:
     """What an input rests on and what is noted of it, in words; nothing where it is only given."""
-    basis = row.get("basis", "given")
-    return [part for part in (words[basis] if basis != "given" else "", row.get("note", "")) if part]
+    basis = row.basis or "given"
+    return [part for part in (words[basis] if basis != "given" else "", row.note) if part]
 
 
-def rested(shown: QuantityRow, row: Data, words: Mapping[str, str]) -> QuantityRow:
+def rested(shown: QuantityRow, row: QuantityRecord, words: Mapping[str, str]) -> QuantityRow:
     """The row of an input with what it rests on beside where it comes from, and with its note."""
-    basis = words[row["basis"]] if row.get("basis", "given") != "given" else ""
-    origin = "" if basis and row.get("origin") == "given" else shown.origin
-    return replace(shown, origin=", ".join(filter(None, (origin, basis))), note=row.get("note", ""))
+    basis = words[row.basis] if (row.basis or "given") != "given" else ""
+    origin = "" if basis and row.origin == "given" else shown.origin
+    return replace(shown, origin=", ".join(filter(None, (origin, basis))), note=row.note)
 
 
 def utilisation(ratio: float | None, status: str, decimal: str) -> str:
@@ -283,33 +306,33 @@ def _value(row: ValueRow) -> float:
 # Steps that do not apply to a machine: those that stand one after the other in one sentence, not in a line each.
 
 
-def gathered_notes(items: Sequence[Data | None]) -> list[Data | None]:
+def gathered_notes(items: Sequence[Step | None]) -> list[Step | None]:
     """Return the steps in their places; the notes of one kind that follow each other stand as one in the first's place."""
-    found: list[Data | None] = []
+    found: list[Step | None] = []
     for said, group in groupby(items, key=_left_out_said):
         run = list(group)
         found += list(_as_one(said, run)) if said and len(run) > 1 else run
     return found
 
 
-def under_heading(absent: Sequence[Data], heading: str) -> list[Data]:
+def under_heading(absent: Sequence[AbsentRecord], heading: str) -> list[AbsentRecord]:
     """Return why parts are absent, without the words of the heading that stands above them; those for one reason in one line."""
     titles: dict[str, list[str]] = {}
-    for told in absent:
-        titles.setdefault(told["text"].removeprefix(f"{heading.lower()}: "), []).append(told["title"])
-    return [{"title": "; ".join(named), "text": text} for text, named in titles.items()]
+    for each in absent:
+        titles.setdefault(each.text.removeprefix(f"{heading.lower()}: "), []).append(each.title)
+    return [AbsentRecord(title="; ".join(named), text=text) for text, named in titles.items()]
 
 
-def _left_out_said(item: Data | None) -> str:
+def _left_out_said(item: Step | None) -> str:
     """What a note says of its step, without its name; nothing of any other step."""
-    if item is None or item["type"] != "note" or not item.get("description"):
+    if not isinstance(item, ItemRecord) or item.type != "note" or not item.description:
         return ""
-    name, text = f"{item['description']}: ", str(item["text"])
+    name, text = f"{item.description}: ", str(item.text)
     return text.removeprefix(name) if text.startswith(name) else ""
 
 
-def _as_one(said: str, notes: Sequence[Data | None]) -> Iterator[Data | None]:
-    names = "; ".join(str(note["description"]) for note in notes if note)
+def _as_one(said: str, notes: Sequence[Step | None]) -> Iterator[Step | None]:
+    names = "; ".join(note.description for note in notes if isinstance(note, ItemRecord))
     start = said.rstrip(".")
-    yield {"type": "note", "text": f"{start[:1].upper()}{start[1:]}: {names}."}
+    yield ItemRecord(type="note", text=f"{start[:1].upper()}{start[1:]}: {names}.")
     yield from (None for _ in notes[1:])

@@ -7,16 +7,16 @@ import io
 import math
 from collections.abc import Iterator, Mapping
 from contextlib import contextmanager
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from diecut_report.quantities.units import unit
 from diecut_report.report.chapters.tables import period_of
 from diecut_report.report.scope import suffixes
+from diecut_report.results.model import CurveRecord, ExportRecord, MechanismRecord, ResultsRecord
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing
 
-Data = Mapping[str, Any]
 Point = tuple[float, float]
 VERSION = "R2010"
 PROFILE, PITCH_CURVE, CENTER = "PROFILE", "PITCH_CURVE", "CENTER"
@@ -25,10 +25,10 @@ AXIS = 0.02  # radius of the circle at the axis, of the greatest radius of the p
 MM = unit("mm")
 
 
-Fault = tuple[str, Data, Exception]  # the mechanism's name, the export, and what went wrong
+Fault = tuple[str, ExportRecord, Exception]  # the mechanism's name, the export, and what went wrong
 
 
-def exports(results: Data) -> dict[str, bytes]:
+def exports(results: ResultsRecord) -> dict[str, bytes]:
     """All files that the results ask for: what follows the report's name in theirs, and their content."""
     files, faults = written(results)
     for *_, cause in faults:
@@ -36,13 +36,13 @@ def exports(results: Data) -> dict[str, bytes]:
     return files
 
 
-def written(results: Data) -> tuple[dict[str, bytes], list[Fault]]:
+def written(results: ResultsRecord) -> tuple[dict[str, bytes], list[Fault]]:
     """Return the files of all exports, and those exports that cannot be written; one that failed before is left out."""
     files: dict[str, bytes] = {}
     faults: list[Fault] = []
-    for name, mechanism in (results["mechanisms"] | results.get("comparisons", {})).items():
-        for export in mechanism.get("exports", ()):
-            if "error" in export:
+    for name, mechanism in results.calculated.items():
+        for export in mechanism.exports:
+            if export.error:
                 continue
             try:
                 files |= _files(name, mechanism, export)
@@ -51,33 +51,31 @@ def written(results: Data) -> tuple[dict[str, bytes], list[Fault]]:
     return files, faults
 
 
-def _files(name: str, mechanism: Data, export: Data) -> dict[str, bytes]:
-    if export["type"] not in ("profile", "table"):
-        raise ValueError(f"{name}.{export['id']}: no file is known for the type {export['type']}")
-    curves = {column: mechanism["curves"][column] for column in (export["abscissa"], *export["columns"])}
+def _files(name: str, mechanism: MechanismRecord, export: ExportRecord) -> dict[str, bytes]:
+    curves = {column: mechanism.curves[column] for column in (export.abscissa, *export.columns)}
     files = suffixes(name, export)
-    drawn = {files["dxf"]: profile_drawing(curves, export)} if export["type"] == "profile" else {}
+    drawn = {files["dxf"]: profile_drawing(curves, export)} if export.type == "profile" else {}
     return drawn | {files["csv"]: table(curves)}
 
 
-def table(curves: Mapping[str, Data]) -> bytes:
+def table(curves: Mapping[str, CurveRecord]) -> bytes:
     """Curves as columns in their display units; one row of heads, a row for each sample, to 15 digits."""
-    units = [unit(curve["display_unit"]) for curve in curves.values()]
+    units = [unit(curve.display_unit) for curve in curves.values()]
     text = io.StringIO()
     writer = csv.writer(text, lineterminator="\n", quoting=csv.QUOTE_NONNUMERIC)
-    writer.writerow(f"{name} [{curve['display_unit']}]" for name, curve in curves.items())
-    for row in zip(*(curve["values"] for curve in curves.values()), strict=True):
+    writer.writerow(f"{name} [{curve.display_unit}]" for name, curve in curves.items())
+    for row in zip(*(curve.values for curve in curves.values()), strict=True):
         writer.writerow(float(f"{shown.from_si(value):.15g}") for shown, value in zip(units, row, strict=True))
     return text.getvalue().encode()
 
 
-def profile_drawing(curves: Mapping[str, Data], export: Data) -> bytes:
+def profile_drawing(curves: Mapping[str, CurveRecord], export: ExportRecord) -> bytes:
     """A profile, its pitch curve where it has one, and its axis, as DXF in millimetres; the same bytes for the same curves."""
     from ezdxf import units  # with the whole library, which takes half a second
     from ezdxf.filemanagement import new
 
-    columns = export["columns"]
-    closed = period_of(curves[export["abscissa"]]) is not None
+    columns = export.columns
+    closed = period_of(curves[export.abscissa]) is not None
     with _without_dates():
         drawing = new(VERSION, setup=["linetypes"], units=units.MM)
         drawing.header["$MEASUREMENT"] = 1
@@ -92,12 +90,12 @@ def profile_drawing(curves: Mapping[str, Data], export: Data) -> bytes:
         return _written(drawing)
 
 
-def _points(curves: Mapping[str, Data], x: str, y: str) -> list[Point]:
+def _points(curves: Mapping[str, CurveRecord], x: str, y: str) -> list[Point]:
     """Samples of two curves as points in millimetres."""
-    strange = [name for name in (x, y) if unit(curves[name]["unit"]).kind != MM.kind]
+    strange = [name for name in (x, y) if unit(curves[name].unit).kind != MM.kind]
     if strange:
         raise ValueError(f"{strange[0]} is not a length and cannot be drawn")
-    return [(MM.from_si(a), MM.from_si(b)) for a, b in zip(curves[x]["values"], curves[y]["values"], strict=True)]
+    return [(MM.from_si(a), MM.from_si(b)) for a, b in zip(curves[x].values, curves[y].values, strict=True)]
 
 
 def _zoom(drawing: Drawing, points: list[Point]) -> None:

@@ -16,6 +16,7 @@ from diecut_report.report.chapters.tables import period_of
 from diecut_report.report.context import Material
 from diecut_report.report.scope import parts
 from diecut_report.report.text import Catalogue, displayed, joined, tidy
+from diecut_report.results.model import CurveRecord, FigureRecord
 
 if TYPE_CHECKING:
     from diecut_report.report.figures.labels import Line, PanelData
@@ -52,9 +53,9 @@ class ReaderRows:
             self.turns.append(None)
         return found
 
-    def over(self, chapter: str, abscissa: Data, shown: str) -> int:
+    def over(self, chapter: str, abscissa: CurveRecord, shown: str) -> int:
         """Return the number of the group of the curves over an abscissa of the results, in the unit that is shown."""
-        found = self.group(chapter, abscissa["description"], abscissa["symbol"], shown)
+        found = self.group(chapter, abscissa.description, abscissa.symbol, shown)
         period = period_of(abscissa)
         self.turns[found] = period / unit(shown).factor if period else None
         return found
@@ -85,15 +86,17 @@ LETTER, WIDE = (
 )  # the size of labels, of that side, and how wide a letter of them is in the mean, of that size
 
 
-def moving_data(chapter: str, number: str, figure: Data, curves: Data, pool: ReaderRows) -> dict[str, Any]:
+def moving_data(
+    chapter: str, number: str, figure: FigureRecord, curves: Mapping[str, CurveRecord], pool: ReaderRows
+) -> dict[str, Any]:
     """Return a moving drawing: its abscissa, the room that it takes, and each shape with its numbers at each place."""
-    moving = figure["moving"]
+    moving = figure.moving
     over = curves[moving["over"]]
-    shown, places = over["display_unit"], np.array(moving["places"])
+    shown, places = over.display_unit, np.array(moving["places"])
     ends = [to_display(float(places[end]), shown) for end in (0, -1)]
     return {
-        "figure": number, "group": pool.over(chapter, over, shown), "title": tidy(figure["title"]),
-        "across": {"title": tidy(over["description"]), "symbol": over["symbol"], "unit": pretty(shown), "range": ends},
+        "figure": number, "group": pool.over(chapter, over, shown), "title": tidy(figure.title),
+        "across": {"title": tidy(over.description), "symbol": over.symbol, "unit": pretty(shown), "range": ends},
         "places": pool.row(places / unit(shown).factor, X_DIGITS),
         "room": _room(moving["shapes"]),
         "letter": rounded([_letter(moving["shapes"])])[0],
@@ -200,7 +203,9 @@ def reader_data(material: Material) -> str:
     return json.dumps(data, ensure_ascii=False, allow_nan=False, separators=(",", ":")).translate(SAFE)
 
 
-def figure_readings(name: str, figure: Data, curves: Data, words: Catalogue) -> dict[str, Any] | None:
+def figure_readings(
+    name: str, figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue
+) -> dict[str, Any] | None:
     """Return what can be read in a figure of curves alone: its panels, and the rows of numbers that they name; None where nothing can."""
     pool = ReaderRows()
     found = _figure(name, figure, curves, words, pool)
@@ -212,8 +217,8 @@ def _figures(material: Material, pool: ReaderRows) -> Iterable[tuple[str, Data |
     calculated = dict(parts(material.said))
     for chapter in material.document.chapters:
         for number, figure in chapter.figures:
-            if figure["type"] in READ and number in material.figures:
-                yield number, _figure(chapter.name, figure, calculated[chapter.name]["curves"], material.words, pool)
+            if figure.type in READ and number in material.figures:
+                yield number, _figure(chapter.name, figure, calculated[chapter.name].curves, material.words, pool)
 
 
 def _moving(material: Material, pool: ReaderRows) -> Iterator[Data]:
@@ -221,35 +226,34 @@ def _moving(material: Material, pool: ReaderRows) -> Iterator[Data]:
     calculated = dict(parts(material.said))
     for chapter in material.document.chapters:
         for number, figure in chapter.figures:
-            if "moving" in figure and number in material.figures:
-                yield moving_data(chapter.name, number, figure, calculated[chapter.name]["curves"], pool)
+            if figure.moving and number in material.figures:
+                yield moving_data(chapter.name, number, figure, calculated[chapter.name].curves, pool)
 
 
-def _figure(name: str, figure: Data, curves: Data, words: Catalogue, pool: ReaderRows) -> Data | None:
+def _figure(
+    name: str, figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue, pool: ReaderRows
+) -> Data | None:
     from diecut_report.report.figures.charts import diagrams  # with matplotlib, which takes half a second
 
-    if figure["type"] == "polar":
+    if figure.type == "polar":
         found = _figure(name, _unrolled(figure), curves, words, pool)
         return found and {**found, "beside": True}
     panels = diagrams(figure, curves, words)
     if not all(_is_readable(panel) for panel in panels):
         return None
     made = []
-    for panel, raw in zip(panels, figure["panels"], strict=True):
-        across, over = panel.across, raw.get("over") or figure.get("abscissa")
+    for panel, raw in zip(panels, figure.panels, strict=True):
+        across, over = panel.across, raw.get("over") or figure.abscissa
         group = pool.over(name, curves[over], across.unit) if over else pool.group(name, *across[:3])
         made.append(_panel(panel, raw, words, pool) | {"group": group})
-    return {"title": tidy(figure["title"]), "panels": made}
+    return {"title": tidy(figure.title), "panels": made}
 
 
-def _unrolled(figure: Data) -> Data:
+def _unrolled(figure: FigureRecord) -> FigureRecord:
     """A polar figure's curves as a diagram over its angle, which is read beside it."""
     notes: dict[str, Any] = {"levels": [], "marks": [], "spans": []}
-    return {
-        **figure,
-        "type": "plot",
-        "panels": [{"title": figure["title"], "unit": figure["unit"], "series": figure["series"], **notes}],
-    }
+    panel = {"title": figure.title, "unit": figure.unit, "series": figure.series, **notes}
+    return figure.with_(type="plot", panels=[panel])
 
 
 def _is_readable(panel: PanelData) -> bool:

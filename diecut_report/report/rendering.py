@@ -2,12 +2,10 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
-from typing import Any
-
 from diecut_report.report.context import DrawingFault, Material
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.report.pages.html import page
+from diecut_report.results.model import ResultsRecord
 from diecut_report.text.catalogues import Catalogues
 
 
@@ -15,7 +13,7 @@ class Rendering:
     """The report of a results document (schema_version 1), in a firm's own style; what its formats share is made once."""
 
     def __init__(
-        self, results: Mapping[str, Any], catalogues: Catalogues | None = None, house: HouseStyle | None = None
+        self, results: ResultsRecord, catalogues: Catalogues | None = None, house: HouseStyle | None = None
     ) -> None:
         self.material = Material(results, catalogues, house)
 
@@ -47,11 +45,11 @@ class Rendering:
         return workbook(self.material)
 
 
-def render_html(results: Mapping[str, Any]) -> str:
+def render_html(results: ResultsRecord) -> str:
     """A results document as HTML."""
     return Rendering(results).html()
 
 
-def render_pdf(results: Mapping[str, Any]) -> bytes:
+def render_pdf(results: ResultsRecord) -> bytes:
     """A results document as PDF."""
     return Rendering(results).pdf()

@@ -12,11 +12,10 @@ from contextlib import contextmanager
 from dataclasses import dataclass
 from importlib.util import find_spec
 from pathlib import Path
-from typing import Any
 
 from diecut_report.results.conclusion import RANK, conclusion, governing, summary
+from diecut_report.results.model import ExportRecord, MechanismRecord, MoveRecord, ResultsRecord, SummaryRecord
 
-Data = Mapping[str, Any]
 BRIEF, STANDARD, FULL = "brief", "standard", "full"
 
 
@@ -24,7 +23,7 @@ BRIEF, STANDARD, FULL = "brief", "standard", "full"
 class Scope:
     """Hold what is reported, at which detail, under which letters; and what is told of the mechanisms that are left out."""
 
-    results: Data
+    results: ResultsRecord
     detail: str
     letters: Mapping[str, str]
     total: int
@@ -33,21 +32,21 @@ class Scope:
     @property
     def is_part(self) -> bool:
         """Whether mechanisms are left out."""
-        return len(self.results["mechanisms"]) < self.total
+        return len(self.results.mechanisms) < self.total
 
 
-def scope(results: Data) -> Scope:
+def scope(results: ResultsRecord) -> Scope:
     """Return what the results ask to be reported (``report``: its detail, and the mechanisms that alone are shown)."""
-    asked = results.get("report", {})
+    asked = results.report
     letters = {name: letter(index) for index, (name, _) in enumerate(parts(results))}
-    shown = _only(results, asked["only"]) if asked.get("only") else results
-    return Scope(shown, asked.get("detail", STANDARD), letters, len(results["mechanisms"]), results["status"])
+    shown = _only(results, asked.only) if asked.only else results
+    return Scope(shown, asked.detail, letters, len(results.mechanisms), results.status)
 
 
-def parts(results: Data) -> Iterator[tuple[str, Data]]:
+def parts(results: ResultsRecord) -> Iterator[tuple[str, MechanismRecord]]:
     """What the chapters are of, with their names: all mechanisms, then all comparisons between them."""
-    yield from results["mechanisms"].items()
-    yield from results.get("comparisons", {}).items()
+    yield from results.mechanisms.items()
+    yield from results.comparisons.items()
 
 
 def letter(index: int) -> str:
@@ -55,39 +54,42 @@ def letter(index: int) -> str:
     return ("" if index < 26 else letter(index // 26 - 1)) + chr(ord("A") + index % 26)
 
 
-def _only(results: Data, names: list[str]) -> Data:
+def _only(results: ResultsRecord, names: list[str]) -> ResultsRecord:
     """Return the results of some mechanisms, with a verdict of their own; comparisons stay where all their mechanisms do."""
-    mechanisms = {name: data for name, data in results["mechanisms"].items() if name in names}
-    compared = results.get("comparisons", {})
-    comparisons = {name: data for name, data in compared.items() if set(data["between"]) <= mechanisms.keys()}
-    found = {**results, "mechanisms": mechanisms, "comparisons": comparisons, "governing": governing(mechanisms)}
-    found["status"] = max((data["status"] for data in mechanisms.values()), key=RANK.__getitem__)
-    found["summary"] = summary(mechanisms) | _assumed(results.get("summary", {}), mechanisms)
-    found["summary"]["conclusion"] = conclusion(found)
-    found.pop("comparisons_left_out", None)
-    return found
+    mechanisms = {name: data for name, data in results.mechanisms.items() if name in names}
+    compared = results.comparisons
+    comparisons = {name: data for name, data in compared.items() if set(data.between) <= mechanisms.keys()}
+    checks = {name: data.checks for name, data in mechanisms.items()}
+    assumed, moves = _assumed(results.summary, mechanisms)
+    found = results.with_(
+        mechanisms=mechanisms,
+        comparisons=comparisons,
+        comparisons_left_out=None,
+        governing=governing(checks),
+        status=max((data.status for data in mechanisms.values()), key=RANK.__getitem__),
+        summary=summary(checks, assumed).with_(moves=moves),
+    )
+    return found.with_(summary=found.summary.with_(conclusion=conclusion(found)))
 
 
-def _assumed(whole: Data, mechanisms: Data) -> dict[str, Any]:
-    """Return what is assumed of some mechanisms and of the press, and which of their checks that moves."""
+def _assumed(whole: SummaryRecord, mechanisms: Mapping[str, MechanismRecord]) -> tuple[list[str], list[MoveRecord]]:
+    """What is assumed of some mechanisms and of the press, and which of their checks that moves."""
 
     def is_shown(path: str) -> bool:
         return not path.startswith("mechanisms.") or path.split(".")[1] in mechanisms
 
-    moves = [
-        each for each in whole.get("moves", ()) if is_shown(each["path"]) and each["check"].split(".")[0] in mechanisms
-    ]
-    assumed = [path for path in whole.get("assumed", ()) if is_shown(path)]
-    return {"assumed": [*assumed, *_taken(mechanisms, assumed)], "moves": moves}
+    moves = [each for each in whole.moves if is_shown(each.path) and each.check.split(".")[0] in mechanisms]
+    assumed = [path for path in whole.assumed if is_shown(path)]
+    return [*assumed, *_taken(mechanisms, assumed)], moves
 
 
-def _taken(mechanisms: Data, assumed: list[str]) -> Iterator[str]:
+def _taken(mechanisms: Mapping[str, MechanismRecord], assumed: list[str]) -> Iterator[str]:
     """The inputs that rest on what is assumed of mechanisms that are left out; of an expression, which names no giver, where nothing else is."""
     for name, data in mechanisms.items():
-        for key, row in data["inputs"].items():
-            path, giver = f"mechanisms.{name}.{key}", (row.get("path") or "").split(".")[0]
+        for key, row in data.inputs.items():
+            path, giver = f"mechanisms.{name}.{key}", row.path.split(".")[0]
             is_left_out = giver not in {"press", *mechanisms} if giver else not assumed
-            if row.get("basis") == "assumed" and path not in assumed and is_left_out:
+            if row.basis == "assumed" and path not in assumed and is_left_out:
                 yield path
 
 
@@ -171,7 +173,7 @@ def _not_searched(name: str) -> str | None:
 ENDINGS = ("dxf", "csv")
 
 
-def suffixes(instance: str, export: Mapping[str, Any]) -> dict[str, str]:
+def suffixes(instance: str, export: ExportRecord) -> dict[str, str]:
     """What follows the report's name in the names of an export's files, by their endings: ``feeder.cam_1.dxf``; a table has no drawing."""
-    endings = ENDINGS[1:] if export["type"] == "table" else ENDINGS
-    return {ending: f"{instance}.{export['id']}.{ending}" for ending in endings}
+    endings = ENDINGS[1:] if export.type == "table" else ENDINGS
+    return {ending: f"{instance}.{export.id}.{ending}" for ending in endings}

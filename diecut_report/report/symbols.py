@@ -22,6 +22,7 @@ from diecut_report.report.chapters.printed_tables import WIDE
 from diecut_report.report.mathematics import OperatorPen
 from diecut_report.report.scope import parts
 from diecut_report.report.text import given_names, tidy
+from diecut_report.results.model import CurveRecord, MechanismRecord, QuantityRecord, ResultsRecord, SectionRecord
 
 LONGEST_WHOLE = 26  # letters of a source that stands in one line
 _SIGNS = "=<>≤≥≈≠−+√"
@@ -138,11 +139,8 @@ def prose(sentence: str) -> Markup:
 # The list of a chapter's symbols: each letter of its formulas with its meaning and unit, and what a source writes for it.
 
 
-Data = Mapping[str, Any]
-GROUPS = ("inputs", "curves", "outputs", "values")
 COLUMNS, ROOM = 3, 33  # on paper, and the letters that a line has beside its symbol
 LINES = 14  # of a block's columns: less than a third of a sheet is left empty before one
-TREES = ("equation", "relation", "condition")
 
 
 class SymbolRow(NamedTuple):
@@ -162,16 +160,22 @@ class SymbolRow(NamedTuple):
         return f"{'eq' if self.is_step else 's'}-{self.stands}"
 
 
-def symbol_rows(mechanism: Data) -> list[SymbolRow]:
+def symbol_rows(mechanism: MechanismRecord) -> list[SymbolRow]:
     """The symbols that stand in a chapter's formulas, in the order of the alphabet, Latin letters first."""
-    used = set(used_symbols(mechanism["sections"]))
-    printed = {item["id"] for section in mechanism["sections"] for item in section["items"] if "id" in item}
-    rows = [(name, row) for group in GROUPS for name, row in mechanism[group].items()]
-    known: dict[str, Data] = {}
+    used = set(used_symbols(mechanism.sections))
+    printed = {item.id for section in mechanism.sections for item in section.items if item.id}
+    rows = _quantities(mechanism)
+    known: dict[str, QuantityRecord | CurveRecord] = {}
     for _, row in sorted(rows, key=lambda each: each[0] not in printed):  # what a step prints, before a chart's curves
-        if row["symbol"] in used and any(map(str.isalpha, row["symbol"])):
-            known.setdefault(row["symbol"], row)
+        if row.symbol in used and any(map(str.isalpha, row.symbol)):
+            known.setdefault(row.symbol, row)
     return [_row(known[name]) for name in sorted(known, key=_order)]
+
+
+def _quantities(mechanism: MechanismRecord) -> list[tuple[str, QuantityRecord | CurveRecord]]:
+    """Its inputs, curves, outputs and what lies between, by their names."""
+    groups = (mechanism.inputs, mechanism.curves, mechanism.outputs, mechanism.values)
+    return [pair for group in groups for pair in group.items()]
 
 
 def in_blocks(rows: list[SymbolRow]) -> list[list[list[SymbolRow]]]:
@@ -209,15 +213,15 @@ def symbols_at(rows: list[SymbolRow], steps: Mapping[str, str], inputs: Mapping[
     ]
 
 
-def _row(row: Data) -> SymbolRow:
-    unit = row["display_unit"] if "display_unit" in row else row["display"]["unit"]
-    in_source = row.get("source_symbol", "")
+def _row(row: QuantityRecord | CurveRecord) -> SymbolRow:
+    unit = row.display_unit if isinstance(row, CurveRecord) else row.display.unit
+    in_source = row.source_symbol
     return SymbolRow(
-        symbol(row["symbol"]),
-        row["description"].partition(";")[0],
+        symbol(row.symbol),
+        row.description.partition(";")[0],
         pretty(unit),
         symbol(in_source) if in_source else Markup(""),
-        row["symbol"],
+        row.symbol,
     )
 
 
@@ -226,18 +230,18 @@ def _order(name: str) -> tuple[bool, str, str]:
     return not letter[:1].isascii(), letter.casefold(), letter
 
 
-def used_symbols(sections: list[Data]) -> Iterator[str]:
+def used_symbols(sections: list[SectionRecord]) -> Iterator[str]:
     """The symbols of results and of formulas."""
     for section in sections:
-        for item in section["items"]:
-            if any(map(str.isalpha, item.get("symbol", ""))):  # no arrow before a choice in words
-                yield item["symbol"]
-            if len(columns := item.get("columns", ())) >= WIDE:
-                yield from (column["symbol"] for column in columns if column["symbol"])
-            for tree in (item.get(key) for key in TREES):
+        for item in section.items:
+            if any(map(str.isalpha, item.symbol)):  # no arrow before a choice in words
+                yield item.symbol
+            if len(columns := item.columns) >= WIDE:
+                yield from (column.symbol for column in columns if column.symbol)
+            for tree in (item.equation, item.relation, item.condition):
                 yield from _leaves(tree)
-            for each in item.get("where", ()):
-                yield from _leaves(each["as"])
+            for each in item.where:
+                yield from _leaves(each.stands_for)
 
 
 def _leaves(tree: Any) -> Iterator[str]:
@@ -356,18 +360,18 @@ class DeclaredLetters(NamedTuple):
     names: frozenset[str]
 
 
-def declared_letters(results: Data) -> DeclaredLetters:
+def declared_letters(results: ResultsRecord) -> DeclaredLetters:
     """Return those of all mechanisms of a report and of what compares them."""
-    mechanisms = results["mechanisms"]
+    mechanisms = results.mechanisms
     own = {name for data in mechanisms.values() for name in given_names(data, mechanisms)}
     found = (SYMBOL.fullmatch(name) for _, data in parts(results) for name in _symbols(data))
     symbols = {each["base"] for each in found if each and len(each["base"].rstrip("′'")) == 1}
     for data in mechanisms.values():  # what was found wrong in a source speaks of the source's letters
-        symbols.update(letter for each in data.get("errata", ()) for letter in lone_letters(each["text"]))
+        symbols.update(letter for each in data.errata for letter in lone_letters(each.text))
     return DeclaredLetters(frozenset(symbols), frozenset(own | set(mechanisms)))
 
 
-def _symbols(mechanism: Data) -> Iterator[str]:
+def _symbols(mechanism: MechanismRecord) -> Iterator[str]:
     """What its quantities and formulas are written with."""
-    yield from (row["symbol"] for group in GROUPS for row in mechanism.get(group, {}).values())
-    yield from used_symbols(mechanism.get("sections", ()))
+    yield from (row.symbol for _, row in _quantities(mechanism))
+    yield from used_symbols(mechanism.sections)

@@ -4,11 +4,21 @@ from __future__ import annotations
 
 import math
 import re
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Collection, Iterator, Mapping, Sequence
 from typing import Any
 
 from diecut_report.quantities.formatting import shown
 from diecut_report.quantities.units import pretty
+from diecut_report.results.model import (
+    ChangesRecord,
+    CurveRecord,
+    FigureRecord,
+    MechanismRecord,
+    ProjectRecord,
+    QuantityRecord,
+    ResultsRecord,
+    TextRole,
+)
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, built_in, program_catalogue
 from diecut_report.text.phrases import worded
 from diecut_report.text.translation import Translator
@@ -267,29 +277,25 @@ def sentence(text: str) -> str:
 # Names that a configuration gives: of mechanisms and of the parts of a list. They are printed as they are typed, in any language.
 
 
-Data = Mapping[str, Any]
-
-
-def given_names(mechanism: Data, mechanisms: Collection[str]) -> frozenset[str]:
+def given_names(mechanism: MechanismRecord, mechanisms: Collection[str]) -> frozenset[str]:
     """Return the names among the inputs of a mechanism: those of its parts, and of the ``mechanisms`` that it takes."""
-    rows = mechanism.get("inputs", {}).values()
     return frozenset(
         text
-        for row in rows
-        for text in _texts(row["value"])
+        for row in mechanism.inputs.values()
+        for text in _texts(row.value)
         if is_name(row) or (text in mechanisms and not _is_choice(row, text))
     )
 
 
-def is_name(row: Data) -> bool:
+def is_name(row: QuantityRecord) -> bool:
     """Return whether an input is what a part of a list is called."""
-    return bool(row.get("part", {}).get("quantity") == "name")
+    return row.part is not None and row.part.quantity == "name"
 
 
-def value_in_words(row: Data, names: Collection[str] = ()) -> str:
+def value_in_words(row: QuantityRecord, names: Collection[str] = ()) -> str:
     """Return the shown text of a quantity: a choice as words, a name, or what stands in the configuration elsewhere, as it is."""
-    text: str = row["display"]["text"]
-    is_taken = text == row.get("path") or (row.get("origin") == "given" and "text" not in row)  # a mechanism
+    text = row.display.text
+    is_taken = text == row.path or (row.origin == "given" and not row.text)  # a mechanism
     return text if is_name(row) or is_taken else in_words(text, names)
 
 
@@ -298,9 +304,9 @@ def in_words(text: str, names: Collection[str]) -> str:
     return text if text in names else worded(text)
 
 
-def _is_choice(row: Data, text: str) -> bool:
+def _is_choice(row: QuantityRecord, text: str) -> bool:
     """Whether an input is a word that was typed, such as a role, and no mechanism, though one may be called so."""
-    return row.get("origin") == "given" and row.get("text") == text
+    return row.origin == "given" and row.text == text
 
 
 def _texts(value: Any) -> list[str]:
@@ -308,154 +314,116 @@ def _texts(value: Any) -> list[str]:
     return [each for each in several if isinstance(each, str)]
 
 
-# A results document in another language: the same places, numbers and keys, with the texts translated for print.
+# Results in another language: the same numbers and keys, with the texts translated for print.
 
 
-Say = Callable[[str], str]
-SAID = frozenset({"title", "summary", "assumptions", "error", "warnings", "description", "message", "demand_label", "limit_label", "method",
-                  "words", "caption", "governing_title", "label", "touches", "lines", "by", "table", "series"})  # fmt: skip
-"""Keys of results whose texts the report prints."""
-NUMBERS = frozenset({"values", "left", "right", "breakpoints", "points", "outer", "holes", "intervals"})
+DRAWN_TEXTS = frozenset({"title", "label", "lines", "text"})
+"""Keys of figures whose texts are drawn."""
+NUMBERS = frozenset({"values", "points", "outer", "holes"})
 DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d)")
 
 
-def translated(results: Data, catalogues: Catalogues) -> Data:
+def translated(results: ResultsRecord, catalogues: Catalogues) -> ResultsRecord:
     """Return the results as they are printed in the language of the catalogues; English ones as they are."""
     if catalogues.language == SOURCE_LANGUAGE:
         return results
-    for data in (*results["mechanisms"].values(), *results.get("comparisons", {}).values()):
-        catalogues.of(data["kind"])
-    words = Translator(catalogues, results.get("wordings", {}), Catalogue(catalogues.language)["decimal"])
-    found = {**results, "project": _dated(results["project"])}
-    for part in ("mechanisms", "comparisons"):
-        if part in results:
-            found[part] = {name: _mechanism(words, data, results).said(data) for name, data in results[part].items()}
-    rest = _Mechanism(words, "")
-    found["press"] = rest.of_press(results["press"])
-    found |= {key: rest.walk(results[key]) for key in ("comparisons_left_out", "changes") if key in results}
-    if "changes" in found:
-        sides = {
-            side: {**found["changes"][side], "date": _date(found["changes"][side]["date"])} for side in ("old", "new")
-        }
-        found["changes"] = {**found["changes"], **sides}
-    return found
+    for data in results.calculated.values():
+        catalogues.of(data.kind)
+    words = _translator(catalogues)
+    rest, changes = _MechanismTexts(words, ""), results.changes
+    return results.with_(
+        project=_dated(results.project),
+        press=results.press.with_texts(rest.text),
+        mechanisms={name: _mechanism(words, data, results) for name, data in results.mechanisms.items()},
+        comparisons={name: _mechanism(words, data, results) for name, data in results.comparisons.items()},
+        comparisons_left_out=results.comparisons_left_out and results.comparisons_left_out.with_texts(rest.text),
+        changes=changes and translated_changes(changes, catalogues),
+    )
+
+
+def translated_changes(changes: ChangesRecord, catalogues: Catalogues) -> ChangesRecord:
+    """Return the changes as they are printed in the language of the catalogues, which know the kinds of both sides."""
+    if catalogues.language == SOURCE_LANGUAGE:
+        return changes
+    found = changes.with_texts(_MechanismTexts(_translator(catalogues), "").text)
+    old, new = (side.with_(date=_date(side.date)) for side in (found.old, found.new))
+    return found.with_(old=old, new=new)
 
 
 def figure_translated(
-    figure: Data, curves: Data, kind: str, catalogues: Catalogues
-) -> tuple[dict[str, Any], dict[str, Any]]:
+    figure: FigureRecord, curves: Mapping[str, CurveRecord], kind: str, catalogues: Catalogues
+) -> tuple[FigureRecord, dict[str, CurveRecord]]:
     """Return a figure of a mechanism of this kind with the curves that it shows, in the language of the catalogues."""
-    words = _Mechanism(Translator(catalogues, {}, Catalogue(catalogues.language)["decimal"]), kind)
-    return words.drawn(figure), words.walk(curves)
+    texts = _MechanismTexts(_translator(catalogues), kind)
+    return texts.figure(figure), {name: curve.with_texts(texts.text) for name, curve in curves.items()}
 
 
-def _dated(project: Data) -> Data:
+def _translator(catalogues: Catalogues) -> Translator:
+    return Translator(catalogues, Catalogue(catalogues.language)["decimal"])
+
+
+def _dated(project: ProjectRecord) -> ProjectRecord:
     """The project with its dates as they are written in documents: 22.11.2026."""
-    lines = [{**line, "date": _date(line.get("date"))} for line in project.get("revisions") or ()]
-    return {**project, "date": _date(project.get("date"))} | ({"revisions": lines} if lines else {})
+    lines = [line.with_(date=_date(line.date)) for line in project.revisions]
+    return project.with_(date=_date(project.date), revisions=lines)
 
 
-def _date(given: Any) -> Any:
-    found = DATE.fullmatch(given) if isinstance(given, str) else None
+def _date(given: str | None) -> str | None:
+    found = DATE.fullmatch(given) if given else None
     return ".".join(reversed(found.groups())) if found else given
 
 
-def _mechanism(words: Translator, data: Data, results: Data) -> _Mechanism:
-    """What says the texts of a mechanism, or of a comparison, whose sources are those of what it compares."""
-    kinds = [results["mechanisms"][name]["kind"] for name in data.get("between", ())]
-    home = kinds[-1] if kinds and all(map(built_in, kinds)) else data["kind"]
-    return _Mechanism(words, data["kind"], given_names(data, results["mechanisms"]), home)
+def _mechanism(words: Translator, data: MechanismRecord, results: ResultsRecord) -> MechanismRecord:
+    """A mechanism, or a comparison, whose sources are those of what it compares."""
+    kinds = [results.mechanisms[name].kind for name in data.between]
+    home = kinds[-1] if kinds and all(map(built_in, kinds)) else data.kind
+    texts = _MechanismTexts(words, data.kind, given_names(data, results.mechanisms), home)
+    return data.with_(figures=[]).with_texts(texts.text).with_(figures=[texts.figure(each) for each in data.figures])
 
 
-class _Mechanism:
-    """Says the texts of one mechanism's results, but the names that its configuration gives; ``home`` is the kind of its sources."""
+class _MechanismTexts:
+    """Translates the texts of one mechanism, but the names that its configuration gives; ``home`` is the kind of its sources."""
 
     def __init__(self, words: Translator, kind: str, names: frozenset[str] = frozenset(), home: str = "") -> None:
         self.words, self.kind, self.names, self.home = words, kind, names, home or kind
 
-    def said(self, data: Data) -> Data:
-        """The results of the mechanism."""
-        own = {
-            "inputs": {key: self._row(row) for key, row in data["inputs"].items()},
-            "lists": {key: self.text(title) for key, title in data.get("lists", {}).items()},
-            "figures": [self.drawn(figure) for figure in data.get("figures", ())],
-            "sources": [
-                {
-                    "id": self.words.source(source["id"], self.home),
-                    "citation": self.words.paper(source["citation"], self.home),
-                }
-                for source in data.get("sources", ())
-            ],
-        }
-        return {**self.walk({key: part for key, part in data.items() if key not in own}), **own}
-
-    def of_press(self, press: Data) -> Data:
-        """The fields of the press."""
-        return {**press, "fields": [self._row(row) for row in press["fields"]]}
-
-    def text(self, text: str) -> str:
-        """A text of the mechanism."""
-        return self.words.said(text, self.kind)
-
-    def _shown(self, text: str) -> str:
-        """A value that is a text: the words of a choice, or a key in words; a name as it is."""
+    def text(self, role: TextRole, text: str) -> str:
+        """Return a text in the language, by what it is."""
+        if role is TextRole.SOURCE:
+            return self.words.source(text, self.home)
+        if role is TextRole.PAPER:
+            return self.words.paper(text, self.home)
+        if role is TextRole.TEXT:
+            return self.words.said(text, self.kind)
         if text in self.names:
             return text
-        return self.words.known(worded(text), self.kind) or self.text(text)
+        return self.words.known(worded(text), self.kind) or self.words.said(text, self.kind)
 
-    def _row(self, row: Data) -> Data:
-        """An input, or a field of the press: what was typed and noted stands as it is."""
-        display = {**row["display"], "text": self._shown(row["display"]["text"])}
-        return {**row, "description": self.text(row["description"]), "display": display}
+    def figure(self, figure: FigureRecord) -> FigureRecord:
+        """Return a figure: whatever text is not translated has at least its numbers in the language's form."""
+        drawn = {key: self._drawn(getattr(figure, key)) for key in ("panels", "series", "groups", "shapes", "moving")}
+        labels = {key: self._label(getattr(figure, key)) for key in ("title", "caption", "error")}
+        return figure.with_(**drawn, **labels)
 
-    def walk(self, data: Any) -> Any:
-        """Any part of the results."""
-        if isinstance(data, Mapping):
-            return {key: self._part(key, part, data) for key, part in data.items()}
-        return [self.walk(part) for part in data] if isinstance(data, list) else data
-
-    def _part(self, key: str, part: Any, home: Data) -> Any:
-        if key in NUMBERS:
-            return self.walk(part) if isinstance(part, Mapping) else part
-        if isinstance(part, str):
-            return self._string(key, part)
-        if key in SAID and isinstance(part, list):
-            return [self.text(each) if isinstance(each, str) else self.walk(each) for each in part]
-        if key == "rows" and "columns" in home:
-            return [[self._shown(cell) if isinstance(cell, str) else cell for cell in row] for row in part]
-        return self.walk(part)
-
-    def _string(self, key: str, text: str) -> str:
-        if key in SAID:
-            return self.text(text)
-        if key == "source":
-            return self.words.source(text, self.home)
-        if key == "citation":
-            return self.words.paper(text, self.home)
-        if key in ("text", "key", "column", "note", "table_rows", "part_name", "name"):
-            return self._shown(text)
-        return text
-
-    def drawn(self, data: Any) -> Any:
-        """A figure, or a part of it: whatever text is not translated has at least its numbers in the language's form."""
+    def _drawn(self, data: Any) -> Any:
         if isinstance(data, Mapping):
             return {key: self._drawn_part(key, part) for key, part in data.items()}
-        return [self.drawn(part) for part in data] if isinstance(data, list) else data
+        return [self._drawn(part) for part in data] if isinstance(data, list) else data
 
     def _drawn_part(self, key: str, part: Any) -> Any:
         if key in NUMBERS:
             return part
-        if key not in SAID and key != "text":
-            return self.drawn(part)
+        if key not in DRAWN_TEXTS:
+            return self._drawn(part)
         if isinstance(part, str):
             return self._label(part)
         if isinstance(part, list):
-            return [self._label(each) if isinstance(each, str) else self.drawn(each) for each in part]
-        return self.drawn(part)
+            return [self._label(each) if isinstance(each, str) else self._drawn(each) for each in part]
+        return self._drawn(part)
 
     def _label(self, text: str) -> str:
         """A text within a figure."""
-        return text if text in self.names else self.words.numbers(self.text(text))
+        return text if text in self.names else self.words.numbers(self.words.said(text, self.kind))
 
 
 # Columns of numbers aligned on their decimal sign: how much room a number leaves behind itself.

@@ -4,123 +4,140 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any
+from typing import Literal, TypeGuard, get_args
 
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.results.conclusion import COUNTED, RANK, SELF_TEST
+from diecut_report.results.model import (
+    CarriedConfigRecord,
+    ChangedCheckRecord,
+    ChangedCodeRecord,
+    ChangedDocumentRecord,
+    ChangedQuantityRecord,
+    ChangedTextRecord,
+    ChangesRecord,
+    CheckRecord,
+    CheckSideRecord,
+    GoverningRecord,
+    MechanismRecord,
+    QuantityRecord,
+    QuantitySideRecord,
+    ResultsRecord,
+    ShownRecord,
+)
 
-Data = Mapping[str, Any]
-Row = dict[str, Any]
+Mechanisms = Mapping[str, MechanismRecord]
 SAME = 1e-9  # relative; below it is nothing but rounding
 NOTHING = 1e-12  # in the display unit, which no quantity of a press has
 MOST_DIGITS = 12
 LIKE_WARN = {"not_checked": 0.5}
 """A check that is not made is worse than one that passes, and better than one that warns."""
 SEEN = 5e-4  # of a utilisation, which is printed in per cent with one decimal
-OF_FORMER = ("file", "sha256", "source_text", "materials", "logo")
-"""What of a former document's configuration it can be calculated from."""
-ORDER = ("worse", "better", "added", "removed", "more used", "less used")
+Change = Literal["worse", "better", "added", "removed", "more used", "less used"]
+ORDER: tuple[Change, ...] = get_args(Change)
 
 
-def changes(old: Data, new: Data) -> Row:
-    """Return what changed from one results document to another, as plain data."""
-    return {
-        "schema_version": 1,
-        "old": _document(old),
-        "new": _document(new),
-        "mechanisms": list(_mechanisms(old["mechanisms"], new["mechanisms"])),
-        "checks": sorted(_checks(old, new), key=_check_order),
-        "inputs": sorted(_rows(_inputs(old, new), _inputs(new, old)), key=_input_order),
-        "outputs": sorted(_rows(_outputs(old, new), _outputs(new, old)), key=_output_order),
-        "code": list(_code(old, new)),
-    }
+def changes(old: ResultsRecord, new: ResultsRecord) -> ChangesRecord:
+    """Return what changed from one results document to another."""
+    return ChangesRecord(
+        schema_version=1,
+        old=_document(old),
+        new=_document(new),
+        mechanisms=list(_mechanisms(old.mechanisms, new.mechanisms)),
+        checks=sorted(_checks(old, new), key=_check_order),
+        inputs=sorted(_rows(_inputs(old, new), _inputs(new, old)), key=_input_order),
+        outputs=sorted(_rows(_outputs(old, new), _outputs(new, old)), key=_output_order),
+        code=list(_code(old, new)),
+    )
 
 
-def compare_with(former: Data | None, results: Row) -> None:
-    """Add to the results what changed since a former document, and the configuration of that, which the changes can be proved by."""
-    if former is not None:
-        results["changes"] = changes(former, results)
-        results["former"] = {key: former["config"][key] for key in OF_FORMER if key in former["config"]}
+def compare_with(former: ResultsRecord, results: ResultsRecord) -> ResultsRecord:
+    """Return the results with what changed since a former document, and the configuration of that, which the changes can be proved by."""
+    kept = {key: getattr(former.config, key) for key in CarriedConfigRecord.model_fields}
+    return results.with_(changes=changes(former, results), former=CarriedConfigRecord(**kept))
 
 
-def _document(results: Data) -> Row:
-    named = {key: results["project"].get(key) or "" for key in ("title", "document_number", "revision", "date")}
-    counts = {status: results["summary"][status] for status in COUNTED}
-    found = results.get("governing")
-    return named | {
-        "file": results["config"]["file"],
-        "sha256": results["config"]["sha256"],
-        "press": results["press"]["name"],
-        "status": results["status"],
-        "checks": counts,
-        "governing": f"{found['mechanism']}.{found['check']}" if found else "",
-        "governing_title": _title(results, found) if found else "",
-    }
+def _document(results: ResultsRecord) -> ChangedDocumentRecord:
+    project, config, found = results.project, results.config, results.governing
+    return ChangedDocumentRecord(
+        title=project.title,
+        document_number=project.document_number,
+        revision=project.revision,
+        date=project.date or "",
+        file=config.file,
+        sha256=config.sha256,
+        press=results.press.name,
+        status=results.status,
+        checks={status: results.summary.of(status) for status in COUNTED},
+        governing=str(found) if found else "",
+        governing_title=_title(results, found) if found else "",
+    )
 
 
-def _title(results: Data, governing: Data) -> str:
+def _title(results: ResultsRecord, governing: GoverningRecord) -> str:
     """The title of the check that governs."""
-    data = results["mechanisms"].get(governing["mechanism"]) or results["comparisons"][governing["mechanism"]]
-    return next(str(check["title"]) for check in data["checks"] if check["id"] == governing["check"])
+    checks = results.calculated[governing.mechanism].checks
+    return next(check.title for check in checks if check.id == governing.check)
 
 
-def _mechanisms(old: Data, new: Data) -> Iterator[Row]:
+def _mechanisms(old: Mechanisms, new: Mechanisms) -> Iterator[ChangedTextRecord]:
     """The mechanisms that came, went, are of another kind now, or could be calculated only once."""
     for name in dict.fromkeys([*old, *new]):
         sides = [_of_mechanism(side.get(name)) for side in (old, new)]
         if sides[0] != sides[1]:
-            yield {"name": name, "old": sides[0], "new": sides[1]}
+            yield ChangedTextRecord(name=name, old=sides[0], new=sides[1])
 
 
-def _of_mechanism(data: Data | None) -> str:
+def _of_mechanism(data: MechanismRecord | None) -> str:
     if data is None:
         return ""
-    return f"{data['kind']} ({data['status']})" if data["status"] in ("error", "skipped") else str(data["kind"])
+    return f"{data.kind} ({data.status})" if data.status in ("error", "skipped") else data.kind
 
 
 # --- checks ----------------------------------------------------------------------------------------------------------
 
 
-def _checks(old: Data, new: Data) -> Iterator[Row]:
+def _checks(old: ResultsRecord, new: ResultsRecord) -> Iterator[ChangedCheckRecord]:
     """The checks that changed; those of a mechanism that went went with it."""
     sides = [dict(_named_checks(side)) for side in (old, new)]
     for key in dict.fromkeys([*sides[0], *sides[1]]):
         before, after = (side.get(key) for side in sides)
-        if _is_other(before, after) and key[0] in new["mechanisms"]:
-            some = after or before or {}
-            told = {"mechanism": key[0], "id": key[1], "title": some["title"], "class": some["class"]}
-            yield told | {"old": _of_check(before), "new": _of_check(after), "change": _change(before, after)}
+        some = after or before
+        if some and _is_other(before, after) and key[0] in new.mechanisms:
+            yield ChangedCheckRecord(
+                mechanism=key[0], id=key[1], title=some.title, check_class=some.check_class, old=_of_check(before),
+                new=_of_check(after), change=_change(before, after),
+            )  # fmt: skip
 
 
-def _named_checks(results: Data) -> Iterator[tuple[tuple[str, str], Data]]:
-    for name, mechanism in results["mechanisms"].items():
-        yield from (((name, check["id"]), check) for check in mechanism["checks"] if check["class"] != SELF_TEST)
+def _named_checks(results: ResultsRecord) -> Iterator[tuple[tuple[str, str], CheckRecord]]:
+    for name, mechanism in results.mechanisms.items():
+        yield from (((name, check.id), check) for check in mechanism.checks if check.check_class != SELF_TEST)
 
 
-def _is_other(before: Data | None, after: Data | None) -> bool:
-    if before is None or after is None or before["status"] != after["status"]:
+def _is_other(before: CheckRecord | None, after: CheckRecord | None) -> bool:
+    if before is None or after is None or before.status != after.status:
         return True
-    ratios = before["utilisation"], after["utilisation"]
-    if None in ratios:
-        return bool(ratios[0] != ratios[1])
-    return bool(abs(ratios[1] - ratios[0]) >= SEEN)
+    if before.utilisation is None or after.utilisation is None:
+        return before.utilisation != after.utilisation
+    return abs(after.utilisation - before.utilisation) >= SEEN
 
 
-def _of_check(check: Data | None) -> Row | None:
+def _of_check(check: CheckRecord | None) -> CheckSideRecord | None:
     if check is None:
         return None
-    return {key: check[key] for key in ("status", "utilisation", "message")}
+    return CheckSideRecord(status=check.status, utilisation=check.utilisation, message=check.message)
 
 
-def _change(before: Data | None, after: Data | None) -> str:
+def _change(before: CheckRecord | None, after: CheckRecord | None) -> Change:
     """What happened to a check: worse, better, more or less used; added or removed."""
     if before is None or after is None:
         return "added" if before is None else "removed"
-    ranks = [_rank(check["status"]) for check in (before, after)]
+    ranks = [_rank(check.status) for check in (before, after)]
     if ranks[0] != ranks[1]:
         return "worse" if ranks[1] > ranks[0] else "better"
-    ratios = [math.inf if check["utilisation"] is None else check["utilisation"] for check in (before, after)]
+    ratios = [math.inf if check.utilisation is None else check.utilisation for check in (before, after)]
     return ORDER[4] if ratios[1] > ratios[0] else ORDER[5]
 
 
@@ -128,87 +145,85 @@ def _rank(status: str) -> float:
     return {**RANK, **LIKE_WARN}[status]
 
 
-def _check_order(row: Row) -> tuple[float, ...]:
+def _check_order(row: ChangedCheckRecord) -> tuple[float, ...]:
     """What got worse comes first, then what fails among the new ones, what got better, the others; the worst of each first."""
-    before, after = (row[side] or {"status": "pass", "utilisation": None} for side in ("old", "new"))
-    first = 0 if row["change"] == "worse" or (row["change"] == "added" and after["status"] == "fail") else 1
-    known = before["utilisation"] is not None and after["utilisation"] is not None
-    step = abs(after["utilisation"] - before["utilisation"]) if known else 0.0
-    return first, ORDER.index(row["change"]), -max(_rank(before["status"]), _rank(after["status"])), -step
+    statuses = [side.status if side else "pass" for side in (row.old, row.new)]
+    before, after = (side.utilisation if side else None for side in (row.old, row.new))
+    first = 0 if row.change == "worse" or (row.change == "added" and statuses[1] == "fail") else 1
+    step = 0.0 if before is None or after is None else abs(after - before)
+    return first, ORDER.index(row.change), -max(map(_rank, statuses)), -step
 
 
 # --- quantities ------------------------------------------------------------------------------------------------------
 
 
-def _inputs(results: Data, other: Data) -> Iterator[tuple[str, Data]]:
-    yield from ((row["path"], row) for row in results["press"]["fields"])
-    yield from _of_both("inputs", results, other)
+Named = tuple[str, QuantityRecord]
+Sides = tuple[QuantityRecord | None, QuantityRecord | None]
 
 
-def _outputs(results: Data, other: Data) -> Iterator[tuple[str, Data]]:
-    yield from _of_both("outputs", results, other)
+def _inputs(results: ResultsRecord, other: ResultsRecord) -> Iterator[Named]:
+    yield from ((row.path, row) for row in results.press.fields)
+    for name, mechanism in _of_both(results, other):
+        yield from ((f"{name}.{key}", row) for key, row in mechanism.inputs.items())
 
 
-def _of_both(group: str, results: Data, other: Data) -> Iterator[tuple[str, Data]]:
-    """The rows of the mechanisms that both have; of one that came or went that is told by itself."""
-    for name, mechanism in results["mechanisms"].items():
-        if name in other["mechanisms"]:
-            yield from ((f"{name}.{key}", row) for key, row in mechanism[group].items())
+def _outputs(results: ResultsRecord, other: ResultsRecord) -> Iterator[Named]:
+    for name, mechanism in _of_both(results, other):
+        yield from ((f"{name}.{key}", row) for key, row in mechanism.outputs.items())
 
 
-def _rows(old: Iterator[tuple[str, Data]], new: Iterator[tuple[str, Data]]) -> Iterator[Row]:
+def _of_both(results: ResultsRecord, other: ResultsRecord) -> Iterator[tuple[str, MechanismRecord]]:
+    """The mechanisms that both have; of one that came or went that is reported by itself."""
+    return ((name, mechanism) for name, mechanism in results.mechanisms.items() if name in other.mechanisms)
+
+
+def _rows(old: Iterator[Named], new: Iterator[Named]) -> Iterator[ChangedQuantityRecord]:
     before, after = dict(old), dict(new)
     for path in dict.fromkeys([*before, *after]):
         pair = before.get(path), after.get(path)
-        if _has_changed(*pair):
-            some = pair[1] or pair[0] or {}
+        some = pair[1] or pair[0]
+        if some and _has_changed(*pair):
             texts = _texts(*pair)
-            yield {
-                "path": path,
-                "symbol": some["symbol"],
-                "description": some["description"],
-                "old": _side(pair[0], texts[0]),
-                "new": _side(pair[1], texts[1]),
-                "relative": _relative(*pair),
-                "follows": _follows(*pair),
-                **({"key": True} if some.get("key") else {}),
-            }
+            yield ChangedQuantityRecord(
+                path=path, symbol=some.symbol, description=some.description, old=_side(pair[0], texts[0]),
+                new=_side(pair[1], texts[1]), relative=_relative(*pair), follows=_follows(*pair), key=some.key,
+            )  # fmt: skip
 
 
-def _has_changed(before: Data | None, after: Data | None) -> bool:
+def _has_changed(before: QuantityRecord | None, after: QuantityRecord | None) -> bool:
     if before is None or after is None:
         return True
-    if before.get("basis", "") != after.get("basis", ""):
+    if before.basis != after.basis:
         return True
-    a, b = before["value"], after["value"]
+    a, b = before.value, after.value
     if not (_is_number(a) and _is_number(b)):
-        return bool(a != b)
+        return a != b
     factor = _factor(after)
-    return before["unit"] != after["unit"] or _differ(a / factor, b / factor)
+    return before.unit != after.unit or _differ(a / factor, b / factor)
 
 
 def _differ(a: float, b: float) -> bool:
     return not math.isclose(a, b, rel_tol=SAME, abs_tol=NOTHING)
 
 
-def _is_number(value: object) -> bool:
+def _is_number(value: object) -> TypeGuard[float]:
     return isinstance(value, int | float) and not isinstance(value, bool)
 
 
-def _factor(row: Data) -> float:
+def _factor(row: QuantityRecord) -> float:
     """What a display unit is in SI; 1 for a unit that is not known, which only a file from outside has."""
     try:
-        return unit(row["display"]["unit"]).factor
+        return unit(row.display.unit).factor
     except UnitError:
         return 1.0
 
 
-def _texts(before: Data | None, after: Data | None) -> list[str]:
+def _texts(before: QuantityRecord | None, after: QuantityRecord | None) -> list[str]:
     """Both values as neutral texts in their display unit, with so many digits that they can be told apart."""
-    texts = [row["display"]["text"] if row else "" for row in (before, after)]
-    if not (before and after and _is_number(before["value"]) and _is_number(after["value"])):
+    texts = [row.display.text if row else "" for row in (before, after)]
+    if not (before and after and _is_number(before.value) and _is_number(after.value)):
         return texts
-    values = [row["value"] / _factor(row) for row in (before, after)]
+    values = [before.value / _factor(before), after.value / _factor(after)]
     for digits in range(5, MOST_DIGITS):
         if float(texts[0]) != float(texts[1]):
             break
@@ -216,62 +231,60 @@ def _texts(before: Data | None, after: Data | None) -> list[str]:
     return texts
 
 
-def _side(row: Data | None, text: str) -> Row | None:
+def _side(row: QuantityRecord | None, text: str) -> QuantitySideRecord | None:
     if row is None:
         return None
-    shown = {"value": row["value"], "unit": row["unit"], "display": {"text": text, "unit": row["display"]["unit"]}}
-    return shown | ({"basis": row["basis"]} if "basis" in row else {})
+    shown = ShownRecord(text=text, unit=row.display.unit)
+    return QuantitySideRecord(value=row.value, unit=row.unit, display=shown, basis=row.basis)
 
 
-def _relative(before: Data | None, after: Data | None) -> float | None:
+def _relative(before: QuantityRecord | None, after: QuantityRecord | None) -> float | None:
     """The change as a share of the old value; None where there is none, as of a text or from zero."""
-    if before is None or after is None or before["unit"] != after["unit"]:
+    if before is None or after is None or before.unit != after.unit:
         return None
-    a, b = before["value"], after["value"]
+    a, b = before.value, after.value
     if not (_is_number(a) and _is_number(b)) or abs(a / _factor(before)) <= NOTHING:
         return None
     share = (b - a) / abs(a)
-    return float(share) if math.isfinite(share) else None
+    return share if math.isfinite(share) else None
 
 
-def _follows(before: Data | None, after: Data | None) -> str:
+def _follows(before: QuantityRecord | None, after: QuantityRecord | None) -> str:
     """The paths that an input follows by itself, so that its change is none of the user's; "" where the user has changed it."""
-    if (
-        before is None
-        or after is None
-        or "origin" not in after  # data of the press, whose path is their own
-        or any(before.get(key) != after.get(key) for key in ("origin", "text", "path", "paths"))
-    ):
+    if before is None or after is None or not after.origin:  # data of the press, whose path is their own
         return ""
-    return str(after["path"]) if after.get("path") else ", ".join(after.get("paths", ()))
+    if any(getattr(before, key) != getattr(after, key) for key in ("origin", "text", "path", "paths")):
+        return ""
+    return after.path or ", ".join(after.paths)
 
 
-def _size(row: Row) -> float:
-    return math.inf if row["relative"] is None else abs(row["relative"])
+def _size(row: ChangedQuantityRecord) -> float:
+    return math.inf if row.relative is None else abs(row.relative)
 
 
-def _input_order(row: Row) -> tuple[bool, float]:
-    return bool(row["follows"]), -_size(row)
+def _input_order(row: ChangedQuantityRecord) -> tuple[bool, float]:
+    return bool(row.follows), -_size(row)
 
 
-def _output_order(row: Row) -> tuple[bool, float]:
-    return not row.get("key", False), -_size(row)
+def _output_order(row: ChangedQuantityRecord) -> tuple[bool, float]:
+    return not row.key, -_size(row)
 
 
 # --- code ------------------------------------------------------------------------------------------------------------
 
 
-def _code(old: Data, new: Data) -> Iterator[Row]:
+def _code(old: ResultsRecord, new: ResultsRecord) -> Iterator[ChangedCodeRecord]:
     """The program and the plugins whose version or source is another one."""
     sides = [_sources(side) for side in (old, new)]
     for name in dict.fromkeys([*sides[0], *sides[1]]):
         before, after = (side.get(name) for side in sides)
         if before and after and before != after:
-            yield {"name": name, "old": list(before), "new": list(after)}
+            yield ChangedCodeRecord(name=name, old=before, new=after)
 
 
-def _sources(results: Data) -> dict[str, tuple[str, str]]:
-    program = results["program"]
-    found = {"program": (str(program["version"]), str(program.get("source_sha256", "")))}
-    plugins = results["mechanisms"].values()
-    return found | {f"plugin {p['kind']}": (str(p["plugin_version"]), str(p.get("plugin_sha256", ""))) for p in plugins}
+def _sources(results: ResultsRecord) -> dict[str, list[str]]:
+    program = results.program
+    plugins = results.mechanisms.values()
+    return {"program": [program.version, program.source_sha256]} | {
+        f"plugin {each.kind}": [each.plugin_version, each.plugin_sha256] for each in plugins
+    }

@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Iterator, Mapping
+from collections.abc import Iterator
 from decimal import Decimal
-from typing import Any, Literal, NamedTuple
+from typing import Any, NamedTuple
 
 import numpy as np
 
@@ -18,34 +18,12 @@ from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.mechanism.names import listed
 from diecut_report.quantities.formatting import place_shown, shown, with_unit
 from diecut_report.quantities.units import unit
+from diecut_report.results.model import CheckRecord, ShownRecord
 from diecut_report.text.phrases import Phrase, joined, named, phrase
-
-# Whether the plugin of somebody else that gave results was found sound: what ``plugin_check`` of a mechanism's results says.
-
-
-FOUND = ("passed", "failed")
-
-
-def found_check(mechanism: Mapping[str, Any]) -> str:
-    """Return ``passed`` or ``failed``; nothing for what was not judged, as what comes with the program."""
-    found = mechanism.get("plugin_check", "")
-    return found if found in FOUND else ""
-
-
-def is_doubtful(mechanism: Mapping[str, Any]) -> bool:
-    """Return whether the formulas of a mechanism's (or comparison's) plugin have faults."""
-    return found_check(mechanism) == "failed"
-
-
-def calculated(results: Mapping[str, Any]) -> list[Mapping[str, Any]]:
-    """Return all that plugins gave of a press: its mechanisms and comparisons."""
-    return [*results["mechanisms"].values(), *results.get("comparisons", {}).values()]
-
 
 # Checks that are not made because an optional input is not given: what each needs, and its demand where that is known.
 
 
-Data = dict[str, Any]
 NOT_CHECKED = "not_checked"
 MISSING = {  # whether several keys are missing, whether a side is known
     (False, False): "Not checked: {keys} is not given.",
@@ -84,28 +62,26 @@ def _does_not_exist(calc: Calculation, side: str | float) -> bool:
     return bool(np.isnan(calc.values[side].astype(float)).all())
 
 
-def result(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
+def not_made(calc: Calculation, check: Check, keys: tuple[str, ...]) -> CheckRecord:
     """Return a check that is not made, in the form of those that are."""
     demand = _known(calc, check.demand, check.index)
-    text = None if demand is None else shown(demand, check_unit(calc, check, [demand]))
+    display = None if demand is None else ShownRecord(**shown(demand, check_unit(calc, check, [demand])))
+    return CheckRecord(
+        **_head(check), status="not_checked", demand=demand, limit=None, utilisation=None, message=_message(calc, check, keys),
+        demand_label=check.demand_label, limit_label=check.limit_label, demand_display=display, limit_display=None,
+        margin_display=None, missing=list(keys),
+    )  # fmt: skip
+
+
+def _head(check: Check) -> dict[str, Any]:
+    """What a check is called, whatever comes of it."""
     return {
         "id": check.id,
         "title": check.title,
-        "class": check.check_class,
-        "status": NOT_CHECKED,
-        "demand": demand,
-        "limit": None,
+        "check_class": check.check_class,
         "operator": check.operator,
         "unit": unit(check.unit).si,
-        "utilisation": None,
         "source": check.source,
-        "message": _message(calc, check, keys),
-        "demand_label": check.demand_label,
-        "limit_label": check.limit_label,
-        "demand_display": text,
-        "limit_display": None,
-        "margin_display": None,
-        "missing": list(keys),
     }
 
 
@@ -114,13 +90,13 @@ def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
     return tuple(key for key in check.founded if key in calc.unfounded)
 
 
-def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> Data:
+def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> CheckRecord:
     """Return a check that would hold by what was typed alone, in the form of those that are not made."""
     words = (
         "Not checked: it would hold by {keys} alone, which nothing proves; give the basis there, as in {value: 1.2, basis: standard, "
         "note: …}: measured, drawing, or the standard or catalogue that the note names."
     )
-    return result(calc, check, keys) | {"message": Phrase(words, keys=listed(keys))}
+    return not_made(calc, check, keys).with_(message=Phrase(words, keys=listed(keys)))
 
 
 def check_unit(calc: Calculation, check: Check, sides: list[float]) -> str:
@@ -172,7 +148,6 @@ def _known(calc: Calculation, side: str | float, index: int | None) -> float | N
     return float(np.nanmax(row)) if np.isfinite(row).any() else None
 
 
-Status = Literal["pass", "warn", "fail", "not_checked"]
 ROUNDING = 1e-9  # of the limit: a demand below this share is the rounding of a difference that is none
 COMPUTER = 1e-12  # of the limit: a margin below this share is the rounding of equal sides
 MARGIN_DIGITS = (4, 3, 2)
@@ -199,7 +174,7 @@ class JudgedCheck(NamedTuple):
         return found
 
 
-def check_results(calc: Calculation) -> list[Data]:
+def check_results(calc: Calculation) -> list[CheckRecord]:
     """Return each check with demand, limit, margin, utilisation and verdict; one that needs more keys as not checked."""
     checks = [(check, _there(calc, check)) for check in checks_of(calc)]
     ids = {check.id for check, sides in checks if sides is not None}
@@ -207,11 +182,11 @@ def check_results(calc: Calculation) -> list[Data]:
     for check, sides in checks:
         if sides is not None:
             made = _check(calc, check, _judged(check, *sides))
-            keys = without_basis(calc, check) if made["status"] == "pass" else ()
+            keys = without_basis(calc, check) if made.status == "pass" else ()
             found.append(unfounded(calc, check, keys) if keys else made)
         elif check.id not in ids and (missing := missing_checks(calc, check)):
             ids.add(check.id)
-            found.append(result(calc, check, missing))
+            found.append(not_made(calc, check, missing))
     return found
 
 
@@ -293,7 +268,7 @@ def _side(calc: Calculation, name: str) -> Array:
     return np.asarray(found, dtype=float)
 
 
-def _check(calc: Calculation, check: Check, found: JudgedCheck) -> Data:
+def _check(calc: Calculation, check: Check, found: JudgedCheck) -> CheckRecord:
     if np.isinf([found.demand[0], found.limit[0]]).any():
         raise ValueError(f"check {check.id} compares {found.demand[0].ravel()} with {found.limit[0].ravel()}")
     pair, part = divmod(int(found.worst[0]), found.demand.shape[2])
@@ -306,23 +281,14 @@ def _check(calc: Calculation, check: Check, found: JudgedCheck) -> Data:
     if told["status"] != "pass":
         consequence = filled(calc, check.consequence, places=places)
         message = Phrase("{bounds:capital}: {consequence}", {"bounds:capital": sentence, "consequence": consequence})
-    return {
-        "id": check.id,
-        "title": check.title,
-        "class": check.check_class,
-        "status": told["status"],
-        "demand": told["demand"],
-        "limit": told["limit"],
-        "operator": check.operator,
-        "unit": unit(check.unit).si,
-        "utilisation": told["utilisation"],
-        "source": check.source,
-        "message": message,
-        **{key: text for key, text in told.items() if key.endswith(("_label", "_display"))},
+    return CheckRecord(
+        **_head(check),
+        **told,
         **_further(calc, check, display, found, pair, part),
-        **({"sized_to_limit": True} if is_sized(calc.given, check) else {}),
-        **({"presumed": True} if check.presumed else {}),
-    }
+        message=message,
+        sized_to_limit=is_sized(calc.given, check),
+        presumed=check.presumed,
+    )
 
 
 def is_sized(given: frozenset[str], check: Check) -> bool:
@@ -330,7 +296,7 @@ def is_sized(given: frozenset[str], check: Check) -> bool:
     return check.sized_unless is not None and given.isdisjoint(check.sized_unless)
 
 
-def _told(check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> Data:
+def _told(check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> dict[str, Any]:
     """What is reported of one pair of sides (0: demand and limit, 1: lower bound and demand), of one part."""
     demand, limit, ratio = (float(side[0, pair, part]) for side in (found.demand, found.limit, found.ratio))
     labels = (check.at_least_label, check.demand_label) if pair else (check.demand_label, check.limit_label)
@@ -345,7 +311,7 @@ def _told(check: Check, display: str, found: JudgedCheck, pair: int, part: int) 
     }
 
 
-def _bounds(told: Data, *sides: str) -> Phrase:
+def _bounds(told: dict[str, Any], *sides: str) -> Phrase:
     """What is compared, the one beside the other."""
     labels = [phrase(told[f"{side}_label"]) for side in sides]
     values = [with_unit(*told[f"{side}_display"].values()) for side in sides]
@@ -399,7 +365,7 @@ def _at(calc: Calculation, check: Check, pair: int) -> dict[str, str]:
     return {"symbol": axis.symbol} | place
 
 
-def _further(calc: Calculation, check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> Data:
+def _further(calc: Calculation, check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> dict[str, Any]:
     """Of a curve the place where it governs; of a row the part that governs, and all parts."""
     if (check.id, pair) in calc.judged:
         return {"at": _at(calc, check, pair)}

@@ -1,10 +1,10 @@
-"""The results document: what a run gave, as plain data."""
+"""The results document: what a run gave."""
 
 from __future__ import annotations
 
 import base64
 import platform
-from collections.abc import Iterable, Iterator, Sized
+from collections.abc import Iterable, Iterator, Sequence, Sized
 from typing import Any
 
 import numpy as np
@@ -26,12 +26,27 @@ from diecut_report.mechanism.inputs import Block, Extremes, Quantity, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import as_given, given_shown
-from diecut_report.results.conclusion import conclusion, counts, governing, summary, told_alike
-from diecut_report.results.form import FORM_VERSION, SCHEMA_VERSION
+from diecut_report.results.conclusion import conclusion, counts, governing, shown_alike, summary
 from diecut_report.results.mechanism import worst
+from diecut_report.results.model import (
+    FORM_VERSION,
+    CheckRecord,
+    ConfigRecord,
+    LeftOutRecord,
+    LogoRecord,
+    MaterialsFileRecord,
+    MechanismRecord,
+    PressRecord,
+    ProgramRecord,
+    ProjectRecord,
+    QuantityRecord,
+    ReportRecord,
+    ResultsRecord,
+    Status,
+)
 from diecut_report.results.origins import Bases, assumed, with_origins
 from diecut_report.results.press_run import Found, Run
-from diecut_report.text.phrases import Phrase, wordings
+from diecut_report.text.phrases import Phrase
 
 Data = dict[str, Any]
 LEFT_OUT = (
@@ -40,106 +55,104 @@ LEFT_OUT = (
 )
 
 
-def document(run: Run) -> Data:
-    """Return all results as plain data; the same config gives the same document, byte for byte."""
+def document(run: Run) -> ResultsRecord:
+    """Return all results; the same config gives the same document, byte for byte."""
     config, tree = run.config, run.config.tree
     mechanisms = with_origins({name: _mechanism_data(run, name) for name in config.instances if name != PRESS})
-    comparisons = told_alike({case.name: _comparison_data(run, case) for case in run.cases}, mechanisms)
-    mechanisms = told_alike(mechanisms, mechanisms)
-    made: Data = {
-        "schema_version": SCHEMA_VERSION,
-        "form_version": FORM_VERSION,
-        "program": {"name": "diecut-report", "version": __version__, **_code(config)},
-        "config": {
-            "file": printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
-            "sha256": tree.sha256,
-            "resolved": resolved(run),
-            "source_text": tree.text,
-            **_tables(config),
-        },
-        "project": _project(config.project.model_dump()),
-        "report": config.report.model_dump(exclude_none=True),
-        "press": _press(run),
-        "status": verdict((data["status"] for data in mechanisms.values()), run.errors),
-        "governing": governing(mechanisms),
-        "summary": summary(mechanisms) | {"assumed": assumed(config)},
-        "mechanisms": mechanisms,
-    } | ({"comparisons": comparisons} | _left_out(run) if comparisons else {})
-    made["summary"]["conclusion"] = conclusion(made)
-    return made | {"wordings": wordings([made["mechanisms"], comparisons, made.get("comparisons_left_out")])}
+    comparisons = shown_alike({case.name: _comparison_data(run, case) for case in run.cases}, mechanisms)
+    mechanisms = shown_alike(mechanisms, mechanisms)
+    checks = {name: data.checks for name, data in mechanisms.items()}
+    made = ResultsRecord(
+        schema_version=1,
+        form_version=FORM_VERSION,
+        program=_program(config),
+        config=ConfigRecord(
+            file=printable(tree.name.replace("\\", "/").rsplit("/", 1)[-1]),
+            sha256=tree.sha256,
+            resolved=resolved(run),
+            source_text=tree.text,
+            materials=[
+                MaterialsFileRecord(file=name, sha256=table.sha256, source_text=table.text)
+                for name, table in config.tables.items()
+            ],
+            logo=_logo(config.logo) if config.logo else None,
+        ),
+        project=ProjectRecord(**_project(config.project.model_dump())),
+        report=ReportRecord(**config.report.model_dump(exclude_none=True)),
+        press=_press(run),
+        status=verdict((data.status for data in mechanisms.values()), run.errors),
+        governing=governing(checks),
+        summary=summary(checks, assumed(config)),
+        mechanisms=mechanisms,
+        comparisons=comparisons,
+        comparisons_left_out=_left_out(run) if comparisons else None,
+    )
+    return made.with_(summary=made.summary.with_(conclusion=conclusion(made)))
 
 
-def verdict(statuses: Iterable[str], errors: Sized) -> str:
+def verdict(statuses: Iterable[str], errors: Sized) -> Status:
     """Return the verdict on all mechanisms; one that is skipped without an error fails, as what it needs does not hold."""
     return "error" if errors else worst("fail" if each == "skipped" else each for each in statuses)
 
 
-def _tables(config: Config) -> Data:
-    """The user's own tables and the logo that the config names, whole: the report can be made again with them."""
-    found = [{"file": name, "sha256": tree.sha256, "source_text": tree.text} for name, tree in config.tables.items()]
-    return ({"materials": found} if found else {}) | ({"logo": _logo(config.logo)} if config.logo else {})
-
-
-def _logo(logo: Logo) -> Data:
+def _logo(logo: Logo) -> LogoRecord:
     content = base64.b64encode(logo.content).decode()
-    return {"file": logo.name, "sha256": logo.sha256, "media_type": logo.media_type, "base64": content}
+    return LogoRecord(file=logo.name, sha256=logo.sha256, media_type=logo.media_type, base64=content)
 
 
-def _left_out(run: Run) -> Data:
+def _left_out(run: Run) -> LeftOutRecord | None:
     """The comparisons beyond the most that a config gets, with words on how to get them."""
     if not run.left_out:
-        return {}
+        return None
     words = Phrase(LEFT_OUT, count=len(run.left_out), first=run.left_out[0], most=MAX_COMPARISONS)
-    return {"comparisons_left_out": {"message": words, "names": run.left_out}}
+    return LeftOutRecord(message=words, names=run.left_out)
 
 
-def _code(config: Config) -> Data:
-    """Return the hash of the program's code, and of each extension that was run; and by what the numbers were calculated."""
-    libraries = {"Python": platform.python_version(), "NumPy": np.__version__, "SciPy": scipy.__version__}
-    extensions = {"extensions": dict(config.extensions)} if config.extensions else {}
-    return {"source_sha256": program_hash(), "libraries": libraries} | extensions
+def _program(config: Config) -> ProgramRecord:
+    """The program with the hash of its code and of each extension that was run, and by what the numbers were calculated."""
+    return ProgramRecord(
+        name="diecut-report",
+        version=__version__,
+        source_sha256=program_hash(),
+        libraries={"Python": platform.python_version(), "NumPy": np.__version__, "SciPy": scipy.__version__},
+        extensions=dict(config.extensions),
+    )
 
 
-EMPTY: Data = {
+NOTHING: Data = {
     "summary": "", "assumptions": [], "sources": [], "inputs": {}, "lists": {}, "outputs": {}, "values": {}, "curves": {}, "phases": {},
-    "phases_absent": {}, "checks": [],
-    "warnings": [], "sections": [], "absent": [], "figures": [], "exports": [],
-    "errata": [],
+    "phases_absent": {}, "warnings": [], "sections": [], "absent": [], "figures": [], "exports": [], "errata": [],
 }  # fmt: skip
 
 
-def _mechanism_data(run: Run, name: str) -> Data:
+def _mechanism_data(run: Run, name: str) -> MechanismRecord:
     if name in run.results and name not in run.errors:
         return run.results[name]
     instance = run.config.instances[name]
     mechanism = instance.mechanism if instance else None
     kind = run.config.kinds[name]
     status, text = ("error", str(run.errors[name])) if name in run.errors else ("skipped", run.skipped[name])
-    checks = run.self_tests.get(name, [])
-    return (
-        _head(kind, mechanism)
-        | {"status": status, "error": text}
-        | EMPTY
-        | {"checks": checks, "counts": counts(checks)}
-    )
+    return _failed(kind, mechanism, status, text, run.self_tests.get(name, []))
 
 
-def _comparison_data(run: Run, case: Found) -> Data:
+def _comparison_data(run: Run, case: Found) -> MechanismRecord:
     if case.name in run.comparisons:
         return run.comparisons[case.name]
     mechanism = case.comparison.mechanism
-    failed = {"status": "error", "error": str(run.errors[case.name]), "between": list(case.between.values())}
-    return _head(mechanism.kind, mechanism) | failed | EMPTY | {"counts": counts(())}
+    failed = _failed(mechanism.kind, mechanism, "error", str(run.errors[case.name]))
+    return failed.with_(between=list(case.between.values()))
 
 
-def _head(kind: str, mechanism: Mechanism | None) -> Data:
+def _failed(
+    kind: str, mechanism: Mechanism | None, status: str, error: str, checks: Sequence[CheckRecord] = ()
+) -> MechanismRecord:
     """What is known of a mechanism that gives no results."""
-    return {
-        "kind": kind,
-        "title": mechanism.title if mechanism else kind,
-        "plugin_version": mechanism.version if mechanism else "",
-        **plugin_code(mechanism),
-    }
+    return MechanismRecord.model_validate(
+        NOTHING
+        | plugin_code(mechanism)
+        | {"kind": kind, "title": mechanism.title if mechanism else kind, "status": status, "error": error}
+        | {"plugin_version": mechanism.version if mechanism else "", "checks": list(checks), "counts": counts(checks)}
+    )
 
 
 def _project(fields: Data) -> Data:
@@ -148,7 +161,7 @@ def _project(fields: Data) -> Data:
     return told | ({"revisions": [_project(line) for line in told["revisions"]]} if "revisions" in told else {})
 
 
-def _press(run: Run) -> Data:
+def _press(run: Run) -> PressRecord:
     press, bases = run.blocks[PRESS], run.bases
     assert isinstance(press, Press)
     found, chosen = [], run.chosen_units(PRESS)
@@ -156,11 +169,11 @@ def _press(run: Run) -> Data:
         meta = declared(Press, tuple(name.split(".")))
         if isinstance(meta, Quantity):
             shown = given_shown(value, chosen.of(name, meta.unit) or meta.unit)
-            said_of = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
+            head: dict[str, Any] = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}
             node = (PRESS, *name.split("."))
-            rests = {"basis": bases.of(node)} | ({"note": note} if (note := bases.said(node).note) else {})
-            found.append(said_of | {"value": value, "unit": meta.parsed_unit.si, "display": shown} | rests)
-    return {"name": press.name, "fields": found}
+            rests = {"basis": bases.of(node), "note": bases.said(node).note}
+            found.append(head | {"value": value, "unit": meta.parsed_unit.si, "display": shown} | rests)
+    return PressRecord(name=press.name, fields=[QuantityRecord(**each) for each in found])
 
 
 def resolved(run: Run) -> Data:

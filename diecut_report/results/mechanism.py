@@ -3,9 +3,9 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator, Mapping
 from decimal import Decimal
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, get_args
 
 import numpy as np
 
@@ -40,16 +40,32 @@ from diecut_report.quantities.formatting import author_digits, place_shown, show
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of, missing_checks
 from diecut_report.results.conclusion import RANK, cited_sources, counts, exports, failed_self_tests
+from diecut_report.results.model import (
+    AbsentPhaseRecord,
+    AbsentRecord,
+    CheckRecord,
+    CurveRecord,
+    ErratumRecord,
+    FigureRecord,
+    MechanismRecord,
+    PhaseRecord,
+    QuantityRecord,
+    SectionRecord,
+    ShownIntervalRecord,
+    ShownPhaseRecord,
+    Status,
+)
 from diecut_report.results.origins import GIVEN, Provenance, inputs
 from diecut_report.text.phrases import Phrase, keys_listed, phrase
 
-# Curves and spectra of a calculation as plain data.
+# Curves and spectra of a calculation.
 
 
 Data = dict[str, Any]
+Quantities = dict[str, QuantityRecord]
 
 
-def curves(calc: Calculation) -> Data:
+def curves(calc: Calculation) -> dict[str, CurveRecord]:
     """Return each curve at the samples of its abscissa, with its one-sided values at the breakpoints."""
     found: Data = {}
     for name, domain in calc.domains.items():
@@ -69,7 +85,7 @@ def curves(calc: Calculation) -> Data:
             found[name] = shown | _limits(calc, name, pieces[calc.axis[name]])
     for spectrum in calc.mechanism.spectra:
         found |= _spectrum(spectrum)
-    return found
+    return {name: CurveRecord(**each) for name, each in found.items()}
 
 
 def _spectrum(spectrum: Spectrum) -> Data:
@@ -131,9 +147,9 @@ def _limits(calc: Calculation, name: str, edges: _Edges) -> Data:
 MORE = range(3)  # digits beyond those that mean something
 
 
-def phases(calc: Calculation) -> Data:
+def phases(calc: Calculation) -> dict[str, PhaseRecord]:
     """Return each phase that the machine has: its role, the abscissa it runs over with its period, and its intervals, SI."""
-    found: Data = {}
+    found: dict[str, PhaseRecord] = {}
     for name, step in phases_of(calc).items():
         held = intervals(calc, name)
         if held:
@@ -141,35 +157,37 @@ def phases(calc: Calculation) -> Data:
             display = declared_unit(calc, axis.id, axis.unit)
             speed = speed_of(calc, step.abscissa)
             more = _more_digits(calc, step.abscissa, display)
-            found[name] = {
-                "role": step.role,
-                "description": step.description,
-                "abscissa": step.abscissa,
-                "period": period_of(calc, step),
-                "unit": unit(axis.unit).si,
-                "intervals": [list(interval) for interval in held],
-                "display": {
-                    "unit": display,
-                    "intervals": [_shown(interval, display, more) | _lasts(interval, speed) for interval in held],
-                },
-            }
+            found[name] = PhaseRecord(
+                role=step.role,
+                description=step.description,
+                abscissa=step.abscissa,
+                period=period_of(calc, step),
+                unit=unit(axis.unit).si,
+                intervals=[list(interval) for interval in held],
+                display=ShownPhaseRecord(
+                    unit=display,
+                    intervals=[
+                        ShownIntervalRecord(**_shown(interval, display, more), **_lasts(interval, speed))
+                        for interval in held
+                    ],
+                ),
+            )
     return _with_parts(found)
 
 
-def _with_parts(phases: Data) -> Data:
+def _with_parts(phases: dict[str, PhaseRecord]) -> dict[str, PhaseRecord]:
     """The phases, those that are nothing but others together with these."""
     sets = {
-        name: frozenset((each["role"], each["abscissa"], *ends) for ends in each["intervals"])
-        for name, each in phases.items()
+        name: frozenset((each.role, each.abscissa, *ends) for ends in each.intervals) for name, each in phases.items()
     }
     whole = composed(sets)
-    return {name: each | ({"parts": list(whole[name])} if name in whole else {}) for name, each in phases.items()}
+    return {name: each.with_(parts=list(whole[name])) if name in whole else each for name, each in phases.items()}
 
 
 def _shown(interval: Interval, display: str, more: int) -> dict[str, str]:
     """An interval as texts: both ends and its length in the abscissa's unit."""
     start, end = interval
-    texts = {"from": start, "to": end, "length": end - start}
+    texts = {"begin": start, "to": end, "length": end - start}
     return {key: place_shown(value, display, more)["text"] for key, value in texts.items()}
 
 
@@ -187,30 +205,30 @@ def _more_digits(calc: Calculation, abscissa: str, display: str) -> int:
 
 def _agree(told: dict[str, str]) -> bool:
     """Whether the printed ends give the printed length."""
-    return Decimal(told["to"]) - Decimal(told["from"]) == Decimal(told["length"])
+    return Decimal(told["to"]) - Decimal(told["begin"]) == Decimal(told["length"])
 
 
-def phases_absent(calc: Calculation) -> Data:
+def phases_absent(calc: Calculation) -> dict[str, AbsentPhaseRecord]:
     """Return each declared phase that the machine does not have: the keys that are missing, and the reason in words."""
     there = phases(calc)
-    found: Data = {}
+    found: dict[str, AbsentPhaseRecord] = {}
     for chapter, step in calc.mechanism.steps:
         name = step.id.removeprefix(PREFIX)
         if not isinstance(step, Phase) or name in there:
             continue
         missing = [key for key in (*chapter.needs, *step.needs) if key not in calc.given]
-        if name not in found or len(missing) < len(found[name]["missing"]):
+        if name not in found or len(missing) < len(found[name].missing):
             words = "does not apply to this machine"
             words = Phrase("{keys} not given", keys=keys_listed(missing)) if missing else words
-            found[name] = {"description": step.description, "missing": missing, "text": words}
+            found[name] = AbsentPhaseRecord(description=step.description, missing=missing, text=words)
     return found
 
 
 class SelfTestFailed(Exception):
     """Report that the calculation contradicts itself, so that none of its numbers may be used; ``checks`` tell where."""
 
-    def __init__(self, checks: list[Data]) -> None:
-        told = " ".join(f"{check['title']}: {check['message']}" for check in checks)
+    def __init__(self, checks: list[CheckRecord]) -> None:
+        told = " ".join(f"{check.title}: {check.message}" for check in checks)
         super().__init__(
             Phrase("The calculation contradicts itself, and its numbers must not be used. {told}", told=told)
         )
@@ -220,7 +238,7 @@ class SelfTestFailed(Exception):
 Of = Callable[[Callable[[Calculation], Any]], Any]  # what a function makes of a calculation
 
 
-def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance], of: Of | None = None) -> Data:
+def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance], of: Of | None = None) -> MechanismRecord:
     """Return the results of one machine's mechanism, as the contract names them; SelfTestFailed where they contradict themselves.
 
     ``of`` gives what a function makes of the calculation, where that is remembered.
@@ -229,45 +247,56 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance], o
     made: Of = of or (lambda make: make(calc))
     checks = made(check_results)
     require_self_tests(checks)
-    return {
-        "kind": mechanism.kind,
-        "title": mechanism.title,
-        "plugin_version": mechanism.version,
-        **plugin_code(mechanism),
-        "status": worst(check["status"] for check in checks),
-        "summary": mechanism.summary,
-        "assumptions": list(mechanism.assumptions),
-        "sources": cited_sources(calc),
-        "inputs": inputs(calc, provenance),
-        "lists": list_titles(mechanism.inputs) | {name: calc.steps[name].description for name in calc.part_names},
+    code: dict[str, Any] = plugin_code(mechanism)
+    return MechanismRecord(
+        kind=mechanism.kind,
+        title=mechanism.title,
+        plugin_version=mechanism.version,
+        **code,
+        status=worst(check.status for check in checks),
+        summary=mechanism.summary,
+        assumptions=list(mechanism.assumptions),
+        sources=cited_sources(calc),
+        inputs=inputs(calc, provenance),
+        lists=list_titles(mechanism.inputs) | {name: calc.steps[name].description for name in calc.part_names},
         **made(numbers),
-        **listings.results(calc),
-        "curves": made(curves),
-        "phases": phases(calc),
-        "phases_absent": phases_absent(calc),
-        "checks": checks,
-        "counts": counts(checks),
-        "warnings": [c["message"] for c in checks if c["status"] == "warn"],
-        "sections": made(section_items),
-        "absent": absent(calc, provenance),
-        "figures": made(figures),
-        "exports": exports(calc),
-        "errata": list(errata(calc)),
-    }
+        listings=listings.results(calc),
+        curves=made(curves),
+        phases=phases(calc),
+        phases_absent=phases_absent(calc),
+        checks=checks,
+        counts=counts(checks),
+        warnings=[check.message for check in checks if check.status == "warn"],
+        sections=made(sections),
+        absent=absent(calc, provenance),
+        figures=made(figure_records),
+        exports=exports(calc),
+        errata=list(errata(calc)),
+    )
 
 
-def require_self_tests(checks: list[Data]) -> None:
+def sections(calc: Calculation) -> list[SectionRecord]:
+    """Return the printed calculation."""
+    return [SectionRecord(**each) for each in section_items(calc)]
+
+
+def figure_records(calc: Calculation) -> list[FigureRecord]:
+    """Return the figures that the machine has."""
+    return [FigureRecord(**each) for each in figures(calc)]
+
+
+def require_self_tests(checks: list[CheckRecord]) -> None:
     """Raise SelfTestFailed where the calculation contradicts itself."""
     if failed := failed_self_tests(checks):
         raise SelfTestFailed(failed)
 
 
-def errata(calc: Calculation) -> Iterator[Data]:
+def errata(calc: Calculation) -> Iterator[ErratumRecord]:
     """Yield the mistakes of the sources that touch this machine: those whose quantities are all absent are left out."""
     for erratum in calc.mechanism.errata:
         touched = [calc.step_or_input(name).description for name in erratum.touches if _is_there(calc, name)]
         if touched or not erratum.touches:
-            yield {"source": erratum.source, "text": erratum.text, "touches": touched}
+            yield ErratumRecord(source=erratum.source, text=erratum.text, touches=touched)
 
 
 def _is_there(calc: Calculation, name: str) -> bool:
@@ -280,17 +309,19 @@ def _is_there(calc: Calculation, name: str) -> bool:
 IDLE = "not checked, though {key} is given: what it limits is not calculated"
 
 
-def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[Data]:
+def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[AbsentRecord]:
     """Return what is not calculated, and checks for which a limit is given that nothing can be held against, in words."""
     unmade = [s for s in calc.mechanism.chapters if not calc.given.issuperset(s.needs)]
     left_out = [
-        {"title": s.title, "text": words} for s in unmade if (words := soundness.unmet(calc, s.needs) or _why(calc, s))
+        AbsentRecord(title=s.title, text=words)
+        for s in unmade
+        if (words := soundness.unmet(calc, s.needs) or _why(calc, s))
     ]
     checks = checks_of(calc)
     made = {check.id for check in checks if applies(calc, check) or missing_checks(calc, check)}
     used = {check.limit for check in checks if check.id in made}
     idle = [
-        {"title": c.title, "text": Phrase(IDLE, key=c.limit)}
+        AbsentRecord(title=c.title, text=Phrase(IDLE, key=c.limit))
         for c in checks
         if _is_limit_given(calc, str(c.limit), provenance) and c.id not in made and c.limit not in used
     ]
@@ -310,39 +341,38 @@ def _is_limit_given(calc: Calculation, name: str, provenance: Mapping[str, Prove
     return name in calc.inputs and name not in calc.values and provenance.get(name, GIVEN).origin != "default"
 
 
-def worst(statuses: Any) -> str:
+def worst(statuses: Iterable[str]) -> Status:
     """Return the worst of statuses; pass where there are none. What is not checked changes nothing."""
-    return max((status for status in statuses if status in RANK), key=RANK.__getitem__, default="pass")
+    known = set(statuses) & RANK.keys()
+    return max((status for status in get_args(Status) if status in known), key=RANK.__getitem__, default="pass")
 
 
-def numbers(calc: Calculation) -> Data:
+def numbers(calc: Calculation) -> dict[str, Quantities]:
     """Return outputs and intermediate values: each step's number, with the place where an extreme occurs."""
-    groups: dict[bool, Data] = {True: {}, False: {}}
+    groups: dict[bool, Quantities] = {True: {}, False: {}}
     for step in calc.steps.values():
         groups[step.output] |= _numbers_of(calc, step)
     return {"outputs": _with_keys(calc, groups[True]), "values": groups[False]}
 
 
-def key_outputs(calc: Calculation) -> Data:
+def key_outputs(calc: Calculation) -> Quantities:
     """Return of the outputs those that tell most, in their order."""
     asked = {each.id for name in calc.mechanism.key_results if (each := named(name, calc.steps))}
     steps = (step for step in calc.steps.values() if step.id in asked and step.output)
     found = _with_keys(calc, {name: each for step in steps for name, each in _numbers_of(calc, step).items()})
-    return {name: each for name, each in found.items() if "key" in each}
+    return {name: each for name, each in found.items() if each.key}
 
 
-def _with_keys(calc: Calculation, outputs: Data) -> Data:
-    for name in calc.mechanism.key_results:
-        if name in outputs:
-            outputs[name]["key"] = True
-    return outputs
+def _with_keys(calc: Calculation, outputs: Quantities) -> Quantities:
+    return outputs | {name: outputs[name].with_(key=True) for name in calc.mechanism.key_results if name in outputs}
 
 
-def _numbers_of(calc: Calculation, step: Step) -> Data:
+def _numbers_of(calc: Calculation, step: Step) -> Quantities:
     """The numbers that a step gives."""
     if step.id not in calc.values or isinstance(step, SILENT):
         return {}
-    return _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
+    found = _listed(calc, step) if isinstance(step, Crossings) else _rowed(calc, step)
+    return {name: QuantityRecord(**each) for name, each in found.items()}
 
 
 def _rowed(calc: Calculation, step: Step) -> Data:

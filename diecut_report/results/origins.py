@@ -6,6 +6,7 @@ import math
 import re
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from dataclasses import dataclass
+from functools import cache
 from typing import Any, Literal, NamedTuple
 
 import numpy as np
@@ -29,52 +30,57 @@ from diecut_report.mechanism.steps import PREFIX, named
 from diecut_report.quantities.formatting import given_shown, shortest
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
+from diecut_report.results.model import CheckRecord, MechanismRecord, PartRecord, QuantityRecord, SummaryRecord
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 # What advice names is changed where it begins: a key that follows from another one is not changed in one mechanism alone.
 
 
-Data = dict[str, Any]
-InputsOf = Callable[[str], Data]  # a mechanism's inputs as results hold them, by its name; nothing of what is not one
+InputsOf = Callable[
+    [str], Mapping[str, str]
+]  # what each input of a mechanism refers to, by its name; nothing of what is not one
 FOLLOWS = "{key} follows from {origin}: change it there, so that what else takes it keeps in step."
 ADVISED = r"(?:\bset |\blower |\braise |\btake |\bmake |\baccept |\bchange |\ban? |\bno )({key})\b|\b({key})\b(?= of at (?:least|most)|: )"
 
 
-def with_origins(mechanisms: Data) -> Data:
+def with_origins(mechanisms: Mapping[str, MechanismRecord]) -> dict[str, MechanismRecord]:
     """Return the mechanisms' results, in which each failing check says where a key that it names begins."""
-    own = {name: data["checks"] for name, data in mechanisms.items()}
-    told = told_checks(own, lambda name: mechanisms.get(name, {}).get("inputs", {}))
-    return {name: data | _told(told[name]) if data["checks"] else data for name, data in mechanisms.items()}
+
+    def paths(name: str) -> dict[str, str]:
+        return {key: row.path for key, row in mechanisms[name].inputs.items()} if name in mechanisms else {}
+
+    checks = checks_with_origins({name: data.checks for name, data in mechanisms.items()}, cache(paths))
+    return {name: data.with_(**_warned(checks[name])) if data.checks else data for name, data in mechanisms.items()}
 
 
-def _told(checks: list[Data]) -> Data:
-    return {"checks": checks, "warnings": [check["message"] for check in checks if check["status"] == "warn"]}
+def _warned(checks: list[CheckRecord]) -> dict[str, Any]:
+    return {"checks": checks, "warnings": [check.message for check in checks if check.status == "warn"]}
 
 
-def told_checks(checks: Mapping[str, list[Data]], inputs_of: InputsOf) -> dict[str, list[Data]]:
+def checks_with_origins(checks: Mapping[str, list[CheckRecord]], inputs_of: InputsOf) -> dict[str, list[CheckRecord]]:
     """Return the checks of all mechanisms, of which the failing ones say where a key that they name begins."""
     return {name: [_check(inputs_of, name, check) for check in own] for name, own in checks.items()}
 
 
-def _check(inputs_of: InputsOf, name: str, check: Data) -> Data:
-    if check["status"] not in ("warn", "fail"):
+def _check(inputs_of: InputsOf, name: str, check: CheckRecord) -> CheckRecord:
+    if check.status not in ("warn", "fail"):
         return check
-    words = dict.fromkeys(_origins(inputs_of, name, check["message"]))
-    return check | ({"message": joined([check["message"], *words], " ")} if words else {})
+    words = dict.fromkeys(_origins(inputs_of, name, check.message))
+    return check.with_(message=joined([check.message, *words], " ")) if words else check
 
 
 def _origins(inputs_of: InputsOf, name: str, message: str) -> Iterator[str]:
-    for key, data in inputs_of(name).items():
-        if "path" in data and re.search(ADVISED.format(key=re.escape(key)), message):
-            yield Phrase(FOLLOWS, key=key, origin=_beginning(inputs_of, data["path"]))
+    for key, path in inputs_of(name).items():
+        if path and re.search(ADVISED.format(key=re.escape(key)), message):
+            yield Phrase(FOLLOWS, key=key, origin=_beginning(inputs_of, path))
 
 
 def _beginning(inputs_of: InputsOf, path: str) -> str:
     """Where a reference begins: a field of the press, a result, or the key that is given in words or numbers."""
     while True:  # references have an order, so none goes round
         name, _, key = path.partition(".")
-        further = inputs_of(name).get(key, {}).get("path")
-        if further is None:
+        further = inputs_of(name).get(key)
+        if not further:
             return path
         path = further
 
@@ -236,7 +242,6 @@ def assumed(config: Config) -> list[str]:
 # What a calculation rests on that is assumed: those first that move a governing check most.
 
 
-AssumedData = Mapping[str, Any]
 MOVES = 1e-3  # change of a utilisation, by a change of the value by a tenth, below which it does not count
 
 
@@ -251,11 +256,10 @@ class Assumed(NamedTuple):
     change: float = 0.0
 
 
-def ordered(results: AssumedData) -> list[Assumed]:
-    """Return the assumed values of a results document: those that move a governing check first, then in the file's order."""
-    summary = results.get("summary", {})
-    moves = {move["path"]: Assumed(move["path"], move["check"], move["change"]) for move in summary.get("moves", ())}
-    found = [moves.get(path, Assumed(path)) for path in summary.get("assumed", ())]
+def ordered(summary: SummaryRecord) -> list[Assumed]:
+    """Return the assumed values of a machine: those that move a governing check first, then in the file's order."""
+    moves = {move.path: Assumed(move.path, move.check, move.change or 0.0) for move in summary.moves}
+    found = [moves.get(path, Assumed(path)) for path in summary.assumed]
     return sorted(found, key=lambda each: -each.change)
 
 
@@ -292,16 +296,15 @@ class Provenance:
 GIVEN = Provenance("given")
 
 
-def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> Data:
+def inputs(calc: Calculation, provenance: Mapping[str, Provenance]) -> dict[str, QuantityRecord]:
     """Return each input with value, unit, origin and typed text; the parts of a list as ``gears.0.driver_teeth``."""
-    found: Data = {}
+    found = {}
     for path, name, index, value in placed_inputs(calc):
-        meta = calc.meta[name]
+        meta, home = calc.meta[name], calc.axis.get(name, "")
         display = declared_unit(calc, name, meta.unit) if isinstance(meta, Quantity) else "1"
-        found[path] = _input(meta, value, display) | _origin(provenance.get(path))
-        if index is not None:
-            home = calc.axis[name]
-            found[path]["part"] = {"family": home, "index": index, "quantity": name.removeprefix(f"{home}.")}
+        quantity = name.removeprefix(f"{home}.")
+        part = None if index is None else PartRecord(family=home, index=index, quantity=quantity)
+        found[path] = QuantityRecord(**_input(meta, value, display), **_origin(provenance.get(path)), part=part)
     return found
 
 
@@ -321,16 +324,9 @@ def placed_inputs(calc: Calculation) -> Iterator[tuple[str, str, int | None, Any
                 yield f"{home}.{index}{name.removeprefix(home)}", name, index, part
 
 
-def _origin(provenance: Provenance | None) -> Data:
+def _origin(provenance: Provenance | None) -> dict[str, Any]:
     known = provenance or Provenance("default")
-    return (
-        {"origin": known.origin}
-        | ({"path": known.path} if known.path else {})
-        | ({"paths": list(known.paths)} if known.paths else {})
-        | ({"text": known.text} if known.text else {})
-        | ({"basis": known.basis} if known.basis else {})
-        | ({"note": known.note} if known.note else {})
-    )
+    return vars(known) | {"paths": list(known.paths), "text": known.text or ""}
 
 
 def _as_text(value: Any) -> str:
@@ -340,7 +336,7 @@ def _as_text(value: Any) -> str:
     return ", ".join(value) if isinstance(value, tuple) else str(value)
 
 
-def _input(meta: Any, value: Any, display: str) -> Data:
+def _input(meta: Any, value: Any, display: str) -> dict[str, Any]:
     if isinstance(value, TakenWhole) or (isinstance(meta, Quantity) and isinstance(value, str)):
         return {"value": str(value), "unit": "1", "symbol": meta.symbol, "description": meta.description,
                 "display": {"text": str(value), "unit": "1"}}  # fmt: skip

@@ -31,6 +31,7 @@ from diecut_report.mechanism.steps import Clash, Require
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
+from diecut_report.results.model import CheckRecord, MechanismRecord, SourceRecord
 from diecut_report.results.origins import Absent, Bases, Provenance, Unavailable, Valueless, Withheld, origin_of, output
 from diecut_report.text.phrases import Phrase, named, phrase
 from diecut_report.time_limit import in_time
@@ -73,7 +74,9 @@ def found(calculations: Mapping[str, Calculation]) -> Iterator[Found]:
             yield Found(comparison, dict(zip(comparison.kinds, names, strict=True)))
 
 
-def compared(case: Found, calculations: Mapping[str, Calculation], chosen: ChosenUnits = NONE_CHOSEN) -> Data:
+def compared(
+    case: Found, calculations: Mapping[str, Calculation], chosen: ChosenUnits = NONE_CHOSEN
+) -> MechanismRecord:
     """Return the results of a comparison, in the form of a mechanism's, shown in the chosen units, and between which instances it is."""
     values, origins = {}, {}
     for key, (kind, name) in case.comparison.takes.items():
@@ -84,7 +87,7 @@ def compared(case: Found, calculations: Mapping[str, Calculation], chosen: Chose
     block = _block(case, values)
     calculation = calculate(case.comparison.mechanism, flatten(block))
     calculation.chosen_units = chosen
-    return mechanism_results(calculation, origins) | {"between": list(case.between.values())}
+    return mechanism_results(calculation, origins).with_(between=list(case.between.values()))
 
 
 def _block(case: Found, values: Mapping[str, Any]) -> Block:
@@ -155,13 +158,15 @@ class Run:
         self.values: dict[Node, Any] = {}
         self.blocks: dict[str, Block] = {}
         self.calculations: dict[str, Calculation] = {}
-        self.results: dict[str, Data] = {}
+        self.results: dict[str, MechanismRecord] = {}
         self.errors: dict[str, PluginError] = dict(config.broken)
-        self.self_tests: dict[str, list[Data]] = {}  # of each mechanism that contradicts itself, what does not hold
+        self.self_tests: dict[
+            str, list[CheckRecord]
+        ] = {}  # of each mechanism that contradicts itself, what does not hold
         self.skipped: dict[str, str] = {}
         self.withheld: dict[Node, str] = {}  # values that are not calculated, and why
         self.problems: list[Problem] = []
-        self.comparisons: dict[str, Data] = {}
+        self.comparisons: dict[str, MechanismRecord] = {}
         self.cases: list[Found] = []
         self.left_out: list[str] = []
         for node in config.order:
@@ -346,10 +351,10 @@ class Run:
     def _printed(self, instance: Instance, calculation: Calculation) -> None:
         self._store(instance, mechanism_results(calculation, self._provenance(instance)))
 
-    def _store(self, instance: Instance, found: Data) -> None:
+    def _store(self, instance: Instance, found: MechanismRecord) -> None:
         own = instance.own.sources if instance.own else {}
-        found["sources"] += [{"id": file, "citation": said} for file, said in own.items()]
-        self.results[instance.name] = found
+        tables = [SourceRecord(id=file, citation=citation) for file, citation in own.items()]
+        self.results[instance.name] = found.with_(sources=[*found.sources, *tables])
 
     def _compare(self, case: Found) -> None:
         self.tell(case.name)

@@ -5,17 +5,18 @@ from __future__ import annotations
 import base64
 import codecs
 import json
-from collections.abc import Mapping
 from hashlib import sha256
 from typing import Any
+
+from diecut_report.results.model import CarriedConfigRecord, MaterialsFileRecord, ResultsRecord
 
 ENCODER = json.JSONEncoder(ensure_ascii=False, allow_nan=False)
 LINES_TO_DEPTH = 4  # the results file has a line for each quantity and each curve
 
 
-def results_text(results: Mapping[str, Any]) -> str:
+def results_text(results: ResultsRecord) -> str:
     """Return the results file: floats in their shortest exact form, never NaN or Infinity, the same bytes for the same results."""
-    return _lines(results, LINES_TO_DEPTH) + "\n"
+    return _lines(results.data(), LINES_TO_DEPTH) + "\n"
 
 
 def encoded(text: str) -> bytes:
@@ -23,26 +24,25 @@ def encoded(text: str) -> bytes:
     return text.encode(errors="backslashreplace")
 
 
-def config_content(results: Mapping[str, Any]) -> bytes:
+def config_content(config: CarriedConfigRecord) -> bytes:
     """Return the configuration's file, byte for byte; its byte order mark, which its text does not hold, shows in its hash."""
-    return _content(results["config"])
+    return _content(config)
 
 
-def table_contents(results: Mapping[str, Any]) -> dict[str, bytes]:
+def table_contents(config: CarriedConfigRecord) -> dict[str, bytes]:
     """Return the files of the user's own tables, byte for byte, by the names that the configuration gives them."""
-    return {table["file"]: _content(table) for table in results["config"].get("materials", ())}
+    return {table.file: _content(table) for table in config.materials}
 
 
-def logo_content(results: Mapping[str, Any]) -> dict[str, bytes]:
+def logo_content(config: CarriedConfigRecord) -> dict[str, bytes]:
     """Return the logo's file by its name; nothing where there is none."""
-    logo = results["config"].get("logo")
-    return {logo["file"]: base64.b64decode(logo["base64"])} if logo else {}
+    return {config.logo.file: base64.b64decode(config.logo.base64)} if config.logo else {}
 
 
-def _content(file: Mapping[str, Any]) -> bytes:
-    content = encoded(file["source_text"])
+def _content(file: CarriedConfigRecord | MaterialsFileRecord) -> bytes:
+    content = encoded(file.source_text)
     marked = codecs.BOM_UTF8 + content
-    return marked if sha256(marked).hexdigest() == file["sha256"] else content
+    return marked if sha256(marked).hexdigest() == file.sha256 else content
 
 
 def _lines(data: Any, depth: int, indent: str = "\n") -> str:

@@ -29,17 +29,35 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.machine.calculation import Calculation, ChosenUnits, CurveHandle, same_curve
-from diecut_report.machine.figure_views import figures, shown_figures
-from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.figure_views import shown_figures
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import Block, flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import SI
 from diecut_report.results.checks import check_results
-from diecut_report.results.conclusion import conclusion, governing, is_open, summary
+from diecut_report.results.conclusion import Open, governing, summary
 from diecut_report.results.document import document, verdict
-from diecut_report.results.mechanism import curves, key_outputs, mechanism_results, numbers, require_self_tests, worst
-from diecut_report.results.origins import assumed, origin_of, placed_inputs, told_checks
+from diecut_report.results.mechanism import (
+    Quantities,
+    curves,
+    figure_records,
+    key_outputs,
+    mechanism_results,
+    numbers,
+    require_self_tests,
+    sections,
+    worst,
+)
+from diecut_report.results.model import (
+    CheckRecord,
+    CurveRecord,
+    FigureRecord,
+    GoverningRecord,
+    ResultsRecord,
+    SectionRecord,
+    SummaryRecord,
+)
+from diecut_report.results.origins import assumed, checks_with_origins, origin_of, placed_inputs
 from diecut_report.results.press_run import Run, Tell, require_possible
 
 Data = dict[str, Any]
@@ -159,90 +177,87 @@ class WarmRun(Run):
         """A comparison has no checks, and nothing depends on it."""
 
     @cached_property
-    def checks(self) -> dict[str, list[Data]]:
+    def checks(self) -> dict[str, list[CheckRecord]]:
         """Return the checks of each mechanism in the order of the file, as the results hold them."""
         names = [name for name in self.config.instances if name != PRESS]
-        return told_checks({name: self._checks(name) for name in names}, cache(self._inputs))
+        return checks_with_origins({name: self._checks(name) for name in names}, cache(self._paths))
 
-    def _checks(self, name: str) -> list[Data]:
+    def _checks(self, name: str) -> list[CheckRecord]:
         if name in self.calculations:
-            found: list[Data] = self.remembered[name].of(check_results)
+            found: list[CheckRecord] = self.remembered[name].of(check_results)
             return found
         return self.self_tests.get(name, [])
 
-    def _inputs(self, name: str) -> Data:
-        """The inputs of a mechanism with what they refer to, as far as ``told_checks`` asks of them."""
+    def _paths(self, name: str) -> dict[str, str]:
+        """What the inputs of a mechanism refer to."""
         instance = self.config.instances.get(name)
         if instance is None or name not in self.calculations:
             return {}
         origins = {".".join(map(str, slot.key)): origin_of(self.config, instance, slot) for slot in instance.slots}
         placed = ((path, origins.get(path)) for path, *_ in placed_inputs(self.calculations[name]))
-        return {path: {"path": origin.path} if origin and origin.path else {} for path, origin in placed}
+        return {path: origin.path if origin else "" for path, origin in placed}
 
     @property
     def status(self) -> str:
         """Return the verdict on the whole: pass, warn, fail or error."""
-        states = {name: worst(check["status"] for check in checks) for name, checks in self.checks.items()}
+        states = {name: worst(check.status for check in checks) for name, checks in self.checks.items()}
         states |= dict.fromkeys(self.skipped, "skipped")
         return verdict(states.values(), self.errors)
 
     @property
-    def governing(self) -> Data | None:
+    def governing(self) -> GoverningRecord | None:
         """Return the check that governs, with its mechanism."""
-        return governing(self._checked())
+        return governing(self.checks)
 
     @property
-    def summary(self) -> Data:
+    def summary(self) -> SummaryRecord:
         """Return the counts of the checks, the governing one, what is assumed, and the first line."""
-        found: Data = self._concluded["summary"]
-        return found | {"conclusion": conclusion(self._concluded)}
+        found = self._open
+        return found.summary.with_(conclusion=found.conclusion())
 
     @property
     def is_open(self) -> bool:
         """Return whether something is left open though no check fails."""
-        return is_open(self._concluded)
+        return self._open.is_open
 
     @property
-    def _concluded(self) -> Data:
+    def _open(self) -> Open:
         """What the first line follows from."""
-        found: Data = {name: {} for name in self.config.kinds}
-        found |= {name: plugin_code(each.mechanism) for name, each in self.calculations.items()}
-        found |= {name: {"error": ""} for name in (*self.errors, *self.skipped) if name in found}
-        return {"summary": summary(self._checked()) | {"assumed": assumed(self.config)}, "mechanisms": found}
+        kinds, codes = self.config.kinds, (plugin_code(each.mechanism) for each in self.calculations.values())
+        lost = len({*self.errors, *self.skipped} & kinds.keys())
+        doubtful = any(code.get("plugin_check") == "failed" for code in codes)
+        return Open(summary(self.checks, assumed(self.config)), len(kinds), lost, is_doubtful=doubtful)
 
-    def _checked(self) -> Data:
-        return {name: {"checks": checks} for name, checks in self.checks.items()}
-
-    def outputs(self, name: str) -> Data:
+    def outputs(self, name: str) -> Quantities:
         """Return the outputs of a mechanism; KeyError where it is broken or skipped (``errors``, ``skipped``), as below."""
-        found: Data = self.remembered[name].of(numbers)["outputs"]
+        found: Quantities = self.remembered[name].of(numbers)["outputs"]
         return found
 
-    def key_outputs(self, name: str) -> Data:
+    def key_outputs(self, name: str) -> Quantities:
         """Return of the outputs of a mechanism those that tell most: what a page shows without making all others."""
-        found: Data = self.remembered[name].of(key_outputs)
+        found: Quantities = self.remembered[name].of(key_outputs)
         return found
 
-    def curves(self, name: str) -> Data:
+    def curves(self, name: str) -> dict[str, CurveRecord]:
         """Return the curves of a mechanism."""
-        found: Data = self.remembered[name].of(curves)
+        found: dict[str, CurveRecord] = self.remembered[name].of(curves)
         return found
 
-    def figures(self, name: str) -> list[Data]:
+    def figures(self, name: str) -> list[FigureRecord]:
         """Return the figures of a mechanism."""
-        found: list[Data] = self.remembered[name].of(figures)
+        found: list[FigureRecord] = self.remembered[name].of(figure_records)
         return found
 
     def figure_titles(self, name: str) -> list[str]:
         """Return the titles of the figures whose needs are given, also of charts that turn out empty; no figure is made for it."""
         return [figure.title for figure in shown_figures(self.calculations[name])]
 
-    def sections(self, name: str) -> list[Data]:
+    def sections(self, name: str) -> list[SectionRecord]:
         """Return the printed calculation of a mechanism."""
-        found: list[Data] = self.remembered[name].of(section_items)
+        found: list[SectionRecord] = self.remembered[name].of(sections)
         return found
 
-    def document(self) -> Data:
+    def document(self) -> ResultsRecord:
         """Return all results, comparisons too; printed is what has not been asked for yet. UserError as of any calculation."""
         return document(self.press.printed(self.config, self._tell))
 

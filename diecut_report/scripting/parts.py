@@ -9,6 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from diecut_report.errors import Problem, UnknownName, nearest
 from diecut_report.quantities.units import unit
+from diecut_report.results.model import CheckRecord, CurveRecord, PhaseRecord
 from diecut_report.scripting.values import QuantityValue, told_in
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -94,24 +95,20 @@ class CheckResult:
         return f"<check {self.name}: {self.status}{share}>"
 
 
-def check_result(mechanism: str, data: Data) -> CheckResult:
+def check_result(mechanism: str, data: CheckRecord) -> CheckResult:
     """Return a check of the results."""
-    demand, limit = data["demand"], data["limit"]
+    demand, limit = data.demand, data.limit
     margin = None if demand is None or limit is None else limit - demand
-    sides = {"demand": demand, "limit": limit, "margin": margin}
-    shown = {
-        side: None if value is None else QuantityValue(value, data["unit"], display=_shown(data[f"{side}_display"]))
-        for side, value in sides.items()
-    }
+    sides = ((demand, data.demand_display), (limit, data.limit_display), (margin, data.margin_display))
+    shown = [
+        None if value is None else QuantityValue(value, data.unit, display=(text.text, text.unit) if text else None)
+        for value, text in sides
+    ]
     return CheckResult(
-        f"{mechanism}.{data['id']}", mechanism, data["id"], str(data["title"]), data["class"], data["status"], shown["demand"],
-        data["operator"], shown["limit"], shown["margin"], data["utilisation"], str(data["message"]), data["source"],
-        tuple(data.get("missing", ())),
+        f"{mechanism}.{data.id}", mechanism, data.id, str(data.title), data.check_class, data.status, shown[0],
+        data.operator, shown[1], shown[2], data.utilisation, str(data.message), data.source,
+        tuple(data.missing),
     )  # fmt: skip
-
-
-def _shown(display: Data | None) -> tuple[str, str] | None:
-    return None if display is None else (display["text"], display["unit"])
 
 
 class CheckList(Sequence[CheckResult]):
@@ -224,23 +221,21 @@ class CurveResult:
         return f"<curve {self.name}{over}: {len(self)} values in {self.unit}>"
 
 
-def curve_results(data: Data) -> dict[str, CurveResult]:
+def curve_results(data: Mapping[str, CurveRecord]) -> dict[str, CurveResult]:
     """Return the curves of a mechanism by name, abscissae first."""
     found: dict[str, CurveResult] = {}
-    for name, each in sorted(data.items(), key=lambda pair: "abscissa" in pair[1]):
-        found[name] = _curve(name, each, found.get(each.get("abscissa", "")))
+    for name, each in sorted(data.items(), key=lambda pair: bool(pair[1].abscissa)):
+        found[name] = _curve(name, each, found.get(each.abscissa))
     return {name: found[name] for name in data}
 
 
-def _curve(name: str, data: Data, abscissa: CurveResult | None) -> CurveResult:
+def _curve(name: str, data: CurveRecord, abscissa: CurveResult | None) -> CurveResult:
     import numpy as np
 
-    values = np.array(data["values"], dtype=float)
+    values = np.array(data.values, dtype=float)
     values.setflags(write=False)
-    sides = (tuple(data.get(key, ())) for key in ("breakpoints", "left", "right"))
-    return CurveResult(
-        name, values, data["unit"], abscissa, data["symbol"], str(data["description"]), data["display_unit"], *sides
-    )
+    sides = (tuple(each) for each in (data.breakpoints, data.left, data.right))
+    return CurveResult(name, values, data.unit, abscissa, data.symbol, str(data.description), data.display_unit, *sides)
 
 
 @dataclass(frozen=True, repr=False)
@@ -258,16 +253,16 @@ class PhaseResult:
         return f"<phase {self.name}: {', '.join(f'{start} … {end}' for start, end in self.intervals)}>"
 
 
-def phase_results(data: Data) -> Iterator[PhaseResult]:
+def phase_results(data: Mapping[str, PhaseRecord]) -> Iterator[PhaseResult]:
     """Yield the phases of a mechanism."""
     for name, each in data.items():
-        own, shown = each["unit"], each["display"]["unit"]
+        own, shown = each.unit, each.display.unit
 
         def at(value: float, own: str = own, shown: str = shown) -> QuantityValue:
             return QuantityValue(value, own, display=QuantityValue(value, own).to(shown).printed)
 
-        intervals = tuple((at(start), at(end)) for start, end in each["intervals"])
-        yield PhaseResult(name, each["role"], str(each["description"]), each["abscissa"], at(each["period"]), intervals)
+        intervals = tuple((at(start), at(end)) for start, end in each.intervals)
+        yield PhaseResult(name, each.role, str(each.description), each.abscissa, at(each.period), intervals)
 
 
 @dataclass(frozen=True, repr=False)

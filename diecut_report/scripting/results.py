@@ -16,6 +16,7 @@ from diecut_report.errors import ConfigError, PluginError, Problem, UnknownName,
 from diecut_report.exchange.rendering import document
 from diecut_report.files import write_all
 from diecut_report.results.conclusion import conclusion
+from diecut_report.results.model import FigureRecord, MechanismRecord, QuantityRecord, ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.scripting.parts import (
     CheckList,
@@ -37,7 +38,6 @@ from diecut_report.text.translation import said, speaking
 # The results of one mechanism, whose outputs are attributes: ``results["drive"].crank_torque_peak.to("N*m")``.
 
 
-MechanismResultsData = Mapping[str, Any]
 PartT = TypeVar("PartT")
 
 
@@ -48,7 +48,7 @@ class MechanismResults(Mapping[str, QuantityValue]):
     ``train["gears.0.pitch_diameter"]``. An unknown name is an UnknownName (an AttributeError, or a KeyError) that tells the nearest.
     """
 
-    def __init__(self, name: str, data: MechanismResultsData, results: Printable) -> None:
+    def __init__(self, name: str, data: MechanismRecord, results: Printable) -> None:
         self.name, self._data, self._results = name, data, results
 
     # --- what it is --------------------------------------------------------------------------------------------------
@@ -56,22 +56,22 @@ class MechanismResults(Mapping[str, QuantityValue]):
     @property
     def kind(self) -> str:
         """Return its kind, as ``cylinder_drive``."""
-        return str(self._data["kind"])
+        return str(self._data.kind)
 
     @property
     def title(self) -> str:
         """Return what its kind is called."""
-        return str(self._data["title"])
+        return str(self._data.title)
 
     @property
     def status(self) -> str:
         """Return ``pass``, ``warn`` or ``fail``, the worst of its checks; ``error`` or ``skipped`` where it gives no results."""
-        return str(self._data["status"])
+        return str(self._data.status)
 
     @property
     def error(self) -> str:
         """Return why it gives no results; nothing where it does."""
-        return str(self._data.get("error", ""))
+        return str(self._data.error)
 
     # --- quantities --------------------------------------------------------------------------------------------------
 
@@ -80,14 +80,14 @@ class MechanismResults(Mapping[str, QuantityValue]):
         """Return its outputs by name, in SI units."""
         return self._named(
             phrase("{mechanism} has no output"),
-            {name: _value(name, each) for name, each in self._data["outputs"].items()},
+            {name: _value(name, each) for name, each in self._data.outputs.items()},
         )
 
     @cached_property
     def intermediate(self) -> NamedParts[QuantityValue]:
         """Return the numbers on the way to its outputs by name, in SI units."""
         return self._named(
-            phrase("{mechanism} gives no"), {name: _value(name, each) for name, each in self._data["values"].items()}
+            phrase("{mechanism} gives no"), {name: _value(name, each) for name, each in self._data.values.items()}
         )
 
     @cached_property
@@ -95,7 +95,7 @@ class MechanismResults(Mapping[str, QuantityValue]):
         """Return its inputs by key, in SI units, each with where it comes from and what it rests on."""
         return self._named(
             phrase("{mechanism} has no input"),
-            {name: _input(name, each) for name, each in self._data["inputs"].items()},
+            {name: _input(name, each) for name, each in self._data.inputs.items()},
         )
 
     def __getitem__(self, name: str) -> QuantityValue:
@@ -136,54 +136,54 @@ class MechanismResults(Mapping[str, QuantityValue]):
     @cached_property
     def checks(self) -> CheckList:
         """Return its checks of the machine; self-tests of the calculation are not among them."""
-        found = [check_result(self.name, each) for each in self._data["checks"] if each["class"] != "numerical"]
+        found = [check_result(self.name, each) for each in self._data.checks if each.check_class != "numerical"]
         return CheckList(found, self._results)
 
     @cached_property
     def self_tests(self) -> CheckList:
         """Return the self-tests of the calculation."""
-        found = [check_result(self.name, each) for each in self._data["checks"] if each["class"] == "numerical"]
+        found = [check_result(self.name, each) for each in self._data.checks if each.check_class == "numerical"]
         return CheckList(found, self._results)
 
     @cached_property
     def curves(self) -> NamedParts[CurveResult]:
         """Return its curves by name, as arrays of NumPy in SI units."""
-        return self._named(phrase("{mechanism} has no curve"), curve_results(self._data["curves"]))
+        return self._named(phrase("{mechanism} has no curve"), curve_results(self._data.curves))
 
     @cached_property
     def phases(self) -> NamedParts[PhaseResult]:
         """Return its phases by name."""
         return self._named(
-            phrase("{mechanism} has no phase"), {each.name: each for each in phase_results(self._data["phases"])}
+            phrase("{mechanism} has no phase"), {each.name: each for each in phase_results(self._data.phases)}
         )
 
     @property
     def figures(self) -> NamedParts[str]:
         """Return the titles of its figures by their ids, which ``figure`` takes."""
-        titles = {str(each["id"]): str(each["title"]) for each in self._data["figures"]}
+        titles = {each.id: str(each.title) for each in self._data.figures}
         return self._named(phrase("{mechanism} has no figure"), titles)
 
     def figure(self, id: str) -> FigureResult:
         """Return a figure, drawn as in a report; UnknownName where there is none, ConfigError where it cannot be drawn."""
-        found = next((each for each in self._data["figures"] if each["id"] == id), None)
+        found = next((each for each in self._data.figures if each.id == id), None)
         with told_in(self._results.language):
             if found is None:
                 raise unknown(Phrase("{mechanism} has no figure", mechanism=self.name), id, list(self.figures))
             return self._drawn(found)
 
-    def _drawn(self, figure: MechanismResultsData) -> FigureResult:
+    def _drawn(self, figure: FigureRecord) -> FigureResult:
         from diecut_report.scripting.values import drawing
 
-        if "error" not in figure:
+        if not figure.error:
             try:
-                key = f"{self._results.data['config']['sha256'][:12]}-{self.name}-{figure['id']}"  # ids within it are those of this machine
-                svg = drawing(figure, self._data["curves"], self._results.document_language, key)
-                return FigureResult(figure["id"], str(figure["title"]), svg)
+                key = f"{self._results.data.config.sha256[:12]}-{self.name}-{figure.id}"  # ids within it are those of this machine
+                svg = drawing(figure, self._data.curves, self._results.document_language, key)
+                return FigureResult(figure.id, str(figure.title), svg)
             except Exception as cause:  # of any kind: what a plugin gives to be drawn is its own
                 words = Phrase("This figure cannot be drawn: {cause}", cause=f"{type(cause).__name__}: {cause}")
-                raise ConfigError(Problem(words, path=f"{self.name}.{figure['id']}")) from cause
-        words = Phrase("This figure cannot be drawn: {cause}", cause=figure["error"])
-        raise ConfigError(Problem(words, path=f"{self.name}.{figure['id']}"))
+                raise ConfigError(Problem(words, path=f"{self.name}.{figure.id}")) from cause
+        words = Phrase("This figure cannot be drawn: {cause}", cause=figure.error)
+        raise ConfigError(Problem(words, path=f"{self.name}.{figure.id}"))
 
     def _named(self, missing: str, parts: Mapping[str, PartT]) -> NamedParts[PartT]:
         return NamedParts(parts, Phrase(missing, mechanism=self.name), self._results.language)
@@ -191,9 +191,7 @@ class MechanismResults(Mapping[str, QuantityValue]):
     # --- shown -------------------------------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
-        numbers = [
-            f"{each.name} = {each}" for name, each in self.outputs.items() if self._data["outputs"][name].get("key")
-        ]
+        numbers = [f"{each.name} = {each}" for name, each in self.outputs.items() if self._data.outputs[name].key]
         return f"<{self.name}: {self.title}, {self.status}{'; ' if numbers else ''}{', '.join(numbers)}>"
 
     def _repr_html_(self) -> str:
@@ -202,21 +200,25 @@ class MechanismResults(Mapping[str, QuantityValue]):
         return mechanism_html(self._results, self.name)
 
 
-def _value(name: str, data: MechanismResultsData) -> QuantityValue:
-    shown = data["display"]
+def _value(name: str, data: QuantityRecord) -> QuantityValue:
+    shown = data.display
     return QuantityValue(
-        data["value"], data["unit"], name, str(data["symbol"]), str(data["description"]), str(data.get("source", "")),
-        (shown["text"], shown["unit"]),
+        _plain(data.value), data.unit, name, str(data.symbol), str(data.description), str(data.source),
+        (shown.text, shown.unit),
     )  # fmt: skip
 
 
-def _input(name: str, data: MechanismResultsData) -> InputValue:
-    shown, value = data["display"], data["value"]
-    plain = ", ".join(value) if isinstance(value, list) else value
-    origin, path = data["origin"], data.get("path") or ", ".join(data.get("paths", ()))
+def _plain(value: Any) -> Any:
+    """A value, several texts as one."""
+    return ", ".join(value) if isinstance(value, list) else value
+
+
+def _input(name: str, data: QuantityRecord) -> InputValue:
+    shown = data.display
+    origin, path = data.origin, data.path or ", ".join(data.paths)
     return InputValue(
-        plain, data["unit"], name, str(data["symbol"]), str(data["description"]), "", (shown["text"], shown["unit"]), origin, path,
-        data.get("text", ""), data.get("basis", ""), data.get("note", ""),
+        _plain(data.value), data.unit, name, str(data.symbol), str(data.description), "", (shown.text, shown.unit), origin, path,
+        data.text, data.basis, data.note,
     )  # fmt: skip
 
 
@@ -231,7 +233,7 @@ class Results(Mapping[str, MechanismResults]):
     """
 
     def __init__(
-        self, data: Data, discovery: Discovery, language: str | None, *, config: Config | None = None, errors: Iterable[PluginError] = ()
+        self, data: ResultsRecord, discovery: Discovery, language: str | None, *, config: Config | None = None, errors: Iterable[PluginError] = ()
     ) -> None:  # fmt: skip
         self._data, self.language, self._printable = data, language, Printable(data, discovery, language)
         self.config, self.errors = config, tuple(errors)
@@ -241,7 +243,7 @@ class Results(Mapping[str, MechanismResults]):
     @property
     def status(self) -> str:
         """Return the verdict on the machine: ``pass``, ``warn`` or ``fail``; ``error`` where a mechanism could not be calculated."""
-        return str(self._data["status"])
+        return str(self._data.status)
 
     @property
     def summary(self) -> Data:
@@ -257,8 +259,8 @@ class Results(Mapping[str, MechanismResults]):
     @property
     def governing(self) -> CheckResult | None:
         """Return the check that governs; None where none is made."""
-        named = self._data["governing"]
-        return None if named is None else self[named["mechanism"]].checks[named["check"]]
+        named = self._data.governing
+        return None if named is None else self[named.mechanism].checks[named.check]
 
     @cached_property
     def checks(self) -> CheckList:
@@ -269,15 +271,12 @@ class Results(Mapping[str, MechanismResults]):
 
     @cached_property
     def _mechanisms(self) -> dict[str, MechanismResults]:
-        return {name: MechanismResults(name, data, self._printable) for name, data in self._data["mechanisms"].items()}
+        return {name: MechanismResults(name, data, self._printable) for name, data in self._data.mechanisms.items()}
 
     @cached_property
     def comparisons(self) -> NamedParts[MechanismResults]:
         """Return the comparisons between mechanisms by name."""
-        found = {
-            name: MechanismResults(name, data, self._printable)
-            for name, data in self._data.get("comparisons", {}).items()
-        }
+        found = {name: MechanismResults(name, data, self._printable) for name, data in self._data.comparisons.items()}
         return NamedParts(found, phrase("there is no comparison"), self.language)
 
     def __getitem__(self, name: str) -> MechanismResults:
@@ -307,7 +306,7 @@ class Results(Mapping[str, MechanismResults]):
     @property
     def sha256(self) -> str:
         """Return the SHA-256 of the configuration that they follow from."""
-        return str(self._data["config"]["sha256"])
+        return str(self._data.config.sha256)
 
     def to_json(self) -> str:
         """Return the results file, which is that of the command ``calc``."""
@@ -347,36 +346,35 @@ class Results(Mapping[str, MechanismResults]):
         return path
 
     def _rendered(self, form: str, asked: pipeline.AskedReport) -> tuple[bytes, list[pipeline.Lost]]:
-        data = self._reported()
-        asked.told(data)
+        data = asked.noted(self._reported())
         catalogues = pipeline.catalogues_of(data, self._printable.discovery, (form,))
-        contents, lost = document(data, (form,), lambda _: None, self._data["config"]["file"], catalogues)
+        contents, lost = document(data, (form,), lambda _: None, self._data.config.file, catalogues)
         return contents[form], lost
 
-    def _reported(self) -> Data:
+    def _reported(self) -> ResultsRecord:
         """The results with what a report alone tells: what of the assumed values matters, and what comes of the advice."""
-        data = self._printable.copied()
+        data = self._printable.in_language()
         if self.config is not None and not self.errors:
             from diecut_report.design.advised import followed
             from diecut_report.design.influence import influenced
             from diecut_report.study.analysis.answers import moves
 
-            if data["summary"]["assumed"]:
-                data["summary"]["moves"] = moves(self.config, data)
-            if data["summary"]["fail"] and (found := followed(self.config, data)):
-                data["summary"]["advice"] = found
-            if matters := influenced(self.config):
-                data["influence"] = matters
+            summary = data.summary
+            moving = moves(self.config, data) if summary.assumed else []
+            advice = followed(self.config, data) if summary.fail else None
+            data = data.with_(
+                summary=summary.with_(moves=moving, advice=advice), influence=influenced(self.config) or {}
+            )
         return data
 
     # --- shown -------------------------------------------------------------------------------------------------------
 
     def __repr__(self) -> str:
-        counts = self._data["summary"]
+        counts = self._data.summary
         told = ", ".join(
-            f"{counts[status]} {status}" for status in ("fail", "warn", "pass", "not_checked") if counts[status]
+            f"{counts.of(status)} {status}" for status in ("fail", "warn", "pass", "not_checked") if counts.of(status)
         )
-        return f"<results of {self._data['press']['name']}: {self.status} ({told or 'no checks'}); {', '.join(self)}>"
+        return f"<results of {self._data.press.name}: {self.status} ({told or 'no checks'}); {', '.join(self)}>"
 
     def _repr_html_(self) -> str:
         from diecut_report.scripting.values import results_html

@@ -26,6 +26,7 @@ from diecut_report.report.pages.html import Screen, filled_page
 from diecut_report.report.scope import BRIEF, STANDARD
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, quantity
+from diecut_report.results.model import CurveRecord, FigureRecord, ResultsRecord
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, of_all_plugins
 from diecut_report.text.catalogues import SOURCE_LANGUAGE as ENGLISH
 from diecut_report.text.phrases import Phrase, phrase
@@ -392,7 +393,7 @@ def value_latex(letter: str, printed: tuple[str, str]) -> str:
     return f"${head}{latex.quantity(*printed)}$"
 
 
-def drawing(figure: Mapping[str, Any], curves: Mapping[str, Any], language: str, key: str) -> str:
+def drawing(figure: FigureRecord, curves: Mapping[str, CurveRecord], language: str, key: str) -> str:
     """Return a figure of the results, drawn as SVG; any exception where it cannot be."""
     from diecut_report.report.figures.by_type import render  # with matplotlib, which takes half a second
 
@@ -456,41 +457,35 @@ def _require(library: str, language: str | None) -> Any:
 # Results as documents and notebooks are made of them.
 
 
-Data = dict[str, Any]
-
-
 @dataclass(frozen=True, eq=False)
 class Printable:
     """Hold results with what finds the words of their plugins; ``language`` is that of messages and documents, where one was asked for."""
 
-    data: Data
+    data: ResultsRecord
     discovery: Discovery
     language: str | None
 
     @property
     def document_language(self) -> str:
         """Return the language of documents: the one that was asked for, else that of the project."""
-        return self.language or str(self.data["project"].get("language") or SOURCE_LANGUAGE)
+        return self.language or self.data.project.language
 
-    def copied(self) -> Data:
-        """Return the results in the language of documents, free to be asked for in another form."""
-        data = {**self.data, **{key: dict(self.data[key]) for key in ("project", "report", "summary")}}
-        data["project"]["language"] = self.document_language
-        return data
+    def in_language(self) -> ResultsRecord:
+        """Return the results in the language of documents."""
+        return self.data.with_(project=self.data.project.with_(language=self.document_language))
 
     def material(self, detail: str, only: str = "") -> Material:
         """Return the parts of the report at a detail; ``only`` is the mechanism, or the comparison, that is shown."""
-        data = self.copied()
-        data["report"] |= {"detail": detail}
-        if only in data["mechanisms"]:
-            data["report"] |= {"only": [only]}
+        data = self.in_language()
+        data = data.with_(report=data.report.with_(detail=detail))
+        if only in data.mechanisms:
+            data = data.with_(report=data.report.with_(only=[only]))
         elif only:
-            data |= self._compared(only)
+            data = data.with_(**self._compared(only))
         return Material(data, pipeline.catalogues_of(data, self.discovery, ("html",)))
 
-    def _compared(self, name: str) -> Data:
+    def _compared(self, name: str) -> dict[str, Any]:
         """A comparison alone, and the mechanisms that it is between without what takes time to print."""
-        comparison = self.data["comparisons"][name]
-        bare: Data = {"figures": [], "sections": []}
-        mechanisms = {each: self.data["mechanisms"][each] | bare for each in comparison["between"]}
+        comparison, own = self.data.comparisons[name], self.data.mechanisms
+        mechanisms = {each: own[each].with_(figures=[], sections=[]) for each in comparison.between}
         return {"mechanisms": mechanisms, "comparisons": {name: comparison}, "governing": None}

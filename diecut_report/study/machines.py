@@ -19,6 +19,7 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.quantities.units import pretty
 from diecut_report.report.text import translated
 from diecut_report.results.conclusion import SELF_TEST, doubtful_kinds
+from diecut_report.results.model import CheckRecord, MechanismRecord, QuantityRecord, ResultsRecord
 from diecut_report.study.execution.engines import WorkerSetup, local_engine, results, settle
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.text.phrases import Phrase, phrase
@@ -26,7 +27,9 @@ from diecut_report.text.translation import localised
 
 ENDINGS = (".yaml", ".yml")
 MAX_MACHINES = 10_000  # machines of one check
-UNUSED = ("curves", "sections", "figures", "exports", "values", "assumptions", "sources", "errata", "absent", "lists")
+UNUSED: dict[str, Any] = {"curves": {}, "values": {}, "lists": {}} | {
+    key: [] for key in ("sections", "figures", "exports", "assumptions", "sources", "errata", "absent")
+}
 BAD, BROKEN = "bad", "error"  # states beside pass, warn and fail: the file is bad, a plugin broke
 
 
@@ -36,14 +39,13 @@ class CheckedMachine:
 
     file: str
     status: str
-    results: dict[str, Any] = field(default_factory=dict)
+    results: ResultsRecord | None = None
     words: list[str] = field(default_factory=list)
 
     @property
-    def mechanisms(self) -> Mapping[str, Any]:
+    def mechanisms(self) -> Mapping[str, MechanismRecord]:
         """Return the results of its mechanisms."""
-        found: Mapping[str, Any] = self.results.get("mechanisms", {})
-        return found
+        return self.results.mechanisms if self.results else {}
 
 
 @dataclass
@@ -121,17 +123,16 @@ def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMa
             pipeline.validate(given, discovery)
         except UserError as more:
             problems = more.problems
-        return CheckedMachine(file, BAD, {}, [str(problem) for problem in problems])
-    status = BROKEN if outcome.broken else str(outcome.results["status"])
+        return CheckedMachine(file, BAD, None, [str(problem) for problem in problems])
+    status = BROKEN if outcome.broken else outcome.results.status
     return CheckedMachine(file, status, _lean(outcome.results), [*map(str, outcome.broken), *outcome.warnings])
 
 
-def _lean(whole: dict[str, Any]) -> dict[str, Any]:
+def _lean(whole: ResultsRecord) -> ResultsRecord:
     """Return results without what a comparison does not show, so that they travel fast between processes."""
-    mechanisms = whole["mechanisms"].items()
-    kept = {name: {key: part for key, part in data.items() if key not in UNUSED} for name, data in mechanisms}
-    config = {key: part for key, part in whole["config"].items() if key in ("file", "sha256")}
-    return {**whole, "config": config, "mechanisms": kept, "comparisons": {}}
+    kept = {name: data.with_(**UNUSED) for name, data in whole.mechanisms.items()}
+    config = whole.config.with_(source_text="", resolved={}, materials=[], logo=None)
+    return whole.with_(config=config, mechanisms=kept, comparisons={})
 
 
 # What machines have in common and where they differ: verdicts, the matrix of checks, unlike inputs, advice. Plain data.
@@ -206,23 +207,24 @@ def verdict(machine: CheckedMachine, name: str) -> Verdict:
     """Return a machine's line."""
     if machine.status == BAD:
         return Verdict(name, machine.file, BAD, words=tuple(machine.words))
+    results = machine.results
+    assert results is not None, "only a bad file has none"
     checks = dict(_checks(machine))
-    found, whole = machine.results.get("governing"), machine.results.get("summary", {})
-    governing = f"{found['mechanism']}.{found['check']}" if found else ""
-    count = Counter(check["status"] for check in checks.values())
+    governing = str(results.governing) if results.governing else ""
+    count = Counter(check.status for check in checks.values())
     return Verdict(
         name, machine.file, machine.status, governing,
-        utilisation=checks[governing]["utilisation"] if governing in checks else None,
-        failed=count["fail"], not_checked=whole.get(NOT_CHECKED, count[NOT_CHECKED]), warnings=count["warn"],
-        words=tuple(machine.words), formulas_with_faults=bool(machine.results and doubtful_kinds(machine.results)),
-        assumed=len(whole.get("assumed", ())), conclusion=whole.get("conclusion", ""),
+        utilisation=checks[governing].utilisation if governing in checks else None,
+        failed=count["fail"], not_checked=results.summary.not_checked, warnings=count["warn"],
+        words=tuple(machine.words), formulas_with_faults=bool(doubtful_kinds(results)),
+        assumed=len(results.summary.assumed), conclusion=results.summary.conclusion,
     )  # fmt: skip
 
 
-def _checks(machine: CheckedMachine) -> Iterator[tuple[str, Data]]:
+def _checks(machine: CheckedMachine) -> Iterator[tuple[str, CheckRecord]]:
     for name, data in machine.mechanisms.items():
-        own = (check for check in data["checks"] if check.get("class") != SELF_TEST)
-        yield from ((f"{name}.{check['id']}", check) for check in own)
+        own = (check for check in data.checks if check.check_class != SELF_TEST)
+        yield from ((f"{name}.{check.id}", check) for check in own)
 
 
 def names(files: Sequence[str]) -> list[str]:
@@ -236,7 +238,7 @@ def names(files: Sequence[str]) -> list[str]:
 
 def language_of(machines: Sequence[CheckedMachine]) -> str:
     """Return the language that the projects of all machines share; English where they do not."""
-    found = {machine.results["project"].get("language") or SOURCE_LANGUAGE for machine in machines if machine.results}
+    found = {machine.results.project.language for machine in machines if machine.results}
     return found.pop() if len(found) == 1 else SOURCE_LANGUAGE
 
 
@@ -244,9 +246,7 @@ def in_language(machines: Sequence[CheckedMachine], catalogues: Catalogues) -> l
     """Return machines with their texts in the language of the catalogues."""
     if catalogues.language == SOURCE_LANGUAGE:
         return list(machines)
-    return [
-        replace(each, results=dict(translated(each.results, catalogues))) if each.results else each for each in machines
-    ]
+    return [replace(each, results=translated(each.results, catalogues)) if each.results else each for each in machines]
 
 
 def compared(machines: Sequence[CheckedMachine]) -> MachineComparison:
@@ -255,33 +255,30 @@ def compared(machines: Sequence[CheckedMachine]) -> MachineComparison:
     verdicts = [verdict(machine, name) for machine, name in zip(machines, called, strict=True)]
     good = {name: machine for name, machine in zip(called, machines, strict=True) if machine.status != BAD}
     checks = [dict(_checks(machine)) for machine in good.values()]
-    titles = {key: str(check["title"]) for some in checks for key, check in some.items()}
+    titles = {key: check.title for some in checks for key, check in some.items()}
     matrix = [(key, title, [_cell(some.get(key)) for some in checks]) for key, title in titles.items()]
     inputs = [dict(_inputs(machine)) for machine in good.values()]
-    described = {key: str(row["description"]) for some in inputs for key, row in some.items()}
+    described = {key: row.description for some in inputs for key, row in some.items()}
     rows = [(key, text, [_shown(some.get(key)) for some in inputs]) for key, text in described.items()]
     advice = [(name, _advice(some)) for name, some in zip(good, checks, strict=True)]
     differing = [row for row in rows if len(set(row[2])) > 1]
     return MachineComparison(list(good), verdicts, matrix, differing, [each for each in advice if each[1]])
 
 
-def _cell(check: Data | None) -> dict[str, Any] | None:
-    return None if check is None else {"status": check["status"], "utilisation": check["utilisation"]}
+def _cell(check: CheckRecord | None) -> dict[str, Any] | None:
+    return None if check is None else {"status": check.status, "utilisation": check.utilisation}
 
 
-def _inputs(machine: CheckedMachine) -> Iterator[tuple[str, Data]]:
-    for row in machine.results["press"]["fields"]:
-        yield row["path"], row
+def _inputs(machine: CheckedMachine) -> Iterator[tuple[str, QuantityRecord]]:
+    yield from ((row.path, row) for row in (machine.results.press.fields if machine.results else ()))
     for name, data in machine.mechanisms.items():
-        yield from ((f"{name}.{key}", row) for key, row in data["inputs"].items())
+        yield from ((f"{name}.{key}", row) for key, row in data.inputs.items())
 
 
-def _shown(row: Data | None) -> str:
-    if row is None:
-        return ""
-    return f"{localised(row['display']['text'])} {pretty(row['display']['unit'])}".rstrip()
+def _shown(row: QuantityRecord | None) -> str:
+    return f"{localised(row.display.text)} {pretty(row.display.unit)}".rstrip() if row else ""
 
 
-def _advice(checks: Mapping[str, Data]) -> list[str]:
-    failing = ((name, check) for name, check in checks.items() if check["status"] in ("fail", "warn"))
-    return [f"{name}: {check['message']}" for name, check in failing]
+def _advice(checks: Mapping[str, CheckRecord]) -> list[str]:
+    failing = ((name, check) for name, check in checks.items() if check.status in ("fail", "warn"))
+    return [f"{name}: {check.message}" for name, check in failing]

@@ -10,7 +10,7 @@ from dataclasses import dataclass, field, replace
 from functools import cached_property
 from itertools import islice
 from pathlib import Path
-from typing import Any, Literal
+from typing import Literal
 
 import numpy as np
 
@@ -31,6 +31,7 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.report.rendering import Rendering
 from diecut_report.results.checks import check_results, checks_of, is_of_machine, is_sized, judged
 from diecut_report.results.document import document
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import Run, compute
 from diecut_report.testing import machines
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
@@ -264,12 +265,12 @@ class ContractTest:
                 "there is no machine of this kind to try the rest on; give a configuration that has one with --config"
             )
             return TriedRule("example", "note", faults=(phrase(words),))
-        counts = self.results["mechanisms"].get(self.name, {}).get("counts")
+        found = self.results.mechanisms.get(self.name)
         if self.name in self.run.errors:
             return rule("example", "", [str(self.run.errors[self.name].message)], "broke")
         skipped = [text for name, text in self.run.skipped.items() if name == self.name]
         told = Phrase("{file}, mechanism {name}", file=self.config.tree.name, name=self.name)
-        return rule("example", told, skipped or ([] if counts else [phrase("it gives no results")]))
+        return rule("example", told, skipped or ([] if found and not found.error else [phrase("it gives no results")]))
 
     @cached_property
     def run(self) -> Run:
@@ -278,7 +279,7 @@ class ContractTest:
         return compute(self.config, lambda _: None)
 
     @cached_property
-    def results(self) -> dict[str, Any]:
+    def results(self) -> ResultsRecord:
         """Return its results, as a report has them."""
         return document(self.run)
 
@@ -322,28 +323,24 @@ class ContractTest:
 
     def figures(self) -> TriedRule:
         """Try whether all figures are drawn, and set the chapter."""
-        mechanism = self.results["mechanisms"][self.name]
-        made = [
-            at_place(self.mechanism, f["id"], f["error"])
-            for f in (*mechanism["figures"], *mechanism["exports"])
-            if "error" in f
-        ]
+        mechanism = self.results.mechanisms[self.name]
+        failed = [(each.id, each.error) for each in mechanism.figures if each.error]
+        failed += [(each.id, each.error) for each in mechanism.exports if each.error]
+        made = [at_place(self.mechanism, id, error) for id, error in failed]
         drawn = self._rendered(self.language)
-        told = Counted(len(mechanism["figures"]), "{n} figure", "{n} figures")
+        told = Counted(len(mechanism.figures), "{n} figure", "{n} figures")
         return rule("figures", told, [*made, *drawn])
 
     def _rendered(self, language: str) -> list[str]:
         """Set the mechanism's chapter alone; what cannot be drawn."""
-        shown = {**self.results, "project": {**self.results["project"], "language": language}}
-        shown["report"] = {**self.results["report"], "detail": "full", "only": [self.name]}
+        report = self.results.report.with_(detail="full", only=[self.name])
+        shown = self.results.with_(project=self.results.project.with_(language=language), report=report)
         rendering = Rendering(shown, catalogues_for(language, [self.mechanism.kind], self.discovery))
         page = rendering.html()
         if language == self.language:
             self.page = page
         return [
-            at_place(self.mechanism, each.figure["id"], each.words)
-            for each in rendering.faults
-            if each.mechanism == self.name
+            at_place(self.mechanism, each.id, each.words) for each in rendering.faults if each.mechanism == self.name
         ]
 
     def languages(self) -> TriedRule:

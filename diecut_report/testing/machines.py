@@ -307,7 +307,7 @@ def calculate(
         raise next(iter(run.errors.values()))
     if mechanism.kind in run.skipped:
         raise Refused([run.skipped[mechanism.kind]])
-    return MechanismFound(document(run)["mechanisms"][mechanism.kind])
+    return MechanismFound(document(run).mechanisms[mechanism.kind])
 
 
 def configured(

@@ -10,6 +10,12 @@ from typing import Any
 
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import pretty, to_display, unit
+from diecut_report.results.model import (
+    MechanismRecord,
+    PlaceRecord,
+    QuantityRecord,
+    ShownRecord,
+)
 
 Data = Mapping[str, Any]
 
@@ -86,7 +92,7 @@ class MechanismFound:
     ``row`` gives all of them. ``data`` is all that the results file holds of the mechanism.
     """
 
-    def __init__(self, data: Data) -> None:
+    def __init__(self, data: MechanismRecord) -> None:
         self.data = data
 
     def __getitem__(self, name: str) -> QuantityFound:
@@ -106,40 +112,29 @@ class MechanismFound:
 
         Where a result has the id of an input, that is ``inputs.ID``.
         """
-        outputs = {**self.data["values"], **self.data["outputs"]}
-        places = {
-            f"{name}_at": {
-                **row["at"],
-                "unit": unit(row["at"]["unit"]).si,
-                "description": row["description"],
-                "display": row["at"],
-            }
-            for name, row in outputs.items()
-            if "at" in row
-        }
-        inputs = {f"inputs.{name}" if name in outputs else name: row for name, row in self.data["inputs"].items()}
+        outputs = {**self.data.values, **self.data.outputs}
+        places = {f"{name}_at": _place(row, row.at) for name, row in outputs.items() if row.at}
+        inputs = {f"inputs.{name}" if name in outputs else name: row for name, row in self.data.inputs.items()}
         return {name: _quantity(name, row) for name, row in (outputs | places | inputs).items()}
 
     @cached_property
     def curves(self) -> dict[str, CurveFound]:
         """Return the curves, and what they run over, by their ids."""
-        made = self.data["curves"].items()
-        return {
-            name: CurveFound(name, tuple(row["values"]), row["unit"], row.get("abscissa", name)) for name, row in made
-        }
+        made = self.data.curves.items()
+        return {name: CurveFound(name, tuple(row.values), row.unit, (row.abscissa or name)) for name, row in made}
 
     @cached_property
     def checks(self) -> dict[str, CheckFound]:
         """Return the checks that apply, also those that are not made for want of an input, by their ids."""
         keys = CheckFound.__annotations__
-        return {row["id"]: CheckFound(**{key: row[key] for key in keys}) for row in self.data["checks"]}
+        return {row.id: CheckFound(**{key: getattr(row, key) for key in keys}) for row in self.data.checks}
 
     @cached_property
     def phases(self) -> dict[str, PhaseFound]:
         """Return the phases that the machine has, by their ids."""
         return {
-            name: PhaseFound(name, row["role"], row["unit"], tuple((float(a), float(b)) for a, b in row["intervals"]))
-            for name, row in self.data["phases"].items()
+            name: PhaseFound(name, row.role, row.unit, tuple((float(a), float(b)) for a, b in row.intervals))
+            for name, row in self.data.phases.items()
         }
 
     def row(self, name: str, other: str = "") -> tuple[float, ...]:
@@ -154,7 +149,7 @@ class MechanismFound:
             return f"{name} is a curve; ask .curves[{name!r}]"
         if any(_is_part(name, key) for key in self.quantities):
             return f"{name} has a number for each part; ask .row({name!r}), or one of them as {name + '.0'!r}"
-        return f"{self.data['kind']} gives no {name!r}{nearest(name, [*self.quantities, *self.curves])}"
+        return f"{self.data.kind} gives no {name!r}{nearest(name, [*self.quantities, *self.curves])}"
 
 
 def in_unit(name: str, value: float, si: str, other: str) -> float:
@@ -170,11 +165,20 @@ def _is_part(name: str, key: str) -> bool:
     return key != name and ".".join(part for part in parts if not part.isdigit()) == name
 
 
-def _quantity(name: str, row: Data) -> QuantityFound:
-    shown = f"{row['display']['text']} {pretty(row['display']['unit'])}".rstrip()
-    value = row["value"]
-    found = value if isinstance(value, str) else str(value) if isinstance(value, bool | list | None) else float(value)
-    return QuantityFound(name, found, row["unit"], row["symbol"], row["description"], shown)
+def _quantity(name: str, row: QuantityRecord) -> QuantityFound:
+    shown = f"{row.display.text} {pretty(row.display.unit)}".rstrip()
+    value = row.value
+    found = value if isinstance(value, str) else str(value) if isinstance(value, bool | list) else float(value)
+    return QuantityFound(name, found, row.unit, row.symbol, row.description, shown)
+
+
+def _place(row: QuantityRecord, at: PlaceRecord) -> QuantityRecord:
+    """The place of an extreme."""
+    value = 0.0 if at.value is None else at.value  # which all places of results have
+    display = ShownRecord(text=at.text, unit=at.unit)
+    return QuantityRecord(
+        value=value, unit=unit(at.unit).si, symbol=at.symbol, description=row.description, display=display
+    )
 
 
 # Numbers that a source prints, held against those that a mechanism calculates: the last printed digit tells how it was rounded.

@@ -18,7 +18,7 @@ CAPITAL = ":capital"
 PLAIN = re.compile(r"[\w./@+'’-]+(?: [\w./@+'’-]+)*…?")  # names of people and files
 LONGEST_CELL = 80
 NOTHING: Mapping[str, str] = MappingProxyType({})
-Wording = dict[str, Any]
+MessageData = dict[str, Any]
 
 
 class Phrase(str):
@@ -141,30 +141,35 @@ def keys_listed(keys: Sequence[str]) -> str:
     return named((named(most, ", "), last) if most else (last,), " and ")
 
 
-def wording(text: Phrase) -> Wording:
-    """Return how a phrase was made, as plain data."""
-    values = {name: wording(value) if isinstance(value, Phrase) else value for name, value in text.values.items()}
-    counted = {"one": text.one, "count": text.number} if isinstance(text, Counted) else {}
-    return {"text": text.template} | ({"values": values} if values else {}) | counted
+DEEPEST = 40  # messages within messages
 
 
-def wordings(data: Any) -> dict[str, Wording]:
-    """Return how each phrase with values in plain data was made, by its text, in their order."""
-    found: dict[str, Wording] = {}
-    _collect([data], found)
-    return found
+def message_data(text: str) -> MessageData:
+    """Return a message as plain data: template, values and the English text, as the results file holds it."""
+    made = phrase(text)
+    values = {name: message_data(value) if isinstance(value, Phrase) else value for name, value in made.values.items()}
+    counted = {"one": made.one, "count": made.number} if isinstance(made, Counted) else {}
+    return {"template": made.template, "values": values, "text": str.__str__(made)} | counted
 
 
-def _collect(parts: Iterable[Any], found: dict[str, Wording]) -> None:
-    for part in parts:
-        kind = type(part)  # results have some 100 000 parts: of their exact types, as most are texts and numbers
-        if kind is Phrase or kind is Counted:
-            if part.values:
-                found.setdefault(str.__str__(part), wording(part))
-        elif kind is dict:
-            _collect(part.values(), found)
-        elif (kind is list or kind is tuple) and part and type(part[0]) is not float:
-            _collect(part, found)
+def message_of(given: Any, depth: int = 0) -> Phrase:
+    """Return a message from plain data; ValueError where its text is not its template with its values."""
+    template, values = (given.get(key) for key in ("template", "values")) if isinstance(given, dict) else (None, None)
+    known = {"template", "values", "text", "one", "count"}
+    if not isinstance(template, str) or not isinstance(values, dict) or given.keys() - known or depth > DEEPEST:
+        raise ValueError(phrase("a message is needed: template, values, text"))
+    found = {name: value if isinstance(value, str) else message_of(value, depth + 1) for name, value in values.items()}
+    made = _counted(given, template, found) if "one" in given or "count" in given else Phrase(template, found)
+    if given.get("text") != made:
+        raise ValueError(phrase("the text of a message is its template with its values"))
+    return made
+
+
+def _counted(given: Mapping[str, Any], template: str, values: Mapping[str, str]) -> Counted:
+    one, count = given.get("one"), given.get("count")
+    if not isinstance(one, str) or type(count) is not int or (count == 1 and one != template):
+        raise ValueError(phrase("a message that goes with a number has the form of one and the number"))
+    return Counted(count, one, template, values)
 
 
 def cell(text: str) -> str:

@@ -3,15 +3,15 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Callable, Iterable, Iterator, Mapping
+from collections.abc import Callable, Iterable, Iterator
 from contextlib import contextmanager
 from contextvars import ContextVar, Token
 from functools import cached_property
-from typing import Any, NamedTuple
+from typing import NamedTuple
 
 from diecut_report.errors import Problem
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, built_in
-from diecut_report.text.phrases import Counted, Phrase, filled, wording
+from diecut_report.text.phrases import Counted, Phrase, filled
 
 DECIMAL = re.compile(r"(?<![\w.,])(\d+)\.(\d+)(?![\w.]*\.?\d)")
 CITATION = "citation"  # the context of the words about sources
@@ -28,23 +28,25 @@ def with_decimal(text: str, sign: str) -> str:
 
 
 class Translator:
-    """Says texts in the language of the catalogues; ``wordings`` are those of the results, by their English text."""
+    """Translate texts into the language of the catalogues."""
 
-    def __init__(self, catalogues: Catalogues, wordings: Mapping[str, Any], decimal: str) -> None:
-        self.catalogues, self.wordings, self.decimal = catalogues, wordings, decimal
+    def __init__(self, catalogues: Catalogues, decimal: str) -> None:
+        self.catalogues, self.decimal = catalogues, decimal
         self.unknown: dict[str, None] = {}
 
     def of(self, kind: str) -> Callable[[str], str]:
-        """Return what says the texts of a kind of mechanism."""
+        """Return what translates the texts of a kind of mechanism."""
         return lambda text: self.said(text, kind)
 
     def said(self, text: str, kind: str = "") -> str:
         """Return a text in the language; one that no catalogue has stands as it is."""
-        if isinstance(text, Phrase):
-            return self._made(wording(text), kind)
-        if text in self.wordings:
-            return self._made(self.wordings[text], kind)
-        return self.known(text, kind) or text
+        if not isinstance(text, Phrase):
+            return self.known(text, kind) or text
+        values = {
+            name: self.said(value, kind) if isinstance(value, Phrase) else self.numbers(value)
+            for name, value in text.values.items()
+        }
+        return filled(self._form(text, kind) or text.template, values)
 
     def known(self, text: str, kind: str = "") -> str | None:
         """Return a text that a catalogue has; None where none has it."""
@@ -53,18 +55,11 @@ class Translator:
                 return found
         return None
 
-    def _made(self, parts: Mapping[str, Any], kind: str) -> str:
-        values = {
-            name: self._made(value, kind) if isinstance(value, Mapping) else self.numbers(value)
-            for name, value in parts.get("values", {}).items()
-        }
-        return filled(self._form(parts, kind) or parts["text"], values)
-
-    def _form(self, parts: Mapping[str, Any], kind: str) -> str | None:
+    def _form(self, text: Phrase, kind: str) -> str | None:
         """A template in the language, of what is counted the form that goes with its number."""
-        if "one" not in parts:
-            return self.known(parts["text"], kind)
-        found = (each.plural(parts["one"], parts["count"]) for each in self.catalogues.ahead(kind))
+        if not isinstance(text, Counted):
+            return self.known(text.template, kind)
+        found = (each.plural(text.one, text.number) for each in self.catalogues.ahead(kind))
         return next(filter(None, found), None)
 
     def numbers(self, text: str) -> str:
@@ -128,7 +123,7 @@ def speak(language: str, catalogues: Catalogues | None = None) -> Token[Speech]:
         return _NOW.set(ENGLISH)
     known = catalogues or Catalogues(language)
     decimal = known.program.text(".", "decimal") or "."
-    return _NOW.set(Speech(language, decimal, Translator(known, {}, ".")))  # what a message names stands as it is typed
+    return _NOW.set(Speech(language, decimal, Translator(known, ".")))  # what a message names stands as it is typed
 
 
 @contextmanager

@@ -13,7 +13,9 @@ import pytest
 from pypdf import PdfReader
 
 from diecut_report.cli.main import main
+from diecut_report.results.model import ResultsRecord
 from tests.configs import BROKEN, GOOD, LEVER, saved
+from tests.records import filled
 
 Capture = pytest.CaptureFixture[str]
 LIMITED = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150 N*m")
@@ -147,5 +149,5 @@ def test_strict_ends_with_1_where_something_is_not_checked() -> None:
 def test_what_is_not_checked_is_counted_from_the_results() -> None:
     from diecut_report.study.machines import CheckedMachine, verdict
 
-    results = {"mechanisms": {}, "summary": {"warn": 0, "not_checked": 7}}
+    results = filled(ResultsRecord, {"summary": {"not_checked": 7}})
     assert verdict(CheckedMachine("a.yaml", "pass", results), "a").not_checked == 7

@@ -4,11 +4,11 @@ from __future__ import annotations
 
 import json
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from diecut_report.config.validation import BASES, weakest
+from diecut_report.results.model import ResultsRecord
 from tests.config.test_references import results
 from tests.configs import HEAD, LEVER, problems
 
@@ -21,7 +21,7 @@ CHAIN = HEAD.replace("6000 1/h", "{value: 6000 1/h, basis: assumed, note: from t
 
 
 @pytest.fixture(scope="module")
-def chain(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+def chain(tmp_path_factory: pytest.TempPathFactory) -> ResultsRecord:
     return results(tmp_path_factory.mktemp("basis"), CHAIN)
 
 
@@ -37,26 +37,26 @@ def chain(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
         ("c.allowable_moment", "catalogue"),  # over two mechanisms; b's parts do not matter to its moment
         ("c.load", "catalogue"),  # a list with a reference in it
         ("a.speed", "assumed"),  # a default, derived from the press
-        ("a.teeth", None),  # a default of the mechanism
+        ("a.teeth", ""),  # a default of the mechanism
         ("c.force", "given"),
     ],
 )
 def test_a_reference_carries_the_weakest_basis_of_what_it_is_calculated_from(
-    chain: dict[str, Any], path: str, basis: str | None
+    chain: ResultsRecord, path: str, basis: str
 ) -> None:
     name, _, key = path.partition(".")
-    assert chain["mechanisms"][name]["inputs"][key].get("basis") == basis
+    assert chain.mechanisms[name].inputs[key].basis == basis
 
 
-def test_the_results_keep_value_text_and_note_of_a_block(chain: dict[str, Any]) -> None:
-    found = chain["mechanisms"]["b"]["inputs"]["width"]
-    assert (found["value"], found["text"], found["note"]) == (1.4, "2 * ${press.sheet.length}", "sheet 3")
-    press = chain["press"]["fields"][0]
-    assert (press["value"], press["basis"], press["note"]) == (6000 / 3600, "assumed", "from the customer")
+def test_the_results_keep_value_text_and_note_of_a_block(chain: ResultsRecord) -> None:
+    found = chain.mechanisms["b"].inputs["width"]
+    assert (found.value, found.text, found.note) == (1.4, "2 * ${press.sheet.length}", "sheet 3")
+    press = chain.press.fields[0]
+    assert (press.value, press.basis, press.note) == (6000 / 3600, "assumed", "from the customer")
 
 
-def test_the_summary_lists_what_is_assumed_and_not_what_refers_to_it(chain: dict[str, Any]) -> None:
-    assert chain["summary"]["assumed"] == ["press.productivity", "mechanisms.b.parts.0.length"]
+def test_the_summary_lists_what_is_assumed_and_not_what_refers_to_it(chain: ResultsRecord) -> None:
+    assert chain.summary.assumed == ["press.productivity", "mechanisms.b.parts.0.length"]
 
 
 def test_assumed_is_the_weakest_of_all() -> None:
@@ -86,12 +86,12 @@ def test_a_wrong_block_is_told_with_its_place(tmp_path: Path, force: str, messag
     assert len(found) == 1 and message in found[0]
 
 
-def test_the_resolved_config_rests_on_the_same(chain: dict[str, Any], tmp_path: Path) -> None:
-    again = results(tmp_path, json.dumps(chain["config"]["resolved"]))
-    for name, mechanism in chain["mechanisms"].items():
-        for key, row in mechanism["inputs"].items():
-            found = again["mechanisms"][name]["inputs"][key]
-            wanted = [row.get("basis", "given"), row.get("note"), row["value"]]
-            assert [found.get("basis", "given"), found.get("note"), found["value"]] == wanted, key
-    assert again["press"] == chain["press"]
-    assert again["config"]["resolved"] == chain["config"]["resolved"]
+def test_the_resolved_config_rests_on_the_same(chain: ResultsRecord, tmp_path: Path) -> None:
+    again = results(tmp_path, json.dumps(chain.config.resolved))
+    for name, mechanism in chain.mechanisms.items():
+        for key, row in mechanism.inputs.items():
+            found = again.mechanisms[name].inputs[key]
+            wanted = [row.basis or "given", row.note, row.value]
+            assert [found.basis or "given", found.note, found.value] == wanted, key
+    assert again.press == chain.press
+    assert again.config.resolved == chain.config.resolved

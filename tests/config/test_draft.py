@@ -21,6 +21,7 @@ from diecut_report.config.drafting import Draft, draft
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError
+from diecut_report.results.model import ResultsRecord
 from diecut_report.text.translation import speaking
 from tests.configs import DISCOVERY, GOOD
 from tests.examples import examples, few
@@ -41,7 +42,7 @@ def validated(text: str) -> None:
     assert load_config(yaml_tree.parse(text, "draft.yaml"), DISCOVERY).broken == {}
 
 
-def calculated(made: Draft) -> dict[str, Any]:
+def calculated(made: Draft) -> ResultsRecord:
     outcome, _ = pipeline.calc(yaml_tree.parse(made.text, "draft.yaml"), DISCOVERY, lambda _: None)
     assert outcome.broken == ()
     return outcome.results
@@ -57,8 +58,8 @@ def test_a_draft_of_each_kind_is_valid(kind: str) -> None:
 @pytest.mark.parametrize("kinds", few([CYLINDER, *([kind] for kind in KINDS), KINDS], lambda kinds: kinds is CYLINDER))
 def test_a_draft_is_calculated_and_no_check_fails(kinds: Sequence[str]) -> None:
     results = calculated(draft(kinds, DISCOVERY))
-    assert results["status"] in ("pass", "warn")
-    assert results["summary"]["assumed"]  # the values of an example are assumed
+    assert results.status in ("pass", "warn")
+    assert results.summary.assumed  # the values of an example are assumed
 
 
 SUBSETS = st.lists(st.sampled_from(KINDS), min_size=2, max_size=12)

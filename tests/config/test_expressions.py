@@ -59,21 +59,21 @@ def test_expressions_follow_each_other_whatever_their_order(tmp_path: Path) -> N
 
 def test_the_results_keep_an_expression_beside_its_value(tmp_path: Path) -> None:
     text = LEVER + "  b: {kind: lever, force: 1, arm: '${press.sheet.length} - ${a.arm}'}\n"
-    found = results(tmp_path, text)["mechanisms"]["b"]["inputs"]["arm"]
-    assert (found["origin"], found["text"], found["paths"]) == (
+    found = results(tmp_path, text).mechanisms["b"].inputs["arm"]
+    assert (found.origin, found.text, found.paths) == (
         "expression",
         "${press.sheet.length} - ${a.arm}",
         ["press.sheet.length", "a.arm"],
     )
-    assert found["value"] == pytest.approx(0.6)
+    assert found.value == pytest.approx(0.6)
 
 
 def test_the_resolved_config_holds_the_value_exactly(tmp_path: Path) -> None:
     text = LEVER + "  b: {kind: lever, force: 1, arm: '${press.sheet.length} / 3'}\n"
     found = results(tmp_path, text)
-    path = saved(tmp_path, json.dumps(found["config"]["resolved"]), "again.yaml")
+    path = saved(tmp_path, json.dumps(found.config.resolved), "again.yaml")
     again = calc(path, DISCOVERY, lambda doing: None)[0].results
-    assert again["mechanisms"]["b"]["inputs"]["arm"]["value"] == found["mechanisms"]["b"]["inputs"]["arm"]["value"]
+    assert again.mechanisms["b"].inputs["arm"].value == found.mechanisms["b"].inputs["arm"].value
 
 
 def test_the_press_may_calculate_and_lists_and_blocks_may_too(tmp_path: Path) -> None:
@@ -81,10 +81,10 @@ def test_the_press_may_calculate_and_lists_and_blocks_may_too(tmp_path: Path) ->
         "  b: {kind: lever, force: 1, arm: '${press.sheet.width}', parts: [{length: '${a.arm} / 4'}], "
         "load: [1, '${a.moment} / 2', 3, 4]}\n"
     )
-    found = results(tmp_path, text)["mechanisms"]["b"]
-    assert found["inputs"]["arm"]["value"] == pytest.approx(0.7 * 2 / 3)
-    assert found["inputs"]["parts.0.length"]["value"] == pytest.approx(0.025)
-    assert found["outputs"]["taken_max"]["value"] == pytest.approx(100)
+    found = results(tmp_path, text).mechanisms["b"]
+    assert found.inputs["arm"].value == pytest.approx(0.7 * 2 / 3)
+    assert found.inputs["parts.0.length"].value == pytest.approx(0.025)
+    assert found.outputs["taken_max"].value == pytest.approx(100)
 
 
 # each: the inner part of a second lever, and the problem with its place

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import os
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -16,6 +15,7 @@ from diecut_report.config.yaml import MAX_BYTES
 from diecut_report.errors import UserError
 from diecut_report.plugins.shaft import MECHANISM
 from diecut_report.results.document import document
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import contents
@@ -64,7 +64,7 @@ DISCOVERY = Discovery([])
 NOTE = "own, steels.yaml: Saarstahl, sheet 34CrNiMo6, 2021"
 
 
-def results(folder: Path, config: str, tables: str = TABLES) -> dict[str, Any]:
+def results(folder: Path, config: str, tables: str = TABLES) -> ResultsRecord:
     """The results of a configuration with its tables beside it."""
     saved(folder, tables, "steels.yaml")
     return document(compute(load_config(saved(folder, config), DISCOVERY), lambda _: None))
@@ -78,7 +78,7 @@ def problems(folder: Path, config: str = HEAD + SHAFT, tables: str = TABLES) -> 
 
 
 @pytest.fixture(scope="module")
-def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+def made(tmp_path_factory: pytest.TempPathFactory) -> ResultsRecord:
     return results(tmp_path_factory.mktemp("own"), HEAD + SHAFT + OTHERS)
 
 
@@ -93,29 +93,29 @@ def made(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     ],
 )
 def test_an_entry_gives_its_values_with_their_source(
-    made: dict[str, Any], mechanism: str, key: str, value: float, basis: str, note: str
+    made: ResultsRecord, mechanism: str, key: str, value: float, basis: str, note: str
 ) -> None:
-    found = made["mechanisms"][mechanism]["inputs"][key]
-    assert (found["value"], found["basis"], found["note"]) == (pytest.approx(value), basis, note)
+    found = made.mechanisms[mechanism].inputs[key]
+    assert (found.value, found.basis, found.note) == (pytest.approx(value), basis, note)
 
 
-def test_the_source_of_a_table_stands_among_those_of_the_mechanism(made: dict[str, Any]) -> None:
-    assert made["mechanisms"]["shaft"]["sources"][-1] == {
+def test_the_source_of_a_table_stands_among_those_of_the_mechanism(made: ResultsRecord) -> None:
+    assert made.mechanisms["shaft"].sources[-1].data() == {
         "id": "steels.yaml",
         "citation": NOTE.replace(", steels.yaml", ""),
     }
 
 
-def test_the_results_hold_the_tables_with_their_hash(made: dict[str, Any], tmp_path: Path) -> None:
-    (found,) = made["config"]["materials"]
-    assert (found["file"], found["source_text"]) == ("steels.yaml", TABLES)
-    other = results(tmp_path, HEAD + SHAFT, TABLES + "# changed\n")["config"]["materials"][0]["sha256"]
-    assert other != found["sha256"]
+def test_the_results_hold_the_tables_with_their_hash(made: ResultsRecord, tmp_path: Path) -> None:
+    (found,) = made.config.materials
+    assert (found.file, found.source_text) == ("steels.yaml", TABLES)
+    other = results(tmp_path, HEAD + SHAFT, TABLES + "# changed\n").config.materials[0].sha256
+    assert other != found.sha256
 
 
 def test_results_without_tables_say_nothing_of_them(tmp_path: Path) -> None:
     config = (HEAD + SHAFT).replace("materials: steels.yaml\n", "").replace("material: own", "material: C45E+QT")
-    assert "materials" not in results(tmp_path, config)["config"]
+    assert "materials" not in results(tmp_path, config).config.data()
 
 
 @pytest.mark.parametrize(
@@ -125,24 +125,24 @@ def test_a_steel_has_the_strengths_of_the_least_size_that_holds_the_shaft(
     tmp_path: Path, diameter: float, tensile: float, fatigue: float
 ) -> None:
     found = results(tmp_path, (HEAD + SHAFT).replace("diameter: 40 mm", f"diameter: {diameter} mm"))
-    outputs = found["mechanisms"]["shaft"]["outputs"]
-    assert outputs["tensile_strength"]["value"] == pytest.approx(tensile)
-    assert outputs["specimen_endurance"]["value"] == pytest.approx(fatigue)
+    outputs = found.mechanisms["shaft"].outputs
+    assert outputs["tensile_strength"].value == pytest.approx(tensile)
+    assert outputs["specimen_endurance"].value == pytest.approx(fatigue)
 
 
 def test_without_a_fatigue_strength_it_is_half_the_tensile_strength(tmp_path: Path) -> None:
     tables = TABLES.replace(", fatigue_strength: 500 MPa", "").replace(", fatigue_strength: 450 MPa", "")
-    found = results(tmp_path, HEAD + SHAFT, tables)["mechanisms"]["shaft"]["outputs"]["specimen_endurance"]["value"]
+    found = results(tmp_path, HEAD + SHAFT, tables).mechanisms["shaft"].outputs["specimen_endurance"].value
     assert found == pytest.approx(550e6)
 
 
 def test_what_the_block_gives_itself_stays(tmp_path: Path) -> None:
     config = HEAD + OTHERS.replace("chain: strong", "chain: strong, breaking_load: 20 kN")
-    assert results(tmp_path, config)["mechanisms"]["chain"]["inputs"]["breaking_load"]["value"] == 20e3
+    assert results(tmp_path, config).mechanisms["chain"].inputs["breaking_load"].value == 20e3
 
 
-def test_the_resolved_configuration_needs_no_table(made: dict[str, Any]) -> None:
-    resolved = made["config"]["resolved"]["mechanisms"]["shaft"]
+def test_the_resolved_configuration_needs_no_table(made: ResultsRecord) -> None:
+    resolved = made.config.resolved["mechanisms"]["shaft"]
     assert "material" not in resolved and len(resolved["strengths"]) == 2
 
 
@@ -151,7 +151,7 @@ def test_several_files_are_read(tmp_path: Path) -> None:
     first, second = TABLES.split("gear_materials:")
     saved(tmp_path / "data", "source: Works\ngear_materials:" + second, "gears.yml")
     config = HEAD.replace("steels.yaml", "[steels.yaml, data/gears.yml]") + SHAFT + OTHERS
-    assert [each["file"] for each in results(tmp_path, config, first)["config"]["materials"]] == [
+    assert [each.file for each in results(tmp_path, config, first).config.materials] == [
         "steels.yaml",
         "data/gears.yml",
     ]

@@ -5,7 +5,6 @@ from __future__ import annotations
 import json
 from dataclasses import replace
 from pathlib import Path
-from typing import Any
 
 import pytest
 
@@ -15,6 +14,7 @@ from diecut_report.mechanism.mechanism import Partner
 from diecut_report.pipeline import calc
 from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.results.document import document
+from diecut_report.results.model import MechanismRecord
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input, with_values
 from tests.configs import DISCOVERY, HEAD, loaded, problems, saved
@@ -38,11 +38,10 @@ def references(folder: Path, text: str, name: str = "press_consistency") -> dict
     return {str(key[0]): taken for key, taken in texts(instance.data)}
 
 
-def results(folder: Path, text: str) -> dict[str, Any]:
+def results(folder: Path, text: str) -> MechanismRecord:
     """The results of the consistency."""
     outcome, _ = calc(saved(folder, text), DISCOVERY, lambda _: None)
-    found: dict[str, Any] = outcome.results["mechanisms"]["press_consistency"]
-    return found
+    return outcome.results.mechanisms["press_consistency"]
 
 
 def test_two_partners_run_the_consistency_with_what_they_have(tmp_path: Path) -> None:
@@ -87,10 +86,10 @@ def test_a_study_does_not_vary_what_is_compared_with_the_others(tmp_path: Path, 
 def test_the_resolved_configuration_leaves_out_what_is_taken_again(tmp_path: Path) -> None:
     text = HEAD + DRIVE + CLUTCH
     made = document(compute(loaded(tmp_path, text), lambda _: None))
-    again = document(compute(loaded(tmp_path, json.dumps(made["config"]["resolved"])), lambda _: None))
+    again = document(compute(loaded(tmp_path, json.dumps(made.config.resolved)), lambda _: None))
     name = "press_consistency"
-    assert made["config"]["resolved"]["mechanisms"][name].keys().isdisjoint({"cylinder_mass", "drive", "stroke"})
-    assert again["mechanisms"][name]["checks"] == made["mechanisms"][name]["checks"]
+    assert made.config.resolved["mechanisms"][name].keys().isdisjoint({"cylinder_mass", "drive", "stroke"})
+    assert again.mechanisms[name].checks == made.mechanisms[name].checks
 
 
 def test_of_several_partners_none_is_taken_unless_it_is_named(tmp_path: Path) -> None:
@@ -123,13 +122,13 @@ def test_a_name_that_is_taken_gets_a_number(tmp_path: Path) -> None:
 
 
 def test_what_is_not_checked_says_where_it_would_come_from(tmp_path: Path) -> None:
-    found = {check["id"]: check for check in results(tmp_path, HEAD + DRIVE + TWO)["checks"]}
-    assert found["step"]["status"] == "not_checked"
-    assert found["step"]["message"].endswith(
+    found = {check.id: check for check in results(tmp_path, HEAD + DRIVE + TWO).checks}
+    assert found["step"].status == "not_checked"
+    assert found["step"].message.endswith(
         "There is no cam_gear_transport or geneva_transport, or there are several: name one by transport."
     )
-    found = {check["id"]: check for check in results(tmp_path, HEAD + DRIVE + CLUTCH)["checks"]}
-    assert "clutch.speed and clutch.driven_inertia are not there." in found["driven_inertia"]["message"]
+    found = {check.id: check for check in results(tmp_path, HEAD + DRIVE + CLUTCH).checks}
+    assert "clutch.speed and clutch.driven_inertia are not there." in found["driven_inertia"].message
 
 
 def test_what_a_partner_does_not_have_in_this_machine_is_left_out(
@@ -143,8 +142,8 @@ def test_what_a_partner_does_not_have_in_this_machine_is_left_out(
     own = Discovery.mechanism
     monkeypatch.setattr(Discovery, "mechanism", lambda self, kind: found if kind == found.kind else own(self, kind))
     turning = DRIVE.replace("{kind", "{segment_height: 40 mm, carriage_clearance: 30 mm, sector_ratio: 3, kind")
-    inputs = results(tmp_path, HEAD + turning + CLUTCH)["inputs"]
-    assert inputs["stroke"]["path"] == "drive.stroke"
+    inputs = results(tmp_path, HEAD + turning + CLUTCH).inputs
+    assert inputs["stroke"].path == "drive.stroke"
     assert inputs.get("dead_center_inner", {}).get("value") is None
 
 

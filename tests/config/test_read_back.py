@@ -24,6 +24,7 @@ from diecut_report.quantities import units
 from diecut_report.quantities.formatting import as_given, as_typed
 from diecut_report.quantities.units import unit
 from diecut_report.results.document import document
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import compute
 from tests.configs import EXAMPLE, EXAMPLES, PLUGINS, saved
 from tests.examples import few
@@ -90,12 +91,12 @@ def test_numbers_that_no_float_holds_are_refused_in_words() -> None:
             units.parse_quantity(text, unit(text.split()[1]).text)
 
 
-def calculated(path: Path) -> dict[str, Any]:
+def calculated(path: Path) -> ResultsRecord:
     return document(compute(load_config(path, SHARES), lambda _: None))
 
 
-def numbers_of(results: dict[str, Any]) -> dict[str, Any]:
-    return {name: (data["outputs"], data["checks"], data["curves"]) for name, data in results["mechanisms"].items()}
+def numbers_of(results: ResultsRecord) -> dict[str, Any]:
+    return {name: (data.outputs, data.checks, data.curves) for name, data in results.mechanisms.items()}
 
 
 SHARED = """\
@@ -114,10 +115,10 @@ mechanisms:
 )
 def test_the_resolved_config_calculates_to_the_same_results(tmp_path: Path, text: str) -> None:
     first = calculated(saved(tmp_path, text))
-    again = calculated(saved(tmp_path, json.dumps(first["config"]["resolved"]), "again.yaml"))
+    again = calculated(saved(tmp_path, json.dumps(first.config.resolved), "again.yaml"))
     assert numbers_of(again) == numbers_of(first)
-    assert again["config"]["resolved"] == first["config"]["resolved"]
-    assert again["press"] == first["press"]
+    assert again.config.resolved == first.config.resolved
+    assert again.press == first.press
 
 
 # Values written into a configuration's text: what else stands in the file stays, byte for byte.

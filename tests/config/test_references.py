@@ -14,20 +14,21 @@ from diecut_report.config.schema import config_schema
 from diecut_report.errors import UserError
 from diecut_report.pipeline import calc
 from diecut_report.results.document import document
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import Run, compute
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
 from tests.configs import DISCOVERY, HEAD, LEVER, loaded, problems, saved
 
 
-def results(folder: Path, text: str) -> dict[str, Any]:
+def results(folder: Path, text: str) -> ResultsRecord:
     """The results document of a config."""
     return calc(saved(folder, text), DISCOVERY, lambda doing: None)[0].results
 
 
 def inputs(folder: Path, text: str, name: str = "b") -> dict[str, Any]:
     """The SI values of a mechanism's inputs."""
-    return {key: item["value"] for key, item in results(folder, text)["mechanisms"][name]["inputs"].items()}
+    return {key: item.value for key, item in results(folder, text).mechanisms[name].inputs.items()}
 
 
 def test_a_reference_takes_over_an_output_whatever_the_order_in_the_file(tmp_path: Path) -> None:
@@ -76,17 +77,17 @@ def test_a_reference_stands_inside_blocks_and_lists(tmp_path: Path) -> None:
 
 
 def test_a_reference_may_name_a_curve(tmp_path: Path) -> None:
-    outputs = results(tmp_path, LEVER + "  b: {kind: lever, force: 1, load: '${a.torque}'}\n")["mechanisms"]["b"][
-        "outputs"
-    ]
-    assert outputs["taken_max"]["value"] == pytest.approx(200, rel=1e-9)
+    outputs = results(tmp_path, LEVER + "  b: {kind: lever, force: 1, load: '${a.torque}'}\n").mechanisms["b"].outputs
+    assert outputs["taken_max"].value == pytest.approx(200, rel=1e-9)
 
 
 def test_values_of_a_curve_may_be_references(tmp_path: Path) -> None:
-    outputs = results(tmp_path, LEVER + "  b: {kind: lever, force: 1, load: [1, '${a.moment}', 3, 4]}\n")["mechanisms"][
-        "b"
-    ]["outputs"]
-    assert outputs["taken_max"]["value"] == pytest.approx(200, rel=1e-9)
+    outputs = (
+        results(tmp_path, LEVER + "  b: {kind: lever, force: 1, load: [1, '${a.moment}', 3, 4]}\n")
+        .mechanisms["b"]
+        .outputs
+    )
+    assert outputs["taken_max"].value == pytest.approx(200, rel=1e-9)
 
 
 def test_a_reference_may_name_a_text(tmp_path: Path) -> None:
@@ -104,16 +105,15 @@ def test_mechanisms_may_refer_to_each_other_as_long_as_no_input_needs_itself(tmp
 
 def test_origin_path_and_text_are_kept(tmp_path: Path) -> None:
     text = LEVER + "  b: {kind: lever, force: '${ a.force }', arm: 0.30 m}\n"
-    found = results(tmp_path, text)["mechanisms"]["b"]["inputs"]
+    found = results(tmp_path, text).mechanisms["b"].inputs
     told = {
-        name: (found[name]["origin"], found[name].get("path"), found[name].get("text"))
-        for name in ("force", "arm", "speed", "teeth")
+        name: (found[name].origin, found[name].path, found[name].text) for name in ("force", "arm", "speed", "teeth")
     }
     assert told == {
         "force": ("reference", "a.force", "${ a.force }"),
-        "arm": ("given", None, "0.30 m"),
-        "speed": ("default", "press.productivity", None),
-        "teeth": ("default", None, None),
+        "arm": ("given", "", "0.30 m"),
+        "speed": ("default", "press.productivity", ""),
+        "teeth": ("default", "", ""),
     }
 
 

@@ -4,13 +4,13 @@ from __future__ import annotations
 
 import re
 from pathlib import Path
-from typing import Any
 
 import pytest
 
 from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.results.model import ResultsRecord, ShownRecord
 
 KNIFE = Path(__file__, "../../../configs/circular_knife.yaml").resolve().read_text(encoding="utf-8")
 
@@ -22,7 +22,7 @@ def config(tmp_path: Path, units: str) -> Path:
     return path
 
 
-def results(tmp_path: Path, units: str) -> Any:
+def results(tmp_path: Path, units: str) -> ResultsRecord:
     """Its results."""
     return pipeline.calc(config(tmp_path, units), Discovery(), lambda _: None)[0].results
 
@@ -52,25 +52,27 @@ def test_what_is_wrong_with_a_chosen_unit_is_said_at_its_place(
 def test_a_report_shows_its_quantities_in_the_chosen_units(tmp_path: Path) -> None:
     units = "{length: m, rotational_speed: rad/s, knife.force_max: kN, knife.eccentricity: mm, press.sheet.width: cm}"
     found = results(tmp_path, units)
-    knife = found["mechanisms"]["knife"]
-    assert knife["inputs"]["edge_radius"]["display"] == {"text": "0.1", "unit": "m"}
-    assert knife["inputs"]["eccentricity"]["display"] == {"text": "20", "unit": "mm"}
-    assert knife["inputs"]["speed"]["display"] == {"text": "6.283", "unit": "rad/s"}
-    assert knife["outputs"]["force_max"]["display"]["unit"] == "kN"
-    assert knife["outputs"]["force_max"]["unit"] == "N"
-    checks = {check["id"]: check for check in knife["checks"]}
-    assert checks["reach"]["limit_display"]["unit"] == checks["reach"]["margin_display"]["unit"] == "m"
-    items = {item["id"]: item for section in knife["sections"] for item in section["items"] if "id" in item}
-    assert items["depth_least"]["result"] == {"text": "0.08", "unit": "m"}
-    assert items["depth_least"]["substituted"] == ["-", ["qty", "0.1", "m"], ["qty", "20", "mm"]]
-    assert knife["curves"]["cut_position"]["display_unit"] == "m"
-    shown = {field["path"]: field["display"] for field in found["press"]["fields"]}
-    assert shown["press.sheet.width"] == {"text": "35", "unit": "cm"}
-    assert shown["press.sheet.length"] == {"text": "0.5", "unit": "m"}
+    knife = found.mechanisms["knife"]
+    assert knife.inputs["edge_radius"].display == ShownRecord(text="0.1", unit="m")
+    assert knife.inputs["eccentricity"].display == ShownRecord(text="20", unit="mm")
+    assert knife.inputs["speed"].display == ShownRecord(text="6.283", unit="rad/s")
+    assert knife.outputs["force_max"].display.unit == "kN"
+    assert knife.outputs["force_max"].unit == "N"
+    checks = {check.id: check for check in knife.checks}
+    assert checks["reach"].limit_display.unit == checks["reach"].margin_display.unit == "m"
+    items = {item.id: item for section in knife.sections for item in section.items if item.id}
+    assert items["depth_least"].result == ShownRecord(text="0.08", unit="m")
+    assert items["depth_least"].substituted == ["-", ["qty", "0.1", "m"], ["qty", "20", "mm"]]
+    assert knife.curves["cut_position"].display_unit == "m"
+    shown = {field.path: field.display for field in found.press.fields}
+    assert shown["press.sheet.width"] == ShownRecord(text="35", unit="cm")
+    assert shown["press.sheet.length"] == ShownRecord(text="0.5", unit="m")
 
 
 def test_chosen_units_change_no_value(tmp_path: Path) -> None:
-    plain, chosen = (results(tmp_path, units)["mechanisms"]["knife"] for units in ("{}", "{length: um, force: kN}"))
+    plain, chosen = (results(tmp_path, units).mechanisms["knife"] for units in ("{}", "{length: um, force: kN}"))
     for group in ("inputs", "outputs", "values"):
-        values = [{name: (row["value"], row["unit"]) for name, row in each[group].items()} for each in (plain, chosen)]
+        values = [
+            {name: (row.value, row.unit) for name, row in getattr(each, group).items()} for each in (plain, chosen)
+        ]
         assert values[0] == values[1]

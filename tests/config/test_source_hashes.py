@@ -20,6 +20,7 @@ from diecut_report.config.source_hashes import PACKAGE, plugin_hash, program_has
 from diecut_report.errors import UserError
 from diecut_report.report.rendering import render_html
 from diecut_report.results.document import document
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import compute
 from diecut_report.study.execution import worker
 from tests.configs import GOOD, HEAD, LEVER, SMALL, saved
@@ -125,7 +126,7 @@ def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.Captur
     assert list(found["program"]["extensions"]) == ["extend_laws"]
     digest = found["mechanisms"]["a"]["plugin_sha256"]
     assert digest == hash_of_lever(folder)
-    page = re.sub(r"<[^>]+>", " ", render_html(found))
+    page = re.sub(r"<[^>]+>", " ", render_html(ResultsRecord.model_validate(found)))
     for told in (program_hash(), digest, found["program"]["extensions"]["extend_laws"]):
         assert re.search(rf"source\s+{told[:12]}\s", page)
 
@@ -142,7 +143,7 @@ def test_results_tell_whether_the_formulas_of_a_foreign_plugin_are_sound_and_jud
         folder.mkdir()
         saved(folder, content, "lever.py")
         outcome, _ = pipeline.calc(saved(folder, LEVER), Discovery([folder]), lambda _: None)
-        assert outcome.results["mechanisms"]["a"]["plugin_check"] == check
+        assert outcome.results.mechanisms["a"].plugin_check == check
         words = "The formulas of the plugin of 'lever' have faults; do not rely on its results."
         assert outcome.warnings[:1] == ((words,) if check == "failed" else ())
         assert all(fault.startswith("  lever.py:") for fault in outcome.warnings[1:])
@@ -155,13 +156,13 @@ def test_a_foreign_plugin_is_named_by_its_file_and_not_by_where_it_lies(tmp_path
     other = saved(tmp_path, LEVER + SMALL.removeprefix(HEAD))
     for folder, file in ((GOOD, "lever.py"), (tmp_path / "secret place", "lever/__init__.py")):
         found = document(compute(load_config(other, Discovery([folder])), lambda _: None))
-        digest = found["mechanisms"]["a"]["plugin_sha256"]
-        assert found["mechanisms"]["a"]["plugin_file"] == file and digest
-        assert "plugin_file" not in found["mechanisms"]["clutch"]  # comes with the program
+        digest = found.mechanisms["a"].plugin_sha256
+        assert found.mechanisms["a"].plugin_file == file and digest
+        assert not found.mechanisms["clutch"].plugin_file  # comes with the program
         page = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", render_html(found)))
         assert (
             f"{file} , declarations and formulas checked source {digest[:12]}" in page
-            and "secret place" not in page + json.dumps(found)
+            and "secret place" not in page + json.dumps(found.data())
         )
 
 

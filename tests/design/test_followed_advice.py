@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
@@ -10,7 +9,9 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.report.chapters.front import followed_line
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import ResultsRecord
 from tests.configs import HEAD, saved
+from tests.records import filled
 
 CLUTCH = (
     HEAD
@@ -23,10 +24,10 @@ CLUTCH = (
 def test_a_report_says_that_its_advice_gives_a_pass(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     config = saved(tmp_path, CLUTCH)
     assert main(["report", str(config), "-o", str(tmp_path), "--format", "html,json"]) == 1
-    results = json.loads((tmp_path / "press.json").read_text("utf-8"))
-    advice = results["summary"]["advice"]
-    assert advice["failing"] == [] and advice["error"] is None
-    assert [each["path"] for each in advice["changes"]] == ["clutch.shoe_width"]
+    results = ResultsRecord.model_validate_json((tmp_path / "press.json").read_bytes())
+    advice = results.summary.advice
+    assert advice is not None and advice.failing == [] and advice.error is None
+    assert [each.path for each in advice.changes] == ["clutch.shoe_width"]
     (line,) = followed_line(results, Catalogue("en"))
     assert line.startswith("Followed together, the advice of the failing checks gives a pass: clutch.shoe_width ")
     assert line.rstrip(".") in (tmp_path / "press.html").read_text("utf-8")
@@ -35,10 +36,10 @@ def test_a_report_says_that_its_advice_gives_a_pass(tmp_path: Path, capfd: pytes
 
 def test_other_outcomes_are_told_in_words() -> None:
     changes = [{"path": "a.b", "value": "5 mm"}]
-    results = {"summary": {"advice": {"changes": changes, "failing": ["c.d"], "error": None}}}
+    results = filled(ResultsRecord, {"summary": {"advice": {"changes": changes, "failing": ["c.d"], "error": None}}})
     assert list(followed_line(results, Catalogue("en"))) == [
         "Followed together, the advice of the failing checks (a.b 5 mm) leaves others that fail: c.d."
     ]
-    results = {"summary": {"advice": {"changes": changes, "failing": [], "error": "no"}}}
+    results = filled(ResultsRecord, {"summary": {"advice": {"changes": changes, "failing": [], "error": "no"}}})
     assert "gives no machine that can be built" in next(followed_line(results, Catalogue("en")))
-    assert list(followed_line({"summary": {}}, Catalogue("en"))) == []
+    assert list(followed_line(filled(ResultsRecord, {}), Catalogue("en"))) == []

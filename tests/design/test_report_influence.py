@@ -10,6 +10,7 @@ from scipy.stats import norm
 
 from diecut_report.cli.main import main
 from diecut_report.report.rendering import Rendering
+from diecut_report.results.model import ResultsRecord
 from tests.configs import GOOD, HEAD, saved
 
 Capture = pytest.CaptureFixture[str]
@@ -45,11 +46,11 @@ def test_the_report_holds_the_chapter_and_can_be_verified(tmp_path: Path, capfd:
 
 def test_all_formats_hold_it_and_equal_results_give_equal_bytes(tmp_path: Path) -> None:
     assert report(tmp_path, config(ASKED), "json") == 0
-    results = json.loads((tmp_path / "press.json").read_text("utf-8"))
-    results["project"]["language"] = "uk"
+    results = ResultsRecord.model_validate_json((tmp_path / "press.json").read_bytes())
+    results = results.with_(project=results.project.with_(language="uk"))
     pages, words = ([Rendering(results).html() for _ in range(2)], [Rendering(results).docx() for _ in range(2)])
     assert pages[0] == pages[1] and "Вплив вхідних даних" in pages[0] and "Імовірність виконання" in pages[0]
-    assert words[0] == words[1] and len(Rendering({**results, "influence": None}).docx()) < len(words[0])
+    assert words[0] == words[1] and len(Rendering(results.with_(influence={})).docx()) < len(words[0])
 
 
 def test_without_names_the_governing_checks_are_looked_at(tmp_path: Path) -> None:

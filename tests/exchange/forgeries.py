@@ -16,6 +16,7 @@ import pikepdf
 from pyhanko.pdf_utils.generic import DictionaryObject, NameObject, NumberObject
 
 from diecut_report.exchange.signing import Additions
+from diecut_report.text.phrases import message_data
 from tests.exchange.reports import saved_pdf
 
 Data = dict[str, Any]
@@ -73,8 +74,8 @@ def _added(path: str, key: str, value: object) -> Callable[[Data], None]:
 
 def other_text(data: Data) -> None:
     """The text of a sentence in another language: its template, of which the translation is made."""
-    bounds = next(iter(data["wordings"].values()))["values"]["bounds:capital"]
-    bounds["values"]["first"] = "30.2 mm"
+    check = data["mechanisms"]["knife"]["checks"][0]
+    check["message"]["values"]["bounds:capital"]["values"]["first"] = "30.2 mm"
 
 
 def shown_number(data: Data) -> None:
@@ -110,17 +111,18 @@ def of_former(data: Data) -> None:
 
 
 NUMBERS = "✗ numbers"
+REFUSED = "is not what stands there in results"
 OF_RESULTS = (
     Forgery("the configuration that it carries", of_config, "✗ configuration"),
     Forgery("a number, as results", _set("mechanisms/knife/outputs/torque_max/value", 0.9), NUMBERS),
     Forgery("a number, as it is printed alone", shown_number, NUMBERS),
     Forgery("the unit of a number", _set("mechanisms/knife/outputs/torque_max/display/unit", "kN·m"), NUMBERS),
-    Forgery("a sentence, in the language of the report alone (`wordings`)", other_text, NUMBERS),
+    Forgery("a sentence, in the language of the report alone (its values)", other_text, REFUSED),
     Forgery("the verdict of a check", _set("mechanisms/knife/checks/0/status", "warn"), NUMBERS),
     Forgery("a check, left out", without_check, NUMBERS),
     Forgery("the verdict on the machine", _set("status", "pass"), NUMBERS),
     Forgery("the counts of page 1", _set("summary/fail", 0), NUMBERS),
-    Forgery("the first line of page 1", _set("summary/conclusion", "All checks pass."), NUMBERS),
+    Forgery("the first line of page 1", _set("summary/conclusion", message_data("All checks pass.")), NUMBERS),
     Forgery("what is assumed, left out of page 1", _set("summary/assumed", []), NUMBERS),
     Forgery("which assumed values matter, left out (`summary.moves`)", _remove("summary/moves"), NUMBERS),
     Forgery("what comes of the advice (`summary.advice`)", _added("summary", "advice", {"changes": [], "failing": [], "error": None}), NUMBERS),
@@ -137,7 +139,7 @@ OF_RESULTS = (
     Forgery("the title of a figure", figure_title, NUMBERS),
     Forgery("the source of a formula", printed_step, NUMBERS),
     Forgery("the basis of an input", _set("mechanisms/knife/inputs/friction/basis", "measured"), NUMBERS),
-    Forgery("that a plugin was found faulty (`plugin_check`)", _added("mechanisms/knife", "plugin_check", "sound"), NUMBERS),
+    Forgery("that a plugin was found faulty (`plugin_check`)", _added("mechanisms/knife", "plugin_check", "passed"), NUMBERS),
     Forgery("the version of the program", _set("program/version", "0.9.0"), "✗ program"),
     Forgery("the source of the program", _set("program/source_sha256", 64 * "0"), "✗ program"),
     Forgery("the source of a plugin", _set("mechanisms/knife/plugin_sha256", 64 * "0"), "✗ plugins"),

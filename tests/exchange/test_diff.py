@@ -11,8 +11,10 @@ import pytest
 from diecut_report.report.chapters.front import printed_changes, relative
 from diecut_report.report.text import Catalogue
 from diecut_report.results.changes import changes
+from diecut_report.results.model import ChangesRecord, ResultsRecord
 from tests.configs import HEAD, saved
 from tests.exchange.reports import run
+from tests.records import filled
 
 Capture = pytest.CaptureFixture[str]
 Data = dict[str, Any]
@@ -29,7 +31,12 @@ def results(folder: Path, text: str, name: str) -> Data:
 
 
 def between(folder: Path, old: str, new: str) -> Data:
-    return changes(results(folder, old, "old"), results(folder, new, "new"))
+    return changed_between(folder, old, new).data()
+
+
+def changed_between(folder: Path, old: str, new: str) -> ChangesRecord:
+    sides = (ResultsRecord.model_validate(results(folder, *side)) for side in ((old, "old"), (new, "new")))
+    return changes(*sides)
 
 
 def test_a_calculation_has_no_changes_against_itself(tmp_path: Path, capfd: Capture) -> None:
@@ -69,7 +76,7 @@ def test_data_of_the_press_that_a_user_changes_follow_nothing(tmp_path: Path) ->
 
 
 def test_the_basis_of_a_value_is_a_change(tmp_path: Path) -> None:
-    found = between(tmp_path, LIMITED, LIMITED.replace("force: 2 kN", "force: {value: 2 kN, basis: measured}"))
+    found = changed_between(tmp_path, LIMITED, LIMITED.replace("force: 2 kN", "force: {value: 2 kN, basis: measured}"))
     (row, *_) = printed_changes(found, Catalogue("en")).inputs
     assert (row.path, row.change, row.note) == ("a.force", "", "given → measured")
 
@@ -100,12 +107,12 @@ def test_checks_stand_in_the_order_of_their_importance(tmp_path: Path) -> None:
     whole = results(tmp_path, LIMITED, "old")
     sides: list[Data] = []
     for side in (0, 1):
-        judged = [{"id": f"c{number}", "title": "C", "class": "strength", "message": "", "status": pair[side][0], "utilisation": pair[side][1]}
+        judged = [{"id": f"c{number}", "title": "C", "class": "strength", "status": pair[side][0], "utilisation": pair[side][1]}
                   for number, pair in enumerate(CHECKED)]  # fmt: skip
         mechanism = whole["mechanisms"]["a"] | {"checks": judged[:: 1 if side else -1]}
         sides.append(whole | {"mechanisms": {"a": mechanism}, "governing": {"mechanism": "a", "check": "c0"}})
-    found = changes(*sides)["checks"]
-    assert [row["id"] for row in found] == [f"c{number}" for number in range(len(CHECKED))]
+    found = changes(*(filled(ResultsRecord, side) for side in sides)).checks
+    assert [row.id for row in found] == [f"c{number}" for number in range(len(CHECKED))]
 
 
 @pytest.mark.parametrize(

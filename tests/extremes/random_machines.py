@@ -150,16 +150,16 @@ def _wrong(run: WarmRun, expected: set[str], *, printed: bool) -> Iterator[str]:
     yield from (f"{each} vanishes" for each in sorted(expected - _checks(run)) if not _may_be_absent(run, each))
     if printed:
         document = run.document()
-        yield from (each["error"] for each in document["mechanisms"].values() if "error" in each)
+        yield from (each.error for each in document.mechanisms.values() if each.error)
         try:
-            json.dumps(document, allow_nan=False)
+            json.dumps(document.data(), allow_nan=False)
         except ValueError as fault:
             yield f"results: {fault}"
 
 
 def _checks(run: WarmRun) -> set[str]:
     """The checks of a machine, made or told as not checked."""
-    return {f"{name}.{check['id']}" for name, checks in run.checks.items() for check in checks}
+    return {f"{name}.{check.id}" for name, checks in run.checks.items() for check in checks}
 
 
 def _may_be_absent(run: WarmRun, name: str) -> bool:

@@ -20,7 +20,9 @@ from diecut_report.live import session as live_session
 from diecut_report.live import session as reports
 from diecut_report.live.server import LiveApplication
 from diecut_report.live.session import LiveSession
+from diecut_report.results.model import ResultsRecord
 from tests.configs import EXAMPLES
+from tests.records import filled
 
 KNIFE = next(path for path in EXAMPLES if path.stem == "circular_knife")
 
@@ -94,7 +96,7 @@ def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
 def test_a_report_that_is_never_made_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reports, "PATIENCE", 0.05)  # an interpreter takes longer to begin
     with pytest.raises(UserError, match=r"not made within 0\.05 s"):
-        asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made({}, "html"), 60))
+        asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made(filled(ResultsRecord, {}), "html"), 60))
 
 
 def test_full_passes_over_what_stays_do_not_stop_the_page(tmp_path: Path, monkeypatch: pytest.MonkeyPatch) -> None:

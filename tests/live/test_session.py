@@ -39,7 +39,7 @@ def session(tmp_path: Path) -> LiveSession:
 
 def force(session: LiveSession) -> float:
     assert session.machine is not None
-    return float(session.machine.run.outputs("knife")["force_max"]["value"])
+    return float(session.machine.run.outputs("knife")["force_max"].value)
 
 
 def shown_of(session: LiveSession, mechanism: str) -> dict[str, Any]:
@@ -93,13 +93,13 @@ def test_it_shows_what_the_file_gives_when_it_is_calculated_by_itself(session: L
     shown = page_data(session)["machine"]
     session.write()
     results = document(compute(load_config(session.file, Discovery([])), lambda _: None))
-    assert (shown["status"], shown["summary"]["fail"]) == (results["status"], results["summary"]["fail"])
+    assert (shown["status"], shown["summary"]["fail"]) == (results.status, results.summary.fail)
     (knife,) = (each for each in shown["mechanisms"] if each["name"] == "knife")
-    checks = {check["id"]: check for check in results["mechanisms"]["knife"]["checks"]}
+    checks = {check.id: check for check in results.mechanisms["knife"].checks}
     assert {check["id"]: check["utilisation"] for check in knife["checks"]} == {
-        name: check["utilisation"] for name, check in checks.items() if check["class"] != "numerical"
+        name: check.utilisation for name, check in checks.items() if check.check_class != "numerical"
     }
-    assert force(session) == results["mechanisms"]["knife"]["outputs"]["force_max"]["value"]
+    assert force(session) == results.mechanisms["knife"].outputs["force_max"].value
 
 
 def test_a_number_of_the_page_stands_over_the_file_until_it_is_written_into_it(session: LiveSession) -> None:
@@ -254,8 +254,8 @@ def test_the_effect_of_an_input_is_that_of_machines_calculated_one_by_one(sessio
     for place in (0, 7, len(found["places"]) - 1):
         session.change({"knife.shear_resistance": f"{found['places'][place]} N/mm**2"})
         for check in session.machine.run.checks["knife"]:
-            if (name := f"knife.{check['id']}") in lines and check["status"] != "not_checked":
-                assert lines[name][place] == pytest.approx(check["utilisation"], rel=1e-3), name
+            if (name := f"knife.{check.id}") in lines and check.status != "not_checked":
+                assert lines[name][place] == pytest.approx(check.utilisation, rel=1e-3), name
 
 
 CLUTCH = """
@@ -307,7 +307,7 @@ def test_the_page_names_the_figures_of_a_mechanism_and_makes_none(
     session: LiveSession, monkeypatch: pytest.MonkeyPatch
 ) -> None:
     assert session.machine is not None
-    titles = [figure["title"] for figure in session.machine.run.figures("knife")]
+    titles = [figure.title for figure in session.machine.run.figures("knife")]
     session.change({"knife.eccentricity": "22 mm"})
     monkeypatch.setattr(WarmRun, "figures", lambda *_: pytest.fail("a figure is made that nobody looks at"))
     assert shown_of(session, "knife")["figures"] == titles

@@ -12,6 +12,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import MechanismRecord
 from tests.machine.swing import MECHANISM, Swing
 
 TURN = 2 * np.pi / 3
@@ -41,12 +42,12 @@ def follower(source: Calculation, curve: str = "position", **keys: Any) -> Calcu
     return swing(motion=CurveHandle(source, curve), **keys)
 
 
-def results(calc: Calculation) -> dict[str, Any]:
+def results(calc: Calculation) -> MechanismRecord:
     return mechanism_results(calc, {})
 
 
 def values(calc: Calculation, curve: str) -> Any:
-    return np.array(results(calc)["curves"][curve]["values"])
+    return np.array(results(calc).curves[curve].values)
 
 
 def several(**keys: Any) -> Calculation:

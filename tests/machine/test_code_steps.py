@@ -164,8 +164,8 @@ def test_formulas_of_rows_are_shown_with_the_part_that_is_named_and_the_table_ho
 
 def test_a_check_over_named_parts_tells_the_name() -> None:
     (check,) = check_results(ramp())
-    assert check["message"].startswith("Force 12 N, allowed 5 N at right: the point 1 breaks")
-    assert check["part_name"] == "right"
+    assert check.message.startswith("Force 12 N, allowed 5 N at right: the point 1 breaks")
+    assert check.part_name == "right"
 
 
 def test_extremes_and_words_come_as_such_and_refusals_are_told_at_their_key() -> None:

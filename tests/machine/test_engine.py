@@ -14,6 +14,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
 from diecut_report.mechanism.steps import Root
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import AbsentRecord
 from tests.machine.toy import MECHANISM, ROOTED, cube, cubed, doubled, plus_one, same, zero
 from tests.machines import inputs, number
 
@@ -61,14 +62,14 @@ def test_crossings_are_found_inside_pieces_and_at_jumps() -> None:
 def test_a_choice_gives_a_text_and_keeps_the_branch() -> None:
     assert toy(force=2)["verdict"][0, 0] == "light"
     assert toy(force=6)["verdict"][0, 0] == "heavy"
-    assert mechanism_results(toy(force=6), {})["outputs"]["verdict"]["value"] == "heavy"
+    assert mechanism_results(toy(force=6), {}).outputs["verdict"].value == "heavy"
 
 
 def test_an_output_can_exist_under_a_condition() -> None:
-    assert mechanism_results(toy(force=2), {})["outputs"]["twice"]["value"] == pytest.approx(400)
+    assert mechanism_results(toy(force=2), {}).outputs["twice"].value == pytest.approx(400)
     heavy = mechanism_results(toy(force=7), {})
-    assert "twice" not in heavy["outputs"]
-    assert [c["id"] for c in heavy["checks"]] == ["rated"]
+    assert "twice" not in heavy.outputs
+    assert [c.id for c in heavy.checks] == ["rated"]
 
 
 @pytest.mark.parametrize("force, rated", [(0.9, 100), (1.0, 100), (1.001, 200), (5, 800), (20, 800)])
@@ -77,9 +78,9 @@ def test_a_standard_value_is_picked_at_or_above(force: float, rated: float) -> N
 
 
 def test_the_neighbours_that_were_not_taken_are_printed() -> None:
-    items = [i for s in mechanism_results(toy(force=3), {})["sections"] for i in s["items"]]
-    picked = next(i for i in items if i.get("id") == "rated")
-    assert "200" in picked["method"] and "800" in picked["method"] and picked["result"]["text"] == "400"
+    items = [i for s in mechanism_results(toy(force=3), {}).sections for i in s.items]
+    picked = next(i for i in items if i.id == "rated")
+    assert "200" in picked.method and "800" in picked.method and picked.result.text == "400"
 
 
 def test_repeated_parts_make_rows_sums_and_products() -> None:
@@ -89,19 +90,17 @@ def test_repeated_parts_make_rows_sums_and_products() -> None:
     assert number(calc, "total_ratio") == pytest.approx(7.5)
     assert number(calc, "total_teeth") == 38
     results = mechanism_results(calc, {})
-    assert results["outputs"]["pair_ratio.1"]["value"] == 2.5
-    assert results["inputs"]["gears.1.driven_teeth"]["value"] == 45
-    tables = [
-        i for s in results["sections"] for i in s["items"] if i["type"] == "table" and i["title"] == "Ratio of the pair"
-    ]
-    assert [row[-1] for row in tables[0]["rows"]] == ["3", "2.5"]
+    assert results.outputs["pair_ratio.1"].value == 2.5
+    assert results.inputs["gears.1.driven_teeth"].value == 45
+    tables = [i for s in results.sections for i in s.items if i.type == "table" and i.title == "Ratio of the pair"]
+    assert [row[-1] for row in tables[0].rows] == ["3", "2.5"]
 
 
 def test_an_absent_block_switches_its_chapter_off_and_says_so() -> None:
     without, with_spring = mechanism_results(toy(), {}), mechanism_results(toy(spring={"stiffness": "100 N/mm"}), {})
-    assert {"title": "Spring", "text": "no spring is given"} in without["absent"]
-    assert with_spring["outputs"]["sag"]["value"] == pytest.approx(0.02)
-    assert "Spring" not in [a["title"] for a in with_spring["absent"]]
+    assert AbsentRecord(title="Spring", text="no spring is given") in without.absent
+    assert with_spring.outputs["sag"].value == pytest.approx(0.02)
+    assert "Spring" not in [a.title for a in with_spring.absent]
 
 
 def test_a_family_of_outputs_is_written_once() -> None:
@@ -118,10 +117,10 @@ def test_a_curve_is_an_input_of_another_mechanism_with_its_breakpoints() -> None
 
 def test_a_curve_taken_over_keeps_its_one_sided_limits_at_a_jump() -> None:
     taken = toy(torque_curve=CurveHandle(toy(), "torque"))
-    (curve,) = (mechanism_results(taken, {})["curves"][name] for name in ("taken",))
-    jump = curve["breakpoints"].index(pytest.approx(2 * np.pi / 3))
+    (curve,) = (mechanism_results(taken, {}).curves[name] for name in ("taken",))
+    jump = curve.breakpoints.index(pytest.approx(2 * np.pi / 3))
     moment = 200 * np.sin(2 * np.pi / 3)
-    assert (curve["left"][jump], curve["right"][jump]) == (pytest.approx(moment), pytest.approx(moment + 200))
+    assert (curve.left[jump], curve.right[jump]) == (pytest.approx(moment), pytest.approx(moment + 200))
 
 
 def test_a_list_of_values_is_a_curve_that_runs_straight_between_them() -> None:
@@ -209,11 +208,11 @@ def test_a_number_that_is_not_finite_is_refused() -> None:
 
 
 def test_curves_in_results_carry_their_one_sided_values() -> None:
-    torque = mechanism_results(toy(), {})["curves"]["torque"]
-    assert torque["breakpoints"] == pytest.approx([STEP])
-    assert torque["left"] == pytest.approx([200 * np.sin(STEP)])
-    assert torque["right"] == pytest.approx([200 * (np.sin(STEP) + 1)])
-    assert len(torque["values"]) == 90
+    torque = mechanism_results(toy(), {}).curves["torque"]
+    assert torque.breakpoints == pytest.approx([STEP])
+    assert torque.left == pytest.approx([200 * np.sin(STEP)])
+    assert torque.right == pytest.approx([200 * (np.sin(STEP) + 1)])
+    assert len(torque.values) == 90
 
 
 def test_formula_of_a_plugin_is_callable_alone() -> None:

@@ -19,6 +19,7 @@ from diecut_report.pipeline import calc as run
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import ItemRecord, PlaceRecord
 from tests.configs import problems, saved
 from tests.machine.swing import MECHANISM, Swing
 
@@ -171,13 +172,13 @@ def test_a_referred_curve_takes_no_list(given: Any, fits: bool) -> None:
 # --- print -----------------------------------------------------------------------------------------------------------
 
 
-def item(key: str, name: str) -> dict[str, Any]:
+def item(key: str, name: str) -> ItemRecord:
     """What is printed of a step of a link with this key."""
     given = {key: 1.0, "lift": "1 rad" if key == "inertia" else "1 m", "duration": 2} | {"n_points": 80}
     if key == "mass":
         given["lift"] = "400 mm"
     results = mechanism_results(calculate(MECHANISM, flatten(in_form(Swing, given).model_validate(given))), {})
-    return next(i for section in results["sections"] for i in section["items"] if i.get("id") == name)
+    return next(i for section in results.sections for i in section.items if i.id == name)
 
 
 def equation(of: dict[str, Any]) -> tuple[str, str]:
@@ -188,12 +189,10 @@ def equation(of: dict[str, Any]) -> tuple[str, str]:
 
 def test_a_derivative_is_printed_with_its_place_and_proof() -> None:
     printed = item("inertia", "speed")
-    assert (printed["type"], printed["operation"], printed["of"]) == ("reduction", "derivative", "y")
-    assert printed["at"] == {"symbol": "t", "text": "0.25", "unit": "s"}
-    assert (
-        float(printed["result"]["text"]) == pytest.approx(192 * 0.125**2 / 2) and printed["result"]["unit"] == "rad/s"
-    )
-    assert "Chebyshev series" in printed["method"] and float(printed["residual"]["text"]) < 1e-12
+    assert (printed.type, printed.operation, printed.of) == ("reduction", "derivative", "y")
+    assert printed.at == PlaceRecord(symbol="t", text="0.25", unit="s")
+    assert float(printed.result.text) == pytest.approx(192 * 0.125**2 / 2) and printed.result.unit == "rad/s"
+    assert "Chebyshev series" in printed.method and float(printed.residual.text) < 1e-12
     latex, text = equation(printed)
     assert text == "v = dy/dt = 1.5 rad/s at t = 0.25 s"
     assert r"\frac{\mathrm{d}y}{\mathrm{d}t}" in latex
@@ -201,7 +200,7 @@ def test_a_derivative_is_printed_with_its_place_and_proof() -> None:
 
 def test_a_found_value_is_printed_with_its_method_and_without_a_relation() -> None:
     printed = item("mass", "work")
-    assert (printed["type"], printed["relation"]) == ("found", None)
-    assert printed["method"] == "half of stiffness times lift squared"
+    assert (printed.type, printed.relation) == ("found", None)
+    assert printed.method == "half of stiffness times lift squared"
     assert equation(printed)[1] == "W = 8 J"
-    assert item("mass", "speed")["result"]["unit"] == "m/s"
+    assert item("mass", "speed").result.unit == "m/s"

@@ -150,14 +150,14 @@ def test_the_row_that_was_taken_is_marked_and_a_column_has_its_digits() -> None:
     (table,) = (each for section in section_items(one) for each in section["items"] if each["type"] == "table")
     assert [column["title"] for column in table["columns"]] == ["taken", "Bearing", "Rating"]
     assert table["rows"] == [["", "small", "13.5"], ["→", "big", "14.9"]]
-    assert listings.results(one)["listings"]["all"]["taken"] == [1]
+    assert listings.results(one)["all"]["taken"] == [1]
 
 
 def test_a_row_of_a_number_is_marked_and_none_where_none_was_taken() -> None:
     one = run(made(listed("load", [(14e3 * (1 + 1e-12), 1.0), (13e3, 2.0)])))
-    assert listings.results(one)["listings"]["all"]["taken"] == [0]
+    assert listings.results(one)["all"]["taken"] == [0]
     none = run(made(listed("given", [("small", 1.0)])))
-    assert "taken" not in listings.results(none)["listings"]["all"]
+    assert "taken" not in listings.results(none)["all"]
     (fault,) = faults(made(listed("lod", [])))
     assert "step all: takes lod, which nothing gives (did you mean 'load'?)" in str(fault)
 

@@ -17,6 +17,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.pipeline import calc as run
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import MechanismRecord
 from tests.configs import problems, saved
 from tests.machine.loop import COMPARED, MECHANISM, Loop
 
@@ -28,7 +29,7 @@ def loop(**keys: Any) -> Calculation:
     return calculate(MECHANISM, flatten(Loop.model_validate({"pull": 1, "fence": {"posts": POSTS}} | keys)))
 
 
-def told(**keys: Any) -> dict[str, Any]:
+def told(**keys: Any) -> MechanismRecord:
     return mechanism_results(loop(**keys), {})
 
 
@@ -56,9 +57,9 @@ def test_a_row_takes_its_neighbours_around_the_loop() -> None:
 
 
 def test_the_parts_of_a_row_have_names() -> None:
-    outputs = told()["outputs"]
-    assert [outputs[n]["value"] for n in ("way_2", "way_3", "way_4")] == [4, 5, 10]
-    assert [outputs[f"gap.{i}"]["value"] for i in range(3)] == [4, 1, 5]
+    outputs = told().outputs
+    assert [outputs[n].value for n in ("way_2", "way_3", "way_4")] == [4, 5, 10]
+    assert [outputs[f"gap.{i}"].value for i in range(3)] == [4, 1, 5]
     assert MECHANISM.results_of(frozenset({"fence", "pull"}))["way_3"] == ("m", False)
     assert loop(fence={"posts": POSTS[:1] + POSTS[2:]})["way_2"][0, 0] == 5
 
@@ -69,8 +70,8 @@ def test_the_only_part_of_a_list_is_still_a_part(plugins: Discovery) -> None:
 
 
 def test_inputs_in_a_list_in_a_block_keep_their_path() -> None:
-    assert told()["inputs"]["fence.posts.1.x"]["value"] == 3
-    assert told()["inputs"]["fence.posts.1.grip"]["value"] == "rough"
+    assert told().inputs["fence.posts.1.x"].value == 3
+    assert told().inputs["fence.posts.1.grip"].value == "rough"
 
 
 def test_the_part_that_cannot_be_is_named() -> None:
@@ -94,37 +95,32 @@ def test_a_clash_marks_its_variant_and_leaves_its_neighbours_alone() -> None:
 
 def test_a_standard_value_comes_from_the_series_that_a_text_names() -> None:
     assert loop()["stock"][0, 0] == 10 and loop(material="chain")["stock"][0, 0] == 16
-    item = next(i for s in told()["sections"] for i in s["items"] if i.get("operation") == "pick")
-    assert "neighbours not taken: 5 m, 20 m" in item["method"] and item["series"] == "Rope lengths"
-    assert item["note"] == "Rope lengths: Table one; Table two"
+    item = next(i for s in told().sections for i in s.items if i.operation == "pick")
+    assert "neighbours not taken: 5 m, 20 m" in item.method and item.series == "Rope lengths"
+    assert item.note == "Rope lengths: Table one; Table two"
 
 
 def test_a_number_is_looked_up_by_a_text() -> None:
     assert loop()["weight"][0, 0] == 0.5
-    item = next(
-        i
-        for s in told(material="chain")["sections"]
-        for i in s["items"]
-        if i["type"] == "lookup" and i["id"] == "weight"
-    )
-    assert (item["key"], item["table"], item["result"]["text"]) == ("chain", "Weights", "2000")
+    item = next(i for s in told(material="chain").sections for i in s.items if i.type == "lookup" and i.id == "weight")
+    assert (item.key, item.table, item.result.text) == ("chain", "Weights", "2000")
 
 
 def test_a_text_switches_steps_and_formulas() -> None:
-    assert "chained" not in told()["outputs"] and told(material="chain")["outputs"]["chained"]["value"] == 0
-    assert min(told()["curves"]["height"]["values"]) < -0.9
-    assert min(told(material="chain")["curves"]["height"]["values"]) == 0
+    assert "chained" not in told().outputs and told(material="chain").outputs["chained"].value == 0
+    assert min(told().curves["height"].values) < -0.9
+    assert min(told(material="chain").curves["height"].values) == 0
 
 
 def test_words_are_made_of_numbers_and_are_no_output() -> None:
-    assert printed(loop(), "told") == "short" and "told" not in told()["outputs"]
+    assert printed(loop(), "told") == "short" and "told" not in told().outputs
 
 
 def test_a_running_integral_is_the_primitive() -> None:
-    curves = told()["curves"]
-    turn = np.array(curves["turn"]["values"])
-    np.testing.assert_allclose(curves["area"]["values"], 1 - np.cos(turn), atol=1e-14)
-    assert told()["outputs"]["area_range"]["value"] == pytest.approx(2, rel=1e-12)
+    curves = told().curves
+    turn = np.array(curves["turn"].values)
+    np.testing.assert_allclose(curves["area"].values, 1 - np.cos(turn), atol=1e-14)
+    assert told().outputs["area_range"].value == pytest.approx(2, rel=1e-12)
 
 
 def test_a_running_integral_of_variants_is_that_of_each() -> None:
@@ -134,25 +130,25 @@ def test_a_running_integral_of_variants_is_that_of_each() -> None:
 
 def test_a_running_integral_of_listed_values_goes_from_corner_to_corner() -> None:
     wave = [0.0, 1.0, 0.0, -1.0] * 12
-    curves = told(wave=wave)["curves"]
+    curves = told(wave=wave).curves
     step = 2 * np.pi / 48
     places = np.arange(49) * step
     whole = np.concatenate([[0], np.cumsum((np.array(wave) + np.roll(wave, -1)) / 2 * step)])
-    turn = np.array(curves["turn"]["values"])
+    turn = np.array(curves["turn"].values)
     k = np.minimum((turn / step).astype(int), 47)
     inside = (turn - places[k]) / step
     rise = np.array(wave)[k] * inside + (np.roll(wave, -1) - np.array(wave))[k] * inside**2 / 2
-    np.testing.assert_allclose(curves["wave_area"]["values"], whole[k] + rise * step, atol=1e-13)
+    np.testing.assert_allclose(curves["wave_area"].values, whole[k] + rise * step, atol=1e-13)
 
 
 def test_a_sweep_calculates_the_machine_again() -> None:
-    first, second = told()["figures"][0]["panels"]
+    first, second = told().figures[0].panels
     assert [line["y"] for line in first["lines"]] == [pytest.approx([0.5, 1, 1.5, 2])] * 2
     assert second["lines"][0]["y"] == pytest.approx([0, 1, 0, 1, 0], abs=1e-14)
 
 
 def test_an_export_names_its_curves() -> None:
-    assert told()["exports"] == [
+    assert [each.data() for each in told().exports] == [
         {"id": "rope", "title": "Rope", "type": "profile", "abscissa": "turn", "columns": ["height", "area"]}
     ]
 
@@ -214,7 +210,7 @@ def test_of_numbered_parts_the_first_is_suggested(tmp_path: Path, plugins: Disco
 
 
 def test_the_list_of_a_row_is_told(tmp_path: Path) -> None:
-    assert told()["lists"] == {"fence.posts": "Posts in order"} and told()["outputs"]["gap.1"]["list"] == "fence.posts"
+    assert told().lists == {"fence.posts": "Posts in order"} and told().outputs["gap.1"].list == "fence.posts"
 
 
 def test_a_comparison_is_run_last_for_each_choice_of_instances(tmp_path: Path, plugins: Discovery) -> None:
@@ -231,4 +227,4 @@ def test_a_comparison_that_breaks_is_named(tmp_path: Path, plugins: Discovery, m
     monkeypatch.setitem(MECHANISM.comparisons[0].takes, "other", ("loop", "force"))  # type: ignore[arg-type]
     outcome, _ = run(saved(tmp_path, HEAD + "  a: {kind: loop, pull: 1}\n"), plugins, lambda _: None)
     (error,) = outcome.broken
-    assert "loop_comparison-a" in str(error) and outcome.results["status"] == "error"
+    assert "loop_comparison-a" in str(error) and outcome.results.status == "error"

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from dataclasses import replace
-from typing import Annotated, Any
+from typing import Annotated
 
 import numpy as np
 import pytest
@@ -16,6 +16,7 @@ from diecut_report.machine.printing.substitution import filled
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import ItemRecord, ShownRecord
 
 
 class Wave(Inputs):
@@ -46,11 +47,11 @@ def test_how_many_crossings_there_are_is_a_number_with_symbol_and_unit() -> None
 
 def test_formulas_of_crossings_and_of_their_number_are_printed_with_symbols_of_their_own() -> None:
     assert not faults(MECHANISM)
-    items: dict[str, Any] = {item["id"]: item for item in mechanism_results(made(), {})["sections"][0]["items"]}
-    assert items["doubled"]["equation"] == Node("*", (Node("num", ("2",)), Node("sym", ("n_φ,0",)))).to_json()
-    assert items["doubled"]["result"]["text"] == "4"  # cos is zero at 90° and at 270°
-    assert items["between"]["equation"] == Node("-", (Node("sym", ("φ_0,2",)), Node("sym", ("φ_0,1",)))).to_json()
-    assert items["between"]["result"] == {"text": "180", "unit": "deg"}
+    items: dict[str, ItemRecord] = {item.id: item for item in mechanism_results(made(), {}).sections[0].items}
+    assert items["doubled"].equation == Node("*", (Node("num", ("2",)), Node("sym", ("n_φ,0",)))).to_json()
+    assert items["doubled"].result.text == "4"  # cos is zero at 90° and at 270°
+    assert items["between"].equation == Node("-", (Node("sym", ("φ_0,2",)), Node("sym", ("φ_0,1",)))).to_json()
+    assert items["between"].result == ShownRecord(text="180", unit="deg")
 
 
 def test_a_name_that_nothing_has_is_told_with_the_plugin_and_the_nearest() -> None:
@@ -84,10 +85,10 @@ TRAIN = Mechanism(kind="train", version="1", title="Train", summary="Train.", in
 def test_formulas_of_several_parts_are_printed_with_the_number_of_each() -> None:
     assert not faults(TRAIN)
     calc = calculate(TRAIN, {"shafts.ratio": (5.0, 0.4)})
-    items: dict[str, Any] = {item.get("id"): item for item in mechanism_results(calc, {})["sections"][0]["items"]}
-    assert items["slip"]["equation"] == Node("-", (Node("sym", ("ω_3",)), Node("sym", ("ω_4",)))).to_json()
-    assert items["more"]["equation"] == Node("/", (Node("sym", ("F_t,2",)), Node("sym", ("F_t,1",)))).to_json()
-    assert items["slip"]["result"] == {"text": "3", "unit": "1"} and items["more"]["result"]["text"] == "1.08"
+    items: dict[str, ItemRecord] = {item.id: item for item in mechanism_results(calc, {}).sections[0].items}
+    assert items["slip"].equation == Node("-", (Node("sym", ("ω_3",)), Node("sym", ("ω_4",)))).to_json()
+    assert items["more"].equation == Node("/", (Node("sym", ("F_t,2",)), Node("sym", ("F_t,1",)))).to_json()
+    assert items["slip"].result == ShownRecord(text="3", unit="1") and items["more"].result.text == "1.08"
 
 
 def test_a_part_with_the_symbol_of_another_quantity_is_a_fault() -> None:

@@ -63,15 +63,15 @@ MACHINES = {
 @pytest.mark.parametrize("machine", MACHINES)
 def test_every_printed_formula_gives_its_printed_result(machine: str) -> None:
     results = mechanism_results(MACHINES[machine](), {})
-    items = [i for s in results["sections"] for i in s["items"] if i.get("substituted")]
+    items = [i for s in results.sections for i in s.items if i.substituted]
     assert len(items) > 20
     for item in items:
-        display = item["result"]["unit"]
-        again = float(evaluate(node(item["substituted"]), said)) / unit(display).factor
-        printed = item["result"]["text"]
+        display = item.result.unit
+        again = float(evaluate(node(item.substituted), said)) / unit(display).factor
+        printed = item.result.text
         decimals = len(printed.partition("e")[0].partition(".")[2])
         half = 0.5 * 10.0 ** (int(printed.partition("e")[2] or 0) - decimals)
-        assert abs(again - float(printed)) <= half * 1.001 + 1e-9 * abs(again), item["id"]
+        assert abs(again - float(printed)) <= half * 1.001 + 1e-9 * abs(again), item.id
 
 
 @pytest.mark.parametrize(

@@ -28,12 +28,12 @@ def test_derivatives_and_integrals_are_those_of_closed_form(curve: str, duration
 
 
 def test_a_derivative_has_limits_of_both_sides_where_the_curve_has_a_corner() -> None:
-    curves = results(made(duration=2))["curves"]
-    assert curves["acceleration"]["breakpoints"] == [0.5] == curves["time"]["breakpoints"]
-    assert curves["acceleration"]["left"] == pytest.approx([24], rel=1e-9)
-    assert curves["acceleration"]["right"] == pytest.approx([-(TURN**2) / 4], rel=1e-9)
-    assert curves["speed"]["left"] == pytest.approx([6], rel=1e-11)
-    assert curves["speed"]["right"] == pytest.approx([0], abs=1e-11)
+    curves = results(made(duration=2)).curves
+    assert curves["acceleration"].breakpoints == [0.5] == curves["time"].breakpoints
+    assert curves["acceleration"].left == pytest.approx([24], rel=1e-9)
+    assert curves["acceleration"].right == pytest.approx([-(TURN**2) / 4], rel=1e-9)
+    assert curves["speed"].left == pytest.approx([6], rel=1e-11)
+    assert curves["speed"].right == pytest.approx([0], abs=1e-11)
 
 
 def test_reductions_of_a_derivative_take_the_limits_in() -> None:
@@ -66,15 +66,15 @@ def test_a_curve_laid_out_from_a_start_goes_around(share: float, duration: float
 
 
 def test_breakpoints_come_again_in_each_period() -> None:
-    curves = results(follower(made(duration=2), "turned", share=0.6, duration=5))["curves"]
+    curves = results(follower(made(duration=2), "turned", share=0.6, duration=5)).curves
     own = [0.8, 1.3, 2.8, 3.3, 4.8]  # the curve's end, then its corner
     stretched = [5 / 4]
-    assert curves["position"]["breakpoints"] == pytest.approx(sorted(own + stretched))
-    ends = [curves["position"]["breakpoints"].index(pytest.approx(place)) for place in (0.8, 2.8, 4.8)]
-    assert [curves["position"]["left"][i] for i in ends] == pytest.approx([2, 2, 2])
-    assert [curves["position"]["right"][i] for i in ends] == pytest.approx([0, 0, 0], abs=1e-13)
-    assert [curves["grown"]["left"][i] for i in ends] == pytest.approx([2, 4, 6])
-    assert [curves["grown"]["right"][i] for i in ends] == pytest.approx([2, 4, 6])
+    assert curves["position"].breakpoints == pytest.approx(sorted(own + stretched))
+    ends = [curves["position"].breakpoints.index(pytest.approx(place)) for place in (0.8, 2.8, 4.8)]
+    assert [curves["position"].left[i] for i in ends] == pytest.approx([2, 2, 2])
+    assert [curves["position"].right[i] for i in ends] == pytest.approx([0, 0, 0], abs=1e-13)
+    assert [curves["grown"].left[i] for i in ends] == pytest.approx([2, 4, 6])
+    assert [curves["grown"].right[i] for i in ends] == pytest.approx([2, 4, 6])
 
 
 def test_the_curve_of_a_curve_keeps_its_period_and_its_gain() -> None:
@@ -125,8 +125,8 @@ def test_plain_code_takes_numbers_texts_and_curves() -> None:
 
 
 def test_a_spectrum_stands_among_the_curves_of_the_results() -> None:
-    curves = results(made())["curves"]
-    assert curves["ratio"]["values"] == RATIOS.tolist() and curves["ratio"]["is_spectrum"]
-    assert curves["amplitude_2"]["values"] == (RATIOS**2).tolist()
-    assert (curves["amplitude_2"]["abscissa"], curves["amplitude_2"]["source"]) == ("ratio", "made up")
-    assert not any("is_spectrum" in curves[name] for name in CLOSED)
+    curves = results(made()).curves
+    assert curves["ratio"].values == RATIOS.tolist() and curves["ratio"].is_spectrum
+    assert curves["amplitude_2"].values == (RATIOS**2).tolist()
+    assert (curves["amplitude_2"].abscissa, curves["amplitude_2"].source) == ("ratio", "made up")
+    assert not any(curves[name].is_spectrum for name in CLOSED)

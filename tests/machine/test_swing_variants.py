@@ -17,19 +17,19 @@ from tests.machine.swings import CLOSED, TURN, follower, grown, made, results, s
 def test_finer_pieces_serve_the_search_and_are_no_breakpoints_of_the_results() -> None:
     calc = made(duration=2, ripple=0.1)
     assert calc.domains["time"].widths.max() <= 0.1 * (1 + 1e-12)
-    assert results(calc)["curves"]["position"]["breakpoints"] == [0.5]
+    assert results(calc).curves["position"].breakpoints == [0.5]
 
 
 def test_a_search_for_crossings_leaves_no_breakpoints() -> None:
     calc = made(duration=2)
     assert calc["half_way"][0, :2] == pytest.approx([0.5 * 0.5 ** (1 / 3), 1.5])
-    assert results(calc)["curves"]["time"]["breakpoints"] == [0.5]
+    assert results(calc).curves["time"].breakpoints == [0.5]
 
 
 def test_neither_the_start_nor_the_end_is_a_breakpoint() -> None:
     calc = follower(made(duration=2), duration=2)  # the period of the curve begins at the start
-    for curve in results(calc)["curves"].values():
-        assert curve.get("breakpoints", [0.5]) == [0.5]
+    for curve in results(calc).curves.values():
+        assert (curve.breakpoints or [0.5]) == [0.5]
 
 
 @pytest.mark.parametrize("place", [0.0, 2.0, 1e-15, -1e-17, 2 - 1e-15, 4.0, np.nan])

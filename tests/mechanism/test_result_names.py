@@ -21,6 +21,7 @@ from diecut_report.mechanism.steps import (
     names_ahead,
     result_names,
 )
+from diecut_report.results.model import PartRecord
 from tests.machine.loop import MECHANISM as LOOP
 from tests.machine.test_loop import told
 
@@ -97,7 +98,7 @@ def test_a_family_for_another_variant_takes_its_own_crossings() -> None:
 
 def test_results_carry_the_part_that_they_are_of() -> None:
     data = told()
-    assert data["outputs"]["gap.1"]["part"] == {"family": "fence.posts", "index": 1, "quantity": "gap"}
-    assert data["outputs"]["way_3"]["part"] == {"family": "way", "index": 1, "number": 3}
-    assert data["inputs"]["fence.posts.1.x"]["part"] == {"family": "fence.posts", "index": 1, "quantity": "x"}
-    assert "part" not in data["outputs"]["length"]
+    assert data.outputs["gap.1"].part == PartRecord(family="fence.posts", index=1, quantity="gap")
+    assert data.outputs["way_3"].part == PartRecord(family="way", index=1, number=3)
+    assert data.inputs["fence.posts.1.x"].part == PartRecord(family="fence.posts", index=1, quantity="x")
+    assert data.outputs["length"].part is None

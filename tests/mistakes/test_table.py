@@ -56,7 +56,7 @@ def test_each_row_is_another_mistake() -> None:
 
 def test_the_plugin_without_a_mistake_passes() -> None:
     check_mechanism(right())
-    assert {check["status"] for check in check_results(elevator())} == {"pass"}
+    assert {check.status for check in check_results(elevator())} == {"pass"}
 
 
 def test_its_numbers_are_those_of_plain_arithmetic() -> None:
@@ -91,16 +91,16 @@ def test_the_shafts_distance_carries_the_belt() -> None:
 
 
 def test_each_declared_check_is_made() -> None:
-    made = {check["id"]: check for check in check_results(elevator())}
+    made = {check.id: check for check in check_results(elevator())}
     assert made.keys() == {check.id for check in right().checks}
-    assert made["torque"]["demand"] == pytest.approx(number(elevator(), "torque_max"))
+    assert made["torque"].demand == pytest.approx(number(elevator(), "torque_max"))
 
 
 def test_a_check_of_a_row_judges_each_part() -> None:
-    made = {check["id"]: check for check in check_results(elevator(pulleys=[*reversed(MACHINE["pulleys"])]))}
-    assert made["pulley_load"]["demand"] == pytest.approx(4354, rel=1e-3)
+    made = {check.id: check for check in check_results(elevator(pulleys=[*reversed(MACHINE["pulleys"])]))}
+    assert made["pulley_load"].demand == pytest.approx(4354, rel=1e-3)
 
 
 def test_a_check_of_a_curve_fails_where_its_greatest_value_is_too_great() -> None:
-    made = {check["id"]: check["status"] for check in check_results(elevator(allowable_torque="240 N*m"))}
+    made = {check.id: check.status for check in check_results(elevator(allowable_torque="240 N*m"))}
     assert made["torque"] == "fail"

@@ -88,4 +88,4 @@ def value(calc: Calculation, name: str, part: int = 0) -> float:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks by their id."""
-    return {check["id"]: check for check in mechanism_results(calc, {})["checks"]}
+    return {check.id: check for check in mechanism_results(calc, {}).checks}

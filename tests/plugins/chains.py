@@ -35,7 +35,7 @@ def chain(keys: dict[str, Any] = DRIVE, **changes: Any) -> Calculation:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks of a chain by their id."""
-    return {check["id"]: check for check in mechanism_results(calc, {})["checks"]}
+    return {check.id: check for check in mechanism_results(calc, {}).checks}
 
 
 def without(keys: dict[str, Any], *names: str) -> dict[str, Any]:

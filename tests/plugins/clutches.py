@@ -30,4 +30,4 @@ def clutch(keys: dict[str, Any] = BASE, **changes: Any) -> Calculation:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks of a clutch by their id."""
-    return {check["id"]: check for check in mechanism_results(calc, {})["checks"]}
+    return {check.id: check for check in mechanism_results(calc, {}).checks}

@@ -18,8 +18,8 @@ def calculated(keys: dict[str, Any]) -> Calculation:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks that are made by their ids."""
-    found = {check["id"]: check for check in mechanism_results(calc, {})["checks"]}
-    return {name: check for name, check in found.items() if check["status"] != "not_checked"}
+    found = {check.id: check for check in mechanism_results(calc, {}).checks}
+    return {name: check for name, check in found.items() if check.status != "not_checked"}
 
 
 def passing(calc: Calculation) -> set[str]:

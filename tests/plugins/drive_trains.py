@@ -79,12 +79,12 @@ def sine_load(**changes: Any) -> CurveHandle:
 
 def check(calc: Calculation, name: str) -> dict[str, Any]:
     """A check's result."""
-    return {c["id"]: c for c in check_results(calc)}[name]
+    return {c.id: c for c in check_results(calc)}[name]
 
 
 def checked(calc: Calculation) -> set[str]:
     """The checks that take part."""
-    return {c["id"] for c in check_results(calc)}
+    return {c.id for c in check_results(calc)}
 
 
 def over_a_turn(values: Sequence[float], points: int) -> tuple[Array, Array]:

@@ -41,7 +41,7 @@ def driven(source: Calculation, curve: str, **changes: Any) -> Calculation:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks of a follower by their id."""
-    return {check["id"]: check for check in check_results(calc)}
+    return {check.id: check for check in check_results(calc)}
 
 
 def verdicts(calc: Calculation) -> dict[str, str]:

@@ -40,4 +40,4 @@ def pair(keys: dict[str, Any] = SPUR, **changes: Any) -> Calculation:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks of a gear pair by their id."""
-    return {check["id"]: check for check in mechanism_results(calc, {})["checks"]}
+    return {check.id: check for check in mechanism_results(calc, {}).checks}

@@ -33,4 +33,4 @@ def key(keys: dict[str, Any] = KEY, **changes: Any) -> Calculation:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks of a parallel key by their id."""
-    return {check["id"]: check for check in mechanism_results(calc, {})["checks"]}
+    return {check.id: check for check in mechanism_results(calc, {}).checks}

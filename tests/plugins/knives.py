@@ -36,7 +36,7 @@ def knife(**changes: Any) -> Calculation:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks of a knife by their id."""
-    return {check["id"]: check for check in check_results(calc)}
+    return {check.id: check for check in check_results(calc)}
 
 
 def at(calc: Calculation, curve: str, angles: Any) -> Array:

@@ -34,4 +34,4 @@ def at(calc: Calculation, curve: str, phi: Any) -> NDArray[Any]:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks by their id."""
-    return {check["id"]: check for check in check_results(calc)}
+    return {check.id: check for check in check_results(calc)}

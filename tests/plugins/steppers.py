@@ -41,7 +41,7 @@ def stepper(**changes: Any) -> Calculation:
 
 def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
     """The checks of a stepper by their id."""
-    return {check["id"]: check for check in check_results(calc)}
+    return {check.id: check for check in check_results(calc)}
 
 
 def at(calc: Calculation, curve: str, phi: Any) -> Array:

@@ -474,22 +474,22 @@ def test_all_that_the_method_promises_is_in_the_results() -> None:
         cam_1_pressure_angle_max cam_1_curvature_min cam_2_pressure_angle_max cam_2_curvature_min"""
     curves = """sector_angle sector_speed sector_acceleration gear_angle gear_speed gear_acceleration sheet_position sheet_velocity
         sheet_acceleration cam_1_x cam_1_y cam_2_x cam_2_y cam_1_pitch_x cam_1_pitch_y cam_2_pitch_x cam_2_pitch_y"""
-    assert set(outputs.split()) <= set(results["outputs"])
-    assert set(curves.split()) <= set(results["curves"])
+    assert set(outputs.split()) <= set(results.outputs)
+    assert set(curves.split()) <= set(results.curves)
     assert {"return_time", "pressure_angle", "curvature", "sheet_acceleration"} <= {
-        check["id"] for check in results["checks"]
+        check.id for check in results.checks
     }
-    assert [profile["id"] for profile in results["exports"]] == ["cam_1", "cam_2"]
+    assert [profile.id for profile in results.exports] == ["cam_1", "cam_2"]
 
 
 def test_without_further_keys_nothing_of_sheet_and_cams_is_said() -> None:
     results = mechanism_results(stepper(), {})
-    assert not any(name.startswith(("sheet_", "cam_", "torque")) for name in (*results["outputs"], *results["curves"]))
-    assert [check["id"] for check in results["checks"] if check["status"] != "not_checked"] == [
+    assert not any(name.startswith(("sheet_", "cam_", "torque")) for name in (*results.outputs, *results.curves))
+    assert [check.id for check in results.checks if check.status != "not_checked"] == [
         "return_time",
         "gear_turn",
     ]
-    assert results["exports"] == []
+    assert results.exports == []
 
 
 @pytest.mark.parametrize("dwell, sweep", [(216, 20), (120, 60), (240, 15)])
@@ -518,12 +518,12 @@ def test_jumping_laws_print_at_all_dwells() -> None:
 
 
 def test_teeth_are_counted_in_whole_numbers() -> None:
-    outputs = mechanism_results(stepper(module="2 mm"), {})["outputs"]
-    assert isinstance(outputs["gear_teeth"]["value"], int)
+    outputs = mechanism_results(stepper(module="2 mm"), {}).outputs
+    assert isinstance(outputs["gear_teeth"].value, int)
 
 
 def test_a_limit_that_nothing_is_held_against_is_told() -> None:
     found = mechanism_results(stepper(allowable_sheet_acceleration="50 m/s**2"), {})
-    unmade = next(check for check in found["checks"] if check["id"] == "sheet_acceleration")
-    assert (unmade["status"], unmade["missing"]) == ("not_checked", ["sprocket_teeth", "chain_pitch"])
-    assert "sprocket_teeth and chain_pitch are not given" in unmade["message"]
+    unmade = next(check for check in found.checks if check.id == "sheet_acceleration")
+    assert (unmade.status, unmade.missing) == ("not_checked", ["sprocket_teeth", "chain_pitch"])
+    assert "sprocket_teeth and chain_pitch are not given" in unmade.message

@@ -234,11 +234,11 @@ def test_inputs_out_of_range_are_refused(tmp_path: Path, change: str, words: str
 def test_the_example_is_the_worked_example_and_passes() -> None:
     config = next(path for path in EXAMPLES if path.name == "circular_knife.yaml")
     results = pipeline.calc(config, Discovery([]), lambda _: None)[0].results
-    found = results["mechanisms"]["knife"]
-    assert results["status"] == "pass"
-    assert found["outputs"]["force_max"]["value"] == pytest.approx(4.2 * 10.5276, rel=5e-6)  # of 42, not 10 N/mm²
+    found = results.mechanisms["knife"]
+    assert results.status == "pass"
+    assert found.outputs["force_max"].value == pytest.approx(4.2 * 10.5276, rel=5e-6)  # of 42, not 10 N/mm²
     for name in ("cut_position", "shear_angle", "cut_speed", "sliding_ratio", "force", "torque"):
-        assert found["curves"][name]["abscissa"] == "knife_angle"
+        assert found.curves[name].abscissa == "knife_angle"
 
 
 def test_a_resistance_too_small_for_the_force_of_a_rule_is_told() -> None:

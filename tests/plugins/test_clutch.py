@@ -73,7 +73,7 @@ def test_a_self_locking_wedge_has_to_be_pulled_out(alpha: float, friction: float
 def test_friction_that_equals_the_slope_locks_and_fails_strictly() -> None:
     values = inputs(MECHANISM, BASE) | {"wedge_angle": 0.2, "wedge_friction": float(np.tan(0.2))}
     calc = calculate(MECHANISM, values)
-    assert mechanism_results(calc, {})["outputs"]["self_locking"]["value"] is True
+    assert mechanism_results(calc, {}).outputs["self_locking"].value is True
     assert checks(calc)["releases"]["status"] == "fail"
     assert checks(calc)["releases"]["utilisation"] == 1.0
     assert number(calc, "release_force") == pytest.approx(0, abs=1e-9)
@@ -82,9 +82,9 @@ def test_friction_that_equals_the_slope_locks_and_fails_strictly() -> None:
 
 def test_the_report_says_what_a_negative_release_force_means() -> None:
     results = mechanism_results(clutch(), {})
-    assert results["outputs"]["release_force"]["value"] < 0
-    assert results["outputs"]["release_behaviour"]["value"] == "opens by itself"
-    said = next(section["text"] for section in results["sections"] if section["title"] == "Release")
+    assert results.outputs["release_force"].value < 0
+    assert results.outputs["release_behaviour"].value == "opens by itself"
+    said = next(section.text for section in results.sections if section.title == "Release")
     assert "negative F_r means that nothing has to pull" in said
 
 
@@ -123,7 +123,7 @@ def test_the_lining_carries_the_torque() -> None:
 def test_a_width_is_checked_and_one_that_is_sized_reaches_the_allowed_pressure() -> None:
     sized = checks(clutch())["pressure"]
     assert (sized["status"], sized["sized_to_limit"]) == ("pass", True) and sized["utilisation"] == pytest.approx(1)
-    left_out = mechanism_results(clutch(), {"allowable_pressure": Provenance("given")})["absent"]
+    left_out = mechanism_results(clutch(), {"allowable_pressure": Provenance("given")}).absent
     assert "allowable_pressure" not in str(left_out)
     needed = number(clutch(), "shoe_width")
     wide, narrow = (checks(clutch(shoe_width=f"{needed * share!r} m"))["pressure"] for share in (1.001, 0.999))
@@ -157,17 +157,17 @@ def test_travel_lifts_the_shoes_by_gap_and_wear() -> None:
 
 def test_what_is_not_given_is_said_and_left_out() -> None:
     results = mechanism_results(clutch(), {})
-    absent = " ".join(part["text"] for part in results["absent"])
+    absent = " ".join(part.text for part in results.absent)
     for key in ("radial_gap", "speed", "driven_inertia", "cooling"):
         assert key in absent
-    assert {"pv", "slip_time", "axial_travel", "lining_temperature_rise"}.isdisjoint(results["outputs"])
-    made = {check["id"]: check for check in results["checks"]}
-    assert {name for name, check in made.items() if check["status"] != "not_checked"} == {
+    assert {"pv", "slip_time", "axial_travel", "lining_temperature_rise"}.isdisjoint(results.outputs)
+    made = {check.id: check for check in results.checks}
+    assert {name for name, check in made.items() if check.status != "not_checked"} == {
         "releases",
         "width_ratio",
         "pressure",  # that the width is sized to
     }
-    assert made["pv"]["missing"] == ["speed", "allowable_pv"]
+    assert made["pv"].missing == ["speed", "allowable_pv"]
 
 
 # --- bad input -------------------------------------------------------------------------------------------------------
@@ -227,6 +227,6 @@ def test_an_input_out_of_its_range_is_refused(key: str, value: Any) -> None:
 @pytest.mark.parametrize("share", [1 - 1e-13, 1 - 1e-15, 1 + 1e-14, 1 + 1e-12])
 def test_beside_the_self_locking_limit_nothing_breaks(share: float) -> None:
     results = mechanism_results(clutch(wedge_angle="15 deg", wedge_friction=np.tan(np.pi / 12) * share), {})
-    items = {item["id"]: item for section in results["sections"] for item in section["items"] if "id" in item}
-    assert abs(results["outputs"]["release_force"]["value"]) < 1e-7
-    assert items["release_force"]["substituted"] is None and "nearly" in items["release_force"]["note"]
+    items = {item.id: item for section in results.sections for item in section.items if "id" in item}
+    assert abs(results.outputs["release_force"].value) < 1e-7
+    assert items["release_force"].substituted is None and "nearly" in items["release_force"].note

@@ -107,9 +107,9 @@ def test_the_lining_is_the_mean_and_an_engagement_above_the_surroundings() -> No
 
 
 def test_a_single_engagement_has_no_rise_of_a_warm_drum() -> None:
-    outputs = mechanism_results(clutch(COOLED, engagements_per_hour=0), {})["outputs"]
+    outputs = mechanism_results(clutch(COOLED, engagements_per_hour=0), {}).outputs
     assert "drum_temperature_rise_warm" not in outputs
-    assert outputs["mean_temperature_rise"]["value"] == outputs["lining_power_density"]["value"] == 0
+    assert outputs["mean_temperature_rise"].value == outputs["lining_power_density"].value == 0
 
 
 def test_engagements_that_follow_too_fast_fail() -> None:

@@ -47,15 +47,15 @@ def test_the_law_that_a_curve_is_told_is_said_to_be_that_of_a_single_rise() -> N
     [(4056, "more than ten times"), (4058, "twice to ten times"), (20283, "twice to ten"), (20285, "less than twice")],
 )
 def test_the_critical_speed_is_told_beside_the_speed(speed: float, words: str) -> None:
-    key = mechanism_results(shaft(CRANKSHAFT, speed=speed), {})["outputs"][KEY_RESULT]
-    assert words in key["value"] and key["key"]
+    key = mechanism_results(shaft(CRANKSHAFT, speed=speed), {}).outputs[KEY_RESULT]
+    assert words in key.value and key.key
 
 
 @pytest.mark.parametrize("changes", [{}, {"speed": 50, "rotation": "none"}])
 def test_a_shaft_without_a_speed_of_its_own_has_no_critical_speed_among_its_key_results(
     changes: dict[str, Any],
 ) -> None:
-    outputs = mechanism_results(shaft(CRANKSHAFT, **changes), {})["outputs"]
+    outputs = mechanism_results(shaft(CRANKSHAFT, **changes), {}).outputs
     assert KEY_RESULT not in outputs and "key" not in outputs["critical_speed"]
 
 
@@ -75,7 +75,7 @@ def test_no_factor_of_one_stands_in_the_nominal_stress_of_a_shaft() -> None:
 
 
 def test_the_friction_on_which_a_platen_press_rests_is_a_key_result() -> None:
-    assert mechanism_results(platen(), {})["outputs"]["friction_limit"]["key"]
+    assert mechanism_results(platen(), {}).outputs["friction_limit"].key
 
 
 def test_a_press_whose_timing_fails_is_told_that_its_motor_is_not_yet_judged() -> None:
@@ -93,9 +93,9 @@ def test_an_extreme_that_is_but_rounding_has_no_place() -> None:
 
 def test_a_limit_that_is_used_is_not_told_to_be_idle() -> None:
     """Without a drive that pushes, the allowed force limits that of the impact alone."""
-    told = mechanism_results(calculated(WORKED | {"allowable_force": "6 kN"}), {})["absent"]
+    told = mechanism_results(calculated(WORKED | {"allowable_force": "6 kN"}), {}).absent
     assert (
-        "Drive still pushing" in (titles := {each["title"] for each in told})
+        "Drive still pushing" in (titles := {each.title for each in told})
         and "Force of a damper with the drive" not in titles
     )
 

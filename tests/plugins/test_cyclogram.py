@@ -100,7 +100,7 @@ def example(transport: str, which: str) -> Calculation:
 
 def check_of(calc: Calculation, name: str) -> Data:
     """A check of the cyclogram."""
-    return next(check for check in check_results(calc) if check["id"] == name)
+    return next(check for check in check_results(calc) if check.id == name)
 
 
 def rows(calc: Calculation, name: str) -> list[float]:
@@ -389,10 +389,10 @@ def test_a_configuration_takes_mechanisms_by_their_names_and_tells_what_is_wrong
     run = linked({"timing": keys})
     assert not run.errors
     assert degrees(number(run.calculations["timing"], "best_margin")) == pytest.approx(16.1691 - 3, abs=6e-5)
-    found = run.results["timing"]["inputs"]
-    assert (found["lines.1.mechanism"]["value"], found["lines.1.offset"]["value"]) == ("cross", "auto")
-    assert found["interlocks.0.margin"]["display"]["text"] == "5 ms"
-    again = document(run)["config"]["resolved"]["mechanisms"]["timing"]
+    found = run.results["timing"].inputs
+    assert (found["lines.1.mechanism"].value, found["lines.1.offset"].value) == ("cross", "auto")
+    assert found["interlocks.0.margin"].display.text == "5 ms"
+    again = document(run).config.resolved["mechanisms"]["timing"]
     assert again["lines"][1] | {"path_efficiency": 0.95} == again["lines"][1]
     assert (again["lines"][1]["mechanism"], again["lines"][1]["offset"]) == ("cross", "auto")
     json.dumps(document(run))

@@ -27,8 +27,8 @@ def own(line: str, curve: str, main: Any, turns: float, offset: float) -> Any:
 
 def curves(transport: str = "cross") -> dict[str, Any]:
     """The curves of the results, as arrays."""
-    found = mechanism_results(example(transport, "cutting passing"), {})["curves"]
-    return {name: np.array(curve["values"]) for name, curve in found.items()} | {"described": found}
+    found = mechanism_results(example(transport, "cutting passing"), {}).curves
+    return {name: np.array(curve.values) for name, curve in found.items()} | {"described": found}
 
 
 def test_each_lines_torque_is_its_own_with_the_losses_of_its_way() -> None:
@@ -74,7 +74,7 @@ def test_the_peak_power_of_the_greatest_consumer_is_that_of_the_method() -> None
 def test_the_clearance_is_a_curve_with_its_least_value() -> None:
     station = STATION | {"transport": "cross"}
     calc = press("cross", locks("cutting passing", "cross"), "48 deg", station=station, n_points=7200)
-    over = np.array(mechanism_results(calc, {})["curves"]["clearance_over"]["values"])
+    over = np.array(mechanism_results(calc, {}).curves["clearance_over"].values)
     assert over.min() == pytest.approx(0.0289877, abs=2e-6)
     assert over.max() <= number(base().calculations["drive"], "cylinder_radius")
 
@@ -112,25 +112,24 @@ def test_where_a_line_runs_at_another_rate_the_sum_of_the_torques_is_not_given()
 def test_what_refers_to_a_sum_that_is_not_given_is_skipped_with_the_reason() -> None:
     run = unlike()
     results = document(run)
-    train = results["mechanisms"]["train"]
-    assert train["status"] == "skipped"
+    train = results.mechanisms["train"]
+    assert train.status == "skipped"
     assert (
-        "timing.main_shaft_torque, which is not calculated: a line runs at another rate than the press"
-        in train["error"]
+        "timing.main_shaft_torque, which is not calculated: a line runs at another rate than the press" in train.error
     )
-    assert results["status"] == "fail"
-    consistency = results["mechanisms"]["press_consistency"]
-    assert consistency["status"] != "skipped", "what it holds against others it does without"
-    unchecked = {each["id"] for each in consistency["checks"] if each["status"] == "not_checked"}
+    assert results.status == "fail"
+    consistency = results.mechanisms["press_consistency"]
+    assert consistency.status != "skipped", "what it holds against others it does without"
+    unchecked = {each.id for each in consistency.checks if each.status == "not_checked"}
     assert {"actual_rate", "motor_thermal"} <= unchecked
 
 
 def test_without_any_torque_there_is_no_sum(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(torques, "TORQUES", {})
     found = mechanism_results(press("cross", locks("cutting", "cross")), {})
-    assert "way_2" in found["curves"]
-    assert "torque_mean" not in found["outputs"]
-    assert "no line has a torque" in next(each["text"] for each in found["absent"] if each["title"].startswith("Sum"))
+    assert "way_2" in found.curves
+    assert "torque_mean" not in found.outputs
+    assert "no line has a torque" in next(each.text for each in found.absent if each.title.startswith("Sum"))
 
 
 def test_the_curves_over_the_main_shaft_are_written_as_a_table() -> None:

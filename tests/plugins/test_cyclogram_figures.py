@@ -58,9 +58,9 @@ def test_a_line_across_all_rows_follows_the_angle_and_the_bars_that_it_passes_ar
     saved(tmp_path, PLUGIN, "small_feeder.py")
     config = load_config(saved(tmp_path, HEAD + LINES), Discovery([tmp_path]))
     [figure] = [
-        each for each in document(compute(config, lambda _: None))["mechanisms"]["cyc"]["figures"] if "moving" in each
+        each for each in document(compute(config, lambda _: None)).mechanisms["cyc"].figures if "moving" in each
     ]
-    shapes, places = figure["moving"]["shapes"], np.array(figure["moving"]["places"])
+    shapes, places = figure.moving["shapes"], np.array(figure.moving["places"])
     [cursor] = [np.array(shape["moves"]) for shape in shapes if "moves" in shape]
     assert cursor[:, 0] == pytest.approx(places / (2 * np.pi) * 8) and cursor[:, 0] == pytest.approx(cursor[:, 2])
     heights = [y for shape in shapes if shape["shape"] == "polyline" and "points" in shape for _, y in shape["points"]]
@@ -79,10 +79,8 @@ def test_a_cyclogram_of_lines_at_other_rates_than_the_press_stands_still(tmp_pat
     config = load_config(
         saved(tmp_path, HEAD + LINES.replace("small_feeder}", "small_feeder, rate: 5000}")), Discovery([tmp_path])
     )
-    figures = document(compute(config, lambda _: None))["mechanisms"]["cyc"]["figures"]
-    assert "cyclogram" in [each["id"] for each in figures if each.get("shapes")] and not any(
-        "moving" in each for each in figures
-    )
+    figures = document(compute(config, lambda _: None)).mechanisms["cyc"].figures
+    assert "cyclogram" in [each.id for each in figures if each.shapes] and not any("moving" in each for each in figures)
 
 
 def test_a_curve_in_place_of_its_name_is_told(tmp_path: Path) -> None:

@@ -19,9 +19,9 @@ NEAR = 6e-5
 
 def rows(transport: str, name: str, which: str = "cutting passing") -> list[list[Any]]:
     """The rows of a table."""
-    found = mechanism_results(example(transport, which), {})["listings"][name]
-    assert all(len(row) == len(found["columns"]) for row in found["rows"])
-    return list(found["rows"])
+    found = mechanism_results(example(transport, which), {}).listings[name]
+    assert all(len(row) == len(found.columns) for row in found.rows)
+    return list(found.rows)
 
 
 MARGINS = {
@@ -82,8 +82,8 @@ def test_all_offsets_that_leave_the_margins_are_told() -> None:
 
 
 def test_a_length_is_told_only_where_one_window_holds_an_interlock() -> None:
-    outputs = mechanism_results(press("feeder", locks("contact passing", "feeder")), {})["outputs"]
-    assert degrees(outputs["needed_length.0"]["value"]) == pytest.approx(217.8062, abs=NEAR)
+    outputs = mechanism_results(press("feeder", locks("contact passing", "feeder")), {}).outputs
+    assert degrees(outputs["needed_length.0"].value) == pytest.approx(217.8062, abs=NEAR)
     assert "needed_length.1" not in outputs
 
 

@@ -116,8 +116,8 @@ def test_an_impossible_cylinder_is_refused_in_words(changes: dict[str, str], key
 
 
 def test_a_wall_of_exactly_nothing_fails_without_a_utilisation() -> None:
-    checks = {c["id"]: c for c in mechanism_results(cylinder(bore_radius="65 mm"), {})["checks"]}
-    assert (checks["wall_at_flat"]["status"], checks["wall_at_flat"]["utilisation"]) == ("fail", None)
+    checks = {c.id: c for c in mechanism_results(cylinder(bore_radius="65 mm"), {}).checks}
+    assert (checks["wall_at_flat"].status, checks["wall_at_flat"].utilisation) == ("fail", None)
 
 
 SET = re.compile(r"set (\w+) to at (?:least|most) ([\d.]+ mm)")
@@ -125,7 +125,7 @@ SET = re.compile(r"set (\w+) to at (?:least|most) ([\d.]+ mm)")
 
 def verdicts(**changes: Any) -> dict[str, dict[str, Any]]:
     """The checks of the published cylinder with changes."""
-    return {c["id"]: c for c in mechanism_results(cylinder(**changes), {})["checks"]}
+    return {c.id: c for c in mechanism_results(cylinder(**changes), {}).checks}
 
 
 def test_each_advice_by_itself_and_all_of_it_together_mends_what_it_is_given_for() -> None:

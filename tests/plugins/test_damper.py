@@ -261,7 +261,7 @@ def test_beyond_the_greatest_force_no_length_helps() -> None:
     for length in (1e3, 1e5, 1e7, 1e9):
         assert number(damper(drive={"force": 1800}, adopted_length=length), "driven_stress") > 1.2e6
     hopeless = damper(drive={"force": 2000})
-    assert "driven_free_length" not in mechanism_results(hopeless, {})["outputs"]
+    assert "driven_free_length" not in mechanism_results(hopeless, {}).outputs
     message = told(hopeless, "driven_stress")
     assert "let it go before the stop, or take" in message and "no adopted_length" in message
 
@@ -331,12 +331,12 @@ SURE = "kinetic_energy: 150, velocity: 0.5, elastic_modulus: 8"
 @pytest.mark.parametrize("press, impacts", [(", productivity: 6000 1/h", 3000), ("", None)])
 def test_half_the_sheets_heat_each_end(tmp_path: Path, press: str, impacts: float | None) -> None:
     path = saved(tmp_path, CONFIG % (press, SURE))
-    found = pipeline.calc(path, Discovery(), lambda _: None)[0].results["mechanisms"]["a"]
+    found = pipeline.calc(path, Discovery(), lambda _: None)[0].results.mechanisms["a"]
     if impacts is None:
-        assert "heat_power" not in found["outputs"]
-        assert any("impacts_per_hour" in absent["text"] for absent in found["absent"])
+        assert "heat_power" not in found.outputs
+        assert any("impacts_per_hour" in absent.text for absent in found.absent)
     else:
-        assert found["outputs"]["heat_power"]["value"] == pytest.approx(0.2 * 150 * impacts / 3600, rel=1e-12)
+        assert found.outputs["heat_power"].value == pytest.approx(0.2 * 150 * impacts / 3600, rel=1e-12)
 
 
 @pytest.mark.parametrize(
@@ -379,9 +379,9 @@ def test_without_the_speed_at_contact_the_stop_is_left_out_and_said() -> None:
         MECHANISM, inputs(MECHANISM, {"kinetic_energy": 150, "elastic_modulus": 8, "ring_width": 50, "pad_height": 30})
     )
     results = mechanism_results(calc, {})
-    assert {"stop_time", "peak_deceleration", "rebound_velocity"}.isdisjoint(results["outputs"])
-    assert results["outputs"]["loss_fraction"]["value"] == 0.2 and results["outputs"]["stress"]["value"] > 0
-    assert any("velocity is not given" in part["text"] for part in results["absent"])
+    assert {"stop_time", "peak_deceleration", "rebound_velocity"}.isdisjoint(results.outputs)
+    assert results.outputs["loss_fraction"].value == 0.2 and results.outputs["stress"].value > 0
+    assert any("velocity is not given" in part.text for part in results.absent)
 
 
 @pytest.mark.parametrize("loss", [0, 0.2, 0.3])
@@ -394,10 +394,10 @@ def test_a_loss_beside_a_loss_tangent_is_refused(loss: float) -> None:
 def test_the_inputs_show_no_loss_beside_the_one_that_is_used() -> None:
     """A loss that is taken by default would contradict the one that follows from the loss tangent."""
     results = mechanism_results(damper(loss_tangent=0.15), {})
-    assert "loss_fraction" not in results["inputs"]
-    assert results["outputs"]["loss_fraction"]["value"] == pytest.approx(1 - np.exp(-0.15 * np.pi), rel=1e-12)
-    usual = mechanism_results(damper(), {})["outputs"]["loss_fraction"]
-    assert usual["value"] == 0.2 and "usual" in usual["description"]
+    assert "loss_fraction" not in results.inputs
+    assert results.outputs["loss_fraction"].value == pytest.approx(1 - np.exp(-0.15 * np.pi), rel=1e-12)
+    usual = mechanism_results(damper(), {}).outputs["loss_fraction"]
+    assert usual.value == 0.2 and "usual" in usual.description
 
 
 @pytest.mark.parametrize("rubber", [{"elastic_modulus": "8 MPa"}, {"shore_hardness": 60}])
@@ -413,8 +413,8 @@ def test_a_stiffer_rubber_at_the_impact_is_a_stiffer_rubber(rubber: dict[str, An
 
 def test_the_rubbers_stiffness_at_the_impact_is_not_taken_for_that_at_rest_without_a_word() -> None:
     block = WORKED | {"adopted_length": "700 mm"}
-    unsaid = {check["id"]: check for check in mechanism_results(calculated(block), {})["checks"]}["dynamic_stiffness"]
-    assert (unsaid["status"], unsaid["missing"]) == ("not_checked", ["dynamic_stiffness_factor"])
+    unsaid = {check.id: check for check in mechanism_results(calculated(block), {}).checks}["dynamic_stiffness"]
+    assert (unsaid.status, unsaid.missing) == ("not_checked", ["dynamic_stiffness_factor"])
     borne = number(calculated(block), "stiffness_borne")
     assert borne == pytest.approx(
         700 / 555.56, rel=1e-5

@@ -47,11 +47,11 @@ def test_speeds_follow_the_driven_pulley_of_the_standard_series() -> None:
 
 
 def test_the_shafts_are_numbered_in_the_results() -> None:
-    outputs = mechanism_results(train(gears=PAIRS), {})["outputs"]
+    outputs = mechanism_results(train(gears=PAIRS), {}).outputs
     for quantity, unit in (("speed", "rpm"), ("torque", "N*m"), ("power", "kW")):
         known = [name for name in outputs if re.fullmatch(rf"shaft_\d_{quantity}", name)]
         assert sorted(known) == [f"shaft_{i}_{quantity}" for i in (1, 2, 3, 4)]
-        assert {outputs[name]["unit"] for name in known} == {parsed(unit).si}
+        assert {outputs[name].unit for name in known} == {parsed(unit).si}
 
 
 def test_without_gears_the_flywheel_shaft_is_the_output() -> None:
@@ -208,8 +208,8 @@ def test_without_a_flywheel_the_peak_must_stay_below_the_breakdown_torque() -> N
 
 def test_without_a_curve_there_is_no_flywheel() -> None:
     results = mechanism_results(train(), {})
-    assert not [name for name in results["outputs"] if name.startswith("flywheel") or "energy" in name]
-    assert "torque_curve" in str(results["absent"])
+    assert not [name for name in results.outputs if name.startswith("flywheel") or "energy" in name]
+    assert "torque_curve" in str(results.absent)
     assert not {"flywheel_rim_speed", "run_up_time"} & checked(train())
 
 

@@ -144,9 +144,9 @@ RUN_UPS: dict[str, dict[str, Any]] = {
 def test_each_way_to_run_up_in_time_is_enough(case: str) -> None:
     keys = RUN_UPS[case]
     calc = train(**keys)
-    bad = [c for c in check_results(calc) if c["id"].startswith("run_up") and c["status"] != "pass"]
+    bad = [c for c in check_results(calc) if c.id.startswith("run_up") and c.status != "pass"]
     assert len(bad) == 1
-    _, ways = bad[0]["message"].split("one of these is enough: ")
+    _, ways = bad[0].message.split("one of these is enough: ")
     advised = [dict(WAY.findall(way)) for way in ways.split("; ") if WAY.search(way)]
     advised += [{"allowable_run_up_time": float(time)} for time in LONGER.findall(ways)]
     assert len(advised) == len(ways.split("; ")) >= 2

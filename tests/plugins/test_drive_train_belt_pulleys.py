@@ -93,7 +93,7 @@ def test_a_belt_of_unmarked_pulleys_is_not_compared_with_the_cylinder() -> None:
     calc = belt([(*pulley[:4], "other") for pulley in OVER])
     assert checked(calc).isdisjoint({"belt_engagement", "cylinder_pulley_listed"})
     assert check(calc, "driving_pulley_listed")["status"] == "pass"
-    assert mechanism_results(calc, {})["status"] != "error"
+    assert mechanism_results(calc, {}).status != "error"
 
 
 def test_only_one_pulley_is_fixed_to_the_cylinder() -> None:
@@ -152,7 +152,7 @@ def test_the_advised_pitch_puts_six_teeth_into_mesh() -> None:
 
 
 def test_the_figure_draws_the_cylinder_on_the_die_below() -> None:
-    figures = {figure["id"]: figure["shapes"] for figure in mechanism_results(belt(OVER), {})["figures"]}
+    figures = {figure.id: figure.shapes for figure in mechanism_results(belt(OVER), {}).figures}
     shapes = figures["toothed_belt_layout"]
     ground = next(s for s in shapes if s.get("role") == "ground")
     assert [y for _, y in ground["points"]] == pytest.approx([0.150 - 0.105] * 2)

@@ -202,7 +202,7 @@ def test_without_a_flywheel_and_inertias_the_run_up_is_not_checked() -> None:
 def test_a_motor_that_does_not_overcome_the_load_never_runs_up() -> None:
     calc = train(**WORKING, run_up_load=2.5)
     assert check(calc, "run_up_torque")["status"] == "fail"
-    assert "run_up_time" not in mechanism_results(calc, {})["outputs"]
+    assert "run_up_time" not in mechanism_results(calc, {}).outputs
     assert "run_up_time" not in checked(calc)
 
 
@@ -212,4 +212,4 @@ def test_a_motor_that_does_not_overcome_the_load_never_runs_up() -> None:
 def test_a_torque_that_varies_by_rounding_alone_needs_hardly_a_flywheel(values: list[float]) -> None:
     calc = train(torque_curve=values, torque_mean=100, torque_peak=100)
     assert 0 <= number(calc, "energy_fluctuation") < 1e-6
-    assert mechanism_results(calc, {})["status"] != "error"
+    assert mechanism_results(calc, {}).status != "error"

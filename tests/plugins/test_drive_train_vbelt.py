@@ -104,16 +104,16 @@ def test_the_belt_of_the_press_is_tensioned_for_the_breakdown_torque() -> None:
 )
 def test_a_belt_slips_that_is_tensioned_for_less_than_the_greatest_pull(tension: float | None, status: str) -> None:
     calc = train(**PRESS | {"vbelt": PRESS["vbelt"] | ({} if tension is None else {"tension": tension})})  # type: ignore[operator]
-    found = next(each for each in mechanism_results(calc, {})["checks"] if each["id"] == "vbelt_slip")
-    assert found["status"] == status
-    assert status != "fail" or "299.7 N" in found["message"]
+    found = next(each for each in mechanism_results(calc, {}).checks if each.id == "vbelt_slip")
+    assert found.status == status
+    assert status != "fail" or "299.7 N" in found.message
 
 
 def test_fewer_belts_than_are_needed_fail() -> None:
     few = train(**PRESS | {"power_per_belt": "0.5 kW", "vbelt": PRESS["vbelt"] | {"count": 2}})  # type: ignore[operator]
     assert number(few, "vbelt_count_needed") == 5  # 1.3 · 1.5 kW/(0.5 kW · 0.9394 · 0.9606) = 4.32
-    found = next(each for each in mechanism_results(few, {})["checks"] if each["id"] == "vbelt_count")
-    assert found["status"] == "fail" and "5" in found["message"]
+    found = next(each for each in mechanism_results(few, {}).checks if each.id == "vbelt_count")
+    assert found.status == "fail" and "5" in found.message
 
 
 def test_the_usual_reserve_against_slip_makes_the_tensions_five_to_one_at_half_a_turn() -> None:

@@ -91,7 +91,7 @@ def test_many_machines_are_those_that_scipy_integrates(law: str, seed: int) -> N
 @cache
 def spectrum() -> dict[str, Any]:
     """The curves of the results."""
-    found: dict[str, Any] = mechanism_results(follower(), {})["curves"]
+    found: dict[str, Any] = mechanism_results(follower(), {}).curves
     return found
 
 

@@ -17,9 +17,9 @@ PRESS = Path(__file__).parent / "data/press_before_corrections.yaml"
 @pytest.fixture(scope="module")
 def press(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The results of its mechanisms."""
-    return document(compute(loaded(tmp_path_factory.mktemp("press"), PRESS.read_text("utf-8")), lambda _: None))[
-        "mechanisms"
-    ]
+    return document(
+        compute(loaded(tmp_path_factory.mktemp("press"), PRESS.read_text("utf-8")), lambda _: None)
+    ).mechanisms
 
 
 def value(of: Any, name: str) -> float:

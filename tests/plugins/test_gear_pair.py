@@ -266,9 +266,9 @@ def test_the_module_is_the_least_of_the_series_with_which_all_holds(keys: dict[s
 
 def test_the_modules_beside_the_chosen_one_are_shown() -> None:
     results = mechanism_results(pair(SIZED), {})
-    found = next(item for section in results["sections"] for item in section["items"] if item.get("id") == "module")
+    found = next(item for section in results.sections for item in section.items if item.id == "module")
     assert number(pair(SIZED), "module") == pytest.approx(0.004)
-    assert "neighbours not taken: 3 mm, 5 mm" in found["method"]
+    assert "neighbours not taken: 3 mm, 5 mm" in found.method
 
 
 # --- bad input -------------------------------------------------------------------------------------------------------

@@ -225,7 +225,7 @@ def test_an_impossible_drive_is_refused_in_words(changes: dict[str, Any], key: s
 
 def checks(**changes: Any) -> dict[str, dict[str, Any]]:
     """The checks of a drive by their ids."""
-    return {check["id"]: check for check in mechanism_results(geneva(**changes), {})["checks"]}
+    return {check.id: check for check in mechanism_results(geneva(**changes), {}).checks}
 
 
 @pytest.mark.parametrize(
@@ -280,15 +280,15 @@ def test_the_figures_are_drawn_even_where_nothing_holds_the_wheel() -> None:
         {"roller_radius": "60 mm"},
         {"slots": 18, "roller_radius": "30 mm"},
     ):
-        shapes = mechanism_results(geneva(**changes), {})["figures"]
-        assert [figure["id"] for figure in shapes] == ["entry", "positions", "motion"]
+        shapes = mechanism_results(geneva(**changes), {}).figures
+        assert [figure.id for figure in shapes] == ["entry", "positions", "motion"]
 
 
 def test_the_crank_makes_a_turn_for_each_sheet_of_the_press(tmp_path: Path) -> None:
     config = saved(tmp_path, HEAD + "  g: {kind: geneva_transport, center_distance: 200 mm, roller_radius: 10 mm}\n")
-    found = pipeline.calc(config, Discovery([]), lambda _: None)[0].results["mechanisms"]["g"]
-    assert found["inputs"]["crank_speed"]["value"] == pytest.approx(2 * np.pi * 6000 / 3600, rel=1e-14)
-    assert found["outputs"]["time_dwell"]["value"] == pytest.approx(0.4, rel=1e-14)
+    found = pipeline.calc(config, Discovery([]), lambda _: None)[0].results.mechanisms["g"]
+    assert found.inputs["crank_speed"].value == pytest.approx(2 * np.pi * 6000 / 3600, rel=1e-14)
+    assert found.outputs["time_dwell"].value == pytest.approx(0.4, rel=1e-14)
 
 
 @pytest.mark.parametrize(

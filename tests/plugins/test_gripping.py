@@ -25,8 +25,8 @@ MACHINES = {
 
 def gripped(mechanism: Mechanism, keys: dict[str, Any]) -> dict[str, Any]:
     """The check of the grippers."""
-    checks = mechanism_results(calculate(mechanism, inputs(mechanism, keys)), {})["checks"]
-    return next(check for check in checks if check["id"] == "grippers")
+    checks = mechanism_results(calculate(mechanism, inputs(mechanism, keys)), {}).checks
+    return next(check for check in checks if check.id == "grippers")
 
 
 @pytest.mark.parametrize("rate", MACHINES)

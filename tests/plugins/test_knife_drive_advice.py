@@ -20,7 +20,7 @@ Keys = dict[str, Any]
 
 
 def statuses(keys: Keys) -> dict[str, dict[str, Any]]:
-    return {check["id"]: check for check in check_results(knife(**keys))}
+    return {check.id: check for check in check_results(knife(**keys))}
 
 
 def advised(message: str) -> list[tuple[str, float]]:

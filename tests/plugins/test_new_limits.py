@@ -18,7 +18,7 @@ JERKY = {"crank_speed": "300 rpm", "allowable_acceleration": 15}
 
 
 def check(calc: Calculation, name: str) -> dict[str, Any]:
-    return {found["id"]: found for found in check_results(calc)}[name]
+    return {found.id: found for found in check_results(calc)}[name]
 
 
 def test_a_crank_of_five_millimetres_says_what_its_joints_bear_and_that_nobody_limits_it() -> None:

@@ -202,20 +202,20 @@ def test_the_sheet_rests_where_its_way_is_within_the_tolerance(machine: Callable
 
 def test_a_phase_whose_inputs_are_missing_is_listed_with_the_missing_key() -> None:
     found = mechanism_results(drive(), {})
-    assert set(found["phases_absent"]) == {
+    assert set(found.phases_absent) == {
         "contact",
         "carriage_window",
         "carriage_window_outer",
         "carriage_window_inner",
     }
-    assert found["phases_absent"]["contact"]["missing"] == ["segment_height"]
-    assert found["phases_absent"]["carriage_window"]["missing"] == ["carriage_clearance", "segment_height"]
-    assert mechanism_results(stepper(rest_tolerance=None), {})["phases_absent"]["rest"]["missing"] == ["rest_tolerance"]
+    assert found.phases_absent["contact"].missing == ["segment_height"]
+    assert found.phases_absent["carriage_window"].missing == ["carriage_clearance", "segment_height"]
+    assert mechanism_results(stepper(rest_tolerance=None), {}).phases_absent["rest"].missing == ["rest_tolerance"]
 
 
 def test_a_board_as_thick_as_the_segment_is_always_touched_and_has_no_contact_phase() -> None:
     found = mechanism_results(press_drive(material_thickness="40 mm", carriage_clearance=None), {})
-    assert found["phases_absent"]["contact"] == {
+    assert found.phases_absent["contact"] == {
         "description": "Contact of cylinder and board", "missing": [], "text": "does not apply to this machine",
     }  # fmt: skip
 
@@ -225,15 +225,15 @@ def test_a_stroke_that_cuts_all_the_way_is_one_interval_of_the_whole_turn() -> N
 
 
 def test_the_results_hold_intervals_in_si_and_as_they_are_printed() -> None:
-    phase = mechanism_results(press_drive(), {})["phases"]["contact"]
-    assert (phase["role"], phase["abscissa"], phase["unit"], phase["period"]) == (
+    phase = mechanism_results(press_drive(), {}).phases["contact"]
+    assert (phase.role, phase.abscissa, phase.unit, phase.period) == (
         "working",
         "crank_angle",
         "rad",
         2 * pi,
     )
-    assert phase["intervals"][0] == pytest.approx(np.radians([55.8619, 157.0511]), abs=1e-6)
-    told = phase["display"]["intervals"][0]
+    assert phase.intervals[0] == pytest.approx(np.radians([55.8619, 157.0511]), abs=1e-6)
+    told = phase.display.intervals[0]
     assert told == {"from": "55.86", "to": "157.05", "length": "101.19", "time": "337.3"}
 
 
@@ -307,5 +307,5 @@ def test_a_link_that_is_not_followed_until_it_rests_tells_no_rest() -> None:
     found = mechanism_results(
         follower(cycles_per_hour="1800 1/h", rise_time="0.1", rest_tolerance="0.001 deg", dwell_cycles=2), {}
     )
-    assert set(found["phases"]) == {"moving"}
-    assert mechanism_results(follower(), {})["phases_absent"]["moving"]["missing"] == ["cycles_per_hour"]
+    assert set(found.phases) == {"moving"}
+    assert mechanism_results(follower(), {}).phases_absent.moving["missing"] == ["cycles_per_hour"]

@@ -269,7 +269,7 @@ def test_the_torque_is_held_against_what_is_allowed() -> None:
 
 def figure(calc: Calculation, name: str) -> dict[str, Any]:
     """A figure of the results."""
-    found: dict[str, Any] = next(f for f in mechanism_results(calc, {})["figures"] if f["id"] == name)
+    found: dict[str, Any] = next(f for f in mechanism_results(calc, {}).figures if f.id == name)
     return found
 
 
@@ -301,7 +301,7 @@ def test_no_peak_is_marked_where_it_lies_outside_the_cut() -> None:
 
 def test_all_figures_are_drawn_for_a_machine_of_other_proportions() -> None:
     calc = platen(rod_length="130 mm", material_thickness="40 mm", drive_deformation="20 mm", friction=0)
-    names = [f["id"] for f in mechanism_results(calc, {})["figures"]]
+    names = [f.id for f in mechanism_results(calc, {}).figures]
     assert names == ["machine", "cutting", "forces", "source", "thickness", "relaxed", "turn"]
 
 
@@ -316,22 +316,17 @@ def test_the_figure_over_the_thickness_has_the_peaks_of_single_machines() -> Non
 def test_the_example_is_the_sources_machine() -> None:
     example = next(path for path in EXAMPLES if path.name == "platen_press_zppt30.yaml")
     found = pipeline.calc(example, Discovery([]), lambda _: None)[0].results
-    assert found["status"] != "fail"
-    kinds = {name: each["kind"] for name, each in found["mechanisms"].items()}
+    assert found.status != "fail"
+    kinds = {name: each.kind for name, each in found.mechanisms.items()}
     assert kinds == {"platen": "platen_press", "crank": "shaft", "platen_pin": "shaft", "wheel_key": "parallel_key"}
-    outputs = found["mechanisms"]["platen"]["outputs"]
-    assert outputs["torque_max"]["value"] == number(platen(), "torque_max")
-    assert degrees(outputs["torque_max_angle"]["value"]) == pytest.approx(3.12, abs=5e-3)
+    outputs = found.mechanisms["platen"].outputs
+    assert outputs["torque_max"].value == number(platen(), "torque_max")
+    assert degrees(outputs["torque_max_angle"].value) == pytest.approx(3.12, abs=5e-3)
 
 
 def test_a_number_half_way_between_two_is_rounded_alike_as_a_result_and_within_a_formula() -> None:
-    steps = {
-        item["id"]: item
-        for part in mechanism_results(platen(), {})["sections"]
-        for item in part["items"]
-        if "id" in item
-    }
-    assert steps["standing_distance"]["result"] == {"text": "525.5", "unit": "mm"}
+    steps = {item.id: item for part in mechanism_results(platen(), {}).sections for item in part.items if "id" in item}
+    assert steps["standing_distance"].result == {"text": "525.5", "unit": "mm"}
     assert "'525.4'" not in str(steps["stretched_length"])
 
 

@@ -42,15 +42,15 @@ def test_a_list_of_frictions_may_hold_references_and_be_referred_to(tmp_path: Pa
     config = saved(tmp_path, HEAD + "  a: {kind: platen_press, friction: [0.1, 0.02, '${b.friction}', 0.05]}\n"
                    "  b: {kind: platen_press, friction: 0.03}\n  c: {kind: platen_press, friction: [0.1, 0.02, 0.03, 0.05]}\n"
                    "  d: {kind: platen_press, friction: ['${a.friction_guide}', '${c.friction_platen_pin}', 0.03, 0.05]}\n")  # fmt: skip
-    found = pipeline.calc(config, Discovery([]), lambda _: None)[0].results["mechanisms"]
+    found = pipeline.calc(config, Discovery([]), lambda _: None)[0].results.mechanisms
     expected = number(platen(friction=[0.1, 0.02, 0.03, 0.05]), "friction_arm")
-    assert [found[name]["outputs"]["friction_arm"]["value"] for name in "acd"] == [expected] * 3
-    of_a = found["a"]["inputs"]
+    assert [found[name].outputs["friction_arm"].value for name in "acd"] == [expected] * 3
+    of_a = found["a"].inputs
     assert (
         of_a["friction_crank_pin"] | {"origin": "reference", "path": "b.friction", "text": "${b.friction}"}
         == of_a["friction_crank_pin"]
     )
-    assert (of_a["friction_guide"]["origin"], of_a["friction_guide"]["text"]) == ("given", "0.1")
+    assert (of_a["friction_guide"].origin, of_a["friction_guide"].text) == ("given", "0.1")
 
 
 @pytest.mark.parametrize(
@@ -73,8 +73,8 @@ def test_a_wrong_reference_in_a_list_of_frictions_is_told_once(tmp_path: Path, v
 def test_a_list_with_references_is_referred_to_by_its_single_keys(tmp_path: Path) -> None:
     blocks = "  a: {kind: platen_press, friction: [0.1, '${b.friction}', 0.2, 0.3]}\n  b: {kind: platen_press, friction: 0.05}\n"
     single = saved(tmp_path, HEAD + blocks + "  c: {kind: platen_press, friction: '${a.friction_platen_pin}'}\n")
-    found = pipeline.calc(single, Discovery([]), lambda _: None)[0].results["mechanisms"]
-    assert found["c"]["inputs"]["friction"]["value"] == 0.05
+    found = pipeline.calc(single, Discovery([]), lambda _: None)[0].results.mechanisms
+    assert found["c"].inputs["friction"].value == 0.05
     whole = saved(tmp_path, HEAD + blocks + "  c: {kind: platen_press, friction: '${a.friction}'}\n")
     with pytest.raises(UserError, match=r"is a list; refer to one of its values \(friction_guide, friction_platen_pin"):
         pipeline.calc(whole, Discovery([]), lambda _: None)

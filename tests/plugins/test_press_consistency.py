@@ -90,7 +90,7 @@ def consistency(keys: dict[str, Any], **changes: Any) -> Calculation:
 
 def verdicts(calculation: Calculation) -> dict[str, str]:
     """The status of each check that is made."""
-    return {check["id"]: check["status"] for check in check_results(calculation) if check["status"] != "not_checked"}
+    return {check.id: check.status for check in check_results(calculation) if check.status != "not_checked"}
 
 
 PRINTED = {  # SI, of the derivation
@@ -297,9 +297,9 @@ def advised(check: str, keys: dict[str, Any], pattern: str) -> float:
 
 def message_of(check: str, keys: dict[str, Any]) -> str:
     """What a check that does not hold says."""
-    found = next(each for each in check_results(consistency(keys)) if each["id"] == check)
-    assert found["status"] != "pass"
-    return str(found["message"])
+    found = next(each for each in check_results(consistency(keys)) if each.id == check)
+    assert found.status != "pass"
+    return str(found.message)
 
 
 def test_lines_are_no_words_of_their_own_which_would_be_translated() -> None:

@@ -54,14 +54,14 @@ def test_a_share_that_is_held_against_a_plain_number_stands_as_a_share() -> None
 
 def test_only_the_keys_that_are_not_given_are_named_as_missing() -> None:
     calc = steppers.stepper(sprocket_teeth=30, chain_pitch="19.05 mm")
-    told = {part["title"]: part["text"] for part in mechanism_results(calc, {})["absent"]}
+    told = {part.title: part.text for part in mechanism_results(calc, {}).absent}
     assert told["Torque"] == "not calculated: conveyor_mass not given"
     assert told["Rest of the sheet within a tolerance"] == "not calculated: rest_tolerance not given"
 
 
 def test_no_length_of_a_gear_is_finer_than_it_can_be_made() -> None:
-    outputs = mechanism_results(gears.pair(gears.HELICAL), {})["outputs"]
-    lengths = [row["display"]["text"] for row in outputs.values() if row["display"]["unit"] == "mm"]
+    outputs = mechanism_results(gears.pair(gears.HELICAL), {}).outputs
+    lengths = [row.display.text for row in outputs.values() if row.display.unit == "mm"]
     assert len(lengths) > 10
     assert all(len(text.partition(".")[2]) <= 3 for text in lengths)
 
@@ -71,7 +71,7 @@ def test_a_work_that_only_left_out_steps_name_is_not_among_the_sources() -> None
         steppers.stepper(),
         calculate(CAM_GEAR, inputs(CAM_GEAR, next(iter(FULL["cam_gear_transport"].values())))),
     )
-    told = [{source["id"] for source in mechanism_results(calc, {})["sources"]} for calc in (without, rolled)]
+    told = [{source.id for source in mechanism_results(calc, {}).sources} for calc in (without, rolled)]
     assert told == [{"003"}, {"003", "Hertz"}]
 
 

@@ -108,9 +108,9 @@ def test_results_and_curves_of_a_bearing_are_referred_to_by_its_name(tmp_path: P
       - {name: same, type: deep_groove, dynamic_rating: "${bearings.main_b_dynamic_rating}", static_rating: 36 kN,
          radial_force: "${bearings.main_b_load}", speed: "${bearings.main_b_mean_speed}"}
 """
-    found = document(compute(loaded(tmp_path, PRESS + hook), lambda _: None))["mechanisms"]
-    assert found["again"]["outputs"]["same_life"]["value"] == pytest.approx(
-        found["bearings"]["outputs"]["main_b_life"]["value"], rel=1e-9
+    found = document(compute(loaded(tmp_path, PRESS + hook), lambda _: None)).mechanisms
+    assert found["again"].outputs["same_life"].value == pytest.approx(
+        found["bearings"].outputs["main_b_life"].value, rel=1e-9
     )
     (told,) = problems(tmp_path, PRESS + hook.replace("main_b_life", "main_c_life"))
     assert "main_c_life" in told and "main_b_life" in told
@@ -128,9 +128,9 @@ def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
     text = PRESS.replace("cutting_force_per_length: 25 N/mm", "cutting_force_per_length: 40 N/mm").replace(
         "55.3 kN", "60 kN"
     )
-    alone = document(compute(loaded(tmp_path, text), lambda _: None))["mechanisms"]["bearings"]["outputs"]
+    alone = document(compute(loaded(tmp_path, text), lambda _: None)).mechanisms["bearings"].outputs
     for name in ("main_b_life", "crank_pin_equivalent_load", "rocker_pin_turns_per_cycle", "life_min", "system_life"):
-        assert rows.columns[f"bearings.{name}"][2] == pytest.approx(alone[name]["value"], rel=1e-9)
+        assert rows.columns[f"bearings.{name}"][2] == pytest.approx(alone[name].value, rel=1e-9)
 
 
 # --- what is refused, and what is told ------------------------------------------------------------------------------------
@@ -198,9 +198,9 @@ def test_a_small_swing_is_told_that_a_rating_life_does_not_apply() -> None:
 def test_bearings_that_stand_are_reported_with_their_static_safety(parts: list[dict[str, Any]]) -> None:
     """Without a life of any, nothing is printed in the place of lives."""
     found = mechanism_results(bearings(*parts), {})
-    judged = {check["id"] for check in found["checks"]}
+    judged = {check.id for check in found.checks}
     assert f"{parts[0]['name']}_static" in judged and f"{parts[0]['name']}_life" not in judged
-    assert ("life_min" in found["outputs"]) is (len(parts) > 1)
+    assert ("life_min" in found.outputs) is (len(parts) > 1)
 
 
 def test_an_angle_that_goes_on_turns_and_does_not_swing() -> None:

@@ -88,8 +88,8 @@ TURN = 2 * np.pi
 @pytest.fixture(scope="module")
 def press(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
     results = document(compute(loaded(tmp_path_factory.mktemp("another"), PRESS), lambda _: None))
-    assert all(each["status"] != "error" for each in results["mechanisms"].values()), results
-    mechanisms: dict[str, Any] = results["mechanisms"]
+    assert all(each.status != "error" for each in results.mechanisms.values()), results
+    mechanisms: dict[str, Any] = results.mechanisms
     return mechanisms
 
 

@@ -22,7 +22,7 @@ GEAR_KEY, CRANK_KEY = "notch 1 (keyseat end mill)", "notch 2 (keyseat end mill)"
 
 def checks(calculation: Calculation) -> dict[str, str]:
     """The verdicts of a shaft by their ids."""
-    return {check["id"]: check["status"] for check in check_results(calculation)}
+    return {check.id: check.status for check in check_results(calculation)}
 
 
 # --- the worked example of the method ----------------------------------------------------------------------------------
@@ -310,9 +310,9 @@ GROWING: list[tuple[str, dict[str, Any]]] = [
     few(GROWING, keep=lambda one: one not in GROWING[1:3]),  # each check, and each of the two shafts
 )
 def test_the_growth_that_a_failed_check_names_is_enough(check: str, keys: dict[str, Any]) -> None:
-    failed = next(each for each in check_results(shaft(keys)) if each["id"] == check)
-    assert failed["status"] in ("fail", "warn")
-    factor = float(failed["message"].split("fillet radii ")[1].split(" times")[0])
+    failed = next(each for each in check_results(shaft(keys)) if each.id == check)
+    assert failed.status in ("fail", "warn")
+    factor = float(failed.message.split("fillet radii ")[1].split(" times")[0])
     assert 1 < factor < 5
     assert checks(shaft(grown(keys, factor)))[check] == "pass"
     assert checks(shaft(grown(keys, factor - 0.01)))[check] != "pass"
@@ -327,8 +327,8 @@ def test_the_growth_counts_on_the_strengths_of_a_thicker_bar() -> None:
 def test_what_no_thicker_bar_of_a_steel_meets_is_told() -> None:
     keys = {key: value for key, value in STANDING.items() if key not in ("tensile_strength", "yield_strength")}
     keys |= {"material": "C45E+QT", "sections": [{"length": 340, "diameter": 20}], "required_yield_safety": 1e4}
-    failed = next(each for each in check_results(shaft(keys)) if each["id"] == "yield")
-    assert "no thicker shaft of this steel is enough" in failed["message"]
+    failed = next(each for each in check_results(shaft(keys)) if each.id == "yield")
+    assert "no thicker shaft of this steel is enough" in failed.message
 
 
 def test_half_the_critical_speed_is_slow_enough() -> None:
@@ -349,8 +349,8 @@ def test_without_their_keys_checks_are_not_made() -> None:
 
 
 def test_only_steps_with_a_fillet_are_held_against_the_charts_of_fillets() -> None:
-    made = {check["id"]: check for check in check_results(crankshaft())}["notch_range"]
-    assert [part["status"] for part in made["parts"] if part["status"]] == ["pass"] * 3
+    made = {check.id: check for check in check_results(crankshaft())}["notch_range"]
+    assert [part.status for part in made.parts if part.status] == ["pass"] * 3
     plain = shaft(CRANKSHAFT, sections=[{"length": 340, "diameter": 50}])
     assert "notch_range" not in checks(plain)
 

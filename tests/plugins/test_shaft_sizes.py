@@ -49,7 +49,7 @@ def holds(**changes: Any) -> bool:
         found = check_results(shaft(CRANKSHAFT, **changes))
     except Impossible:
         return False
-    return all(check["status"] in ("pass", "not_checked") for check in found if check["id"] in SETTLED)
+    return all(check.status in ("pass", "not_checked") for check in found if check.id in SETTLED)
 
 
 def with_sizes(sections: list[dict[str, Any]], sizes: list[float]) -> list[dict[str, Any]]:
@@ -144,17 +144,17 @@ def test_variants_under_curves_get_their_own_diameters(tmp_path: Path) -> None:
         )
         for length in (80, 300)
     ]
-    sizes = [each["mechanisms"]["crankshaft"]["outputs"]["section_diameter.2"]["value"] for each in alone]
+    sizes = [each.mechanisms["crankshaft"].outputs["section_diameter.2"].value for each in alone]
     assert sizes[0] != sizes[1]  # a longer crank has smaller forces in its joints
     saved(tmp_path, base.tree.text)
     study = "schema_version: 1\nbase: press.yaml\nsample: {method: grid}\nvary: {mechanisms.drive.crank_length: [80 mm, 300 mm]}\n"
     columns = calculated(load_study(saved(tmp_path, study, "study.yaml"), Discovery([])), Chunk(0, 0, 2)).columns
     assert list(columns["crankshaft.section_diameter.2"]) == pytest.approx(sizes, rel=1e-12)
-    outputs = [each["mechanisms"]["crankshaft"]["outputs"] for each in alone]
+    outputs = [each.mechanisms["crankshaft"].outputs for each in alone]
     places = [name for name in outputs[0] if name.startswith(("place_safety.", "place_yield_safety."))]
     assert len(places) == 2 * 9
     for name in places:
-        assert list(columns[f"crankshaft.{name}"]) == pytest.approx([each[name]["value"] for each in outputs], rel=1e-9)
+        assert list(columns[f"crankshaft.{name}"]) == pytest.approx([each[name].value for each in outputs], rel=1e-9)
 
 
 def test_the_columns_of_a_study_name_the_safety_at_each_place(tmp_path: Path) -> None:

@@ -152,21 +152,21 @@ def test_teeth_in_mesh_count_on_inside_pulleys_only() -> None:
 
 @pytest.mark.parametrize("pitch, status", [("57 mm", "pass"), ("58 mm", "fail")])
 def test_fewer_than_six_teeth_in_mesh_fail(pitch: str, status: str) -> None:
-    check = mechanism_results(belt(IDLER, pitch=pitch), {})["checks"][0]  # 342.1 mm of belt on each inside pulley
-    assert (check["id"], check["status"]) == ("teeth_in_mesh", status)
-    assert check["utilisation"] == pytest.approx(6 * float(pitch[:2]) / (100 * np.radians(196.0044)), rel=1e-6)
+    check = mechanism_results(belt(IDLER, pitch=pitch), {}).checks[0]  # 342.1 mm of belt on each inside pulley
+    assert (check.id, check.status) == ("teeth_in_mesh", status)
+    assert check.utilisation == pytest.approx(6 * float(pitch[:2]) / (100 * np.radians(196.0044)), rel=1e-6)
 
 
 def test_without_pulleys_there_is_a_driving_pulley_and_no_length() -> None:
     results = mechanism_results(belt(), {})
-    assert "driving_pulley_teeth" in results["outputs"] and "toothed_belt_length" not in results["outputs"]
-    assert results["checks"] == []
-    assert [figure["id"] for figure in results["figures"]] == ["toothed_belt_rolling"]
-    assert {told["title"] for told in results["absent"]} == {section.title for section in TOOTHED_BELT[1:]}
+    assert "driving_pulley_teeth" in results.outputs and "toothed_belt_length" not in results.outputs
+    assert results.checks == []
+    assert [figure.id for figure in results.figures] == ["toothed_belt_rolling"]
+    assert {told.title for told in results.absent} == {section.title for section in TOOTHED_BELT[1:]}
 
 
 def test_the_outputs_of_the_method_are_there() -> None:
-    outputs = mechanism_results(belt(IDLER), {})["outputs"]
+    outputs = mechanism_results(belt(IDLER), {}).outputs
     names = {"belt_speed", "driving_pulley_radius", "driving_pulley_teeth", "toothed_belt_length", "toothed_belt_teeth"}
     assert set(outputs) >= names | {
         f"{row}.{i}" for row in ("wraps", "straight_runs", "teeth_in_mesh") for i in range(3)
@@ -175,7 +175,7 @@ def test_the_outputs_of_the_method_are_there() -> None:
 
 def test_the_drawn_belt_is_a_closed_line_of_the_belt_s_length() -> None:
     calc = belt(IDLER)
-    figures = {figure["id"]: figure["shapes"] for figure in mechanism_results(calc, {})["figures"]}
+    figures = {figure.id: figure.shapes for figure in mechanism_results(calc, {}).figures}
     lines = [s for s in figures["toothed_belt_layout"] if s.get("role") == "link"]
     runs = [np.array(s["points"]) for s in lines if s["shape"] == "polyline"]
     arcs = [s for s in lines if s["shape"] == "arc"]
@@ -192,7 +192,7 @@ def test_the_drawn_belt_is_a_closed_line_of_the_belt_s_length() -> None:
 
 
 def test_the_pulleys_are_drawn_with_their_numbers_and_wraps() -> None:
-    figures = {figure["id"]: figure["shapes"] for figure in mechanism_results(belt(IDLER), {})["figures"]}
+    figures = {figure.id: figure.shapes for figure in mechanism_results(belt(IDLER), {}).figures}
     labels = [shape["label"] for shape in figures["toothed_belt_layout"] if shape["shape"] == "point"]
     assert labels == ["1: 196.0°, driving", "2: 196.0°", "3: 32.01°"]
 

@@ -15,7 +15,7 @@ import pytest
 from diecut_report.report.figures.style import load_fonts
 from diecut_report.report.figures.style import style as style_of
 from diecut_report.report.rendering import Rendering
-from tests.report.made_results import sample
+from tests.report.made_results import sample, typed
 from tests.shared import once
 
 
@@ -37,7 +37,7 @@ def plain() -> dict[str, Any]:
 @pytest.fixture(scope="session")
 def rendering() -> Rendering:
     """The sample's report; its formats are made once for all tests."""
-    return Rendering(sample())
+    return Rendering(typed(sample()))
 
 
 @pytest.fixture(scope="session")

@@ -7,6 +7,8 @@ from typing import Any
 
 import numpy as np
 
+from diecut_report.results.model import FigureRecord
+
 Data = dict[str, Any]
 Point = tuple[float, float]
 LAWS = (
@@ -36,25 +38,26 @@ def panel(title: str, unit: str, x: tuple[str, str, str], **more: Any) -> Data:
     return {"title": title, "unit": unit, "x": dict(zip(("title", "symbol", "unit"), x, strict=True))} | empty | more
 
 
-def chart(name: str, title: str, panels: list[Data]) -> Data:
+def chart(name: str, title: str, panels: list[Data]) -> FigureRecord:
     """A chart."""
-    return {"id": name, "title": title, "caption": f"{title}, made up.", "type": "chart", "panels": panels}
+    return FigureRecord(id=name, title=title, caption=f"{title}, made up.", type="chart", panels=panels)
 
 
-def drawing(name: str, title: str, shapes: list[Data], unit: str = "mm", **more: Any) -> Data:
+def drawing(name: str, title: str, shapes: list[Data], unit: str = "mm", *, schematic: bool = False) -> FigureRecord:
     """A drawing."""
-    return {
-        "id": name,
-        "title": title,
-        "caption": f"{title}, made up.",
-        "type": "drawing",
-        "unit": unit,
-        "shapes": shapes,
-    } | more
+    return FigureRecord(
+        id=name,
+        title=title,
+        caption=f"{title}, made up.",
+        type="drawing",
+        unit=unit,
+        shapes=shapes,
+        schematic=schematic,
+    )
 
 
 # charts
-def wedge() -> Data:
+def wedge() -> FigureRecord:
     """A fan of lines over an angle, each with a gap where it has no value, a mark and a limit."""
     angle = np.radians(np.linspace(2, 30, 113))
     lines = []
@@ -69,7 +72,7 @@ def wedge() -> Data:
                  [panel("Engagement force", "kN", over, lines=lines, marks=marks, verticals=verticals, levels=levels)])  # fmt: skip
 
 
-def laws() -> Data:
+def laws() -> FigureRecord:
     """Seven lines that run close to each other, in three panels over one abscissa that is no angle."""
     k = np.linspace(0, 1, 201)
     over = ("Share of the time", "k", "1")
@@ -85,7 +88,7 @@ def laws() -> Data:
                  [panel(t, "1", over, lines=lines) for t, lines in zip(titles, (rises, speeds, pulls), strict=True)])  # fmt: skip
 
 
-def block() -> Data:
+def block() -> FigureRecord:
     """Two panels with an abscissa of their own: an area under a line, and a falling line."""
     way = np.linspace(0, 0.0837, 60)
     force = 21428.0 * way
@@ -102,7 +105,7 @@ def block() -> Data:
     return chart("block", "Damper block", [first, second])
 
 
-def energy() -> Data:
+def energy() -> FigureRecord:
     """Areas of both signs, one of them too small for its name, and named boundaries."""
     angle = np.linspace(0, 2 * math.pi, 361)
     torque = 30 + 60 * np.sin(angle) + 25 * np.sin(3 * angle)
@@ -158,7 +161,7 @@ def dimension(start: Point, end: Point, offset: float, text: str) -> Data:
     return {"shape": "dimension", "from": list(start), "to": list(end), "offset": offset, "text": text}
 
 
-def belt() -> Data:
+def belt() -> FigureRecord:
     """Twelve pulleys with names, the belt around them, its direction."""
     turns = [2 * math.pi * k / 12 for k in range(12)]
     centers = [(0.9 * math.cos(t), 0.45 * math.sin(t)) for t in turns]
@@ -174,7 +177,7 @@ def belt() -> Data:
     )
 
 
-def conveyor() -> Data:
+def conveyor() -> FigureRecord:
     """Very wide and low, with a long name at its end."""
     chain = [(0.1, 0.1), (3.9, 0.1), (3.9, -0.1), (0.1, -0.1)]
     ends = [circle((0.1, 0), 0.1, "body"), circle((3.9, 0), 0.1, "body")]
@@ -185,7 +188,7 @@ def conveyor() -> Data:
     ])  # fmt: skip
 
 
-def press() -> Data:
+def press() -> FigureRecord:
     """Very tall and narrow."""
     frame = [(-0.15, 0), (0.15, 0), (0.15, 2.2), (-0.15, 2.2)]
     return drawing("press", "Frame of the press", [
@@ -195,7 +198,7 @@ def press() -> Data:
     ])  # fmt: skip
 
 
-def cam() -> Data:
+def cam() -> FigureRecord:
     """A cam with its pitch curve and roller, to scale."""
     turn = np.linspace(0, 2 * math.pi, 720, endpoint=False)
     radius = 0.06 + 0.012 * np.sin(turn) ** 2 * (turn < math.pi)
@@ -220,7 +223,7 @@ def cam() -> Data:
     )
 
 
-def forces() -> Data:
+def forces() -> FigureRecord:
     """A force triangle: lengths are forces, with no scale bar."""
     return drawing(
         "forces",
@@ -237,7 +240,7 @@ def forces() -> Data:
     )
 
 
-def row_of_boxes(count: int) -> Data:
+def row_of_boxes(count: int) -> FigureRecord:
     """Boxes side by side with five lines each, arrows with words between them."""
     shapes = []
     for n in range(count):
@@ -249,7 +252,7 @@ def row_of_boxes(count: int) -> Data:
     return drawing(f"row{count}", f"{count} shafts in a row", shapes, "1", schematic=True)
 
 
-def chain() -> Data:
+def chain() -> FigureRecord:
     """Shafts below each other with wheels between them and boxes of numbers."""
     shapes = [box((9, 0), (18, 12), "Motor", "5.5 kW")]
     for n in range(4):
@@ -279,6 +282,6 @@ CHARTS = (wedge, laws, block, energy)
 DRAWINGS = (belt, conveyor, press, cam, forces, chain)
 
 
-def all_figures() -> list[Data]:
+def all_figures() -> list[FigureRecord]:
     """Every figure once."""
     return [build() for build in (*CHARTS, *DRAWINGS)] + [row_of_boxes(5), row_of_boxes(9)]

@@ -7,6 +7,8 @@ import math
 from pathlib import Path
 from typing import Any
 
+from diecut_report.results.model import ResultsRecord
+from tests.records import filled
 from tests.report.made_figures import all_figures
 
 Data = dict[str, Any]
@@ -212,8 +214,13 @@ def comparison() -> Data:
                      sources=[{"id": "900", "citation": "A source of the comparison alone."}])  # fmt: skip
 
 
+def typed(data: Data) -> ResultsRecord:
+    """Return the results of a document that lacks what tests do not care for."""
+    return filled(ResultsRecord, data | {"report": {"detail": "standard"} | data.get("report", {})})
+
+
 def sample() -> Data:
-    """The whole document."""
+    """The whole document as its file holds it."""
     found: Data = json.loads(SAMPLE.read_text(encoding="utf-8"))
     found["mechanisms"]["train"] = train()
     found["comparisons"] = {"compared-cylinder-train": comparison()}

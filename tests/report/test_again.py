@@ -6,19 +6,19 @@ same results.
 
 from __future__ import annotations
 
-import json
 from pathlib import Path
 
 import pytest
 
 from diecut_report.report.rendering import Rendering
+from diecut_report.results.model import ResultsRecord
 from tests.examples import few
 
 
 @pytest.mark.parametrize("ending", few(["html", "pdf"], keep=lambda ending: ending == "html"))
 def test_the_report_of_a_results_file_is_the_report(small_report: Path, ending: str) -> None:
     file = small_report / "small.json"
-    again = Rendering(json.loads(file.read_text(encoding="utf-8")))
+    again = Rendering(ResultsRecord.model_validate_json(file.read_bytes()))
     made = again.html().encode() if ending == "html" else again.pdf()
     assert made == file.with_suffix(f".{ending}").read_bytes()
 

@@ -11,7 +11,7 @@ import pytest
 from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.profile_files import CENTER, PITCH_CURVE, PROFILE, exports
 from diecut_report.report.rendering import Rendering, render_html
-from tests.report.made_results import SOURCE, check, export, mechanism, sample
+from tests.report.made_results import SOURCE, check, export, mechanism, sample, typed
 
 Data = dict[str, Any]
 
@@ -35,8 +35,8 @@ def test_what_is_absent_does_not_say_the_words_of_its_heading_again() -> None:
     absent = [{"title": "Bending", "text": "not calculated: bearing_span is not given"}]
     found["mechanisms"] = {"first": mechanism("Shaft", absent=absent)}
     found |= {"comparisons": {}, "governing": None}
-    [part] = Rendering(found).material.document.chapters
-    assert [told["text"] for told in part.absent] == ["bearing_span is not given"]
+    [part] = Rendering(typed(found)).material.document.chapters
+    assert [told.text for told in part.absent] == ["bearing_span is not given"]
 
 
 # lists
@@ -130,7 +130,7 @@ def test_pick_names_its_series(chapters: dict[str, PrintedChapter]) -> None:
 def test_series_is_named_once_where_a_note_tells_its_sources(plain: Data) -> None:
     pick = next(item for item in plain["mechanisms"]["train"]["sections"][0]["items"] if item.get("series"))
     pick["note"] = f"{pick['series']}: a standard; a catalogue"
-    section = Rendering(plain).material.document.chapters[4].sections[0]
+    section = Rendering(typed(plain)).material.document.chapters[4].sections[0]
     notes = next(item.notes for item in section.items if item.description == "Rating")
     assert sum("Ratings of motors" in note for note in notes) == 1
 
@@ -165,13 +165,13 @@ def test_comparison_stands_in_contents_sources_and_checks(rendering: Rendering) 
 
 def test_check_of_a_comparison_may_govern(plain: Data) -> None:
     plain["governing"] = {"mechanism": "compared-cylinder-train", "check": "compared"}
-    governing = Rendering(plain).material.document.governing
+    governing = Rendering(typed(plain)).material.document.governing
     assert governing is not None and governing.chapter == "F"
 
 
 def test_comparison_without_checks_has_no_chapter_of_them(plain: Data) -> None:
     plain["comparisons"]["compared-cylinder-train"]["checks"] = []
-    page = render_html(plain)
+    page = render_html(typed(plain))
     last = page[page.index('<h2 id="m-F">') :]
     assert "There are no checks." not in last and "Checks" not in _words(last)
 
@@ -182,7 +182,9 @@ def test_mechanism_without_checks_says_so(html: str) -> None:
 
 def test_comparison_between_three(plain: Data) -> None:
     plain["comparisons"]["compared-cylinder-train"]["between"] = ["cylinder", "drive", "train"]
-    assert "Comparison of A Impression cylinder, B Cylinder drive and E Drive train" in _words(render_html(plain))
+    assert "Comparison of A Impression cylinder, B Cylinder drive and E Drive train" in _words(
+        render_html(typed(plain))
+    )
 
 
 def test_figures_of_a_comparison_are_drawn(rendering: Rendering) -> None:
@@ -192,14 +194,14 @@ def test_figures_of_a_comparison_are_drawn(rendering: Rendering) -> None:
 def test_results_without_comparisons_have_none(plain: Data) -> None:
     del plain["comparisons"]
     plain["mechanisms"]["cylinder"]["checks"].append(check("more"))
-    page = render_html(plain)
+    page = render_html(typed(plain))
     assert 'id="m-E"' in page and 'id="m-F"' not in page and "Comparison of" not in page
 
 
 # files
 def test_files_beside_the_report_are_named(chapters: dict[str, PrintedChapter], results: Data, html: str) -> None:
     files = chapters["train"].files
-    assert {file.name for file in files} == {f"press.{suffix}" for suffix in exports(results)}
+    assert {file.name for file in files} == {f"press.{suffix}" for suffix in exports(typed(results))}
     drawing, table = files
     assert all(layer in drawing.content for layer in (PROFILE, PITCH_CURVE, CENTER)) and "72 points" in drawing.content
     assert table.content == "Cam 1 as a table of 72 rows: disc_angle, cam_1_x, cam_1_y, cam_1_pitch_x, cam_1_pitch_y"
@@ -208,7 +210,7 @@ def test_files_beside_the_report_are_named(chapters: dict[str, PrintedChapter], 
 
 def test_profile_without_a_pitch_curve_names_no_layer_of_it(plain: Data) -> None:
     plain["mechanisms"]["train"]["exports"] = [export("cam_1_x", "cam_1_y")]
-    files = Rendering(plain).material.document.chapters[4].files
+    files = Rendering(typed(plain)).material.document.chapters[4].files
     assert PITCH_CURVE not in files[0].content and PROFILE in files[0].content
 
 
@@ -220,5 +222,5 @@ def test_sources_stand_by_the_alphabet_whatever_their_capitals(plain: Data) -> N
     plain["mechanisms"]["cylinder"]["sources"] = [
         {"id": name, "citation": name} for name in ("Shigley", "iwis", "Hertz")
     ]
-    names = [name for name, _ in Rendering(plain).material.document.sources]
+    names = [name for name, _ in Rendering(typed(plain)).material.document.sources]
     assert [name for name in names if name in ("Hertz", "iwis", "Shigley")] == ["Hertz", "iwis", "Shigley"]

@@ -17,6 +17,8 @@ from diecut_report.report.figures.diagram import STROKES, Diagram, legend
 from diecut_report.report.figures.labels import LabelLayout, PanelData, framed, pieces
 from diecut_report.report.figures.style import SizesSize, overlap, text_size
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import CurveRecord, FigureRecord
+from tests.records import filled
 from tests.report.made_figures import CHARTS, block, chart, energy, laws, line, panel, wedge
 
 pytestmark = pytest.mark.usefixtures("style")
@@ -25,18 +27,18 @@ Data = dict[str, Any]
 TURN = ("Angle", "φ", "deg")
 
 
-def _texts(figure: Data) -> list[str]:
+def _texts(figure: FigureRecord) -> list[str]:
     """What stands in a figure, without blanks (texts with symbols are set letter by letter)."""
     svg = render(figure, {}, WORDS, "x").text
     groups = re.findall(r"<text.*?</text>", svg, re.DOTALL)
     return [re.sub(r"<[^>]*>|\s", "", group) for group in groups]
 
 
-def _panels(figure: Data) -> list[PanelData]:
-    return [_of_lines(each, WORDS) for each in figure["panels"]]
+def _panels(figure: FigureRecord) -> list[PanelData]:
+    return [_of_lines(each, WORDS) for each in figure.panels]
 
 
-def _names(figure: Data, index: int = 0) -> LabelLayout:
+def _names(figure: FigureRecord, index: int = 0) -> LabelLayout:
     drawn = _panels(figure)[index]
     return LabelLayout(drawn, framed(drawn, 430, 205))
 
@@ -129,7 +131,9 @@ def test_panels_of_the_same_lines_share_a_legend_in_rows() -> None:
 def test_a_panel_names_in_its_legend_only_what_the_first_does_not() -> None:
     figure = laws()
     bounds = [{"value": 0.5, "label": "a bound whose long name has room nowhere among so many lines"}]
-    figure["panels"][1] = figure["panels"][1] | {"levels": bounds, "lines": figure["panels"][1]["lines"][:5]}
+    whole, bounded, last = figure.panels
+    bounded = bounded | {"levels": bounds, "lines": bounded["lines"][:5]}
+    figure = figure.with_(panels=[whole, bounded, last])
     first, second, _ = (Diagram(each, 400, 20) for each in diagrams(figure, {}, WORDS))
     before = list(second.told)
     second.follow(first)
@@ -235,7 +239,8 @@ def test_no_room_is_wasted_below_zero() -> None:
 
 
 def test_level_beyond_a_curve_is_seen() -> None:
-    over = {"values": [0.0, 1.0, 2.0], "unit": "s", "display_unit": "s", "description": "Time", "symbol": "t"}
+    time = {"values": [0.0, 1.0, 2.0], "unit": "s", "display_unit": "s", "description": "Time", "symbol": "t"}
+    force = filled(CurveRecord, {"values": [1.0, 2.0, 1.0], "unit": "N"})
     level = {"value": 9.0, "label": "allowed"}
     figure = {
         "title": "Force",
@@ -245,7 +250,7 @@ def test_level_beyond_a_curve_is_seen() -> None:
         "marks": [],
         "spans": [],
     }
-    drawn = _of_curves(figure, {"f": {"values": [1.0, 2.0, 1.0]}}, over, WORDS)
+    drawn = _of_curves(figure, {"f": force}, filled(CurveRecord, time), WORDS)
     assert drawn.heights[0] < 0 < 9 < drawn.heights[1]
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import json
 import re
 import subprocess
@@ -26,9 +25,12 @@ from diecut_report.report.rendering import Rendering, render_html
 from diecut_report.report.scope import scope
 from diecut_report.report.text import number
 from diecut_report.results.document import document
+from diecut_report.results.model import FigureRecord, MechanismRecord, ResultsRecord
 from diecut_report.results.press_run import compute
 from diecut_report.text.phrases import worded
 from tests.configs import DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, SMALL, problems, saved
+from tests.records import filled
+from tests.report.made_results import typed
 from tests.shared import once
 
 Data = dict[str, Any]
@@ -45,7 +47,7 @@ def pages() -> dict[str, str]:
         results = sample() | {"report": {"detail": detail}}
         for mechanism in (*results["mechanisms"].values(), *results["comparisons"].values()):
             mechanism["figures"] = []
-        found[detail] = render_html(results)
+        found[detail] = render_html(typed(results))
     return found
 
 
@@ -66,11 +68,9 @@ def _dense(text: str) -> str:
 
 
 # what each detail holds
-def test_without_a_word_the_report_is_standard(plain: Data, pages: dict[str, str]) -> None:
-    del plain["report"]
-    given = (render_html(plain), pages["standard"])
-    made, standard = (re.sub("[0-9a-f]{64}", "", page.split('<footer class="carried"')[0]) for page in given)
-    assert made == standard  # but for the hash of the results, one of which does not say it
+def test_without_a_word_the_report_is_standard(tmp_path: Path) -> None:
+    results = document(compute(load_config(saved(tmp_path, SMALL), DISCOVERY), lambda _: None))
+    assert "report" not in SMALL and results.report.detail == "standard"
 
 
 def test_brief_has_the_verdict_what_fails_and_key_results_but_no_calculation(
@@ -118,9 +118,9 @@ def test_what_was_found_wrong_in_the_sources_is_printed_in_every_report_that_cit
     run = compute(load_config(file, DISCOVERY), lambda _: None)
     for detail in DETAILS[1:]:  # a brief report cites nothing
         results = document(run)
-        results["report"]["detail"] = detail
+        results = results.with_(report=results.report.with_(detail=detail))
         printed = Material(results).document
-        errata = {each["text"] for part in results["mechanisms"].values() for each in part["errata"]}
+        errata = {each.text for part in results.mechanisms.values() for each in part.errata}
         assert errata <= {text for _, text, _ in printed.errata}
         assert "erratum" not in " ".join(row.source for part in printed.chapters for row in part.checks)
 
@@ -139,7 +139,7 @@ def test_formulas_have_the_same_numbers_in_standard_and_full(pages: dict[str, st
 
 def test_a_result_that_its_step_prints_stands_in_no_table_of_standard(plain: Data) -> None:
     plain["report"] = {"detail": "standard"}
-    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
     items = [item for s in plain["mechanisms"]["cylinder"]["sections"] for item in s["items"]]
     steps = {item["id"]: item["result"]["text"] for item in items if "result" in item and "id" in item}
     outputs = plain["mechanisms"]["cylinder"]["outputs"]
@@ -150,7 +150,7 @@ def test_a_result_that_its_step_prints_stands_in_no_table_of_standard(plain: Dat
 def test_contents_come_before_the_summary_on_paper(plain: Data) -> None:
     from diecut_report.report.pages.pdf import Paper
 
-    material = Rendering(plain).material
+    material = Rendering(typed(plain)).material
     page = html.filled(material, Paper(material), "print")
     assert page.index("toc-title") < page.index('id="summary"') < page.index('id="press"') < page.index('id="m-A"')
 
@@ -160,7 +160,7 @@ def test_keys_that_checks_miss_are_said_on_paper_in_the_summary_alone(plain: Dat
 
     plain["report"] = {"detail": "standard"}
     plain["mechanisms"]["cylinder"]["checks"][0] |= {"status": "not_checked", "missing": ["allowable_load"]}
-    material = Rendering(plain).material
+    material = Rendering(typed(plain)).material
     missing = {key for row in material.document.unchecked for key in row.missing}
     said = {kind: re.findall(r'(?s)class="left-out">.*?</p>', page) for kind, page in
             (("print", html.filled(material, Paper(material), "print")), ("screen", html.page(material)))}  # fmt: skip
@@ -194,7 +194,7 @@ def test_unknown_details_are_refused_in_words(tmp_path: Path, capfd: pytest.Capt
 # mechanisms alone
 def test_a_report_of_one_mechanism_keeps_its_letter_and_has_a_verdict_of_its_own(plain: Data) -> None:
     plain["report"]["only"] = ["drive"]
-    document = Rendering(plain).material.document
+    document = Rendering(typed(plain)).material.document
     assert [(part.name, part.letter) for part in document.chapters] == [("drive", "B")]
     assert {row.mechanism for row in document.checks} <= {"drive"}
     assert document.status == plain["mechanisms"]["drive"]["status"]
@@ -204,15 +204,15 @@ def test_a_report_of_one_mechanism_keeps_its_letter_and_has_a_verdict_of_its_own
 def test_a_comparison_is_told_where_all_that_it_compares_is(plain: Data) -> None:
     between = plain["comparisons"]["compared-cylinder-train"]["between"]
     for names, told in ((between, 1), (between[:1], 0)):
-        whole = scope(plain | {"report": {"detail": "full", "only": names}})
-        assert len(whole.results["comparisons"]) == told
+        whole = scope(typed(plain | {"report": {"detail": "full", "only": names}}))
+        assert len(whole.results.comparisons) == told
 
 
 def test_what_a_left_out_mechanism_assumes_is_left_out(plain: Data) -> None:
     paths = ["press.productivity", "mechanisms.drive.force", "mechanisms.train.speed"]
     plain["summary"] = {"assumed": paths, "moves": [{"path": paths[2], "check": "train.x", "change": 0.1}]}
-    whole = scope(plain | {"report": {"only": ["drive"]}})
-    assert (whole.results["summary"]["assumed"], whole.results["summary"]["moves"]) == (paths[:2], [])
+    whole = scope(typed(plain | {"report": {"only": ["drive"]}}))
+    assert (whole.results.summary.assumed, whole.results.summary.moves) == (paths[:2], [])
 
 
 def test_only_names_that_the_configuration_has(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -233,16 +233,16 @@ def test_results_tell_how_the_report_was_asked_for(tmp_path: Path) -> None:
 
 
 # figures
-def _mechanism(*figures: Data) -> Data:
+def _mechanism(*figures: FigureRecord) -> MechanismRecord:
     sections = [
         {"items": [{"id": "a"}, {"id": "b"}]},
         {"items": [{"id": "c"}, {"type": "note"}, {"id": "d"}, {"id": "e"}]},
     ]
-    return {"sections": sections, "figures": list(figures)}
+    return filled(MechanismRecord, {"sections": sections, "figures": list(figures)})
 
 
-def _figure(kind: str, *shows: str, **more: Any) -> Data:
-    return {"type": kind, "shows": list(shows)} | more
+def _figure(kind: str, *shows: str, **more: Any) -> FigureRecord:
+    return filled(FigureRecord, {"type": kind, "shows": list(shows)} | more)
 
 
 def test_a_figure_follows_the_last_step_of_the_section_that_gives_most_of_what_it_shows() -> None:
@@ -257,7 +257,7 @@ def test_a_figure_follows_the_last_step_of_the_section_that_gives_most_of_what_i
 def test_a_drawing_of_inputs_opens_the_calculation_and_a_chart_of_them_closes_it() -> None:
     found = placed("A", _mechanism(_figure("chart", "x"), _figure("drawing", "x")))
     assert [each.place for each in found] == [Place(0, BEFORE), Place(1, 3)]
-    assert placed("A", {"sections": [], "figures": [_figure("plot")]})[0].place == Place(0, BEFORE)
+    assert placed("A", filled(MechanismRecord, {"figures": [_figure("plot")]}))[0].place == Place(0, BEFORE)
 
 
 def test_the_sketch_is_a_drawing_to_scale_where_there_is_one() -> None:
@@ -292,7 +292,7 @@ def test_a_machine_that_is_drawn_to_scale_has_a_brief_report_too(tmp_path: Path)
 
 # sheets
 def test_brief_is_short_on_paper(plain: Data, tmp_path: Path) -> None:
-    (tmp_path / "brief.pdf").write_bytes(Rendering(plain | {"report": {"detail": "brief"}}).pdf())
+    (tmp_path / "brief.pdf").write_bytes(Rendering(typed(plain | {"report": {"detail": "brief"}})).pdf())
     assert len(PdfReader(tmp_path / "brief.pdf").pages) <= 3
 
 
@@ -304,7 +304,7 @@ def press_sheets(tmp_path_factory: pytest.TempPathFactory) -> Path:
         pipeline.report(EXAMPLE, Discovery([]), lambda _: None, folder, ("json",))
         results = json.loads((folder / f"{EXAMPLE.stem}.json").read_text("utf-8"))
         for detail in DETAILS:
-            asked = copy.copy(results) | {"report": {"detail": detail}}
+            asked = ResultsRecord.model_validate(results | {"report": results["report"] | {"detail": detail}})
             (folder / f"{detail}.pdf").write_bytes(Rendering(asked).pdf())
 
     return once(tmp_path_factory, "press_sheets", make)
@@ -326,7 +326,8 @@ def test_a_ukrainian_press_has_its_verdict_on_the_first_sheet_and_is_as_short_in
     sheets = {}
     for detail in DETAILS[:2]:
         file = press_sheets / f"{detail}.uk.pdf"
-        file.write_bytes(Rendering(results | {"report": {"detail": detail}}).pdf())
+        asked = ResultsRecord.model_validate(results | {"report": results["report"] | {"detail": detail}})
+        file.write_bytes(Rendering(asked).pdf())
         sheets[detail] = PdfReader(file).pages
     assert len(sheets["brief"]) <= 4
     assert re.search(r"Спирається на \d+ прийнят.* і\s+ще\s+\d+\.", sheets["standard"][0].extract_text(), re.DOTALL)

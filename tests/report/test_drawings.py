@@ -25,6 +25,7 @@ from diecut_report.report.figures.drawing import (
 )
 from diecut_report.report.figures.style import MM, SizesSize, marked, overlap, text_size
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import FigureRecord
 from tests.examples import few
 from tests.report.made_figures import (
     DRAWINGS,
@@ -47,20 +48,20 @@ WORDS = Catalogue("en")
 Data = dict[str, Any]
 
 
-def _sheet(figure: Data) -> Shapes:
+def _sheet(figure: FigureRecord) -> Shapes:
     sheet = Shapes(figure, WORDS, LARGEST)
     sheet.finish()
     return sheet
 
 
-def _svg(figure: Data) -> Any:
+def _svg(figure: FigureRecord) -> Any:
     return render(figure, {}, WORDS, "x")
 
 
 # arrows
-def _heads(figure: Data) -> list[np.ndarray[Any, Any]]:
+def _heads(figure: FigureRecord) -> list[np.ndarray[Any, Any]]:
     """The corners of all heads of arrows (in a schematic nothing else is filled)."""
-    return [np.asarray(patch.get_xy())[:3] for patch in _sheet(figure | {"schematic": True, "unit": "1"}).axes.patches]
+    return [np.asarray(patch.get_xy())[:3] for patch in _sheet(figure.with_(schematic=True, unit="1")).axes.patches]
 
 
 @pytest.mark.parametrize("size", [0.01, 1.0, 100.0])
@@ -105,10 +106,10 @@ def test_way_out_of_a_box(start: Any, end: Any, left: Any) -> None:
 # boxes
 @pytest.mark.parametrize(
     "figure",
-    [chain(), *few([row_of_boxes(3), row_of_boxes(5), row_of_boxes(9)], keep=lambda figure: figure["id"] == "row5")],
-    ids=lambda f: f["id"],
+    [chain(), *few([row_of_boxes(3), row_of_boxes(5), row_of_boxes(9)], keep=lambda figure: figure.id == "row5")],
+    ids=lambda f: f.id,
 )
-def test_text_fits_its_box_and_can_be_read(figure: Data) -> None:
+def test_text_fits_its_box_and_can_be_read(figure: FigureRecord) -> None:
     sheet = _sheet(figure)
     boxes = [shape for shape in figure["shapes"] if shape["shape"] == "box"]
     for shape in boxes:
@@ -184,9 +185,9 @@ def test_schematic_has_no_scale_bar() -> None:
 @pytest.mark.parametrize(
     "figure",
     [*(build() for build in DRAWINGS), pytest.param(row_of_boxes(9), marks=pytest.mark.nightly)],
-    ids=lambda f: f["id"],
+    ids=lambda f: f.id,
 )
-def test_drawing_fits_the_page(figure: Data) -> None:
+def test_drawing_fits_the_page(figure: FigureRecord) -> None:
     svg = _svg(figure)
     assert svg.width <= PAGE[0] and svg.height <= PAGE[1]
 

@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import csv
 import io
-import json
 import math
 import os
 import subprocess
@@ -17,16 +16,20 @@ import ezdxf
 import pytest
 from ezdxf.document import Drawing
 
-from diecut_report.report.profile_files import exports
-from tests.report.made_results import curves, export, mechanism
+from diecut_report.report import profile_files
+from diecut_report.results.results_file import results_text
+from tests.report.made_results import curves, export, mechanism, typed
 
 Data = dict[str, Any]
 COLUMNS = ("cam_1_x", "cam_1_y", "cam_1_pitch_x", "cam_1_pitch_y")
 AGAIN = """
-import json, sys
+import sys
+from pathlib import Path
 from hashlib import sha256
 from diecut_report.report.profile_files import exports
-for name, content in exports(json.load(open(sys.argv[1], encoding="utf-8"))).items():
+from diecut_report.results.model import ResultsRecord
+results = ResultsRecord.model_validate_json(Path(sys.argv[1]).read_bytes())
+for name, content in exports(results).items():
     print(name, sha256(content).hexdigest())
 """
 
@@ -35,6 +38,11 @@ def _results(*columns: str, samples: int = 72) -> Data:
     return {
         "mechanisms": {"feeder": mechanism("Feeder", curves=curves(samples), exports=[export(*(columns or COLUMNS))])}
     }
+
+
+def exports(results: Data) -> dict[str, bytes]:
+    """Return the files beside the report of these results."""
+    return profile_files.exports(typed(results))
 
 
 def _drawing(content: bytes) -> Drawing:
@@ -137,7 +145,7 @@ def test_equal_results_give_equal_bytes_and_settings_stay() -> None:
 
 def test_equal_results_give_equal_bytes_in_another_process(tmp_path: Path) -> None:
     file = tmp_path / "results.json"
-    file.write_text(json.dumps(_results()), encoding="utf-8")
+    file.write_text(results_text(typed(_results())), encoding="utf-8")
 
     there = subprocess.run(
         [sys.executable, "-c", AGAIN, str(file)],
@@ -161,10 +169,13 @@ def test_curve_that_is_no_length_is_refused() -> None:
 def test_unknown_type_is_refused() -> None:
     results = _results()
     results["mechanisms"]["feeder"]["exports"][0]["type"] = "solid"
-    with pytest.raises(ValueError, match=r"feeder\.cam_1: no file is known for the type solid"):
+    with pytest.raises(ValueError, match=r"(?s)mechanisms\.feeder\.exports\.0\.type.*'table' or 'profile'"):
         exports(results)
 
 
 def test_the_library_is_imported_only_when_a_profile_is_drawn() -> None:
-    code = "import sys, diecut_report.report.profile_files as e; e.exports({'mechanisms': {}}); print('ezdxf' in sys.modules)"
+    code = (
+        "import sys, diecut_report.report.profile_files as e; from tests.report.made_results import typed;"
+        "e.exports(typed({'mechanisms': {}})); print('ezdxf' in sys.modules)"
+    )
     assert subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True).stdout == "False\n"

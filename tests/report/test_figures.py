@@ -17,30 +17,33 @@ from diecut_report.report.figures.charts import bars, polar
 from diecut_report.report.figures.drawing import hatching
 from diecut_report.report.figures.style import Labels, marked
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import CurveRecord, FigureRecord
+from tests.records import filled
+from tests.report.made_results import typed
 
 WORDS = Catalogue("en")
 
 
-def _figures(results: dict[str, Any]) -> list[tuple[dict[str, Any], dict[str, Any]]]:
-    return [(f, m["curves"]) for m in results["mechanisms"].values() for f in m.get("figures", ())]
+def _figures(results: dict[str, Any]) -> list[tuple[FigureRecord, dict[str, CurveRecord]]]:
+    return [(f, m.curves) for m in typed(results).mechanisms.values() for f in m.figures]
 
 
 @pytest.mark.parametrize("every", [False, pytest.param(True, marks=pytest.mark.nightly)])
 def test_each_kind_is_drawn_as_clean_svg(results: dict[str, Any], every: bool) -> None:
     figures = _figures(results)
-    figures = figures if every else list({figure["type"]: (figure, curves) for figure, curves in figures}.values())
-    assert {f["type"] for f, _ in figures} == {"plot", "chart", "polar", "bars", "drawing"}
+    figures = figures if every else list({figure.type: (figure, curves) for figure, curves in figures}.values())
+    assert {f.type for f, _ in figures} == {"plot", "chart", "polar", "bars", "drawing"}
     for figure, curves in figures:
-        svg = render(figure, curves, WORDS, figure["id"])
+        svg = render(figure, curves, WORDS, figure.id)
         root = ElementTree.fromstring(svg.text)
-        assert root.find("{http://www.w3.org/2000/svg}title").text == figure["title"]  # type: ignore[union-attr]
+        assert root.find("{http://www.w3.org/2000/svg}title").text == figure.title  # type: ignore[union-attr]
         assert "<style" not in svg.text and "<!DOCTYPE" not in svg.text
         assert 0 < svg.width <= 174 * 72 / 25.4
         assert not re.search(r'="[^"]*\d\.\d{4,}', svg.text)
 
 
 def test_printed_numbers_keep_their_digits(results: dict[str, Any]) -> None:
-    bars = next((f, curves) for f, curves in _figures(results) if f["type"] == "bars")
+    bars = next((f, curves) for f, curves in _figures(results) if f.type == "bars")
     assert {"189.1", "−84.05", "0.636"} <= set(re.findall(r">([−\d.]+)<", render(*bars, WORDS, "x").text))
 
 
@@ -54,13 +57,16 @@ def test_same_figure_gives_same_bytes_and_own_ids(results: dict[str, Any]) -> No
 
 def test_title_is_escaped(results: dict[str, Any]) -> None:
     figure, curves = _figures(results)[1]
-    svg = render(figure | {"title": "<script>&"}, curves, WORDS, "x").text
+    svg = render(figure.with_(title="<script>&"), curves, WORDS, "x").text
     assert "<title>&lt;script&gt;&amp;</title>" in svg
 
 
-def _curve(**more: Any) -> tuple[dict[str, Any], dict[str, Any]]:
-    angles = [k * math.pi / 2 for k in range(4)]
-    return {"values": [0.0, 1.0, 2.0, 3.0], **more}, {"values": angles, "unit": "rad"}
+def _over(values: list[float], unit: str = "rad", **more: Any) -> CurveRecord:
+    return filled(CurveRecord, {"values": values, "unit": unit} | more)
+
+
+def _curve(**more: Any) -> tuple[CurveRecord, CurveRecord]:
+    return _over([0.0, 1.0, 2.0, 3.0], "N", **more), _over([k * math.pi / 2 for k in range(4)])
 
 
 def test_jump_stands_at_its_true_place_with_both_values() -> None:
@@ -79,9 +85,9 @@ def test_jump_at_a_sample_replaces_the_sample() -> None:
 
 def _over_a_turn(shape: Callable[[float], float]) -> tuple[np.ndarray[Any, Any], np.ndarray[Any, Any]]:
     angles = [2 * math.pi * k / 72 for k in range(72)]
-    over = {"values": angles, "unit": "rad"}
+    over = _over(angles)
     assert period_of(over) == 2 * math.pi
-    return continuous({"values": [shape(angle) for angle in angles]}, over, period_of(over))
+    return continuous(_over([shape(angle) for angle in angles], "N"), over, period_of(over))
 
 
 @pytest.mark.parametrize(
@@ -101,8 +107,8 @@ def test_curve_that_grows_over_the_turn_is_led_to_its_end_without_a_jump_back(sh
 
 
 def test_part_of_a_turn_is_not_closed() -> None:
-    assert period_of({"values": [0.0, 0.1, 0.2, 0.3], "unit": "rad"}) is None
-    assert period_of({"values": [0.0, 0.1, 0.2, 0.3], "unit": "s"}) is None
+    assert period_of(_over([0.0, 0.1, 0.2, 0.3])) is None
+    assert period_of(_over([0.0, 0.1, 0.2, 0.3], "s")) is None
 
 
 def test_polar_curve_changes_its_sign_at_the_pole() -> None:
@@ -112,18 +118,15 @@ def test_polar_curve_changes_its_sign_at_the_pole() -> None:
 
 
 def test_a_polar_diagram_keeps_the_range_that_it_declares() -> None:
-    over = {
-        "values": list(np.linspace(0, 6, 40)),
-        "unit": "rad",
-        "description": "Turn",
-        "symbol": "φ",
-        "display_unit": "deg",
-    }
-    curves = {"turn": over, "lift": {"values": [0.004] * 40, "unit": "m"}}
-    figure = {"title": "Lift", "abscissa": "turn", "unit": "mm", "series": [{"curve": "lift", "label": "h"}]}
+    over = _over(np.linspace(0, 6, 40).tolist(), description="Turn", symbol="φ", display_unit="deg")
+    curves = {"turn": over, "lift": _over([0.004] * 40, "m")}
+    series = [{"curve": "lift", "label": "h"}]
+    figure = filled(
+        FigureRecord, {"type": "polar", "title": "Lift", "abscissa": "turn", "unit": "mm", "series": series}
+    )
 
     def reach(**more: Any) -> tuple[float, float]:
-        (axes,) = polar(figure | more, curves, WORDS).axes
+        (axes,) = polar(figure.with_(**more), curves, WORDS).axes
         return axes.get_ylim()
 
     assert reach()[0] == 0 and 4 < reach()[1] < 5
@@ -138,7 +141,7 @@ def test_bars_with_a_declared_range_name_its_ends() -> None:
     }
 
     def axis(**more: Any) -> tuple[float, list[str]]:
-        (axes,) = bars({"groups": [group | more]}, {}, WORDS).axes
+        (axes,) = bars(filled(FigureRecord, {"type": "bars", "groups": [group | more]}), {}, WORDS).axes
         named = [text.get_text() for text in axes.get_xticklabels() if axes.xaxis.get_tick_params()["labelbottom"]]
         return axes.get_xlim()[0], named
 
@@ -178,12 +181,12 @@ def test_symbols_of_a_drawing(text: str, set_as: str) -> None:
 
 
 def test_bars_stand_in_rows_where_names_and_titles_leave_no_room_beside_each_other() -> None:
-    def groups(name: str) -> dict[str, Any]:
+    def groups(name: str) -> FigureRecord:
         one = {
             "bars": [{"label": f"{name} 1", "value": 5.0}, {"label": f"{name} 2", "value": 6.0}],
             "label": "Safety factors",
         }
-        return {"unit": "1", "groups": [one] * 4}
+        return filled(FigureRecord, {"type": "bars", "unit": "1", "groups": [one] * 4})
 
     def rows(name: str) -> int:
         return len({round(axes.get_position().y1, 3) for axes in bars(groups(name), {}, WORDS).axes})

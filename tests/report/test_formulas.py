@@ -19,6 +19,7 @@ from diecut_report.report.equations import WIDTH, Equations, Typesetter
 from diecut_report.report.mathematics import Latex, Linear, unit_latex
 from diecut_report.report.model import Heading
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import ItemRecord, SectionRecord
 
 Tree = list[Any]
 A, B, C = ["sym", "a"], ["sym", "b"], ["sym", "c"]
@@ -185,14 +186,13 @@ def _equations(language: str = "en") -> tuple[Equations, Typesetter]:
     return Equations(Catalogue(language), typesetter.measure), typesetter
 
 
-def _item(**more: Any) -> dict[str, Any]:
-    return {
-        "type": "formula",
-        "symbol": "c",
-        "equation": ["+", A, B],
-        "substituted": None,
-        "result": {"text": "5", "unit": "mm"},
-    } | more
+def _item(**more: Any) -> ItemRecord:
+    formula = {"type": "formula", "symbol": "c", "equation": ["+", A, B], "result": {"text": "5", "unit": "mm"}}
+    return ItemRecord.model_validate(formula | more)
+
+
+def _branch(**more: Any) -> ItemRecord:
+    return ItemRecord.model_validate({"type": "choice"} | more)
 
 
 def test_short_equation_stands_in_one_line() -> None:
@@ -279,7 +279,7 @@ def test_an_integral_tells_over_what_it_is_taken() -> None:
 
 
 def test_condition_is_shown_in_symbols_and_with_numbers() -> None:
-    item = {"condition": ["cmp", ">", A, B], "condition_substituted": ["cmp", ">", MM, ["qty", "30", "mm"]]}
+    item = _branch(condition=["cmp", ">", A, B], condition_substituted=["cmp", ">", MM, ["qty", "30", "mm"]])
     condition = _equations()[0].condition(item)
     assert condition is not None
     assert condition.text == "a > b: 40 mm > 30 mm"
@@ -287,20 +287,20 @@ def test_condition_is_shown_in_symbols_and_with_numbers() -> None:
 
 def test_a_branch_is_shown_with_its_condition_once_and_named_after_that() -> None:
     said = SaidOnce(_equations()[0], Catalogue("en"))
-    item = {"words": "the knife cuts", "condition": ["cmp", ">", A, B]}
+    item = _branch(words="the knife cuts", condition=["cmp", ">", A, B])
     first = said.condition(item)
     assert first is not None and first.text == "a > b"
     assert said.condition(item) is None
-    assert said.condition(item | {"words": "the board is long"}) is not None
+    assert said.condition(item.with_(words="the board is long")) is not None
 
 
 def test_a_branch_whose_condition_is_that_one_is_one_is_named_alone() -> None:
     said = SaidOnce(_equations()[0], Catalogue("en"))
-    flag = {
-        "condition": ["cmp", "==", A, ["num", "1"]],
-        "condition_substituted": ["cmp", "==", ["qty", "1", "1"], ["num", "1"]],
-    }
-    assert said.condition(flag | {"words": "the roller is in a slot"}) is None
+    flag = _branch(
+        condition=["cmp", "==", A, ["num", "1"]],
+        condition_substituted=["cmp", "==", ["qty", "1", "1"], ["num", "1"]],
+    )
+    assert said.condition(flag.with_(words="the roller is in a slot")) is None
     assert said.condition(flag) is not None
 
 
@@ -308,7 +308,8 @@ def test_a_branch_that_was_told_is_named_beside_the_next_formula_that_takes_it()
     words = Catalogue("en")
     steps = PrintedSteps("A", _equations()[0], words, Tables("A", words), (), ToldBefore())
     taken = _item(type="choice", source="statics", words="the knife cuts", condition=["cmp", ">", A, B], equation=A)
-    section = {"title": "Cut", "items": [taken | {"id": name, "description": name} for name in ("x", "y", "z")]}
+    items = [taken.with_(id=name, description=name) for name in ("x", "y", "z")]
+    section = SectionRecord(title="Cut", text="", items=items)
     first, second, third = steps.section(0, section, Heading("A.1", "Cut", "s-A.1")).items
     assert (first.words, first.source) == ("the knife cuts", "statics") and first.condition
     assert (second.words, second.source) == ("", "statics · the knife cuts") and not second.condition
@@ -316,7 +317,7 @@ def test_a_branch_that_was_told_is_named_beside_the_next_formula_that_takes_it()
 
 
 def test_a_number_times_one_of_a_unit_is_printed_as_a_quantity() -> None:
-    condition = _equations()[0].condition({"condition": ["cmp", "<=", A, ["*", ["num", "40"], ["qty", "1", "mm"]]]})
+    condition = _equations()[0].condition(_branch(condition=["cmp", "<=", A, ["*", ["num", "40"], ["qty", "1", "mm"]]]))
     assert condition is not None and condition.text == "a ≤ 40 mm"
 
 
@@ -325,8 +326,8 @@ def test_unknown_expression_is_refused() -> None:
         Latex()(["@", A, B])
 
 
-def _links(item: dict[str, object]) -> str:
-    built = Equations(Catalogue("en"), lambda _: 1.0).of({"symbol": "x", "type": "formula", **item})
+def _links(item: dict[str, Any]) -> str:
+    built = Equations(Catalogue("en"), lambda _: 1.0).of(_item(**{"symbol": "x", **item}))
     return built.text if built else ""
 
 

@@ -20,6 +20,7 @@ from diecut_report.report.pages.html import Screen, filled, folder, page, policy
 from diecut_report.report.pages.page_policy import refuse_fetching
 from diecut_report.report.pages.pdf import Paper, sheets
 from tests.configs import SMALL, saved
+from tests.report.made_results import typed
 
 Data = dict[str, Any]
 DOCS = Path(__file__).parents[2] / "docs"
@@ -50,14 +51,14 @@ def brief(plain: Data) -> Data:
 
 def test_the_example_overrides_its_blocks_on_screen_and_in_print(plain: Data) -> None:
     house = house_style(DOCS / "house-style")
-    material = Material(plain, house=house)
+    material = Material(typed(plain), house=house)
     for text in (page(material), filled(material, Paper(material), "print")):
         assert text.index("Department of presses") < text.index("<h1>Sample press</h1>")
         assert "holds for the configuration press.yaml alone" in text
         assert text.count("Reviewed by the group") == sum(not part.lost for part in material.document.chapters)
         assert 'src="data:image/png;base64,' in text and ".house-terms" in text.partition("</style>")[0]
         assert 'id="summary"' in text and "2 parts are not calculated" in text
-    assert page(Material(plain, house=house_style(DOCS / "house-style"))) == page(material)
+    assert page(Material(typed(plain), house=house_style(DOCS / "house-style"))) == page(material)
 
 
 def test_the_blocks_are_those_of_the_guide() -> None:
@@ -71,7 +72,7 @@ def test_the_blocks_are_those_of_the_guide() -> None:
 
 def test_a_folder_without_templates_changes_nothing_but_the_style(brief: Data, tmp_path: Path) -> None:
     house = house_style(written(tmp_path, house__css="h1 { color: red; }"))
-    assert page(Material(brief, house=house)).replace("\nh1 { color: red; }", "") == page(Material(brief))
+    assert page(Material(typed(brief), house=house)).replace("\nh1 { color: red; }", "") == page(Material(typed(brief)))
 
 
 FAULTS = {
@@ -137,7 +138,7 @@ def test_what_goes_wrong_in_a_template_is_told_with_its_line(
 ) -> None:
     house = house_style(written(tmp_path, report__html__j2=closing(text)))
     with pytest.raises(UserError) as error:
-        page(Material(brief, house=house))
+        page(Material(typed(brief), house=house))
     assert str(error.value).startswith(f"{tmp_path / 'report.html.j2'}:3: ") and words in str(error.value)
     assert brief["project"]["title"] == "Sample press"
 
@@ -159,7 +160,7 @@ def test_loops_within_too_many_loops_are_told(brief: Data, tmp_path: Path) -> No
     loops = "".join(f"{{% for i{number} in [1] %}}" for number in range(30)) + "{% endfor %}" * 30
     house = house_style(written(tmp_path, report__html__j2=closing(loops)))
     with pytest.raises(UserError, match="cannot be filled: too many statically nested blocks"):
-        page(Material(brief, house=house))
+        page(Material(typed(brief), house=house))
 
 
 @pytest.mark.parametrize(
@@ -168,14 +169,14 @@ def test_loops_within_too_many_loops_are_told(brief: Data, tmp_path: Path) -> No
 def test_what_only_print_would_fetch_is_told(brief: Data, tmp_path: Path, place: str) -> None:
     house = house_style(written(tmp_path, report__html__j2=f"<!DOCTYPE html><title>x</title>{place}"))
     with pytest.raises(UserError, match=r"(etc/passwd|x/y).*a report fetches nothing"):
-        sheets(Material(brief, house=house))
+        sheets(Material(typed(brief), house=house))
 
 
 @pytest.mark.parametrize("text", ["<style>p{width:calc(1px/0)}@page{size:0 0}</style>", "<div>" * 1500])
 def test_what_the_page_engine_cannot_set_is_told(brief: Data, tmp_path: Path, text: str) -> None:
     house = house_style(written(tmp_path, report__html__j2=closing(text)))
     with pytest.raises(UserError, match="The sheets cannot be set with these templates"):
-        sheets(Material(brief, house=house))
+        sheets(Material(typed(brief), house=house))
 
 
 @pytest.mark.parametrize("letter", ["\0", "\x1b", "\ud800", "\uffff"])
@@ -260,7 +261,7 @@ def test_a_policy_that_browsers_do_not_obey_is_lost(head: str) -> None:
 
 def test_pages_are_judged_whatever_their_medium(brief: Data, tmp_path: Path) -> None:
     text = '<img src="http://example.com/x.png" alt="">'
-    material = Material(brief, house=house_style(written(tmp_path, report__html__j2=closing(text))))
+    material = Material(typed(brief), house=house_style(written(tmp_path, report__html__j2=closing(text))))
     for kind, medium in (("screen", Screen(material)), ("print", Paper(material))):
         with pytest.raises(UserError, match=r"<img> http://example\.com/x\.png would be fetched"):
             filled(material, medium, kind)
@@ -275,7 +276,7 @@ def test_a_fault_of_the_program_itself_stays_one(brief: Data, tmp_path: Path) ->
     house = house_style(written(tmp_path, report__html__j2=closing("x")))
     del brief["mechanisms"]["cylinder"]["outputs"]
     with pytest.raises(KeyError):
-        page(Material(brief, house=house))
+        page(Material(typed(brief), house=house))
 
 
 def test_the_command_refuses_before_it_calculates(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:

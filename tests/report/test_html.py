@@ -12,7 +12,9 @@ from jinja2 import UndefinedError
 from diecut_report.report.pages import html
 from diecut_report.report.pages.html import SCRIPTS
 from diecut_report.report.rendering import Rendering, render_html
+from diecut_report.results.model import ProgramRecord, Record, ResultsRecord
 from diecut_report.text.catalogues import UnknownLanguage
+from tests.report.made_results import typed
 
 BAD = "<script>alert(1)</script>"
 VOID = {"wbr", "meta", "img", "br", "col", "path", "use", "rect", "link", "mspace", "circle", "line", "input"}
@@ -77,7 +79,7 @@ def test_broken_and_skipped_mechanisms_are_told(html: str) -> None:
 def test_a_press_with_nothing_but_a_name_has_no_empty_table(plain: dict[str, Any], html: str) -> None:
     assert '<table class="inputs press-data">' in html
     plain["press"]["fields"] = []
-    page = render_html(plain)
+    page = render_html(typed(plain))
     assert 'press-data"' not in page and '<h2 id="press">' in page
     assert "The configuration gives no data of the press but its name." in page
 
@@ -93,6 +95,7 @@ def test_size_stays_below_the_agreed_limit(html: str) -> None:
 
 def _poisoned(value: Any) -> Any:
     """All texts that people write, with a script in them; names and numbers that the program writes stay."""
+    value = value.data() if isinstance(value, Record) else value
     if isinstance(value, dict):
         return {k: BAD if k in WRITTEN and isinstance(v, str) else _poisoned(v) for k, v in value.items()}
     return [_poisoned(part) for part in value] if isinstance(value, list) else value
@@ -113,7 +116,8 @@ def test_scripts_in_any_text_are_only_text(request: pytest.FixtureRequest, docum
         mechanism["assumptions"] = [BAD]
         for row in [*mechanism.get("outputs", {}).values(), *mechanism.get("inputs", {}).values()]:
             row["symbol"] = BAD
-    page = render_html(poisoned)
+    poisoned["program"]["name"] = "diecut-report"  # which no other program writes
+    page = render_html(typed(poisoned))
     assert re.findall(r"<script[^>]*>", page) == [
         '<script type="application/json" id="reader-data">',
         *["<script>"] * len(SCRIPTS),
@@ -123,14 +127,19 @@ def test_scripts_in_any_text_are_only_text(request: pytest.FixtureRequest, docum
 
 
 def test_missing_data_is_an_error_and_no_gap(plain: dict[str, Any]) -> None:
-    del plain["program"]["version"]
+    results = typed(plain)
+    lacking = results.with_(program=ProgramRecord.model_construct(name="diecut-report"))
     with pytest.raises(UndefinedError, match="version"):
-        render_html(plain)
+        render_html(lacking)
+    told = results.data()
+    del told["program"]["version"]
+    with pytest.raises(ValueError, match=r"program\.version"):
+        ResultsRecord.model_validate(told)
 
 
 def test_optional_title_block_entries_may_be_missing(plain: dict[str, Any]) -> None:
-    plain["project"] = {"title": "Bare", "revisions": None}
-    assert "<h1>Bare</h1>" in render_html(plain)
+    plain["project"] = {"title": "Bare"}
+    assert "<h1>Bare</h1>" in render_html(typed(plain))
 
 
 def test_templates_have_no_words_of_their_own() -> None:
@@ -146,9 +155,9 @@ def test_templates_have_no_words_of_their_own() -> None:
 
 
 def test_language_without_a_catalogue_is_refused(results: dict[str, Any]) -> None:
-    results["project"]["language"] = "xx"
+    found = typed(results)
     with pytest.raises(UnknownLanguage):
-        Rendering(results)
+        Rendering(found.with_(project=found.project.with_(language="xx")))
 
 
 def test_a_description_stands_in_an_element_of_its_own_before_another_one() -> None:

@@ -23,9 +23,12 @@ from diecut_report.report.figures.labels import AWAY, Across, LabelLayout, Line,
 from diecut_report.report.figures.style import SizesSize, load_fonts, text_size, wrapped
 from diecut_report.report.figures.style import style as style_of
 from diecut_report.report.text import Catalogue, translated
+from diecut_report.results.model import CurveRecord, FigureRecord, MechanismRecord, ResultsRecord
 from diecut_report.text.catalogues import Catalogues
 from tests.configs import EXAMPLES
+from tests.records import filled
 from tests.report.made_figures import chart, line, panel
+from tests.report.made_results import typed
 
 TAIL = 2.2  # points of a line of text below its letters: so much two boxes may share without a letter touching another
 EDGE = 0.5
@@ -42,7 +45,7 @@ class Box(NamedTuple):
 
 
 def _boxes(
-    figure: Mapping[str, Any], curves: Mapping[str, Any], size: SizesSize, language: str = "en"
+    figure: FigureRecord, curves: Mapping[str, CurveRecord], size: SizesSize, language: str = "en"
 ) -> tuple[list[Box], float, float]:
     """The texts that are really drawn (ticks beyond an axis are not), and the size of the picture."""
     drawn: dict[Text, None] = {}
@@ -66,35 +69,33 @@ def _boxes(
 
 
 def _faults(
-    figure: Mapping[str, Any], curves: Mapping[str, Any], size: SizesSize, language: str = "en"
+    figure: FigureRecord, curves: Mapping[str, CurveRecord], size: SizesSize, language: str = "en"
 ) -> Iterator[str]:
     boxes, width, height = _boxes(figure, curves, size, language)
     for box in boxes:
         if min(box.left, box.bottom) < -EDGE or box.right > width + EDGE or box.top > height + EDGE:
-            yield f"{figure['id']}: {box.text!r} leaves the picture"
+            yield f"{figure.id}: {box.text!r} leaves the picture"
     for one, other in combinations(boxes, 2):
         wide, high = (
             min(one.right, other.right) - max(one.left, other.left),
             min(one.top, other.top) - max(one.bottom, other.bottom),
         )
         if wide > EDGE and high > TAIL:
-            yield f"{figure['id']}: {one.text!r} over {other.text!r}"
+            yield f"{figure.id}: {one.text!r} over {other.text!r}"
 
 
-Drawn = tuple[
-    Mapping[str, Any], Mapping[str, Any], SizesSize
-]  # a figure, the curves that it shows, and how large it stands
+Drawn = tuple[FigureRecord, Mapping[str, CurveRecord], SizesSize]
+"""A figure, the curves that it shows, and how large it stands."""
 
 
-def _drawn(results: Mapping[str, Any], *, paired: bool) -> Iterator[Drawn]:
-    parts = (*results["mechanisms"].values(), *results.get("comparisons", {}).values())
-    for part in (part for part in parts if part.get("figures")):
+def _drawn(results: ResultsRecord, *, paired: bool) -> Iterator[Drawn]:
+    for part in (part for part in results.calculated.values() if part.figures):
         for row in rows_of(placed("A", part), paired=paired):
             size = SizesSize.HALF if len(row.figures) > 1 else SizesSize.LOW if paired else SizesSize.LARGE
-            yield from ((e.figure, part["curves"], size) for e in row.figures if "error" not in e.figure)
+            yield from ((e.figure, part.curves, size) for e in row.figures if not e.figure.error)
 
 
-def _every(results: Mapping[str, Any], *, paired: bool, language: str = "en") -> list[str]:
+def _every(results: ResultsRecord, *, paired: bool, language: str = "en") -> list[str]:
     drawn = list(_drawn(translated(results, Catalogues(language)), paired=paired))
     assert drawn
     return [fault for each in drawn for fault in _faults(*each, language)]
@@ -104,8 +105,8 @@ def _every(results: Mapping[str, Any], *, paired: bool, language: str = "en") ->
 def test_texts_of_figures_keep_clear_of_each_other_and_of_the_edge(results: dict[str, Any], paired: bool) -> None:
     """Of each type and size of figure the one with most in it; all of them, and those of the examples, at night."""
     fullest: dict[Any, Drawn] = {}
-    for each in sorted(_drawn(results, paired=paired), key=lambda each: len(json.dumps(each[0]))):
-        fullest[each[0]["type"], each[2]] = each
+    for each in sorted(_drawn(typed(results), paired=paired), key=lambda each: len(json.dumps(each[0].data()))):
+        fullest[each[0].type, each[2]] = each
     assert len(fullest) > 2
     assert [fault for each in fullest.values() for fault in _faults(*each)] == []
 
@@ -113,7 +114,7 @@ def test_texts_of_figures_keep_clear_of_each_other_and_of_the_edge(results: dict
 @pytest.mark.nightly
 @pytest.mark.parametrize("paired", [False, True], ids=["large", "side by side"])
 def test_texts_of_all_figures_keep_clear(results: dict[str, Any], paired: bool) -> None:
-    assert _every(results, paired=paired) == []
+    assert _every(typed(results), paired=paired) == []
 
 
 @pytest.mark.nightly
@@ -128,7 +129,7 @@ def test_a_diagram_of_many_lines_is_as_wide_as_the_sheet() -> None:
     over = ("Angle", "φ", "deg")
     few, many = ([line([0, 1], [0, n], f"law {n}") for n in range(count)] for count in (6, 7))
     narrow, wide = (
-        {"sections": [], "figures": [chart("x", "x", [panel("y", "N", over, lines=lines)])] * 2}
+        filled(MechanismRecord, {"figures": [chart("x", "x", [panel("y", "N", over, lines=lines)])] * 2})
         for lines in (few, many)
     )
     assert [len(row.figures) for row in rows_of(placed("A", narrow), paired=True)] == [2]
@@ -144,7 +145,7 @@ def test_titles_that_are_wider_than_their_diagram_stand_in_lines() -> None:
         "title": words, "unit": "mm", "x": {"title": words, "symbol": "φ", "unit": "deg"}, "fills": [], "marks": [],
         "lines": [line | {"label": f"law number {n} with a long name"} for n in range(3)], "levels": [], "verticals": [],
     }  # fmt: skip
-    figure = {"id": "narrow", "type": "chart", "panels": [panel, panel]}
+    figure = chart("narrow", "Narrow", [panel, panel])
     assert list(_faults(figure, {}, SizesSize.HALF)) == []
     assert sum("\n" in box.text for box in _boxes(figure, {}, SizesSize.HALF)[0]) == 3
 
@@ -211,7 +212,7 @@ def test_a_vertical_line_through_several_diagrams_is_named_once() -> None:
 def test_a_diagram_with_many_names_is_as_wide_as_the_sheet() -> None:
     few = panel("y", "N", ("Angle", "φ", "deg"), verticals=[{"x": 0.5, "label": "contact"}] * 3)
     many = few | {"marks": [{"x": 0.5, "y": 0.5, "label": "greatest"}]}
-    narrow, wide = ({"sections": [], "figures": [chart("x", "x", [each])] * 2} for each in (few, many))
+    narrow, wide = (filled(MechanismRecord, {"figures": [chart("x", "x", [each])] * 2}) for each in (few, many))
     assert [len(row.figures) for row in rows_of(placed("A", narrow), paired=True)] == [2]
     assert [len(row.figures) for row in rows_of(placed("A", wide), paired=True)] == [1, 1]
 
@@ -233,7 +234,7 @@ def test_the_legend_names_such_marks_and_levels_by_their_signs() -> None:
         "title": "Torque", "unit": "N*m", "x": {"title": "Angle", "symbol": "φ", "unit": "deg"}, "fills": [], "marks": [mark],
         "lines": [wave], "levels": [{"value": 30.0, "label": "mean of the whole turn"}], "verticals": [],
     }  # fmt: skip
-    figure = {"id": "narrow", "type": "chart", "panels": [panel]}
+    figure = chart("narrow", "Narrow", [panel])
     boxes = {box.text: box for box in _boxes(figure, {}, SizesSize.HALF)[0]}
     names = [box for text, box in boxes.items() if text.startswith(("greatest driving", "mean of"))]
     assert len(names) == 2 and all(box.bottom > boxes["Torque, N·m"].top - 20 for box in names)

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import os
 import re
 import shutil
@@ -27,14 +26,18 @@ from diecut_report.report.pages.page_reading import read_page, well_formed
 from diecut_report.report.pages.pdf import Paper
 from diecut_report.report.pages.pdf_math import Letters, operators
 from diecut_report.report.rendering import Rendering
+from diecut_report.results.results_file import results_text
 from tests.report.conftest import Printed
+from tests.report.made_results import typed
 
 AGAIN = """
-import json, sys
+import sys
 from functools import cache
 from hashlib import sha256
+from pathlib import Path
 from diecut_report.report import Rendering
-report = Rendering(json.load(open(sys.argv[1], encoding="utf-8")))
+from diecut_report.results.model import ResultsRecord
+report = Rendering(ResultsRecord.model_validate_json(Path(sys.argv[1]).read_bytes()))
 contents = [report.html().encode(), *([report.pdf()] if sys.argv[2] == "pdf" else [])]
 print(*(sha256(content).hexdigest() for content in contents))
 """
@@ -140,7 +143,7 @@ def test_a_picture_from_outside_stops_the_rendering(results: dict[str, Any], mon
         module, "filled", lambda *_: '<html lang="en"><title>x</title><img alt="" src="http://localhost/x.png">'
     )
     with pytest.raises(RuntimeError, match="localhost"):
-        Rendering(results).pdf()
+        Rendering(typed(results)).pdf()
 
 
 @pytest.mark.nightly
@@ -150,7 +153,7 @@ def test_equal_results_give_equal_bytes_in_another_process(
 ) -> None:
     """Each kind of item and figure; tests/hostile/test_surroundings.py has a small report."""
     file = tmp_path / "results.json"
-    file.write_text(json.dumps(results), encoding="utf-8")
+    file.write_text(results_text(typed(results)), encoding="utf-8")
     command, environment = [sys.executable, "-c", AGAIN, str(file), ending], os.environ | {"PYTHONHASHSEED": "4711"}
     there = subprocess.run(command, env=environment, capture_output=True, text=True, check=True).stdout
     here = [html.encode(), *([request.getfixturevalue("pdf").read_bytes()] if ending == "pdf" else [])]
@@ -210,7 +213,7 @@ def _same(one: Any, other: Any) -> bool:
 
 @pytest.mark.parametrize("detail", ["brief", "full"])
 def test_the_print_page_reads_the_same_as_xml_and_as_html(plain: dict[str, Any], detail: str) -> None:
-    rendering = Rendering(plain | {"report": {"detail": detail}})
+    rendering = Rendering(typed(plain | {"report": {"detail": detail}}))
     source = filled(rendering.material, Paper(rendering.material), "print")
     assert _same(fromstring(well_formed(source)), tinyhtml5.parse(source, namespace_html_elements=False))
 

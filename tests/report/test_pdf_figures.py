@@ -16,6 +16,7 @@ from diecut_report.report.pages.page_engine import HTML
 from diecut_report.report.pages.pdf import Paper
 from diecut_report.report.pages.pdf_figures import FigurePicture, NotDrawn
 from diecut_report.report.rendering import Rendering
+from tests.report.made_results import typed
 
 HEAD = '<svg xmlns="http://www.w3.org/2000/svg" xmlns:xlink="http://www.w3.org/1999/xlink" viewBox="0 0 100 50">'
 PAGE = '<html lang="en"><style>@page {{ size: 200mm 120mm; margin: 5mm }} img {{ display: block }}</style><img alt="" src="{}">'
@@ -36,7 +37,7 @@ def _drawn(tmp_path: Path, source: str, cache: dict[str, Any]) -> Any:
 
 def _chosen(rendering: Rendering) -> list[Svg]:
     """A plot with a legend, marks and shades, and a drawing with hatching, dimensions and symbols."""
-    kinds = {number: figure["type"] for part in rendering.material.document.chapters for number, figure in part.figures}
+    kinds = {number: figure.type for part in rendering.material.document.chapters for number, figure in part.figures}
     figures = rendering.material.figures
     return [
         next(figures[number] for number in figures if kinds[number] == kind) for kind in ("plot", "drawing", "polar")
@@ -75,7 +76,7 @@ def test_words_of_a_figure_are_told() -> None:
 def test_what_cannot_be_drawn_is_left_to_the_page_engine(body: str, plain: dict[str, Any]) -> None:
     with pytest.raises(NotDrawn):
         FigurePicture(_svg(body), 100, 50)
-    material = Rendering(plain).material
+    material = Rendering(typed(plain)).material
     material.__dict__["figures"] = {"A.1": Svg(_svg(body), 100, 50)}
     assert 'src="data:image/svg+xml;base64,' in Paper(material).figure("A.1", "Title")
 

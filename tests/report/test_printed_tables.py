@@ -14,12 +14,14 @@ from diecut_report.report.chapters.tables import Tables
 from diecut_report.report.pages.html import folder
 from diecut_report.report.pages.page_engine import HTML
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import ItemRecord, PhaseRecord
+from tests.records import filled
 
 NONE = Markup("")
-PHASE = {
+PHASE = filled(PhaseRecord, {
     "description": "Ніж ріже", "role": "working", "abscissa": "phi",
     "display": {"unit": "deg", "intervals": [{"from": "1.5", "to": "20", "length": "18.5"}]},
-}  # fmt: skip
+})  # fmt: skip
 
 
 def kinds(*columns: list[str], symbol: str = "", unit: str = "") -> list[str]:
@@ -59,7 +61,8 @@ def test_phases_are_named_in_every_language(language: str) -> None:
 def test_a_long_table_of_few_columns_stands_in_two_halves() -> None:
     rows = [[f"phase {n}", f"{n}.5"] for n in range(17)]
     columns = [{"title": "Phase", "symbol": "", "unit": "1"}, {"title": "Time", "symbol": "t", "unit": "ms"}]
-    table = Tables("A", Catalogue("en")).of_item({"title": "Times", "columns": columns, "rows": rows})
+    item = {"type": "table", "title": "Times", "columns": columns, "rows": rows}
+    table = Tables("A", Catalogue("en")).of_item(ItemRecord.model_validate(item))
     assert len(table.columns) == 4 and len(table.rows) == 9
     assert table.rows[0] == ["phase 0", "0.5", "phase 9", "9.5"] and table.rows[8] == ["phase 8", "8.5", "", ""]
     assert table.kinds == ["named", "", "named", ""]

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 from collections import Counter
 from collections.abc import Iterator
 from typing import Any
@@ -12,6 +11,7 @@ import pytest
 from diecut_report.report.document import ReportDocument
 from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.rendering import Rendering
+from diecut_report.results.model import ResultsRecord, ShownRecord
 from tests.processes import Example
 
 Data = dict[str, Any]
@@ -20,11 +20,12 @@ Data = dict[str, Any]
 @pytest.fixture(scope="module", params=["en", "uk"])
 def printed(request: pytest.FixtureRequest, example: Example) -> ReportDocument:
     """The content of the report, without its figures."""
-    results = json.loads(example.told)
-    results["project"]["language"] = request.param
-    results["report"] = {**results.get("report", {}), "detail": "standard"}
-    for mechanism in results["mechanisms"].values():
-        mechanism["figures"] = []
+    results = ResultsRecord.model_validate_json(example.told)
+    results = results.with_(
+        project=results.project.with_(language=request.param),
+        report=results.report.with_(detail="standard"),
+        mechanisms={name: data.with_(figures=[]) for name, data in results.mechanisms.items()},
+    )
     return Rendering(results).material.document
 
 
@@ -83,15 +84,15 @@ def test_every_symbol_of_the_list_has_a_letter(printed: ReportDocument) -> None:
 
 
 def test_what_is_but_rounding_is_said_so(example: Example) -> None:
-    results = json.loads(example.told)
+    results = ResultsRecord.model_validate_json(example.told)
     noted = set()
-    for name, data in results["mechanisms"].items():
-        for item in (item for section in data["sections"] for item in section["items"]):
-            text, told = item.get("result", {}).get("text", ""), data["outputs"].get(item.get("id"))
-            assert "e-" not in text or float(text) > 1e-12, (name, item["id"])
-            if text == "0" and "rounding" in item.get("note", ""):
-                noted.add((name, item["id"]))
-            assert not (text == "0" and told and told["value"]) or (name, item["id"]) in noted
+    for name, data in results.mechanisms.items():
+        for item in (item for section in data.sections for item in section.items):
+            text, told = item.result.text if item.result else "", data.outputs.get(item.id)
+            assert "e-" not in text or float(text) > 1e-12, (name, item.id)
+            if text == "0" and "rounding" in item.note:
+                noted.add((name, item.id))
+            assert not (text == "0" and told and told.value) or (name, item.id) in noted
     assert ("drive", "energy_residual") in noted
 
 
@@ -114,18 +115,16 @@ def test_a_phase_that_is_others_together_is_told_in_one_line(printed: ReportDocu
 
 
 def test_a_number_is_told_alike_in_all_chapters_that_hand_it_on(example: Example) -> None:
-    mechanisms = json.loads(example.told)["mechanisms"]
-    told = {
-        f"{name}.{key}": row["display"] for name, data in mechanisms.items() for key, row in data["outputs"].items()
-    }
+    mechanisms = ResultsRecord.model_validate_json(example.told).mechanisms
+    told = {f"{name}.{key}": row.display for name, data in mechanisms.items() for key, row in data.outputs.items()}
     for data in mechanisms.values():
-        for row in data["inputs"].values():
-            there = told.get(row.get("path", ""), row["display"])
-            assert row["origin"] != "reference" or there["unit"] != row["display"]["unit"] or there == row["display"]
+        for row in data.inputs.values():
+            there = told.get(row.path, row.display)
+            assert row.origin != "reference" or there.unit != row.display.unit or there == row.display
     forces: dict[float, set[str]] = {}
     for data in mechanisms.values():
-        for row in data["outputs"].values():
-            if row["unit"] == "N":
-                forces.setdefault(round(row["value"], 6), set()).add(row["display"]["unit"])
+        for row in data.outputs.values():
+            if row.unit == "N":
+                forces.setdefault(round(float(row.value), 6), set()).add(row.display.unit)  # type: ignore[arg-type]
     assert all(len(units) == 1 for units in forces.values())
-    assert mechanisms["sector"]["outputs"]["tangential_force"]["display"] == {"text": "3.548", "unit": "kN"}
+    assert mechanisms["sector"].outputs["tangential_force"].display == ShownRecord(text="3.548", unit="kN")

@@ -27,6 +27,9 @@ from diecut_report.report.reader_data import (
 )
 from diecut_report.report.rendering import Rendering
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import CurveRecord, FigureRecord
+from tests.records import filled
+from tests.report.made_results import typed
 
 UPLOT = {  # version 1.6.32 as it is published, with its licence
     "uPlot.iife.min.js": "19c8d4c6ad88929a79f4ae49d6f7161566dfd0ba3d15cc495e974f787eb78f1f",
@@ -129,7 +132,7 @@ def test_no_text_breaks_out_of_the_data(plain: dict[str, Any]) -> None:
     )
     drawn["sections"] = []
     drawn["figures"] = [{"id": "x", "title": "Hostile", "caption": "", "type": "chart", "panels": [panel], "shows": []}]
-    material = Rendering(plain).material
+    material = Rendering(typed(plain)).material
     material.__dict__["figures"] = {number: None for part in material.document.chapters for number, _ in part.figures}
     text = reader_data(material)  # drawn or not: no font has all of these characters
     assert not set("<>&\u2028") & set(text)
@@ -158,29 +161,37 @@ def test_a_line_is_read_where_it_has_one_height_at_a_place(x: list[float], reada
     assert _is_readable(_diagram(x)) is readable
 
 
-ANGLE = {"unit": "rad", "display_unit": "deg", "symbol": "φ", "description": "Angle", "period": 2 * math.pi,
-         "values": [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]}  # fmt: skip
-FORCE = {
-    "unit": "N",
-    "display_unit": "N",
-    "symbol": "F",
-    "description": "Force",
-    "abscissa": "angle",
-    "values": [1.0, -2.0, 3.0, -4.0],
-}
+QUARTERS = [0.0, math.pi / 2, math.pi, 3 * math.pi / 2]
+ANGLE = CurveRecord(unit="rad", display_unit="deg", symbol="φ", description="Angle", source="", values=QUARTERS)
+FORCE = CurveRecord(
+    unit="N",
+    display_unit="N",
+    symbol="F",
+    description="Force",
+    source="",
+    abscissa="angle",
+    values=[1.0, -2.0, 3.0, -4.0],
+)
 
 
-def _chart(symbol: str, over: str = "") -> dict[str, Any]:
+def _chart(symbol: str, over: str = "") -> FigureRecord:
     """A chart from a quarter of a turn before zero to half a turn, perhaps over the angle of the results."""
     x = [-math.pi / 2, 0.0, math.pi]
     panel = chart_panel("T", "N", "Angle", symbol, "deg", lines=[line(x, [0.0, 1.0, 2.0], "")], over=over)
-    return {"type": "chart", "title": "T", "panels": [panel]}
+    return filled(FigureRecord, {"type": "chart", "title": "T", "panels": [panel]})
 
 
 def test_diagrams_of_a_mechanism_over_the_same_angle_share_their_cursor() -> None:
     pool, words, curves = ReaderRows(), Catalogue("en"), {"angle": ANGLE, "force": FORCE}
-    plot = {"type": "plot", "title": "T", "abscissa": "angle", "panels": [
-        {"title": "T", "unit": "N", "series": [{"curve": "force", "label": ""}], "levels": [], "marks": [], "spans": []}]}  # fmt: skip
+    panel = {
+        "title": "T",
+        "unit": "N",
+        "series": [{"curve": "force", "label": ""}],
+        "levels": [],
+        "marks": [],
+        "spans": [],
+    }
+    plot = filled(FigureRecord, {"type": "plot", "title": "T", "abscissa": "angle", "panels": [panel]})
     shown = [("a", _chart("ψ")), ("a", plot), ("a", _chart("ψ", "angle")), ("a", _chart("φ")), ("b", plot)]
     made = [_figure(name, figure, curves, words, pool) for name, figure in shown]
     assert [each and each["panels"][0]["group"] for each in made] == [0, 1, 1, 1, 2]
@@ -188,13 +199,8 @@ def test_diagrams_of_a_mechanism_over_the_same_angle_share_their_cursor() -> Non
 
 
 def test_a_polar_figure_is_read_over_its_angle_with_the_sign_of_its_curve() -> None:
-    polar = {
-        "type": "polar",
-        "title": "T",
-        "abscissa": "angle",
-        "unit": "N",
-        "series": [{"curve": "force", "label": "F"}],
-    }
+    series = [{"curve": "force", "label": "F"}]
+    polar = filled(FigureRecord, {"type": "polar", "title": "T", "abscissa": "angle", "unit": "N", "series": series})
     found = figure_readings("a", polar, {"angle": ANGLE, "force": FORCE}, Catalogue("en"))
     assert found and found["beside"]
     (own,) = found["panels"][0]["lines"]
@@ -204,7 +210,7 @@ def test_a_polar_figure_is_read_over_its_angle_with_the_sign_of_its_curve() -> N
 @pytest.mark.parametrize(("shown", "finest"), [("mm", [-3, 2]), ("deg", [-2, 3]), ("N*m", None)])
 def test_the_cursor_reads_no_finer_than_is_printed(shown: str, finest: list[int] | None) -> None:
     panel = chart_panel("T", shown, "Angle", "φ", "deg", lines=[line([0.0, 1.0], [0.0, 1.0], "")])
-    found = figure_readings("a", {"type": "chart", "title": "T", "panels": [panel]}, {}, Catalogue("en"))
+    found = figure_readings("a", filled(FigureRecord, {"type": "chart", "panels": [panel]}), {}, Catalogue("en"))
     assert found and found["panels"][0]["finest"] == (finest and tuple(finest))
 
 

@@ -8,19 +8,20 @@ from diecut_report.report.chapters.repetition import FEWEST_GIVEN, gathered
 from diecut_report.report.chapters.tables import Tables
 from diecut_report.report.chapters.value_tables import RecordTable
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import QuantityRecord
+from tests.records import filled
 
-Data = dict[str, Any]
 
-
-def given(index: int, quantity: str, text: str, **more: Any) -> Data:
+def given(index: int, quantity: str, text: str, **more: Any) -> QuantityRecord:
     """An input of the part of a list."""
-    return {"value": text, "symbol": "", "description": quantity, "unit": "1", "display": {"text": text, "unit": "1"},
-            "origin": "given", "part": {"family": "loads", "index": index, "quantity": quantity}} | more  # fmt: skip
+    found = {"value": text, "description": quantity, "unit": "1", "display": {"text": text, "unit": "1"}, "origin": "given",
+             "part": {"family": "loads", "index": index, "quantity": quantity}} | more  # fmt: skip
+    return filled(QuantityRecord, found)
 
 
-def of(*rows: Data) -> RecordTable:
+def of(*rows: QuantityRecord) -> RecordTable:
     """The table of inputs."""
-    inputs = {f"loads.{row['part']['index']}.{row['part']['quantity']}": row for row in rows}
+    inputs = {f"loads.{row.part.index}.{row.part.quantity}": row for row in rows if row.part}
     _, [parts] = gathered(inputs, FEWEST_GIVEN)
     [table] = Tables("A", Catalogue("en"), {"loads": "Loads"}).of_records(parts)
     assert isinstance(table, RecordTable)
@@ -42,7 +43,7 @@ def test_what_all_values_rest_on_is_said_once() -> None:
 
 
 def test_what_is_said_at_length_of_single_values_stands_beside_their_line() -> None:
-    typed = given(1, "force", "5") | {"text": "${drive.crank_bearing_force_x}"}
+    typed = given(1, "force", "5", text="${drive.crank_bearing_force_x}")
     names = given(0, "name", "gear"), given(1, "name", "crank")
     [force] = of(*names, given(0, "force", "2", basis="assumed"), typed).rows
     assert force.note == "gear: assumed\ncrank: ${drive.crank_bearing_force_x}"

@@ -7,7 +7,7 @@ import re
 import pytest
 
 from diecut_report.report.symbols import declared_letters, letters_declared, own_words, prose, symbol
-from tests.report.made_results import sample
+from tests.report.made_results import sample, typed
 
 
 @pytest.mark.parametrize(
@@ -86,7 +86,7 @@ def test_only_declared_letters_are_symbols_and_none_of_a_name() -> None:
 
 def test_letters_of_a_report_are_those_of_its_quantities_with_or_without_index() -> None:
     results = sample()
-    letters = declared_letters(results)
+    letters = declared_letters(typed(results))
     declared = {row["symbol"] for data in results["mechanisms"].values() for row in data.get("outputs", {}).values()}
     assert {symbol[:1] for symbol in declared if symbol[1:2] in ("", "_") and symbol[:1].isalpha()} <= letters.symbols
     assert set(results["mechanisms"]) <= letters.names

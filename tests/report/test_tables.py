@@ -3,23 +3,25 @@
 from __future__ import annotations
 
 import math
-from typing import Any
 
 import pytest
 
 from diecut_report.report.chapters.tables import Tables, table_places
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import CurveRecord, ItemRecord, PhaseRecord
+from tests.records import filled
 
-TURN = {
-    "values": [math.radians(k / 2) for k in range(720)],
-    "unit": "rad",
-    "display_unit": "deg",
-    "symbol": "φ",
-    "description": "Angle",
-}
+TURN = CurveRecord(
+    values=[math.radians(k / 2) for k in range(720)],
+    unit="rad",
+    display_unit="deg",
+    symbol="φ",
+    description="Angle",
+    source="",
+)
 
 
-def curve(*breaks: float, jump: float = 0.0) -> dict[str, Any]:
+def curve(*breaks: float, jump: float = 0.0) -> CurveRecord:
     """A curve that is 5 everywhere and jumps to 5 + ``jump`` at its breakpoints (degrees), as the results hold it."""
     common = {"unit": "N", "display_unit": "N", "symbol": "F", "description": "Force", "abscissa": "angle"}
     places = {
@@ -27,10 +29,10 @@ def curve(*breaks: float, jump: float = 0.0) -> dict[str, Any]:
         "left": [5.0] * len(breaks),
         "right": [5.0 + jump] * len(breaks),
     }
-    return common | {"values": [5.0] * 720} | (places if breaks else {})
+    return filled(CurveRecord, common | {"values": [5.0] * 720} | (places if breaks else {}))
 
 
-def angles(*curves: dict[str, Any]) -> list[float]:
+def angles(*curves: CurveRecord) -> list[float]:
     """Where the rows of a table stand, in degrees."""
     return [round(math.degrees(place.x), 6) for place in table_places(TURN, curves)]
 
@@ -55,7 +57,7 @@ def test_a_breakpoint_without_a_jump_has_no_row(rounding: float) -> None:
 
 
 def test_rounding_beside_great_values_is_printed_as_zero() -> None:
-    force = curve(100.2, jump=2.0) | {"left": [3e-11]}
+    force = curve(100.2, jump=2.0).with_(left=[3e-11])
     table = Tables("A", Catalogue("en")).of_curves({"angle": TURN, "force": force})[0]
     assert [row[1] for row in table.rows if row[0] == "100.2"] == ["0", "7"]
 
@@ -65,7 +67,7 @@ def test_rounding_beside_great_values_is_printed_as_zero() -> None:
     [(curve(*range(10, 350, 10), jump=2.0),), (curve(100.2, jump=2.0), curve())],
     ids=["too many", "not shared"],
 )
-def test_pieces_that_are_too_many_or_not_shared_are_not_told_apart(curves: tuple[dict[str, Any], ...]) -> None:
+def test_pieces_that_are_too_many_or_not_shared_are_not_told_apart(curves: tuple[CurveRecord, ...]) -> None:
     assert angles(*curves) == [20.0 * k for k in range(18)]
 
 
@@ -73,12 +75,14 @@ def test_phases_over_time_do_not_tell_their_time_once_more() -> None:
     shown = {"unit": "ms", "intervals": [{"from": "0", "to": "333.3", "length": "333.3", "time": "333.3"}]}
     phase = {"abscissa": "time", "description": "The input moves", "role": "moving", "display": shown}
     turned = phase | {"abscissa": "angle", "display": shown | {"unit": "deg"}}
-    over_time, over_angle = Tables("A", Catalogue("en")).of_phases({"moves": phase, "turns": turned})
+    phases = {name: filled(PhaseRecord, each) for name, each in (("moves", phase), ("turns", turned))}
+    over_time, over_angle = Tables("A", Catalogue("en")).of_phases(phases)
     assert [unit for _, _, unit in over_time.columns] == ["", "", "ms", "ms", "ms"]
     assert [unit for _, _, unit in over_angle.columns] == ["", "", "°", "°", "°", "ms"]
 
 
 def test_the_head_of_a_column_leaves_out_what_is_explained_behind_a_semicolon() -> None:
     column = {"title": "Side of the pulley; outside is on the back", "symbol": "", "unit": "1"}
-    table = Tables("A", Catalogue("en")).of_item({"title": "Pulleys", "columns": [column], "rows": [["inside"]]})
+    item = {"type": "table", "title": "Pulleys", "columns": [column], "rows": [["inside"]]}
+    table = Tables("A", Catalogue("en")).of_item(ItemRecord.model_validate(item))
     assert table.columns[0][0] == "Side of the pulley"

@@ -28,6 +28,7 @@ from diecut_report.report.pages.html import (
 )
 from diecut_report.report.pages.pdf import Paper
 from diecut_report.report.text import Catalogue
+from tests.report.made_results import typed
 
 Data = dict[str, Any]
 PLAIN = (str, int, float, bytes, type(None))
@@ -72,7 +73,7 @@ def is_plain(value: Any) -> bool:
 @pytest.mark.parametrize("medium", [Screen, Paper])
 def test_all_that_a_template_reaches_is_plain_data_or_a_listed_function(plain: Data, medium: Any) -> None:
     house = HouseStyle("house")
-    material = Material(plain, house=house)
+    material = Material(typed(plain), house=house)
     given = template_variables(material, medium(material), "print", "", "")
     environment = house.environment(folder(), FILTERS, template_functions(given))
     count = 0
@@ -157,7 +158,9 @@ def brief(plain: Data) -> Data:
 def closed(results: Data, text: str) -> str:
     """The page with a template's text at its end."""
     template = '{% extends "program/report.html.j2" %}\n{% block closing %}\n' + text + "\n{% endblock %}\n"
-    made, _ = rendered(results, ["html"], lambda _: None, house=HouseStyle("house", {"report.html.j2": template}))
+    made, _ = rendered(
+        typed(results), ["html"], lambda _: None, house=HouseStyle("house", {"report.html.j2": template})
+    )
     return made["html"].decode()
 
 

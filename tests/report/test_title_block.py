@@ -17,9 +17,11 @@ from diecut_report.report.pages.frames import Cell, sheet_blocks
 from diecut_report.report.rendering import Rendering
 from diecut_report.report.symbols import BOLD, LINE, MILLIMETRE, drawn, fitted, measured
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import ResultsRecord
 from tests.configs import HEAD, SMALL, problems, saved
 from tests.examples import few
 from tests.exchange.reports import run
+from tests.report.made_results import typed
 
 Data = dict[str, Any]
 WORDS = Catalogue("en")
@@ -29,7 +31,7 @@ LONG = "Calculation of the drive of the pressing cylinder with its gear train, c
 
 def block(results: Data, **asked: str) -> TitleBlock:
     results["report"] = asked
-    return title_block(results, WORDS)
+    return title_block(typed(results), WORDS)
 
 
 def passing(results: Data) -> Data:
@@ -85,7 +87,7 @@ def test_the_line_of_changes_has_its_date_in_each_language(results: Data, date: 
 def test_a_status_is_broken_between_words_alone(results: Data, frame: str) -> None:
     words = Catalogue("uk")
     results["report"] = {"frame": frame}
-    made = title_block(passing(results), words)
+    made = title_block(typed(passing(results)), words)
     for sheet in sheet_blocks(made, words, has_logo=True):
         shown = [cell.shown for cell in sheet.cells if cell.label == words["status"]]
         assert all(list(lines) == [made.status] for lines in shown)
@@ -132,14 +134,15 @@ def test_a_warning_does_not_keep_a_report_from_its_release(results: Data) -> Non
     assert not block(results, status="released").is_held
 
 
-def test_a_report_without_a_status_is_a_draft(results: Data) -> None:
-    del results["report"]
+def test_a_report_without_a_status_is_a_draft(small_report: Path) -> None:
+    results = ResultsRecord.model_validate_json((small_report / "small.json").read_bytes())
+    assert "status:" not in results.config.source_text
     assert title_block(results, WORDS).status == "draft"
 
 
 def test_the_page_says_that_it_is_not_released(plain: Data) -> None:
-    assert '<p class="held">NOT RELEASED</p>' in Rendering(plain).html()
-    assert "NOT RELEASED" not in Rendering(passing(plain)).html()
+    assert '<p class="held">NOT RELEASED</p>' in Rendering(typed(plain)).html()
+    assert "NOT RELEASED" not in Rendering(typed(passing(plain))).html()
 
 
 def test_wrong_settings_are_refused_in_words(tmp_path: Path) -> None:
@@ -183,7 +186,7 @@ FRAMED = {"dstu2104": (20, 5, 205, 292), "iso7200": (20, 10, 200, 287)}
 def test_framed_sheets_keep_text_and_title_block_apart(plain: Data, tmp_path: Path, frame: str) -> None:
     plain["project"] |= {"date": "2026-11-22", "revision": "B", "norm_checked_by": "Normcontroller"}
     plain["report"] = {"frame": frame, "status": "for check"}
-    (tmp_path / "a.pdf").write_bytes(Rendering(plain).pdf())
+    (tmp_path / "a.pdf").write_bytes(Rendering(typed(plain)).pdf())
     left, top, right, bottom = FRAMED[frame]
     first, following = SIZES[frame][1], SIZES[frame][3]
     for number, words in enumerate(words_of(tmp_path / "a.pdf"), 1):

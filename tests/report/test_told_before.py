@@ -8,8 +8,11 @@ from typing import Any
 from diecut_report.report.chapters.repetition import Reference, ToldBefore
 from diecut_report.report.chapters.steps import Place, Placed, rows_of
 from diecut_report.report.chapters.tables import brought_together
-from diecut_report.report.model import Item, PrintedChapter
+from diecut_report.report.model import Item, ListedNumbers, PrintedChapter
 from diecut_report.report.rendering import Rendering
+from diecut_report.results.model import FigureRecord, ItemRecord, SectionRecord
+from tests.records import filled
+from tests.report.made_results import typed
 
 Data = dict[str, Any]
 
@@ -20,13 +23,14 @@ def tree(*letters: str) -> list[Any]:
     return ["-", ["call", "sqrt", ["+", ["^", a, ["num", "2"]], ["^", b, ["num", "2"]]]], ["*", a, b]]
 
 
-def step(name: str, symbol: str, equation: Any, **more: Any) -> Data:
+def step(name: str, symbol: str, equation: Any, **more: Any) -> ItemRecord:
     """A formula of the results."""
-    return {"id": name, "type": "formula", "symbol": symbol, "description": name, "source": "", "equation": equation,
-            "result": {"text": "1", "unit": "mm"}} | more  # fmt: skip
+    found = {"id": name, "type": "formula", "symbol": symbol, "description": name, "equation": equation,
+             "result": {"text": "1", "unit": "mm"}} | more  # fmt: skip
+    return ItemRecord.model_validate(found)
 
 
-def told(*steps: Data) -> ToldBefore:
+def told(*steps: ItemRecord) -> ToldBefore:
     """What is known after steps with the numbers A.1, A.2 …"""
     known = ToldBefore()
     for number, each in enumerate(steps, 1):
@@ -76,7 +80,7 @@ def test_a_chapter_of_a_kind_that_stood_before_has_values_with_the_places_of_the
     plain["report"] = {"detail": "standard"}
     twin = copy.deepcopy(plain["mechanisms"]["cylinder"])
     plain["mechanisms"]["second"] = twin
-    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
     first, second = chapters["cylinder"], chapters["second"]
     numbers = [number for item in _items(first) for number in _numbers(item)]
     again = [row for item in _items(second) for row in item.rows]
@@ -89,7 +93,7 @@ def test_a_chapter_of_a_kind_that_stood_before_has_values_with_the_places_of_the
 def test_a_full_report_prints_every_formula(plain: Data) -> None:
     plain["report"] = {"detail": "full"}
     plain["mechanisms"]["second"] = copy.deepcopy(plain["mechanisms"]["cylinder"])
-    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
     one, two = ([item.equation for item in _items(chapters[name])] for name in ("cylinder", "second"))
     assert one == two and not any(item.rows or item.pair for item in _items(chapters["second"]))
 
@@ -105,82 +109,88 @@ def _numbers(item: Item) -> list[str]:
 
 
 # tables
-def table(title: str, rows: list[list[str]], *symbols: str) -> Data:
+def table(title: str, rows: list[list[str]], *symbols: str) -> ItemRecord:
     """A table of parts with a column for each symbol."""
     columns = [
         {"title": "No.", "symbol": "", "unit": "1"},
         *({"title": title, "symbol": s, "unit": "mm"} for s in symbols),
     ]
-    return {"type": "table", "title": title, "columns": columns, "rows": rows}
+    return ItemRecord.model_validate({"type": "table", "title": title, "columns": columns, "rows": rows})
+
+
+def section(title: str, items: list[ItemRecord]) -> SectionRecord:
+    """A section of steps and tables."""
+    return SectionRecord(title=title, text="", items=items)
 
 
 def test_tables_of_the_same_parts_are_one_where_the_last_of_them_stood() -> None:
     length = step("length", "l", ["*", ["sym", "a"], ["sym", "b"]])
     items = [table("Width", [["1", "5"], ["2", "6"]], "b"), length, table("Length", [["1", "7"], ["2", "8"]], "l")]
-    found = brought_together({"title": "Sizes", "items": items}, set())
-    assert found[0] is None and found[1] is length and found[2] is not None
-    assert found[2]["rows"] == [["1", "5", "7"], ["2", "6", "8"]] and found[2]["title"] == "Sizes"
+    found = brought_together(section("Sizes", items), set())
+    assert found[0] is None and found[1] is length and isinstance(found[2], ItemRecord)
+    assert found[2].rows == [["1", "5", "7"], ["2", "6", "8"]] and found[2].title == "Sizes"
 
 
 def test_a_column_that_a_full_table_tells_is_not_told_again() -> None:
     first = table("Sizes", [["1", *"abcdefg"], ["2", *"hijklmn"]], *"tuvwxyz")
     later = table("Sizes", [["1", "a", "5"], ["2", "h", "6"]], "t", "s")
     third = table("Sizes", [["1", "a"], ["2", "h"]], "t")
-    told = brought_together({"title": "", "items": [first, later, third]}, set())
-    assert told[0] == first and told[2] is None and told[1] is not None
-    assert [column["symbol"] for column in told[1]["columns"]] == ["", "s"] and told[1]["rows"] == [
-        ["1", "5"],
-        ["2", "6"],
-    ]
+    told = brought_together(section("", [first, later, third]), set())
+    assert told[0] == first and told[2] is None and isinstance(told[1], ListedNumbers)
+    assert [column.symbol for column in told[1].table.columns] == ["", "s"]
+    assert told[1].table.rows == [["1", "5"], ["2", "6"]]
 
 
 def test_tables_of_other_parts_stay_apart() -> None:
     items = [table("Width", [["a", "5"]], "b"), table("Length", [["b", "7"]], "l")]
-    assert brought_together({"title": "Sizes", "items": items}, set()) == items
+    assert brought_together(section("Sizes", items), set()) == items
 
 
 def test_a_table_of_the_one_part_that_the_formula_shows_is_left_out() -> None:
     length = step("Length", "l", ["*", ["sym", "a"], ["sym", "b"]])
-    assert brought_together({"title": "", "items": [length, table("Length", [["1", "7"]], "l")]}, set()) == [
+    assert brought_together(section("", [length, table("Length", [["1", "7"]], "l")]), set()) == [
         length,
         None,
     ]
 
 
 def test_one_quantity_of_numbered_parts_stands_in_a_line() -> None:
-    [found] = brought_together({"title": "", "items": [table("Length", [["1", "7"], ["2", "8"]], "l")]}, set())
-    assert found is not None and found["type"] == "listed"
+    [found] = brought_together(section("", [table("Length", [["1", "7"], ["2", "8"]], "l")]), set())
+    assert isinstance(found, ListedNumbers)
 
 
 def test_a_table_holds_no_column_that_an_earlier_one_of_the_same_lines_has() -> None:
     told: set[Any] = set()
     first = table("Width", [["1", "5"], ["2", "6"]], "b")
     again = table("Width", [["1", "5", "9"], ["2", "6", "8"]], "b", "c")
-    brought_together({"title": "", "items": [first]}, told)
-    [found] = brought_together({"title": "", "items": [again]}, told)
-    assert found is not None and [column["symbol"] for column in found["columns"]] == ["", "c"]
-    assert found["rows"] == [["1", "9"], ["2", "8"]]
-    assert brought_together({"title": "", "items": [again]}, told) == [None]
+    brought_together(section("", [first]), told)
+    [found] = brought_together(section("", [again]), told)
+    assert isinstance(found, ListedNumbers)
+    assert [column.symbol for column in found.table.columns] == ["", "c"]
+    assert found.table.rows == [["1", "9"], ["2", "8"]]
+    assert brought_together(section("", [again]), told) == [None]
 
 
 def test_a_column_of_other_lines_or_numbers_is_another_one() -> None:
     told: set[Any] = set()
-    brought_together({"title": "", "items": [table("Width", [["a", "5"]], "b")]}, told)
+    brought_together(section("", [table("Width", [["a", "5"]], "b")]), told)
     for other in (table("Width", [["b", "5"]], "b"), table("Width", [["a", "6"]], "b")):
-        assert brought_together({"title": "", "items": [other]}, told) == [other]
+        assert brought_together(section("", [other]), told) == [other]
 
 
 def test_of_a_single_part_its_quantity_stands_in_a_line() -> None:
-    columns = table("Ratio so far", [["1", "3", "3"]], "i", "Πi")
-    columns["columns"][1]["title"] = "Ratio"
-    [found] = brought_together({"title": "", "items": [columns]}, set())
-    assert found is not None and found["type"] == "listed" and found["rows"] == [["1", "3"]]
+    so_far = table("Ratio so far", [["1", "3", "3"]], "i", "Πi")
+    head, ratio, product = so_far.columns
+    so_far = so_far.with_(columns=[head, ratio.with_(title="Ratio"), product])
+    [found] = brought_together(section("", [so_far]), set())
+    assert isinstance(found, ListedNumbers) and found.table.rows == [["1", "3"]]
 
 
 # figures
-def placed(section: int, **more: Any) -> Placed:
+def placed(at: int, **more: Any) -> Placed:
     """A figure of a section."""
-    return Placed(Place(section, 0), f"A.{section}", {"type": "plot", "title": "T", "caption": "", "panels": []} | more)
+    figure = {"type": "plot", "title": "T", "caption": "", "panels": []} | more
+    return Placed(Place(at, 0), f"A.{at}", filled(FigureRecord, figure))
 
 
 def test_two_figures_near_each_other_stand_side_by_side_at_the_second() -> None:
@@ -208,7 +218,7 @@ def test_what_only_names_its_formula_is_named_alike_in_the_next_chapter() -> Non
 def test_defaults_and_symbols_of_an_earlier_chapter_are_not_told_again(plain: Data) -> None:
     plain["report"] = {"detail": "standard"}
     plain["mechanisms"]["second"] = copy.deepcopy(plain["mechanisms"]["cylinder"])
-    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
     first, second = chapters["cylinder"], chapters["second"]
     assert first.symbols and not second.symbols
     assert not second.defaults and second.are_defaults_told == bool(first.defaults)
@@ -216,6 +226,6 @@ def test_defaults_and_symbols_of_an_earlier_chapter_are_not_told_again(plain: Da
 
 def test_chapters_of_one_title_are_told_apart_by_their_names(plain: Data) -> None:
     plain["mechanisms"]["second"] = copy.deepcopy(plain["mechanisms"]["cylinder"])
-    chapters = {part.name: part for part in Rendering(plain).material.document.chapters}
+    chapters = {part.name: part for part in Rendering(typed(plain)).material.document.chapters}
     assert chapters["second"].title.endswith(": second") and chapters["cylinder"].title.endswith(": cylinder")
     assert chapters["drive"].title == plain["mechanisms"]["drive"]["title"]

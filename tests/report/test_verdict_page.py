@@ -11,7 +11,9 @@ from diecut_report.report.document import document
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
 from diecut_report.results.conclusion import governing, summary
-from tests.report.made_results import check, mechanism, sample
+from diecut_report.results.model import CheckRecord, ResultsRecord
+from tests.records import filled
+from tests.report.made_results import check, mechanism, sample, typed
 
 SHOWN = {"text": "16", "unit": "N"}
 
@@ -37,15 +39,17 @@ def page(*checks: dict[str, Any]) -> Any:
     results = sample()
     ranks = [one["status"] for one in checks if one["status"] != "not_checked"]
     worst = next((status for status in ("fail", "warn") if status in ranks), "pass")
-    results["mechanisms"] = {"train": mechanism("Train", checks=list(checks), status=worst)}
+    judged_checks = [CheckRecord.model_validate(each) for each in checks]
+    by_name = {"train": judged_checks}
+    results["mechanisms"] = {"train": mechanism("Train", checks=judged_checks, status=worst)}
     results |= {
         "comparisons": {},
         "status": worst,
-        "governing": governing(results["mechanisms"]),
-        "summary": summary(results["mechanisms"]),
+        "governing": governing(by_name),
+        "summary": summary(by_name, []),
     }
     words = Catalogue("en")
-    return document(results, Equations(words, lambda _: 0.0), words)
+    return document(typed(results), Equations(words, lambda _: 0.0), words)
 
 
 def test_the_summary_is_sorted_by_utilisation_what_fails_first_and_what_was_sized_last() -> None:
@@ -60,7 +64,7 @@ def test_the_summary_is_sorted_by_utilisation_what_fails_first_and_what_was_size
 def test_checks_that_fail_in_spite_of_the_advice_are_called_as_in_the_lines_above() -> None:
     found = page(judged("wall", 1.5, "fail"))
     advice = {"changes": [{"path": "train.x", "value": "5 mm"}], "failing": ["train.wall", "gone.check"], "error": None}
-    (line,) = followed_line({"summary": {"advice": advice}}, Catalogue("en"), found.checks)
+    (line,) = followed_line(filled(ResultsRecord, {"summary": {"advice": advice}}), Catalogue("en"), found.checks)
     assert line.endswith(f"leaves others that fail: A · {found.checks[0].title}, gone.check.")
 
 

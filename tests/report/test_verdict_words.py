@@ -4,6 +4,8 @@ from __future__ import annotations
 
 from diecut_report.report.chapters.front import assumed_groups, followed_line
 from diecut_report.report.text import Catalogue, sentence
+from diecut_report.results.model import ResultsRecord
+from tests.records import filled
 
 
 def test_the_counts_begin_a_sentence() -> None:
@@ -16,12 +18,12 @@ def test_an_assumed_value_that_was_typed_as_a_text_is_not_broken_before_its_unit
     row = {"basis": "assumed", "display": {"text": "5 ms", "unit": "1"}, "unit": "1"}
     mechanisms = {"timing": {"inputs": {"interlocks.0.margin": row}, "checks": []}}
     results = {"mechanisms": mechanisms, "press": {"fields": []}, "summary": {"assumed": [path], "moves": []}}
-    (group,) = assumed_groups(results, Catalogue("uk"))
+    (group,) = assumed_groups(filled(ResultsRecord, results), Catalogue("uk"))
     assert group.values == [("interlocks.0.margin", "5\u00a0ms", "")]
 
 
 def test_advice_has_the_numbers_of_the_language() -> None:
     changes = [{"path": "cylinder.radius", "value": "105.2 mm"}, {"path": "clutch.single_position", "value": "true"}]
     results = {"summary": {"advice": {"changes": changes, "failing": [], "error": None}}}
-    (line,) = followed_line(results, Catalogue("uk"))
+    (line,) = followed_line(filled(ResultsRecord, results), Catalogue("uk"))
     assert "cylinder.radius 105,2 mm, clutch.single_position true" in line

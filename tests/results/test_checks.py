@@ -30,6 +30,7 @@ from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
 from diecut_report.results.checks import check_results
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import CheckRecord, PlaceRecord
 from diecut_report.study.execution import variant_rows
 
 
@@ -98,43 +99,43 @@ def calculated(made: Check, loads: tuple[float, ...] = (1, 6, 4), **values: Any)
     return calculate(rack(made), given)
 
 
-def judged(made: Check, **values: Any) -> dict[str, Any]:
+def judged(made: Check, **values: Any) -> CheckRecord:
     [found] = check_results(calculated(made, **values))
     return found
 
 
 def test_a_check_on_a_row_judges_every_part_and_the_worst_governs() -> None:
     found = judged(check("force", "strength", consequence="relieve bar {part}, that of {bars.load}"))
-    assert [(p["status"], p["utilisation"]) for p in found["parts"]] == [("pass", 0.2), ("fail", 1.2), ("pass", 0.8)]
-    assert (found["status"], found["part"], found["demand"], found["limit"], found["utilisation"]) == ("fail", 2, 12, 10, 1.2)  # fmt: skip
-    assert found["message"] == "Force 12 N, allowed 10 N at part 2 of 3: relieve bar 2, that of 6 N"
+    assert [(p.status, p.utilisation) for p in found.parts] == [("pass", 0.2), ("fail", 1.2), ("pass", 0.8)]
+    assert (found.status, found.part, found.demand, found.limit, found.utilisation) == ("fail", 2, 12, 10, 1.2)  # fmt: skip
+    assert found.message == "Force 12 N, allowed 10 N at part 2 of 3: relieve bar 2, that of 6 N"
 
 
 def test_a_margin_that_is_the_rounding_of_equal_sides_is_none() -> None:
     limit = 8.812338466287342  # kg·m² of a wheel's side, added up in another order
     for above, margin in ((1.8e-15, 0), (1e-6, -1e-6)):
         (found,) = check_results(calculated(check(limit + above, limit, tolerance=1e-3, unit="kg*m**2")))
-        assert found["status"] == "pass" and float(found["margin_display"]["text"]) == margin
+        assert found.status == "pass" and float(found.margin_display.text) == margin
 
 
 def test_a_row_may_be_the_limit_too() -> None:
     found = judged(check(3.0, "force"), loads=(5, 1, 1))
-    assert (found["status"], found["part"], found["limit"]) == ("fail", 2, 2)  # of two alike the first
-    assert [part["limit"] for part in found["parts"]] == [10, 2, 2]
+    assert (found.status, found.part, found.limit) == ("fail", 2, 2)  # of two alike the first
+    assert [part.limit for part in found.parts] == [10, 2, 2]
 
 
 def test_of_parts_without_a_utilisation_the_one_furthest_beyond_governs() -> None:
     found = judged(check("force", 0.0))
-    assert (found["part"], found["utilisation"]) == (2, None)
+    assert (found.part, found.utilisation) == (2, None)
 
 
 def test_a_part_without_the_quantity_is_not_judged() -> None:
     rated = check("force", "bars.rated")
     given = flatten(Rack.model_validate({"bars": [{"load": 9}, {"load": 2, "rated": 5}, {"load": 1, "rated": 1}]}))
     [found] = check_results(calculate(rack(rated), given))
-    assert [part["status"] for part in found["parts"]] == [None, "pass", "fail"] and found["part"] == 3
+    assert [part.status for part in found.parts] == [None, "pass", "fail"] and found.part == 3
     [unmade] = check_results(calculated(rated))
-    assert (unmade["status"], unmade["missing"], unmade["demand"], unmade["limit"]) == (
+    assert (unmade.status, unmade.missing, unmade.demand, unmade.limit) == (
         "not_checked",
         ["bars.rated"],
         12,
@@ -144,23 +145,23 @@ def test_a_part_without_the_quantity_is_not_judged() -> None:
 
 def test_a_check_on_a_curve_judges_its_extreme_and_not_its_samples() -> None:
     found = judged(check("torque", 2.999))
-    assert found["status"] == "fail" and found["demand"] == pytest.approx(
+    assert found.status == "fail" and found.demand == pytest.approx(
         3, rel=1e-12
     )  # of the 36 samples none is above 2.992
-    assert found["message"] == "Force 3 N, allowed 2.999 N at φ = 95.73°: relieve it"
-    assert found["at"] == {"symbol": "φ", "text": "95.73", "unit": "deg"}
+    assert found.message == "Force 3 N, allowed 2.999 N at φ = 95.73°: relieve it"
+    assert found.at == PlaceRecord(symbol="φ", text="95.73", unit="deg")
 
 
 def test_two_curves_are_compared_where_the_one_is_furthest_beyond_the_other() -> None:
     found = judged(check("torque", "bound"), phase=0.0)
     place = np.deg2rad(135)  # of the greatest sin φ − cos φ − 2
-    assert found["demand"] == pytest.approx(3 * np.sin(place), rel=1e-6)
-    assert found["limit"] == pytest.approx(3 * (2 + np.cos(place)), rel=1e-6) and found["at"]["text"] == "135"
+    assert found.demand == pytest.approx(3 * np.sin(place), rel=1e-6)
+    assert found.limit == pytest.approx(3 * (2 + np.cos(place)), rel=1e-6) and found.at and found.at.text == "135"
 
 
 def test_a_curve_may_be_what_there_is() -> None:
     found = judged(check(-3.5, "torque"))
-    assert found["status"] == "pass" and found["limit"] == pytest.approx(-3, rel=1e-12)
+    assert found.status == "pass" and found.limit == pytest.approx(-3, rel=1e-12)
 
 
 BOUNDS = {0.1: ("fail", "Play 0.1 mm, at least 0.2 mm (allowed 0.4 mm): relieve it", 2.0),
@@ -173,18 +174,16 @@ BOUNDS = {0.1: ("fail", "Play 0.1 mm, at least 0.2 mm (allowed 0.4 mm): relieve 
 def test_a_two_sided_check_is_judged_on_both_sides_and_names_the_one_that_governs(play: float) -> None:
     found = judged(check("play", 0.4, at_least=0.2, unit="mm", demand_label="play"), play=play)
     status, message, utilisation = BOUNDS[play]
-    assert (found["status"], found["message"]) == (status, message)
-    assert found["utilisation"] == pytest.approx(utilisation) == found["demand"] / found["limit"]
+    assert (found.status, found.message) == (status, message)
+    assert found.utilisation == pytest.approx(utilisation) == found.demand / found.limit
 
 
 def test_a_two_sided_check_on_a_row_and_on_a_curve() -> None:
     found = judged(check("force", 20.0, at_least=4.0))
-    assert [part["utilisation"] for part in found["parts"]] == pytest.approx([2, 0.6, 0.5])
-    assert (
-        found["part"] == 1 and found["message"] == "Force 2 N, at least 4 N (allowed 20 N) at part 1 of 3: relieve it"
-    )
+    assert [part.utilisation for part in found.parts] == pytest.approx([2, 0.6, 0.5])
+    assert found.part == 1 and found.message == "Force 2 N, at least 4 N (allowed 20 N) at part 1 of 3: relieve it"
     low = judged(check("torque", 5.0, at_least=-2.0))
-    assert low["status"] == "fail" and low["limit"] == pytest.approx(-3) and low["at"]["text"] == "275.73"
+    assert low.status == "fail" and low.limit == pytest.approx(-3) and low.at and low.at.text == "275.73"
 
 
 CHECKS = (
@@ -209,8 +208,8 @@ def test_a_study_judges_as_each_machine_alone(number: int, count: int) -> None:
         [single] = check_results(
             calculate(made, {"bars": True, "n_points": 36, **one, "bars.load": tuple(loads[:, i])})
         )
-        assert variant_rows.STATUS[found.codes[0, i]] == single["status"]
-        expected = np.nan if single["utilisation"] is None else single["utilisation"]
+        assert variant_rows.STATUS[found.codes[0, i]] == single.status
+        expected = np.nan if single.utilisation is None else single.utilisation
         np.testing.assert_allclose(found.ratios[0, i], expected, rtol=1e-9)
 
 

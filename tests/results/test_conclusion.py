@@ -7,15 +7,17 @@ from typing import Any
 import pytest
 
 from diecut_report.results.conclusion import conclusion, is_open
+from diecut_report.results.model import ResultsRecord
 from diecut_report.text.translation import said, speaking
+from tests.records import filled
 
 
-def results(**counts: Any) -> dict[str, Any]:
+def results(**counts: Any) -> ResultsRecord:
     whole = {"pass": 0, "warn": 0, "fail": 0, "not_checked": 0, "assumed": []} | counts
     lost = whole.pop("lost", 0)
     doubtful = {"plugin_check": "failed"} if whole.pop("doubtful", False) else {}
     mechanisms = {f"m{i}": {"kind": "k", **({"error": "broken"} if i < lost else {}), **doubtful} for i in range(3)}
-    return {"summary": whole, "mechanisms": mechanisms}
+    return filled(ResultsRecord, {"summary": whole, "mechanisms": mechanisms})
 
 
 @pytest.mark.parametrize(

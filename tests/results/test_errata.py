@@ -28,8 +28,8 @@ LEFT_OUT = {"with a drive", "a limit of the drive"}
 def errata(**more: Any) -> dict[str, list[str]]:
     """What the results of a damper with made-up errata tell of each."""
     mechanism = dataclasses.replace(MECHANISM, errata=ERRATA, sources=(Source("002", "A paper."),))
-    found = mechanism_results(calculate(mechanism, inputs(mechanism, BLOCK | more)), {})["errata"]
-    return {erratum["text"]: erratum["touches"] for erratum in found}
+    found = mechanism_results(calculate(mechanism, inputs(mechanism, BLOCK | more)), {}).errata
+    return {erratum.text: erratum.touches for erratum in found}
 
 
 def test_an_erratum_stands_where_the_machine_has_a_quantity_that_it_touches() -> None:

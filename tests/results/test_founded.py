@@ -39,8 +39,8 @@ def gears(**more: Any) -> dict[str, Any]:
 def judged(tmp_path: Path, own: dict[str, Any], check: str) -> dict[str, Any]:
     file = saved(tmp_path, HEAD + f"  a: {own!r}\n")
     results = document(compute(load_config(file, Discovery()), lambda _: None))
-    (found,) = (each for each in results["mechanisms"]["a"]["checks"] if each["id"] == check)
-    return dict(found) | {"conclusion": results["summary"]["conclusion"]}
+    (found,) = (each for each in results.mechanisms["a"].checks if each.id == check)
+    return dict(found) | {"conclusion": results.summary.conclusion}
 
 
 @pytest.mark.parametrize(
@@ -96,8 +96,8 @@ def mended(**changes: dict[str, Any]) -> dict[str, Any]:
         block = tree.data["mechanisms"][name]
         tree.data["mechanisms"][name] = {key: value for key, value in (block | own).items() if value is not None}
     results = document(compute(load_config(tree, Discovery()), lambda _: None))
-    found = results["mechanisms"]
-    return {f"{name}.{each['id']}": each["status"] for name in found for each in found[name]["checks"]}
+    found = results.mechanisms
+    return {f"{name}.{each.id}": each.status for name in found for each in found[name].checks}
 
 
 def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:

@@ -3,7 +3,6 @@
 from __future__ import annotations
 
 from pathlib import Path
-from typing import Any
 
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
@@ -28,9 +27,9 @@ mechanisms:
 def told(tmp_path: Path, speed: str, first: str = "") -> str:
     """The failing check of a second stepper, whose crank's speed is given so."""
     text = f"{HEAD}  cross:{STEPPER}{first}  next:{STEPPER}    crank_speed: {speed}\n"
-    results: Any = document(compute(loaded(tmp_path, text), lambda _: None))
-    (check,) = (c for c in results["mechanisms"]["next"]["checks"] if c["status"] == "fail")
-    return str(check["message"])
+    results = document(compute(loaded(tmp_path, text), lambda _: None))
+    (check,) = (c for c in results.mechanisms["next"].checks if c.status == "fail")
+    return check.message
 
 
 def test_a_chain_of_references_is_followed_to_its_beginning(tmp_path: Path) -> None:

@@ -15,6 +15,7 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.checks import check_results
 from diecut_report.results.conclusion import governing, summary
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
+from diecut_report.results.model import CheckRecord
 from diecut_report.study.execution import variant_rows
 
 
@@ -57,23 +58,23 @@ def calculated(*checks: Check, **values: Any) -> Calculation:
     return calculate(bar(*checks), flatten(Bar.model_validate(values)))
 
 
-def made(*checks: Check, **values: Any) -> list[dict[str, Any]]:
+def made(*checks: Check, **values: Any) -> list[CheckRecord]:
     return check_results(calculated(*checks, **values))
 
 
 def test_a_check_whose_limit_is_not_given_is_listed_with_its_demand_and_the_key() -> None:
     [found] = made(check("doubled", "rated"))
-    assert (found["status"], found["class"], found["missing"]) == ("not_checked", "strength", ["rated"])
-    assert (found["demand"], found["limit"], found["utilisation"]) == (16, None, None)
-    assert found["message"] == "Not checked: force 16 N, but rated is not given."
+    assert (found.status, found.check_class, found.missing) == ("not_checked", "strength", ["rated"])
+    assert (found.demand, found.limit, found.utilisation) == (16, None, None)
+    assert found.message == "Not checked: force 16 N, but rated is not given."
 
 
 def test_what_is_needed_for_the_demand_is_named_too_in_the_order_of_the_keys() -> None:
     [found] = made(check("spread", "rated"))
-    assert (found["missing"], found["demand"]) == (["rated", "width"], None)
-    assert found["message"] == "Not checked: rated and width are not given."
+    assert (found.missing, found.demand) == (["rated", "width"], None)
+    assert found.message == "Not checked: rated and width are not given."
     [found] = made(check("least", "doubled"))
-    assert found["message"] == "Not checked: allowed 16 N, but least is not given."
+    assert found.message == "Not checked: allowed 16 N, but least is not given."
 
 
 @pytest.mark.parametrize(
@@ -93,71 +94,69 @@ def test_what_does_not_apply_is_left_out(one: Check, given: dict[str, Any]) -> N
 
 
 def test_what_this_machine_does_not_have_is_not_asked_for() -> None:
-    assert [one["missing"] for one in made(check("slack", "rated"), force=9)] == [["rated"]]
+    assert [one.missing for one in made(check("slack", "rated"), force=9)] == [["rated"]]
     assert made(check("slack", "rated"), force=11) == []
 
 
 def test_what_applies_and_lacks_a_key_is_told() -> None:
-    assert made(check("bent", "rated"), material="steel")[0]["missing"] == ["rated"]
-    assert made(check("stop.reach", "stop.allowable_reach"), stop={"reach": 3})[0]["missing"] == [
-        "stop.allowable_reach"
-    ]
-    assert made(check("weighed", "rated"))[0]["missing"] == ["rated", "weight", "tare"]
-    assert made(check("doubled", "rated", only_with=("width",)), width=1)[0]["missing"] == ["rated"]
+    assert made(check("bent", "rated"), material="steel")[0].missing == ["rated"]
+    assert made(check("stop.reach", "stop.allowable_reach"), stop={"reach": 3})[0].missing == ["stop.allowable_reach"]
+    assert made(check("weighed", "rated"))[0].missing == ["rated", "weight", "tare"]
+    assert made(check("doubled", "rated", only_with=("width",)), width=1)[0].missing == ["rated"]
 
 
 def test_of_checks_with_one_id_the_one_that_is_made_is_reported_else_the_first() -> None:
     both = check("spread", "rated"), check("doubled", "rated")
-    assert [found["status"] for found in made(*both, rated=20)] == ["pass"]
+    assert [found.status for found in made(*both, rated=20)] == ["pass"]
     assert len(made(*both)) == 1
 
 
 def test_what_is_not_checked_changes_no_status_and_is_counted() -> None:
     results = mechanism_results(calculated(check("doubled", 20.0, id="a"), check("doubled", "rated", id="b")), {})
-    assert results["status"] == "pass" and results["absent"] == []
-    assert results["counts"] == {"pass": 1, "warn": 0, "fail": 0, "not_checked": 1, "numerical": {"pass": 0, "fail": 0}}
-    assert summary({"bar": results})["governing"] == "bar.a"
+    assert results.status == "pass" and results.absent == []
+    counts = {"pass": 1, "warn": 0, "fail": 0, "not_checked": 1, "numerical": {"pass": 0, "fail": 0}}
+    assert results.counts.data() == counts and summary({"bar": results.checks}, []).governing == "bar.a"
 
 
 def test_a_value_sized_to_its_limit_does_not_govern_unless_it_fails() -> None:
     sized = check("doubled", 16.5, id="sized", sized_unless=("width",))
     results = mechanism_results(calculated(sized, check("doubled", 160.0, id="far")), {})
-    assert results["checks"][0]["sized_to_limit"] is True and "sized_to_limit" not in results["checks"][1]
-    assert governing({"bar": results}) == {"mechanism": "bar", "check": "far"}
+    assert results.checks[0].sized_to_limit and not results.checks[1].sized_to_limit
+    assert str(governing({"bar": results.checks})) == "bar.far"
     given = mechanism_results(calculated(sized, check("doubled", 160.0, id="far"), width=1), {})
-    assert governing({"bar": given}) == {"mechanism": "bar", "check": "sized"}
+    assert str(governing({"bar": given.checks})) == "bar.sized"
     failing = mechanism_results(calculated(sized, check("doubled", 160.0, id="far"), force=9), {})
-    assert governing({"bar": failing}) == {"mechanism": "bar", "check": "sized"}
+    assert str(governing({"bar": failing.checks})) == "bar.sized"
 
 
 def test_what_stands_exactly_at_a_given_limit_was_not_sized_by_the_program_and_governs() -> None:
     results = mechanism_results(calculated(check("doubled", 16.0, id="same"), check("doubled", 160.0, id="far")), {})
-    assert results["checks"][0]["utilisation"] == 1 and "sized_to_limit" not in results["checks"][0]
-    assert governing({"bar": results}) == {"mechanism": "bar", "check": "same"}
+    assert results.checks[0].utilisation == 1 and not results.checks[0].sized_to_limit
+    assert str(governing({"bar": results.checks})) == "bar.same"
 
 
 def test_what_the_calculation_presumes_governs_only_where_it_does_not_hold() -> None:
     """As the range of a method: that a machine lies well within it is no reserve."""
     near = check("doubled", 16.5, id="range", presumed=True)
     results = mechanism_results(calculated(near, check("doubled", 160.0, id="far")), {})
-    assert results["checks"][0]["presumed"] is True and "presumed" not in results["checks"][1]
-    assert governing({"bar": results}) == {"mechanism": "bar", "check": "far"}
+    assert results.checks[0].presumed and not results.checks[1].presumed
+    assert str(governing({"bar": results.checks})) == "bar.far"
     left = mechanism_results(calculated(near, check("doubled", 160.0, id="far"), force=9), {})
-    assert governing({"bar": left}) == {"mechanism": "bar", "check": "range"}
+    assert str(governing({"bar": left.checks})) == "bar.range"
 
 
 def test_self_tests_are_counted_apart_and_never_govern() -> None:
     own = check("doubled", 16.5, id="own", check_class="numerical")
     results = mechanism_results(calculated(own, check("doubled", 160.0, id="far")), {})
-    assert results["counts"]["numerical"] == {"pass": 1, "fail": 0} and results["counts"]["pass"] == 1
-    assert governing({"bar": results}) == {"mechanism": "bar", "check": "far"}
+    assert results.counts.numerical.data() == {"pass": 1, "fail": 0} and results.counts.passing == 1
+    assert str(governing({"bar": results.checks})) == "bar.far"
 
 
 def test_a_self_test_that_fails_leaves_no_results() -> None:
     own = check("doubled", 1.0, id="own", check_class="numerical", severity="warn")
     with pytest.raises(SelfTestFailed, match="Bar: Force 16 N, allowed 1 N: relieve it") as raised:
         mechanism_results(calculated(own), {})
-    assert [found["id"] for found in raised.value.checks] == ["own"]
+    assert [found.id for found in raised.value.checks] == ["own"]
 
 
 def test_in_a_study_self_tests_make_errors_and_what_is_not_checked_has_columns() -> None:

@@ -32,7 +32,7 @@ def test_each_name_of_the_results_leads_to_a_line(file: Path) -> None:
     run = calculated(file)
     for mechanism, calc in run.calculations.items():
         groups = numbers(calc)
-        names = [*groups["outputs"], *groups["values"], *(f"checks.{check['id']}" for check in run.checks[mechanism])]
+        names = [*groups["outputs"], *groups["values"], *(f"checks.{check.id}" for check in run.checks[mechanism])]
         places = [where(run, f"{mechanism}.{name}") for name in names]
         assert places
         for place in (each for found in places for each in (found, *found.takes, *found.checks) if ":" in each.place):

@@ -34,12 +34,12 @@ def test_an_example_gives_what_it_says(example: ApiExample) -> None:
     results = run(example)
     if results is None:
         return
-    assert [figure for each in results["mechanisms"].values() for figure in each["figures"] if "error" in figure] == []
+    assert [figure for each in results.mechanisms.values() for figure in each.figures if figure.error] == []
     assert example.said["GIVES"]
     for name, told in example.said["GIVES"].items():
         given = given_by(results, name)
-        expected = told if isinstance(given["value"], str) else parse_quantity(told, given["unit"])
-        assert given["value"] == (told if isinstance(expected, str) else pytest.approx(expected, rel=1e-3))
+        expected = told if isinstance(given.value, str) else parse_quantity(told, given.unit)
+        assert given.value == (told if isinstance(expected, str) else pytest.approx(expected, rel=1e-3))
 
 
 @pytest.mark.parametrize("example", [each for each in EXAMPLES if each.values[0].kinds])  # type: ignore[attr-defined]

@@ -11,9 +11,11 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import load
+from diecut_report.results.model import SummaryRecord
 from diecut_report.results.origins import Assumed, ordered
 from diecut_report.study.analysis.variant_config import _place
 from tests.configs import GOOD, HEAD, LEVER, saved
+from tests.records import filled
 from tests.study.studies import varied
 
 # the moment is force times arm, 200 N·m of 250 N·m allowed; nothing judges the width
@@ -65,8 +67,8 @@ def test_the_input_table_shows_expression_basis_and_note(out: Path) -> None:
 
 
 def test_results_without_weights_keep_the_order_of_the_file() -> None:
-    assert ordered({"summary": {"assumed": ["b", "a"]}}) == [Assumed("b"), Assumed("a")]
-    assert ordered({}) == []
+    assert ordered(filled(SummaryRecord, {"assumed": ["b", "a"]})) == [Assumed("b"), Assumed("a")]
+    assert ordered(filled(SummaryRecord, {})) == []
 
 
 def test_a_variants_value_stands_in_the_block_of_its_quantity(tmp_path: Path) -> None:

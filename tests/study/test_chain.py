@@ -82,7 +82,7 @@ def alone(base: Config, values: Values) -> dict[str, Any] | str:
     changed, problems = with_values(base, known)
     assert not problems
     try:
-        return document(compute(changed, lambda _: None))
+        return document(compute(changed, lambda _: None)).data()
     except UserError as error:
         return str(error)
 

@@ -6,6 +6,7 @@ import json
 import pickle
 import re
 from pathlib import Path
+from typing import Any
 
 import pytest
 from babel.messages.catalog import Message
@@ -15,7 +16,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError, Problem, nearest
 from diecut_report.text import po_files
 from diecut_report.text.catalogues import Catalogues
-from diecut_report.text.phrases import Counted, Phrase, capital, joined, named, phrase, wordings
+from diecut_report.text.phrases import Counted, Phrase, capital, joined, message_data, message_of, named, phrase
 from diecut_report.text.translation import (
     Translator,
     decimal_sign,
@@ -43,26 +44,48 @@ def test_a_phrase_keeps_its_parts_through_str_and_pickle() -> None:
 def test_what_is_added_to_a_phrase_keeps_the_parts_of_both() -> None:
     said = "now " + Phrase("take {count}", count=3) + "; no more"
     assert said == "now take 3; no more"
-    (made,) = wordings([said]).values()
-    assert made["values"]["next"] == {"text": "; no more"}
-    assert made["values"]["first"]["values"]["next"] == {"text": "take {count}", "values": {"count": "3"}}
+    values = message_data(said)["values"]
+    assert values["next"] == message_data(phrase("; no more"))
+    assert values["first"]["values"]["next"] == message_data(Phrase("take {count}", count=3))
 
 
 def test_texts_that_are_joined_are_said_one_by_one_and_names_as_they_are() -> None:
     assert joined(["more", "less", "none"], ", or ") == "more, or less, or none" and joined([], " or ") == ""
-    (texts,) = wordings([joined(["more", "less"], ", or ")]).values()
-    (names,) = wordings([named(["mass", "speed"], " and ")]).values()
-    assert texts == {"text": "{first}, or {next}", "values": {"first": {"text": "more"}, "next": {"text": "less"}}}
-    assert names == {"text": "{first} and {next}", "values": {"first": "mass", "next": "speed"}}
+    texts, names = message_data(joined(["more", "less"], ", or ")), message_data(named(["mass", "speed"], " and "))
+    assert texts["template"] == "{first}, or {next}" and texts["values"]["first"] == message_data("more")
+    assert (names["template"], names["values"]) == ("{first} and {next}", {"first": "mass", "next": "speed"})
 
 
 def test_a_sentence_begins_with_a_capital_letter() -> None:
     assert capital("take it") == "Take it" and capital("") == ""
 
 
-def test_wordings_are_those_of_phrases_with_values_wherever_they_stand() -> None:
-    data = {"a": [Phrase("{n} parts", n=2)], "b": {"c": phrase("alone")}, "d": "plain", "e": [1.0, 2.0]}
-    assert wordings(data) == {"2 parts": {"text": "{n} parts", "values": {"n": "2"}}}
+@pytest.mark.parametrize(
+    "text",
+    [Phrase("{n} parts", n=2), phrase("alone"), Counted(3, "{n} part of {of}", "{n} parts of {of}", of=phrase("it")),
+     Counted(1, "{n} part", "{n} parts"), capital(Phrase("set {key}", key="mass"))],
+)  # fmt: skip
+def test_a_message_is_read_back_as_it_was_made(text: Phrase) -> None:
+    read = message_of(json.loads(json.dumps(message_data(text))))
+    assert (read, type(read), message_data(read)) == (text, type(text), message_data(text))
+
+
+@pytest.mark.parametrize(
+    "change",
+    [{"text": "3 parts"}, {"values": {"n": "3"}}, {"template": "{n} wheels"}, {"values": {"n": 2}}, {"values": None}, {"one": "{n} part"},
+     {"count": 2}, {"one": "{n} part", "count": True}, {"one": "{n} part", "count": 1}, {"more": ""}],
+)  # fmt: skip
+def test_what_is_not_the_template_with_its_values_is_no_message(change: dict[str, Any]) -> None:
+    with pytest.raises(ValueError, match="message"):
+        message_of(message_data(Phrase("{n} parts", n=2)) | change)
+
+
+def test_messages_within_messages_have_an_end() -> None:
+    made = message_data(phrase("x"))
+    for _ in range(60):
+        made = {"template": "{a}", "values": {"a": made}, "text": "x"}
+    with pytest.raises(ValueError, match="message"):
+        message_of(made)
 
 
 # What is said of a number of things has all forms that its language needs, in each catalogue, with the same places in each.
@@ -130,7 +153,7 @@ HEAD = 'msgid ""\nmsgstr ""\n"Language: uk\\n"\n"Content-Type: text/plain; chars
 @pytest.fixture
 def words(tmp_path: Path) -> Translator:
     (tmp_path / "hook.uk.po").write_text(f'{HEAD}msgid "the works\' sheet"\nmsgstr "аркуш заводу"\n', "utf-8")
-    return Translator(Catalogues("uk", lambda kind: tmp_path / f"{kind}.py"), {}, ",")
+    return Translator(Catalogues("uk", lambda kind: tmp_path / f"{kind}.py"), ",")
 
 
 @pytest.mark.parametrize("text", ["Table of geometry and input, chart 3", "002 eq. 17"])

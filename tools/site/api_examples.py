@@ -17,6 +17,7 @@ from typing import Any, NamedTuple
 
 from diecut_report import api, pipeline
 from diecut_report.config.plugins import LIST, Discovery
+from diecut_report.results.model import QuantityRecord, ResultsRecord
 from tools.site.sources import ROOT
 
 FOLDER = ROOT / "docs" / "reference" / "examples"
@@ -100,7 +101,7 @@ def _kind(value: ast.expr) -> str:
     return str(next(ast.literal_eval(given.value) for given in value.keywords if given.arg == "kind"))
 
 
-def run(example: ApiExample) -> Mapping[str, Any] | None:
+def run(example: ApiExample) -> ResultsRecord | None:
     """Return the results of an example, whose plugin is found in a folder as the user's are; None where it is run by itself."""
     if "PRESS" not in example.said:
         runpy.run_path(str(example.file))
@@ -126,8 +127,8 @@ def configuration(example: ApiExample) -> str:
     return "\n".join([*head, block])
 
 
-def given_by(results: Mapping[str, Any], name: str) -> Any:
+def given_by(results: ResultsRecord, name: str) -> QuantityRecord:
     """Return what the results hold under ``MECHANISM.ID``: the value and the unit of an output or value."""
     mechanism, _, id = name.partition(".")
-    found = results["mechanisms"][mechanism]
-    return {**found["values"], **found["outputs"]}[id]
+    found = results.mechanisms[mechanism]
+    return {**found.values, **found.outputs}[id]

@@ -5,7 +5,6 @@ from __future__ import annotations
 from collections.abc import Iterator, Mapping, Sequence
 from functools import partial
 from math import pi
-from typing import Any
 
 from diecut_report.api import (
     Shape,
@@ -23,6 +22,7 @@ from diecut_report.api import (
 from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.style import SizesSize, drawn
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import FigureRecord
 from tools.site.markup import html, plain
 
 WORDS = Catalogue("en")
@@ -96,11 +96,6 @@ def _gallery(each: Iterator[tuple[str, str, str, Sequence[Shape]]]) -> Iterator[
 
 def picture(key: str, title: str, shapes: Sequence[Shape]) -> str:
     """Return shapes as SVG, as a drawing of a report is drawn."""
-    figure: dict[str, Any] = {
-        "type": "drawing",
-        "title": title,
-        "shapes": list(shapes),
-        "unit": "mm",
-        "schematic": True,
-    }
+    shown = [dict(shape) for shape in shapes]
+    figure = FigureRecord(type="drawing", id="", title=title, caption="", shapes=shown, unit="mm", schematic=True)
     return drawn(partial(drawing, figure, {}, WORDS, SizesSize.HALF), title, key).text

@@ -18,6 +18,7 @@ from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.style import SizesSize, Svg
 from diecut_report.report.scope import letter, parts
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import MechanismRecord, ResultsRecord
 from diecut_report.study.analysis.answers import moves
 from tools.site.sources import ROOT
 
@@ -38,7 +39,7 @@ class Example(NamedTuple):
     name: str
     text: str
     config: Mapping[str, Any]
-    results: Mapping[str, Any] | None = None
+    results: ResultsRecord | None = None
     report: bytes = b""
 
     @property
@@ -54,7 +55,7 @@ class Shown(NamedTuple):
     kind: str
     name: str
     letter: str
-    mechanism: Mapping[str, Any] | None
+    mechanism: MechanismRecord | None
 
     @property
     def is_own(self) -> bool:
@@ -97,7 +98,7 @@ def shown_kinds(found: list[Example]) -> dict[str, Shown]:
                 kinds.setdefault(given["kind"], Shown(example, given["kind"], name, "", None))
         else:
             for index, (name, made) in enumerate(parts(example.results)):
-                kinds.setdefault(made["kind"], Shown(example, made["kind"], name, letter(index), made))
+                kinds.setdefault(made.kind, Shown(example, made.kind, name, letter(index), made))
     return kinds
 
 
@@ -105,12 +106,12 @@ def drawn(shown: Shown) -> tuple[Svg, str] | None:
     """Return the sketch of a mechanism, if it has none to scale its first figure, and its caption; None where there is no figure."""
     if shown.mechanism is None:
         return None
-    figures = [each for each in placed(shown.letter, shown.mechanism) if "error" not in each.figure]
+    figures = [each for each in placed(shown.letter, shown.mechanism) if not each.figure.error]
     chosen = sketch(figures) or figures[:1]
     if not chosen:
         return None
     figure = chosen[0].figure
-    return render(figure, shown.mechanism["curves"], WORDS, shown.kind, SizesSize.LOW), str(figure["caption"])
+    return render(figure, shown.mechanism.curves, WORDS, shown.kind, SizesSize.LOW), figure.caption
 
 
 def block(shown: Shown) -> str:

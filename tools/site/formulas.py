@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from typing import Any
 
 from diecut_report.formulas.tree import Node, transform
 from diecut_report.machine.printing.items import definitions
@@ -13,6 +14,7 @@ from diecut_report.mechanism.part_steps import Interpolated, Running, Total
 from diecut_report.mechanism.steps import Accumulated, Choice, Derivative, Reduction, Require, Root, Step, Value, named
 from diecut_report.report.equations import OPERATORS, Equations, Typesetter
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import ItemRecord
 
 WIDTH = 44.0  # of the page's text, in em of its formulas
 WORDS = Catalogue("en")
@@ -100,7 +102,7 @@ class Formulas:
 
     def _equation(self, step: Step, tree: Node) -> Iterator[str]:
         yield _set(Node("sym", (step.symbol or step.id,)), tree)
-        for each in EQUATIONS.definitions({"where": definitions(tree)}):
+        for each in EQUATIONS.definitions(_defining(definitions(tree))):
             yield rf"\text{{where }} {each.latex}"
 
     def _taken(self, step: Reduction | Total | Running | Accumulated | Derivative) -> str:
@@ -119,5 +121,9 @@ class Formulas:
 
 def _set(left: Node, right: Node) -> str:
     """An equation, in rows where it is wider than the page."""
-    told = {"where": [{"defined": left.to_json(), "as": right.to_json()}]}
-    return EQUATIONS.definitions(told)[0].latex
+    return EQUATIONS.definitions(_defining([{"defined": left.to_json(), "as": right.to_json()}]))[0].latex
+
+
+def _defining(where: list[dict[str, Any]]) -> ItemRecord:
+    """A printed step that has these definitions alone."""
+    return ItemRecord.model_validate({"type": "formula", "where": where})

@@ -116,9 +116,9 @@ def _example(name: str, group: Group) -> Iterator[str]:
 
 def _figures(example: ApiExample) -> Iterator[str]:
     results = run(example) if "figures=" in example.text else None
-    for name, mechanism in results["mechanisms"].items() if results else ():
-        for figure in mechanism["figures"]:
-            svg = render(figure, mechanism["curves"], WORDS, f"{example.name}-{name}-{figure['id']}", SizesSize.HALF)
+    for name, mechanism in results.mechanisms.items() if results else ():
+        for figure in mechanism.figures:
+            svg = render(figure, mechanism.curves, WORDS, f"{example.name}-{name}-{figure.id}", SizesSize.HALF)
             yield from html(f'<figure class="drawn"><div class="fig">{svg.text}</div></figure>')
 
 

@@ -32,5 +32,5 @@ def _page(made: list[Example]) -> Iterator[str]:
 
 def _verdict(example: Example) -> str:
     """The name of the configuration, and the verdict."""
-    status = example.results["status"] if example.results else ""
+    status = example.results.status if example.results else ""
     return f"<code>configs/{example.name}.yaml</code>: {escape(status)}"

@@ -283,7 +283,7 @@ def _numbers(machine: ProvedMachine) -> dict[str, float]:
     found = dict(machine.outputs)
     for name, checks in machine.checked.items():
         for each in checks:
-            column, used = f"{name}.checks.{each['id']}{RECHECK_UTILISATION}", each.get("utilisation")
+            column, used = f"{name}.checks.{each.id}{RECHECK_UTILISATION}", each.utilisation
             if used is not None:  # of repeated parts the one that is used most governs
                 found[column] = max(float(used), found.get(column, -math.inf))
     return found

@@ -10,14 +10,28 @@ from dataclasses import dataclass, field
 from datetime import datetime
 from hashlib import sha256
 from itertools import groupby
-from typing import Any, NamedTuple
+from typing import Any, NamedTuple, TypeVar
 
 from markupsafe import Markup
 
 from diecut_report.quantities.formatting import number_text
-from diecut_report.report.model import CheckRow, utilisation
+from diecut_report.report.model import CheckRow, TornadoFigure, utilisation
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, joined, number, quantity
+from diecut_report.results.model import (
+    ChangedCheckRecord,
+    ChangedCodeRecord,
+    ChangedDocumentRecord,
+    ChangedQuantityRecord,
+    ChangesRecord,
+    CheckRecord,
+    CheckSideRecord,
+    ItemRecord,
+    MechanismRecord,
+    QuantityRecord,
+    QuantitySideRecord,
+    ResultsRecord,
+)
 from diecut_report.results.origins import Assumed, ordered
 from diecut_report.results.results_file import config_content, encoded, results_text
 
@@ -32,7 +46,7 @@ class PrintedTornado:
 
     title: str
     number: str
-    figure: Data
+    figure: TornadoFigure
     rows: list[tuple[str, str, str, str, str]]
     rest: str
 
@@ -58,14 +72,14 @@ class PrintedInfluence:
     sure: str = ""
 
     @property
-    def figures(self) -> list[tuple[str, Data]]:
+    def figures(self) -> list[tuple[str, TornadoFigure]]:
         """The figures with their numbers; none of a number that nothing moves."""
         return [(each.number, each.figure) for each in self.tornados if each.rows]
 
 
-def printed_influence(results: Data, words: Catalogue) -> PrintedInfluence | None:
+def printed_influence(results: ResultsRecord, words: Catalogue) -> PrintedInfluence | None:
     """Return the chapter as it is printed; None where the results hold none."""
-    found = results.get("influence")
+    found = results.influence
     if not found:
         return None
     lead = words.say("influence_lead", by=_percent(found["by"], words))
@@ -79,7 +93,7 @@ def printed_influence(results: Data, words: Catalogue) -> PrintedInfluence | Non
     return PrintedInfluence(lead, tornados, _scatter(drawn, words), chances, sure)
 
 
-def _tornado(results: Data, found: Data, index: int, words: Catalogue) -> PrintedTornado:
+def _tornado(results: ResultsRecord, found: Data, index: int, words: Catalogue) -> PrintedTornado:
     title, unit = _title(results, found["name"], words), found["unit"]
     rows = [
         (bar["name"], _told(bar["lowered"], bar["unit"], words), _told(bar["low"], unit, words), _told(bar["raised"], bar["unit"], words),
@@ -87,8 +101,8 @@ def _tornado(results: Data, found: Data, index: int, words: Catalogue) -> Printe
         for bar in found["bars"]
     ]  # fmt: skip
     said = title + (f" ({_unit(unit)})" if _unit(unit) else "")
-    figure = {"type": "tornado", "title": words.say("influence_on", what=said), "today": found["today"],
-              "bars": [{"label": bar["name"], "low": bar["low"], "high": bar["high"]} for bar in found["bars"]]}  # fmt: skip
+    bars = [{"label": bar["name"], "low": bar["low"], "high": bar["high"]} for bar in found["bars"]]
+    figure = TornadoFigure(words.say("influence_on", what=said), found["today"], bars)
     now = words.say("influence_today", value=_told(found["today"], unit, words))
     return PrintedTornado(title, NUMBER.format(n=index), figure, rows, " ".join([now, *_rest(found, words)]))
 
@@ -102,24 +116,24 @@ def _rest(found: Data, words: Catalogue) -> Iterator[str]:
         yield words.say("influence_at_default", n=found["at_default"])
 
 
-def _title(results: Data, name: str, words: Catalogue) -> str:
+def _title(results: ResultsRecord, name: str, words: Catalogue) -> str:
     """What a number is called: a check's utilisation, a result, or an input, by its mechanism."""
     home, _, own = name.partition(".")
-    data = results["mechanisms"].get(home)
+    data = results.mechanisms.get(home)
     if data is None:
         return name
-    check = next((each for each in data["checks"] if own == f"checks.{each['id']}.utilisation"), None)
+    check = next((each for each in data.checks if own == f"checks.{each.id}.utilisation"), None)
     if check is not None:
-        return f"{data['title']} · {check['title']}: {words['influence_utilisation']}"
-    row = data["outputs"].get(own) or data["inputs"].get(own)
-    return f"{data['title']} · {row['description']}" if row else name
+        return f"{data.title} · {check.title}: {words['influence_utilisation']}"
+    row = data.outputs.get(own) or data.inputs.get(own)
+    return f"{data.title} · {row.description}" if row else name
 
 
-def _chance(results: Data, found: Data, words: Catalogue) -> ChanceRow:
+def _chance(results: ResultsRecord, found: Data, words: Catalogue) -> ChanceRow:
     home, _, own = found["check"].partition(".")
-    data = results["mechanisms"].get(home)
-    check = next((each["title"] for each in data["checks"] if each["id"] == own), own) if data else ""
-    title = f"{data['title']} · {check}" if data else words["influence_all"]
+    data = results.mechanisms.get(home)
+    check = next((each.title for each in data.checks if each.id == own), own) if data else ""
+    title = f"{data.title} · {check}" if data else words["influence_all"]
     interval = f"{_percent(found['low'], words)} … {_percent(found['high'], words)}"
     return ChanceRow(
         title,
@@ -188,8 +202,8 @@ class ChangedCheck(NamedTuple):
 class PrintedChanges:
     """All that changed, each list the most important first; ``old`` and ``new`` name the two documents."""
 
-    old: Data
-    new: Data
+    old: ChangedDocumentRecord
+    new: ChangedDocumentRecord
     mechanisms: list[tuple[str, str, str]] = field(default_factory=list)
     checks: list[ChangedCheck] = field(default_factory=list)
     inputs: list[ChangedRow] = field(default_factory=list)
@@ -200,39 +214,39 @@ class PrintedChanges:
     @property
     def names(self) -> tuple[str, str]:
         """How the two are told apart: by their revisions, where these differ, else by their files."""
-        revisions = [str(side["revision"]) for side in (self.old, self.new)]
+        revisions = [str(side.revision) for side in (self.old, self.new)]
         if all(revisions) and revisions[0] != revisions[1]:
             return revisions[0], revisions[1]
-        return str(self.old["file"]), str(self.new["file"])
+        return self.old.file, self.new.file
 
     def __bool__(self) -> bool:
         return bool(self.mechanisms or self.checks or self.inputs or self.following or self.outputs)
 
 
-def printed_changes(changes: Data, words: Mapping[str, str]) -> PrintedChanges:
+def printed_changes(changes: ChangesRecord, words: Mapping[str, str]) -> PrintedChanges:
     """Return the changes as they are printed."""
-    inputs = [(row, _row(row, words)) for row in changes["inputs"]]
+    inputs = [(row, _row(row, words)) for row in changes.inputs]
     return PrintedChanges(
-        changes["old"],
-        changes["new"],
-        [(each["name"], each["old"] or DASH, each["new"] or DASH) for each in changes["mechanisms"]],
-        [_check(row, words) for row in changes["checks"]],
-        [made for row, made in inputs if not row["follows"]],
-        [made for row, made in inputs if row["follows"]],
-        [_row(row, words) for row in changes["outputs"]],
-        list(_code(changes["code"])),
+        changes.old,
+        changes.new,
+        [(each.name, each.old or DASH, each.new or DASH) for each in changes.mechanisms],
+        [_check(row, words) for row in changes.checks],
+        [made for row, made in inputs if not row.follows],
+        [made for row, made in inputs if row.follows],
+        [_row(row, words) for row in changes.outputs],
+        list(_code(changes.code)),
     )
 
 
-def _row(row: Data, words: Mapping[str, str]) -> ChangedRow:
-    note = words["follows"].format(path=row["follows"]) if row["follows"] else _bases(row, words)
-    old, new = (_value(row[side], words["decimal"]) for side in ("old", "new"))
-    change = relative(row["relative"], words["decimal"])
-    return ChangedRow(row["path"], row["description"], symbol(row["symbol"]), old, new, change, note)
+def _row(row: ChangedQuantityRecord, words: Mapping[str, str]) -> ChangedRow:
+    note = words["follows"].format(path=row.follows) if row.follows else _bases(row, words)
+    old, new = (_value(side, words["decimal"]) for side in (row.old, row.new))
+    change = relative(row.relative, words["decimal"])
+    return ChangedRow(row.path, row.description, symbol(row.symbol), old, new, change, note)
 
 
-def _value(side: Data | None, decimal: str) -> str:
-    return DASH if side is None else quantity(side["display"]["text"], side["display"]["unit"], decimal) or DASH
+def _value(side: QuantitySideRecord | None, decimal: str) -> str:
+    return DASH if side is None else quantity(side.display.text, side.display.unit, decimal) or DASH
 
 
 def relative(share: float | None, decimal: str) -> str:
@@ -249,98 +263,97 @@ def _rounded(value: float) -> str:
     return f"{float(f'{value:.3g}'):g}"
 
 
-def _bases(row: Data, words: Mapping[str, str]) -> str:
+def _bases(row: ChangedQuantityRecord, words: Mapping[str, str]) -> str:
     """What a value rested on and rests on, where that changed."""
-    bases = [side.get("basis", "") if side else "" for side in (row["old"], row["new"])]
+    bases = [side.basis if side else "" for side in (row.old, row.new)]
     if not all(bases) or bases[0] == bases[1]:
         return ""
     return f"{words[bases[0]]} → {words[bases[1]]}"
 
 
-def _check(row: Data, words: Mapping[str, str]) -> ChangedCheck:
-    sides = [_used(row[side], words["decimal"]) for side in ("old", "new")]
-    statuses = [row[side]["status"] if row[side] else "" for side in ("old", "new")]
-    message = row["new"]["message"] if row["new"] and row["new"]["status"] != "pass" else ""
-    change = words[f"checks_{row['change']}"]
-    return ChangedCheck(row["mechanism"], row["title"], statuses[0], sides[0], statuses[1], sides[1], change, message)
+def _check(row: ChangedCheckRecord, words: Mapping[str, str]) -> ChangedCheck:
+    sides = [_used(side, words["decimal"]) for side in (row.old, row.new)]
+    statuses = [side.status if side else "" for side in (row.old, row.new)]
+    message = row.new.message if row.new and row.new.status != "pass" else ""
+    change = words[f"checks_{row.change}"]
+    return ChangedCheck(row.mechanism, row.title, statuses[0], sides[0], statuses[1], sides[1], change, message)
 
 
-def _used(side: Data | None, decimal: str) -> str:
-    return (
-        "" if side is None or side["utilisation"] is None else utilisation(side["utilisation"], side["status"], decimal)
-    )
+def _used(side: CheckSideRecord | None, decimal: str) -> str:
+    return "" if side is None or side.utilisation is None else utilisation(side.utilisation, side.status, decimal)
 
 
-def _code(rows: Sequence[Data]) -> Iterator[tuple[str, str, str]]:
+def _code(rows: Sequence[ChangedCodeRecord]) -> Iterator[tuple[str, str, str]]:
     for row in rows:
-        old, new = (f"{version} ({digest[:SHORT]})" for version, digest in (row["old"], row["new"]))
-        yield row["name"], old, new
+        old, new = (f"{version} ({digest[:SHORT]})" for version, digest in (row.old, row.new))
+        yield row.name, old, new
 
 
-def marked(results: Data) -> Data:
-    """Return results whose rows tell what stood there before, where the results tell what changed; else as they are."""
-    if "changes" not in results:
+def marked(results: ResultsRecord) -> ResultsRecord:
+    """Return results whose rows know what stood there before, where the results report what changed; else as they are."""
+    if not results.changes:
         return results
-    told = Marks(results["changes"])
-    press = results["press"] | {"fields": [told.row(row["path"], row) for row in results["press"]["fields"]]}
-    mechanisms = {name: told.mechanism(name, data) for name, data in results["mechanisms"].items()}
-    return {**results, "press": press, "mechanisms": mechanisms}
+    marks = Marks(results.changes)
+    press = results.press.with_(fields=[marks.row(row.path, row) for row in results.press.fields])
+    mechanisms = {name: marks.mechanism(name, data) for name, data in results.mechanisms.items()}
+    return results.with_(press=press, mechanisms=mechanisms)
+
+
+Row = TypeVar("Row", QuantityRecord, ItemRecord)
 
 
 class Marks:
     """What stood before at each place that changed, in words for a mark in the margin."""
 
-    def __init__(self, changes: Data) -> None:
-        self.quantities = {row["path"]: _before(row["old"]) for row in (*changes["inputs"], *changes["outputs"])}
-        self.checks = {(row["mechanism"], row["id"]): _status_before(row["old"]) for row in changes["checks"]}
+    def __init__(self, changes: ChangesRecord) -> None:
+        self.quantities = {row.path: _before(row.old) for row in (*changes.inputs, *changes.outputs)}
+        self.checks = {(row.mechanism, row.id): _status_before(row.old) for row in changes.checks}
 
-    def row(self, path: str, row: Data) -> Data:
+    def row(self, path: str, row: Row) -> Row:
         """Return a row of the results, with what stood there before."""
-        return {**row, "changed": self.quantities[path]} if path in self.quantities else row
+        return row.marked(self.quantities[path]) if path in self.quantities else row
 
-    def mechanism(self, name: str, data: Data) -> Data:
+    def mechanism(self, name: str, data: MechanismRecord) -> MechanismRecord:
         """Return the results of a mechanism, with what stood there before."""
-        groups = {
-            group: {key: self.row(f"{name}.{key}", row) for key, row in data[group].items()}
-            for group in ("inputs", "outputs")
-        }
-        keys = {check["id"]: (name, check["id"]) for check in data["checks"]}
-        checks = [
-            {**check, "changed": self.checks[keys[check["id"]]]} if keys[check["id"]] in self.checks else check
-            for check in data["checks"]
-        ]
-        sections = [
-            {**section, "items": [self.row(f"{name}.{item.get('id', '')}", item) for item in section["items"]]}
-            for section in data["sections"]
-        ]
-        return {**data, **groups, "checks": checks, "sections": sections}
+        return data.with_(
+            inputs={key: self.row(f"{name}.{key}", row) for key, row in data.inputs.items()},
+            outputs={key: self.row(f"{name}.{key}", row) for key, row in data.outputs.items()},
+            checks=[self._check(name, check) for check in data.checks],
+            sections=[
+                section.with_(items=[self.row(f"{name}.{item.id}", item) for item in section.items])
+                for section in data.sections
+            ],
+        )
+
+    def _check(self, name: str, check: CheckRecord) -> CheckRecord:
+        before = self.checks.get((name, check.id))
+        return check if before is None else check.marked(before)
 
 
-def _before(side: Data | None) -> str:
-    return DASH if side is None else quantity(side["display"]["text"], side["display"]["unit"]) or DASH
+def _before(side: QuantitySideRecord | None) -> str:
+    return DASH if side is None else quantity(side.display.text, side.display.unit) or DASH
 
 
-def _status_before(side: Data | None) -> str:
+def _status_before(side: CheckSideRecord | None) -> str:
     if side is None:
         return DASH
-    used = _used(side, ".")
-    return f"{str(side['status']).replace('_', ' ')} {used}".rstrip()
+    return f"{side.status.replace('_', ' ')} {_used(side, '.')}".rstrip()
 
 
 # The line of page 1 on what comes of the advice of all failing checks together.
 
 
-def followed_line(results: Mapping[str, Any], words: Catalogue, rows: Iterable[CheckRow] = ()) -> Iterator[str]:
+def followed_line(results: ResultsRecord, words: Catalogue, rows: Iterable[CheckRow] = ()) -> Iterator[str]:
     """Yield the line, its checks called as these rows call them; nothing where that was not calculated."""
-    advice = results.get("summary", {}).get("advice")
+    advice = results.summary.advice
     if not advice:
         return
-    changes = ", ".join(f"{each['path']} {_local(each['value'], words)}" for each in advice["changes"])
-    if advice["error"]:
+    changes = ", ".join(f"{each.path} {_local(each.value, words)}" for each in advice.changes)
+    if advice.error:
         yield words.say("advice_impossible", changes=changes)
-    elif advice["failing"]:
+    elif advice.failing:
         titles = {f"{row.mechanism}.{row.id}": f"{row.chapter} · {row.title}" for row in rows}
-        left = ", ".join(titles.get(check, check) for check in advice["failing"])
+        left = ", ".join(titles.get(check, check) for check in advice.failing)
         yield words.say("advice_leaves", changes=changes, checks=left)
     else:
         yield words.say("advice_passes", changes=changes)
@@ -376,27 +389,27 @@ class AssumedGroup:
     values: list[tuple[str, str, str]]
 
 
-def assumed_groups(results: Data, words: Catalogue) -> list[AssumedGroup]:
+def assumed_groups(results: ResultsRecord, words: Catalogue) -> list[AssumedGroup]:
     """Return all assumed values by what they belong to, in the file's order, those of each that move a check first."""
     groups: dict[str, list[Assumed]] = {}
-    found = {each.path: each for each in ordered(results)}
-    for path in results.get("summary", {}).get("assumed", ()):
+    found = {each.path: each for each in ordered(results.summary)}
+    for path in results.summary.assumed:
         groups.setdefault(_input(results, path)[0], []).append(found[path])
     return [AssumedGroup(name, _valued(results, words, values)) for name, values in groups.items()]
 
 
-def _valued(results: Data, words: Catalogue, values: list[Assumed]) -> list[tuple[str, str, str]]:
+def _valued(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> list[tuple[str, str, str]]:
     """Key and value of each, and what it moves."""
     first = list(dict.fromkeys(each.check for each in values if each.check))
     told = []
     for each, moves in _runs(results, words, sorted(values, key=lambda one: [*first, ""].index(one.check))):
         _, key, row = _input(results, each.path)
-        shown = quantity(row["display"]["text"], row["display"]["unit"], words["decimal"]) if row else ""
+        shown = quantity(row.display.text, row.display.unit, words["decimal"]) if row else ""
         told.append((key, _TYPED.sub("\u00a0", shown), moves))
     return told
 
 
-def _runs(results: Data, words: Catalogue, values: list[Assumed]) -> Iterator[tuple[Assumed, str]]:
+def _runs(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> Iterator[tuple[Assumed, str]]:
     """Each value, behind the last of those that move the same check what they move."""
     for check, run in groupby(values, lambda each: each.check):
         *others, last = run
@@ -404,26 +417,25 @@ def _runs(results: Data, words: Catalogue, values: list[Assumed]) -> Iterator[tu
         yield last, words.say("move_each" if others else "moves", check=_assumed_title(results, check)) if check else ""
 
 
-def _assumed_title(results: Data, check: str) -> str:
+def _assumed_title(results: ResultsRecord, check: str) -> str:
     """How the reader knows a check."""
     name, _, own = check.partition(".")
-    checks = results["mechanisms"].get(name, {}).get("checks", ())
-    return next((str(each["title"]) for each in checks if each["id"] == own), check)
+    data = results.mechanisms.get(name)
+    return next((each.title for each in (data.checks if data else ()) if each.id == own), check)
 
 
-def _input(results: Data, path: str) -> tuple[str, str, Data | None]:
+def _input(results: ResultsRecord, path: str) -> tuple[str, str, QuantityRecord | None]:
     """Whose input a path names, its key, and its line of the results; None where these do not have it."""
     whose, _, key = path.partition(".")
     if whose == "mechanisms":
         name, _, key = key.partition(".")
-        found: Data | None = results["mechanisms"][name]["inputs"].get(key)
-        return name, key, found
-    return whose, key, next((row for row in results["press"]["fields"] if row["path"] == path), None)
+        return name, key, results.mechanisms[name].inputs.get(key)
+    return whose, key, next((row for row in results.press.fields if row.path == path), None)
 
 
-def assumed_line(results: Data, words: Catalogue) -> AssumedLine | None:
+def assumed_line(results: ResultsRecord, words: Catalogue) -> AssumedLine | None:
     """Return the line; None where nothing is assumed."""
-    found = ordered(results)
+    found = ordered(results.summary)
     if not found:
         return None
     moving = [each for each in found if each.check] or found
@@ -470,10 +482,10 @@ class CarriedFile(NamedTuple):
         return CarriedFile(self.name + PACKED, "application/gzip", self.description, content)
 
 
-def carried_files(results: Mapping[str, Any], words: Mapping[str, str]) -> tuple[CarriedFile, CarriedFile]:
+def carried_files(results: ResultsRecord, words: Mapping[str, str]) -> tuple[CarriedFile, CarriedFile]:
     """Return the configuration and the results, in the order of their names."""
     text = encoded(results_text(results))
     return (
-        CarriedFile(CONFIG, "application/yaml", words["configuration"], config_content(results), "Source"),
+        CarriedFile(CONFIG, "application/yaml", words["configuration"], config_content(results.config), "Source"),
         CarriedFile(RESULTS, "application/json", words["carried_results"], text),
     )

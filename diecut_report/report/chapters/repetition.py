@@ -11,8 +11,16 @@ from typing import Any, NamedTuple
 from diecut_report.quantities.formatting import is_nothing
 from diecut_report.report.equations import Equation, Equations
 from diecut_report.report.text import Catalogue, quantity
-
-Data = Mapping[str, Any]
+from diecut_report.results.model import (
+    ConversionRecord,
+    CurveRecord,
+    FigureRecord,
+    ItemRecord,
+    MechanismRecord,
+    PartRecord,
+    QuantityRecord,
+    SectionRecord,
+)
 
 
 class SaidOnce:
@@ -22,37 +30,37 @@ class SaidOnce:
         self.equations, self.words = equations, words
         self.defined: set[str] = set()
 
-    def definitions(self, item: Data) -> Iterator[Equation]:
+    def definitions(self, item: ItemRecord) -> Iterator[Equation]:
         """What names in the formula stand for, where that was not said already."""
         for equation in self.equations.definitions(item):
             if equation.text not in self.defined:
                 self.defined.add(equation.text)
                 yield equation
 
-    def condition(self, item: Data) -> Equation | None:
+    def condition(self, item: ItemRecord) -> Equation | None:
         """Return the condition of the branch taken, with its numbers, where it says something and the chapter has not shown it already."""
-        if item.get("words") and _says_nothing(item.get("condition_substituted")):
+        if item.words and _says_nothing(item.condition_substituted):
             return None
         equation = self.equations.condition(item)
-        told = "" if equation is None else f"{item.get('words', '')}: {equation.text}"
-        if not told or (told in self.defined and item.get("words")):
+        told = "" if equation is None else f"{(item.words or '')}: {equation.text}"
+        if not told or (told in self.defined and item.words):
             return None
         self.defined.add(told)
         return equation
 
-    def conversions(self, item: Data) -> Iterator[str]:
+    def conversions(self, item: ItemRecord) -> Iterator[str]:
         """How numbers of the formula follow from what stands elsewhere in another unit, where that was not said already."""
-        told = [self._converted(each) for each in item.get("conversions", ())]
+        told = [self._converted(each) for each in item.conversions]
         new = [each for each in told if each not in self.defined]
         self.defined.update(new)
         if new:
             yield f"{self.words['where']} {self.words.listed(new)}"
 
-    def _converted(self, conversion: Data) -> str:
+    def _converted(self, conversion: ConversionRecord) -> str:
         """A quantity in its own unit, and in the formula's."""
-        sides = (conversion[key] for key in ("shown", "converted"))
-        texts = [quantity(side["text"], side["unit"], self.words["decimal"]) for side in sides]
-        return " = ".join((conversion["symbol"], *texts))
+        sides = (conversion.shown, conversion.converted)
+        texts = [quantity(side.text, side.unit, self.words["decimal"]) for side in sides]
+        return " = ".join((conversion.symbol, *texts))
 
 
 def _says_nothing(condition: Any) -> bool:
@@ -96,7 +104,7 @@ class Reference(NamedTuple):
 
 class _KnownFormula(NamedTuple):
     number: str
-    item: Data
+    item: ItemRecord
     letters: tuple[str, ...]  # of its tree, each once, in their order
 
 
@@ -106,14 +114,14 @@ class ToldBefore:
 
     letter: str = ""
     steps: dict[str, _KnownFormula] = field(default_factory=dict)
-    named: dict[str, tuple[Data, Reference]] = field(
+    named: dict[str, tuple[ItemRecord, Reference]] = field(
         default_factory=dict
     )  # steps that only name where their formula stands
     texts: set[str] = field(default_factory=set)
     shapes: dict[str, _KnownFormula] = field(default_factory=dict)
     repeated: set[str] = field(default_factory=set)  # forms of short formulas that fill the section
 
-    def begin(self, items: Sequence[Data]) -> None:
+    def begin(self, items: Sequence[ItemRecord]) -> None:
         """Learn which short formulas fill the section that begins."""
         counted = Counter(_shape(item)[0] for item in items)
         self.repeated = {shape for shape, count in counted.items() if shape and count >= MANY}
@@ -122,9 +130,9 @@ class ToldBefore:
         """What is known when another chapter of this kind begins; ``letter`` is this one's."""
         return ToldBefore(self.letter or letter, dict(self.steps), dict(self.named), set(self.texts))
 
-    def find(self, item: Data) -> Reference | None:
+    def find(self, item: ItemRecord) -> Reference | None:
         """Where the same step of an earlier chapter stands, or the same formula of this one."""
-        name = item.get("id", "")
+        name = item.id
         before, named = self.steps.get(name), self.named.get(name)
         if before and _are_same(before.item, item):
             return Reference(before.number)
@@ -138,25 +146,25 @@ class ToldBefore:
         is_plain = not {new for new, _ in differing} & {old for _, old in differing}  # no letters change places
         return Reference(known.number, differing) if is_plain and len(differing) <= MOST_LETTERS else None
 
-    def keep(self, item: Data, number: str) -> None:
+    def keep(self, item: ItemRecord, number: str) -> None:
         """Remember a step that is printed."""
         shape, letters = self._named_form(item)
         formula = _KnownFormula(number, item, letters)
-        if "id" in item:
-            self.steps.setdefault(item["id"], formula)
+        if item.id:
+            self.steps.setdefault(item.id, formula)
         if shape:
             self.shapes.setdefault(shape, formula)
 
-    def _named_form(self, item: Data) -> tuple[str, tuple[str, ...]]:
+    def _named_form(self, item: ItemRecord) -> tuple[str, tuple[str, ...]]:
         """The form of a formula and its letters, where it is rather named than printed again."""
         shape, letters = _shape(item)
-        is_named = shape in self.repeated or (shape and _operations(item["equation"]) >= FEWEST)
+        is_named = shape in self.repeated or (shape and _operations(item.equation) >= FEWEST)
         return (shape, letters) if is_named else ("", ())
 
-    def keep_named(self, item: Data, reference: Reference) -> None:
+    def keep_named(self, item: ItemRecord, reference: Reference) -> None:
         """Remember a step of which only is said where its formula stands: the next chapter says the same."""
-        if "id" in item and item["id"] not in self.steps:
-            self.named.setdefault(item["id"], (item, reference))
+        if item.id and item.id not in self.steps:
+            self.named.setdefault(item.id, (item, reference))
 
     def new(self, texts: Sequence[str]) -> list[str]:
         """Those of the texts that were not told; they are now."""
@@ -165,14 +173,14 @@ class ToldBefore:
         return found
 
 
-def _are_same(one: Data, other: Data) -> bool:
-    return all(one.get(key) == other.get(key) for key in SAME)
+def _are_same(one: ItemRecord, other: ItemRecord) -> bool:
+    return all(getattr(one, key) == getattr(other, key) for key in SAME)
 
 
-def _shape(item: Data) -> tuple[str, tuple[str, ...]]:
+def _shape(item: ItemRecord) -> tuple[str, tuple[str, ...]]:
     """A formula with its letters numbered, and the letters; nothing of one that stands for several."""
-    tree = item.get("equation")
-    if item["type"] != "formula" or not tree or item.get("where"):
+    tree = item.equation
+    if item.type != "formula" or not tree or item.where:
         return "", ()
     letters = tuple(dict.fromkeys(_letters(tree)))
     places = {letter: index for index, letter in enumerate(letters)}
@@ -218,10 +226,10 @@ class Parts:
     family: str
     numbers: list[int]
     listed: bool = True
-    columns: dict[str, dict[int, tuple[str, Data]]] = field(default_factory=dict)
+    columns: dict[str, dict[int, tuple[str, QuantityRecord]]] = field(default_factory=dict)
 
     @property
-    def heads(self) -> Iterator[tuple[str, Data]]:
+    def heads(self) -> Iterator[tuple[str, QuantityRecord]]:
         """Each column's quantity, and a row of the results that says what it is."""
         return ((quantity, next(iter(rows.values()))[1]) for quantity, rows in self.columns.items())
 
@@ -230,21 +238,28 @@ class Parts:
         left = {quantity: rows for quantity, rows in self.columns.items() if quantity not in quantities}
         return Parts(self.family, self.numbers, self.listed, left)
 
-    def add(self, name: str, row: Data) -> None:
+    def add(self, name: str, row: QuantityRecord) -> None:
         """Put a row of the results into its place."""
-        number = number_of(row)
-        quantity = row["part"].get("quantity", row["part"]["family"])
+        part, number = _part_of(row), number_of(row)
+        quantity = part.quantity or part.family
         self.columns.setdefault(quantity, {})[number] = (name, row)
         self.numbers = sorted({*self.numbers, number})
 
 
-def number_of(row: Data) -> int:
+def number_of(row: QuantityRecord) -> int:
     """Return the number of a row's part in print: the one in its name, or of a list counted from 1."""
-    part = row["part"]
-    return int(part.get("number", part["index"] + 1))
+    part = _part_of(row)
+    return part.index + 1 if part.number is None else part.number
 
 
-def gathered(rows: Data, fewest: int = REPEATED_PARTS_FEWEST) -> tuple[dict[str, Data], list[Parts]]:
+def _part_of(row: QuantityRecord) -> PartRecord:
+    assert row.part is not None, "only what is of repeated parts is gathered"
+    return row.part
+
+
+def gathered(
+    rows: Mapping[str, QuantityRecord], fewest: int = REPEATED_PARTS_FEWEST
+) -> tuple[dict[str, QuantityRecord], list[Parts]]:
     """Return the lone quantities, and tables of those of at least so many repeated parts, of a single quantity of at least three."""
     tables = [
         table
@@ -255,23 +270,23 @@ def gathered(rows: Data, fewest: int = REPEATED_PARTS_FEWEST) -> tuple[dict[str,
     return {name: row for name, row in rows.items() if name not in told}, tables
 
 
-def _tables(rows: Data) -> list[Parts]:
+def _tables(rows: Mapping[str, QuantityRecord]) -> list[Parts]:
     """Return the quantities of each family in one table."""
     tables: dict[tuple[str, bool], Parts] = {}
     for name, row in rows.items():
-        if "part" not in row:
+        if not row.part:
             continue
-        family, listed = row["part"]["family"], "number" not in row["part"]
-        is_alone = listed and "quantity" not in row["part"]  # a path of its own, not in a list that could be named
+        family, listed = row.part.family, not row.part.number
+        is_alone = listed and not row.part.quantity  # a path of its own, not in a list that could be named
         table = tables.setdefault((family, listed), Parts("" if is_alone else family, [], listed))
         table.add(name, row)
     return list(tables.values())
 
 
-def counted(rows: Data) -> dict[str, int]:
+def counted(rows: Mapping[str, QuantityRecord]) -> dict[str, int]:
     """Return the numbers of the parts, as in print, of all quantities that share their description with another one."""
-    said = Counter(row["description"] for row in rows.values())
-    return {name: number_of(row) for name, row in rows.items() if "part" in row and said[row["description"]] > 1}
+    said = Counter(row.description for row in rows.values())
+    return {name: number_of(row) for name, row in rows.items() if row.part and said[row.description] > 1}
 
 
 # Diagrams in which all is zero: a sentence says that, and nothing is drawn.
@@ -280,46 +295,38 @@ def counted(rows: Data) -> dict[str, int]:
 NOTED = ("levels", "marks", "verticals", "fills")  # what a diagram may tell beside its lines
 
 
-def without_zero_diagrams(mechanism: Data, words: Catalogue) -> Data:
+def without_zero_diagrams(mechanism: MechanismRecord, words: Catalogue) -> MechanismRecord:
     """Return a mechanism whose figures draw what is not zero everywhere; what is stands as a sentence in the caption, or as a note."""
-    figures, notes = [], []
-    for figure in mechanism.get("figures", ()):
-        flat = [panel for panel in figure.get("panels", ()) if _is_flat(panel, mechanism["curves"])]
-        left = [panel for panel in figure.get("panels", ()) if panel not in flat]
+    figures: list[FigureRecord] = []
+    notes: list[tuple[FigureRecord, ItemRecord]] = []
+    for figure in mechanism.figures:
+        flat = [panel for panel in figure.panels if _is_flat(panel, mechanism.curves)]
+        left = [panel for panel in figure.panels if panel not in flat]
         told = words.say("zero_everywhere", names="; ".join(dict.fromkeys(panel["title"] for panel in flat)))
         if flat and not left:
-            notes.append((figure, {"type": "note", "text": told}))
+            notes.append((figure, ItemRecord(type="note", text=told)))
         elif flat:
-            figures.append({**figure, "panels": left, "caption": f"{figure['caption']} {told}"})
+            figures.append(figure.with_(panels=left, caption=f"{figure.caption} {told}"))
         else:
             figures.append(figure)
-    return (
-        {**mechanism, "figures": figures, "sections": _noted(mechanism["sections"], notes)}
-        if figures or notes
-        else mechanism
-    )
+    return mechanism.with_(figures=figures, sections=_noted(mechanism.sections, notes))
 
 
-def _is_flat(panel: Data, curves: Data) -> bool:
+def _is_flat(panel: Mapping[str, Any], curves: Mapping[str, CurveRecord]) -> bool:
     """Whether all lines of a diagram are zero, and nothing else stands in it."""
     if not panel["title"] or any(panel.get(kind) for kind in NOTED):
         return False
-    rows = [curves[series["curve"]]["values"] for series in panel.get("series", ())]
+    rows: list[Sequence[float | None]] = [curves[series["curve"]].values for series in panel.get("series", ())]
     rows += [line["y"] for line in panel.get("lines", ())]
     return bool(rows) and all(is_nothing(value, panel["unit"]) for row in rows for value in row if value is not None)
 
 
-def _noted(sections: Sequence[Data], notes: Sequence[tuple[Data, Data]]) -> Sequence[Data]:
+def _noted(sections: Sequence[SectionRecord], notes: Sequence[tuple[FigureRecord, ItemRecord]]) -> list[SectionRecord]:
     """The sections with each note behind the last step that its figure shows."""
-    found: list[Data] = [{**section, "items": list(section["items"])} for section in sections]
+    items = [list(section.items) for section in sections]
     for figure, note in notes:
-        places = [
-            (section, index + 1)
-            for section in found
-            for index, item in enumerate(section["items"])
-            if item.get("id") in figure.get("shows", ())
-        ]
+        places = [(own, index + 1) for own in items for index, item in enumerate(own) if item.id in figure.shows]
         if places:
-            section, index = places[-1]
-            section["items"].insert(index, note)
-    return found
+            own, index = places[-1]
+            own.insert(index, note)
+    return [section.with_(items=own) for section, own in zip(sections, items, strict=True)]

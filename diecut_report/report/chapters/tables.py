@@ -17,101 +17,103 @@ from diecut_report.quantities.units import pretty, unit
 from diecut_report.report.chapters.printed_tables import PartsTable, PrintedColumn, PrintedTable, TableCell
 from diecut_report.report.chapters.repetition import Parts
 from diecut_report.report.chapters.value_tables import MOST_PARTS, RecordTable, record_rows
-from diecut_report.report.model import QuantityRow, rests, utilisation
+from diecut_report.report.model import ListedNumbers, QuantityRow, Step, rests, utilisation
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, displayed, is_words, number, value_in_words
+from diecut_report.results.model import (
+    CheckPartRecord,
+    CheckRecord,
+    CurveRecord,
+    ItemRecord,
+    PhaseRecord,
+    QuantityRecord,
+    SectionRecord,
+)
 
 # The tables of a section, brought together: those of the same parts in one, none that a formula has said already, and no column twice.
 
 
-Data = Mapping[str, Any]
 SectionTablesColumn = tuple[Any, ...]  # the names of its lines, its title, symbol and unit, its texts
 MOST = 8  # columns of a table that is put together, the first one among them
 LONGEST_LIST = 12  # numbers in a line
 
 
-def brought_together(section: Data, told: set[SectionTablesColumn]) -> list[Data | None]:
+def brought_together(section: SectionRecord, told: set[SectionTablesColumn]) -> list[Step | None]:
     """Return the steps of a section in their places; none where a table went into a later one, or says nothing new.
 
     ``told`` are the columns that the chapter has printed already, each with the lines that it stands beside; those that follow are put to them.
     """
-    items: list[Data | None] = list(section["items"])
+    items: list[ItemRecord | None] = list(section.items)
     for place, item in enumerate(items):
-        if item is not None and item["type"] == "table":
-            items[place] = None if _is_said(item, section["items"][:place]) else _with_new_columns(item, told)
+        if item is not None and item.type == "table":
+            items[place] = None if _is_said(item, section.items[:place]) else _with_new_columns(item, told)
     for place, item in enumerate(items):
-        if item is not None and item["type"] == "table":
-            _move_on(items, place, section["title"])
-    return [_listed(item) if item is not None and item["type"] == "table" else item for item in items]
+        if item is not None and item.type == "table":
+            _move_on(items, place, section.title)
+    return [_listed(item) if item is not None and item.type == "table" else item for item in items]
 
 
-def _with_new_columns(table: Data, told: set[SectionTablesColumn]) -> Data | None:
+def _with_new_columns(table: ItemRecord, told: set[SectionTablesColumn]) -> ItemRecord | None:
     """A table without the columns that stand in an earlier one beside the same lines; none where all do. One that is declared stays whole."""
-    if "id" in table:
+    if table.id:
         return table
-    texts = [*zip(*table["rows"], strict=True)]
+    texts = [*zip(*table.rows, strict=True)]
     columns = [
-        (texts[0], column["title"], column["symbol"], column["unit"], text)
-        for column, text in zip(table["columns"], texts, strict=True)
+        (texts[0], column.title, column.symbol, column.unit, text)
+        for column, text in zip(table.columns, texts, strict=True)
     ]
     is_single = texts[0] == ("1",)  # what it follows from stands in the formula before it
     new = [
         k
         for k, column in enumerate(columns)
-        if not k or (column not in told and (not is_single or column[1] == table["title"]))
+        if not k or (column not in told and (not is_single or column[1] == table.title))
     ]
     told.update(columns)
     if len(new) == 1:
         return None
-    rows = [[row[k] for k in new] for row in table["rows"]]
-    return {**table, "columns": [table["columns"][k] for k in new], "rows": rows}
+    rows = [[row[k] for k in new] for row in table.rows]
+    return table.with_(columns=[table.columns[k] for k in new], rows=rows)
 
 
-def _is_said(table: Data, before: Sequence[Data]) -> bool:
+def _is_said(table: ItemRecord, before: Sequence[ItemRecord]) -> bool:
     """Whether a table is of one part, whose numbers stand in the formula before it."""
-    last = next((item for item in reversed(before) if item["type"] != "table"), None)
-    return (
-        len(table["rows"]) == 1
-        and bool(last and last.get("equation"))
-        and table["title"] == (last or {})["description"]
-    )
+    last = next((item for item in reversed(before) if item.type != "table"), None)
+    return len(table.rows) == 1 and bool(last and last.equation) and table.title == (last.description if last else "")
 
 
-def _move_on(items: list[Data | None], place: int, title: str) -> None:
+def _move_on(items: list[ItemRecord | None], place: int, title: str) -> None:
     """Put a table into the next one of the same parts, where both have room in one."""
     one = items[place]
     assert one is not None
     for later in range(place + 1, len(items)):
         other = items[later]
-        if other is None or other["type"] != "table" or not _are_alike(one, other):
+        if other is None or other.type != "table" or not _are_alike(one, other):
             continue
         both = _joined(one, other, title)
-        if len(both["columns"]) <= MOST:
+        if len(both.columns) <= MOST:
             items[place], items[later] = None, both
         return
 
 
-def _are_alike(one: Data, other: Data) -> bool:
-    first = [(table["columns"][0], [row[0] for row in table["rows"]]) for table in (one, other)]
+def _are_alike(one: ItemRecord, other: ItemRecord) -> bool:
+    first = [(table.columns[0], [row[0] for row in table.rows]) for table in (one, other)]
     return first[0] == first[1] and len(set(first[0][1])) == len(first[0][1])
 
 
-def _joined(one: Data, other: Data, title: str) -> Data:
+def _joined(one: ItemRecord, other: ItemRecord, title: str) -> ItemRecord:
     """Two tables side by side, each column once."""
-    known = [(column["title"], column["symbol"]) for column in one["columns"]]
-    new = [k for k, column in enumerate(other["columns"]) if (column["title"], column["symbol"]) not in known]
-    columns = [*one["columns"], *(other["columns"][k] for k in new)]
-    rows = [[*left, *(right[k] for k in new)] for left, right in zip(one["rows"], other["rows"], strict=True)]
-    return {"type": "table", "title": title, "columns": columns, "rows": rows}
+    known = [(column.title, column.symbol) for column in one.columns]
+    new = [k for k, column in enumerate(other.columns) if (column.title, column.symbol) not in known]
+    columns = [*one.columns, *(other.columns[k] for k in new)]
+    rows = [[*left, *(right[k] for k in new)] for left, right in zip(one.rows, other.rows, strict=True)]
+    return ItemRecord(type="table", title=title, columns=columns, rows=rows)
 
 
-def _listed(table: Data) -> Data:
-    """A table of one quantity of parts that have numbers alone, to be set in a line."""
-    numbers = [str(number) for number in range(1, len(table["rows"]) + 1)]
-    is_plain = (
-        len(table["columns"]) == 2 and [row[0] for row in table["rows"]] == numbers and len(numbers) <= LONGEST_LIST
-    )
-    return {**table, "type": "listed"} if is_plain and table["title"] == table["columns"][1]["title"] else table
+def _listed(table: ItemRecord) -> Step:
+    """A table, as one that is set in a line where it is such a one."""
+    numbers = [str(number) for number in range(1, len(table.rows) + 1)]
+    is_plain = len(table.columns) == 2 and [row[0] for row in table.rows] == numbers and len(numbers) <= LONGEST_LIST
+    return ListedNumbers(table) if is_plain and table.title == table.columns[1].title else table
 
 
 # Inputs that a mechanism takes from others by itself: nobody typed them, and each stands in the chapter that gives it.
@@ -125,15 +127,15 @@ class TakenGroup(NamedTuple):
     rows: list[QuantityRow]
 
 
-def is_taken(row: Data) -> bool:
+def is_taken(row: QuantityRecord) -> bool:
     """Return whether an input is a number or a curve of another mechanism that nobody asked for by a reference."""
-    return row["origin"] == "reference" and not row.get("text") and "." in row.get("path", "")
+    return row.origin == "reference" and not row.text and "." in row.path
 
 
-def is_partner(row: Data) -> bool:
+def is_partner(row: QuantityRecord) -> bool:
     """Return whether an input is a mechanism that was found, not typed."""
-    is_name = isinstance(row["value"], str) and not row.get("text") and "part" not in row
-    return is_name and (row["origin"] == "given" or row.get("path") == row["value"])
+    is_name = isinstance(row.value, str) and not row.text and not row.part
+    return is_name and (row.origin == "given" or row.path == row.value)
 
 
 def taken_groups(rows: Iterable[tuple[str, QuantityRow]]) -> list[TakenGroup]:
@@ -171,10 +173,10 @@ class CurvePlace(NamedTuple):
     number: int
 
 
-def continuous(curve: Data, over: Data, period: float | None) -> tuple[Array, Array]:
+def continuous(curve: CurveRecord, over: CurveRecord, period: float | None) -> tuple[Array, Array]:
     """Samples of a curve over its abscissa, a jump as two points at its true place, led to the end of a full period (SI)."""
-    x, y = np.asarray(over["values"], dtype=float), np.asarray(curve["values"], dtype=float)
-    places = np.asarray(curve.get("breakpoints", []), dtype=float)
+    x, y = np.asarray(over.values, dtype=float), np.asarray(curve.values, dtype=float)
+    places = np.asarray(curve.breakpoints, dtype=float)
     if period:
         x, y = np.append(x, x[0] + period), np.append(y, _end(y))
     if not len(places):
@@ -182,7 +184,7 @@ def continuous(curve: Data, over: Data, period: float | None) -> tuple[Array, Ar
     clear = (np.abs(x[:, None] - places) > 1e-12 * max(1.0, float(np.abs(x).max()))).all(axis=1)
     x, y, order = x[clear], y[clear], np.full(int(clear.sum()), 0)
     x = np.concatenate([x, places, places])
-    y = np.concatenate([y, curve["left"], curve["right"]])
+    y = np.concatenate([y, curve.left, curve.right])
     order = np.concatenate([order, np.full(len(places), 0), np.full(len(places), 1)])
     sorting = np.lexsort((order, x))
     return x[sorting], y[sorting]
@@ -196,10 +198,10 @@ def _end(y: Array) -> float:
     return float(y[0] if closes else ahead)
 
 
-def period_of(over: Data) -> float | None:
+def period_of(over: CurveRecord) -> float | None:
     """A full turn, where the abscissa is an angle that runs over one."""
-    values = over["values"]
-    if over["unit"] != "rad" or len(values) < 3:
+    values = over.values
+    if over.unit != "rad" or len(values) < 3:
         return None
     step = values[1] - values[0]
     return 2 * np.pi if abs(values[-1] + step - values[0] - 2 * np.pi) < 0.5 * step else None
@@ -212,13 +214,13 @@ def through_pole(x: Array, y: Array) -> tuple[Array, Array]:
     return np.insert(x, change + 1, places), np.insert(y, change + 1, 0.0)
 
 
-def table_places(over: Data, members: Sequence[Data]) -> list[CurvePlace]:
+def table_places(over: CurveRecord, members: Sequence[CurveRecord]) -> list[CurvePlace]:
     """Rows of a table of curves: at even steps of the samples; a jump adds two, before and after it.
 
     Of curves that jump at many places, or at different ones, no jump is told.
     """
-    x, breaks = over["values"], members[0].get("breakpoints", [])
-    if len(breaks) >= MOST_JUMPS or any(curve.get("breakpoints", []) != breaks for curve in members):
+    x, breaks = over.values, members[0].breakpoints
+    if len(breaks) >= MOST_JUMPS or any(curve.breakpoints != breaks for curve in members):
         breaks = []
     jumps = [index for index in range(len(breaks)) if any(_jumps(curve, index) for curve in members)]
     sides = [CurvePlace(breaks[index], side, index) for index in jumps for side in SIDES]
@@ -228,10 +230,10 @@ def table_places(over: Data, members: Sequence[Data]) -> list[CurvePlace]:
     return sorted(clear + sides, key=lambda place: place.x)  # of equal ones the left side stays the first
 
 
-def _jumps(curve: Data, index: int) -> bool:
+def _jumps(curve: CurveRecord, index: int) -> bool:
     """Whether a curve jumps at a breakpoint by more than rounding."""
-    jump = abs(curve["right"][index] - curve["left"][index])
-    return bool(jump > CURVES_ROUNDING * max(map(abs, curve["values"])))
+    jump = abs(curve.right[index] - curve.left[index])
+    return bool(jump > CURVES_ROUNDING * max(map(abs, curve.values)))
 
 
 Column = tuple[str, Markup, str]
@@ -251,62 +253,60 @@ class Tables:
         self.decimal = words["decimal"]
         self.count = 0
 
-    def of_item(self, item: Data) -> PrintedTable:
+    def of_item(self, item: ItemRecord) -> PrintedTable:
         """A table of the calculation."""
-        columns = [(_head(c["title"]), symbol(c["symbol"]), pretty(c["unit"])) for c in item["columns"]]
-        rows = [[number(text, self.decimal) for text in row] for row in item["rows"]]
-        return PrintedTable(item["title"], *in_halves(columns, rows), self._number())
+        columns = [(_head(c.title), symbol(c.symbol), pretty(c.unit)) for c in item.columns]
+        rows = [[number(text, self.decimal) for text in row] for row in item.rows]
+        return PrintedTable(item.title, *in_halves(columns, rows), self._number())
 
-    def of_curves(self, curves: Data) -> list[PrintedTable]:
+    def of_curves(self, curves: Mapping[str, CurveRecord]) -> list[PrintedTable]:
         """Some rows of all curves, by their abscissa, so many columns a table as the page holds."""
-        groups: dict[str, list[Data]] = {}
+        groups: dict[str, list[CurveRecord]] = {}
         for curve in curves.values():
-            if "abscissa" in curve and not curve.get("is_spectrum"):
-                groups.setdefault(curve["abscissa"], []).append(curve)
+            if curve.abscissa and not curve.is_spectrum:
+                groups.setdefault(curve.abscissa, []).append(curve)
         return [
             self._curves(curves[axis], columns) for axis, members in groups.items() for columns in shared_out(members)
         ]
 
-    def _curves(self, axis: Data, members: list[Data]) -> PrintedTable:
-        columns = [(_head(c["description"]), symbol(c["symbol"]), pretty(c["display_unit"])) for c in (axis, *members)]
+    def _curves(self, axis: CurveRecord, members: list[CurveRecord]) -> PrintedTable:
+        columns = [(_head(c.description), symbol(c.symbol), pretty(c.display_unit)) for c in (axis, *members)]
         rows = [
             [self._abscissa(axis, place.x), *(self._sample(curve, place) for curve in members)]
             for place in table_places(axis, members)
         ]
-        return PrintedTable(self.words.say("curves_over", axis=axis["description"]), columns, rows, self._number())
+        return PrintedTable(self.words.say("curves_over", axis=axis.description), columns, rows, self._number())
 
-    def of_phases(self, phases: Data) -> list[PrintedTable]:
+    def of_phases(self, phases: Mapping[str, PhaseRecord]) -> list[PrintedTable]:
         """When a mechanism does what: a line for each interval, a table for each abscissa."""
-        groups: dict[str, list[Data]] = {}
-        for phase in (each for each in phases.values() if not each.get("parts")):  # what is but others together
-            groups.setdefault(phase["abscissa"], []).append(phase)
+        groups: dict[str, list[PhaseRecord]] = {}
+        for phase in (each for each in phases.values() if not each.parts):  # what is but others together
+            groups.setdefault(phase.abscissa, []).append(phase)
         return [self._phases(members) for members in groups.values()]
 
-    def _phases(self, members: list[Data]) -> PrintedTable:
-        display = members[0]["display"]["unit"]
-        keys = ("from", "to", "length")
+    def _phases(self, members: list[PhaseRecord]) -> PrintedTable:
+        display = members[0].display.unit
+        keys = {"from": "begin", "to": "to", "length": "length"}
         texts = [(self.words[key], Markup(""), "") for key in ("phase", "role")]
         columns = texts + [(self.words[key], Markup(""), pretty(display)) for key in keys]
         is_time = unit(display).kind == unit("ms").kind
-        timed = not is_time and any(
-            "time" in interval for phase in members for interval in phase["display"]["intervals"]
-        )
+        timed = not is_time and any(interval.time for phase in members for interval in phase.display.intervals)
         columns += [(self.words["time"], Markup(""), "ms")] if timed else []
         rows = [
-            [phase["description"], self.words[f"role_{phase['role']}"]]
-            + [number(interval[key], self.decimal) for key in (*keys, *(["time"] if timed else []))]
+            [phase.description, self.words[f"role_{phase.role}"]]
+            + [number(getattr(interval, key), self.decimal) for key in (*keys.values(), *(["time"] if timed else []))]
             for phase in members
-            for interval in phase["display"]["intervals"]
+            for interval in phase.display.intervals
         ]
         return PrintedTable(self.words["phases"], columns, rows, self._number())
 
-    def _abscissa(self, axis: Data, x: float) -> str:
-        return number(place_shown(x, axis["display_unit"])["text"], self.decimal)
+    def _abscissa(self, axis: CurveRecord, x: float) -> str:
+        return number(place_shown(x, axis.display_unit)["text"], self.decimal)
 
-    def _sample(self, curve: Data, place: CurvePlace) -> str:
-        value = curve[place.values][place.number]
-        scale = max(abs(v) for v in curve["values"])
-        return displayed(value if abs(value) > ROUNDING * scale else 0.0, curve["display_unit"], self.decimal)
+    def _sample(self, curve: CurveRecord, place: CurvePlace) -> str:
+        value = getattr(curve, place.values)[place.number]
+        scale = max(abs(v) for v in curve.values)
+        return displayed(value if abs(value) > ROUNDING * scale else 0.0, curve.display_unit, self.decimal)
 
     def of_records(self, parts: Parts) -> list[PartsTable | RecordTable]:
         """Inputs of repeated parts: of a few the parts side by side, of many a line for each."""
@@ -322,11 +322,11 @@ class Tables:
         return [self._parts(parts, columns, told, given) for columns in shared_out(list(parts.heads))]
 
     def _parts(
-        self, parts: Parts, heads: list[tuple[str, Data]], told: Callable[[Data], str], given: bool
+        self, parts: Parts, heads: list[tuple[str, QuantityRecord]], told: Callable[[QuantityRecord], str], given: bool
     ) -> PartsTable:
         columns = [
-            PrintedColumn(row["description"], symbol(row["symbol"]), pretty(row["display"]["unit"]),
-                   key=quantity if given else "", source=row.get("source", ""))
+            PrintedColumn(row.description, symbol(row.symbol), pretty(row.display.unit),
+                   key=quantity if given else "", source=row.source)
             for quantity, row in heads
         ]  # fmt: skip
         lines = []
@@ -337,46 +337,47 @@ class Tables:
         title = self.lists.get(parts.family, columns[0].title if len(columns) == 1 else "")
         return PartsTable(self._number(), title, family, columns, lines)
 
-    def of_check(self, check: Data) -> PartsTable:
+    def of_check(self, check: CheckRecord) -> PartsTable:
         """A check on a row over repeated parts: how each part fares."""
-        parts = list(enumerate(check["parts"], 1))
+        parts = list(enumerate(check.parts, 1))
         columns = [self._side(check, side) for side in ("demand", "limit")]
         columns += [PrintedColumn(self.words[key], Markup(""), "", "", "") for key in ("utilisation", "verdict")]
-        lines = [(part.get("name", str(number)), self._judged(check, part)) for number, part in parts]
-        return PartsTable(self._number(), check["title"], "", columns, lines)
+        lines = [((part.name or str(number)), self._judged(check, part)) for number, part in parts]
+        return PartsTable(self._number(), check.title, "", columns, lines)
 
-    def _side(self, check: Data, side: str) -> PrintedColumn:
+    def _side(self, check: CheckRecord, side: str) -> PrintedColumn:
         """The head of a side's column: its own words where all parts share them."""
-        labels = {part[f"{side}_label"] for part in check["parts"] if part["status"]}
+        labels = {getattr(part, f"{side}_label") for part in check.parts if part.status}
         title = labels.pop() if len(labels) == 1 else self.words[side]
-        return PrintedColumn(title, Markup(""), pretty(check[f"{side}_display"]["unit"]), "", "")
+        return PrintedColumn(title, Markup(""), pretty(getattr(check, f"{side}_display").unit), "", "")
 
-    def _judged(self, check: Data, part: Data) -> list[TableCell]:
+    def _judged(self, check: CheckRecord, part: CheckPartRecord) -> list[TableCell]:
         """Both sides of a part, its utilisation and its verdict; a part that has no such quantity has none."""
-        if part["status"] is None:
+        if part.status is None:
             return [TableCell("–")] * 4
-        mixed = len({other.get("demand_label") for other in check["parts"] if other["status"]}) > 1
+        mixed = len({other.demand_label for other in check.parts if other.status}) > 1
         sides = [
-            TableCell(number(part[f"{side}_display"]["text"], self.decimal), part[f"{side}_label"] if mixed else "")
-            for side in ("demand", "limit")
+            TableCell(number(display.text, self.decimal), label if mixed else "")
+            for display, label in ((part.demand_display, part.demand_label), (part.limit_display, part.limit_label))
+            if display
         ]
-        share = utilisation(part["utilisation"], part["status"], self.decimal)
-        return [*sides, TableCell(share), TableCell(self.words[part["status"]], wordy=True)]
+        share = utilisation(part.utilisation, part.status, self.decimal)
+        return [*sides, TableCell(share), TableCell(self.words[part.status], wordy=True)]
 
-    def _cell(self, row: Data, told: Callable[[Data], str]) -> TableCell:
-        text = row["display"]["text"]
-        return TableCell(number(value_in_words(row), self.decimal), told(row), is_words(text), row.get("changed", ""))
+    def _cell(self, row: QuantityRecord, told: Callable[[QuantityRecord], str]) -> TableCell:
+        text = row.display.text
+        return TableCell(number(value_in_words(row), self.decimal), told(row), is_words(text), row.before)
 
-    def _origin(self, row: Data) -> str:
+    def _origin(self, row: QuantityRecord) -> str:
         """What is to be said of an input: where it comes from, and what it rests on."""
         return "; ".join(filter(None, (self._from(row), *rests(row, self.words))))
 
-    def _from(self, row: Data) -> str:
+    def _from(self, row: QuantityRecord) -> str:
         """Where it comes from: that it is a default, what it refers to, how it was typed in another unit."""
-        if row["origin"] == "default":
-            return self.words.say("from_press", path=row["path"]) if row.get("path") else self.words["default"]
-        typed, shown = str(row.get("text") or row.get("path") or ""), row["display"]
-        plain = {shown["text"].replace(" ", ""), shown["text"].replace(" ", "") + shown["unit"]}
+        if row.origin == "default":
+            return self.words.say("from_press", path=row.path) if row.path else self.words["default"]
+        typed, shown = str(row.text or row.path or ""), row.display
+        plain = {shown.text.replace(" ", ""), shown.text.replace(" ", "") + shown.unit}
         return "" if typed.replace(" ", "") in plain or _is_choice(row) else typed
 
     def _number(self) -> str:
@@ -384,10 +385,10 @@ class Tables:
         return f"{self.letter}.{self.count}"
 
 
-def _is_choice(row: Data) -> bool:
+def _is_choice(row: QuantityRecord) -> bool:
     """Whether what was typed is a word of the contract, which the shown one says in words."""
-    typed = str(row.get("text") or "")
-    return row["value"] == typed and typed.replace("_", "").isalnum() and typed.islower() and not typed.isdigit()
+    typed = str(row.text or "")
+    return row.value == typed and typed.replace("_", "").isalnum() and typed.islower() and not typed.isdigit()
 
 
 def _head(description: str) -> str:

@@ -2,9 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping, Sequence
+from collections.abc import Callable, Collection, Iterator, Sequence
 from dataclasses import dataclass, field
-from typing import Any
 
 from markupsafe import Markup
 
@@ -13,9 +12,8 @@ from diecut_report.report.chapters.printed_tables import DASH, TableCell
 from diecut_report.report.chapters.repetition import Parts, Reference
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, in_words, number, quantity
+from diecut_report.results.model import ItemRecord, QuantityRecord
 from diecut_report.text.phrases import NAMING
-
-Data = Mapping[str, Any]
 
 
 @dataclass(frozen=True)
@@ -42,32 +40,32 @@ class ValueRow:
 
 
 def value_row(
-    item: Data, step: str, refers: Reference | None, note: str, decimal: str, names: Collection[str] = ()
+    item: ItemRecord, step: str, refers: Reference | None, note: str, decimal: str, names: Collection[str] = ()
 ) -> ValueRow:
     """A step of the results in one line."""
-    at = item.get("at")
-    place = symbol(at["symbol"]) + f" = {quantity(at['text'], at['unit'], decimal)}" if at else Markup("")
-    result = item["result"]
+    at = item.at
+    place = symbol(at.symbol) + f" = {quantity(at.text, at.unit, decimal)}" if at else Markup("")
+    result = item.outcome
     return ValueRow(
         number=step,
-        description=item["description"],
-        symbol=symbol(item["symbol"]),
-        value=quantity(in_words(result["text"], names), result["unit"], decimal),
+        description=item.description,
+        symbol=symbol(item.symbol),
+        value=quantity(in_words(result.text, names), result.unit, decimal),
         at=place,
-        source="" if refers else item["source"],
+        source="" if refers else item.source,
         refers=refers.number if refers else "",
         letters=tuple((symbol(new), symbol(old)) for new, old in refers.letters) if refers else (),
         note=note,
-        changed=item.get("changed", ""),
+        changed=item.before,
     )
 
 
-def listed_row(table: Data, decimal: str) -> ValueRow:
+def listed_row(table: ItemRecord, decimal: str) -> ValueRow:
     """A table of one quantity of numbered parts in one line."""
-    column = table["columns"][1]
-    numbers = [number(row[1], decimal) for row in table["rows"]]
-    value = quantity("", column["unit"]) if column["unit"] != "1" else ""
-    return ValueRow("", table["title"], symbol(column["symbol"]), "; ".join(numbers) + value)
+    column = table.columns[1]
+    numbers = [number(row[1], decimal) for row in table.rows]
+    value = quantity("", column.unit) if column.unit != "1" else ""
+    return ValueRow("", table.title, symbol(column.symbol), "; ".join(numbers) + value)
 
 
 # Inputs of a few repeated parts: a line for each quantity and a column for each part, so that what is said of a quantity has room.
@@ -105,15 +103,19 @@ class RecordTable:
         return any(row.note for row in self.rows)
 
 
+Origin = Callable[[QuantityRecord], str]
+"""What says where a value comes from."""
+
+
 def record_rows(
-    parts: Parts, cell: Callable[[Data, Callable[[Data], str]], TableCell], told: Callable[[Data], str]
+    parts: Parts, cell: Callable[[QuantityRecord, Origin], TableCell], told: Origin
 ) -> tuple[list[str], list[RecordRow]]:
     """Return the heads of the columns and the lines; ``told`` says where a value comes from."""
     heads = [str(number) for number in parts.numbers]
     lines = []
     for head, first in parts.heads:
         given = [parts.columns[head].get(number) for number in parts.numbers]
-        names = {str(each[1]["value"]): None for each in given if each} if head in NAMING else {}
+        names = {str(each[1].value): None for each in given if each} if head in NAMING else {}
         if len(names) == len(given):
             heads = list(names)
         else:
@@ -121,7 +123,7 @@ def record_rows(
     return heads, [_row(*line, heads) for line in lines]
 
 
-def _row(quantity: str, first: Data, cells: list[TableCell], heads: list[str]) -> RecordRow:
+def _row(quantity: str, first: QuantityRecord, cells: list[TableCell], heads: list[str]) -> RecordRow:
     """A line, and behind it what is to be said of its values: of all alike once, at length of each with its name."""
     said = [(head, cell.note) for head, cell in zip(heads, cells, strict=True) if cell.text != DASH]
     notes = {note for _, note in said}
@@ -131,8 +133,8 @@ def _row(quantity: str, first: Data, cells: list[TableCell], heads: list[str]) -
         is_long = any(len(note) > SHORT for note in notes)
         note = "\n".join(_named(said)) if is_long else ""
     kept = [TableCell(cell.text, "", cell.wordy, cell.changed) for cell in cells] if note else cells
-    unit = pretty(first["display"]["unit"])
-    return RecordRow(first["description"], symbol(first["symbol"]), unit, quantity, kept, note)
+    unit = pretty(first.display.unit)
+    return RecordRow(first.description, symbol(first.symbol), unit, quantity, kept, note)
 
 
 def _named(said: Sequence[tuple[str, str]]) -> Iterator[str]:

@@ -14,7 +14,9 @@ from matplotlib.figure import Figure
 from diecut_report.report.figures.charts import bars, chart, plot, polar, tornado_of
 from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, load_fonts, plain, style, text_size
+from diecut_report.report.model import Drawn
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import CurveRecord
 
 # The figures of the results by their type.
 
@@ -29,17 +31,21 @@ DRAW: dict[str, Callable[..., Any]] = {
 }
 
 
-def build(figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, size: SizesSize) -> Figure:
+def build(figure: Drawn, curves: Mapping[str, CurveRecord], words: Catalogue, size: SizesSize) -> Figure:
     """A figure of the results as matplotlib's, so large as its place on the page lets it be."""
-    made: Figure = DRAW[figure["type"]](figure, curves, words, size)
+    made: Figure = DRAW[figure.type](figure, curves, words, size)
     return made
 
 
 def render(
-    figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
+    figure: Drawn,
+    curves: Mapping[str, CurveRecord],
+    words: Catalogue,
+    key: str,
+    size: SizesSize = SizesSize.LARGE,
 ) -> Svg:
     """A figure of the results; ``key`` keeps its ids apart from those of the report's other figures."""
-    return drawn(partial(build, figure, curves, words, size), figure["title"], key)
+    return drawn(partial(build, figure, curves, words, size), figure.title, key)
 
 
 DENSITY = 200  # points an inch
@@ -57,7 +63,11 @@ class Raster(NamedTuple):
 
 
 def raster(
-    figure: Mapping[str, Any], curves: Mapping[str, Any], words: Catalogue, key: str, size: SizesSize = SizesSize.LARGE
+    figure: Drawn,
+    curves: Mapping[str, CurveRecord],
+    words: Catalogue,
+    key: str,
+    size: SizesSize = SizesSize.LARGE,
 ) -> Raster:
     """A figure of the results, drawn as ``by_type.render`` draws it; the same bytes for the same figure."""
     load_fonts()

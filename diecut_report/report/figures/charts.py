@@ -32,7 +32,9 @@ from diecut_report.report.figures.style import (
     plain,
     text_size,
 )
+from diecut_report.report.model import TornadoFigure
 from diecut_report.report.text import Catalogue, displayed, joined, number, sentence, significant
+from diecut_report.results.model import CurveRecord, FigureRecord
 
 Data = Mapping[str, Any]
 Array = NDArray[Any]
@@ -47,21 +49,25 @@ MANY = 4
 PAGE = 650.0  # no chart is higher
 
 
-def plot(figure: Data, curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
+def plot(
+    figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue, size: SizesSize = SizesSize.LARGE
+) -> Figure:
     """Curves of the results, over a common abscissa."""
     return _sheet(diagrams(figure, curves, words), words, size)
 
 
-def chart(figure: Data, curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
+def chart(
+    figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue, size: SizesSize = SizesSize.LARGE
+) -> Figure:
     """Lines that the figure brings itself, each diagram over what it likes."""
     return _sheet(diagrams(figure, curves, words), words, size)
 
 
-def diagrams(figure: Data, curves: Data, words: Catalogue) -> list[PanelData]:
+def diagrams(figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue) -> list[PanelData]:
     """What the diagrams of a plot or a chart hold, from top to bottom."""
-    if figure["type"] == "plot":
-        return [_of_curves(panel, curves, curves[figure["abscissa"]], words) for panel in figure["panels"]]
-    return [_of_lines(panel, words) for panel in figure["panels"]]
+    if figure.type == "plot":
+        return [_of_curves(panel, curves, curves[figure.abscissa], words) for panel in figure.panels]
+    return [_of_lines(panel, words) for panel in figure.panels]
 
 
 def _sheet(panels: list[PanelData], words: Catalogue, size: SizesSize) -> Figure:
@@ -127,11 +133,11 @@ def _named_once(drawn: list[Diagram]) -> list[Diagram]:
     return [diagram.naming({key for key, i in kept.items() if i == index}) for index, diagram in enumerate(drawn)]
 
 
-def _of_curves(panel: Data, curves: Data, over: Data, words: Catalogue) -> PanelData:
+def _of_curves(panel: Data, curves: Mapping[str, CurveRecord], over: CurveRecord, words: Catalogue) -> PanelData:
     """A panel of curves, over a whole turn where the abscissa is one."""
-    shown, across = panel["unit"], over["display_unit"]
+    shown, across = panel["unit"], over.display_unit
     period = period_of(over)
-    end = over["values"][0] + period if period else over["values"][-1]
+    end = over.values[0] + period if period else over.values[-1]
     lines = []
     for series in panel["series"]:
         x, y = continuous(curves[series["curve"]], over, period)
@@ -140,13 +146,13 @@ def _of_curves(panel: Data, curves: Data, over: Data, words: Catalogue) -> Panel
     return PanelData(
         title=panel["title"],
         unit=shown,
-        across=Across(sentence(over["description"]), over["symbol"], across, *(to_display(v, across) for v in (over["values"][0], end))),
+        across=Across(sentence(over.description), over.symbol, across, *(to_display(v, across) for v in (over.values[0], end))),
         lines=lines,
         marks=[_mark(mark, across, shown, words) for mark in panel["marks"]],
         levels=[_level(level, shown, words) for level in panel["levels"]],
         spans=[SpanData(span["from"] / factor, span["to"] / factor, span["label"]) for span in panel["spans"]],
         zero=True,
-        limits=limits_of(panel, shown),
+        limits=limits_of(panel.get("range"), shown),
     )  # fmt: skip
 
 
@@ -168,7 +174,7 @@ def _of_lines(panel: Data, words: Catalogue) -> PanelData:
         marks=marks,
         levels=[_level(level, shown, words) for level in panel["levels"]],
         verticals=verticals,
-        limits=limits_of(panel, shown),
+        limits=limits_of(panel.get("range"), shown),
     )
 
 
@@ -204,10 +210,10 @@ def _value(value: float, shown: str, words: Catalogue) -> str:
 TALL, BESIDE, LEAST = 17.0, 14.0, 56.0  # of a bar with its room, beside a group, and the least width for bars, points
 
 
-def bars(figure: Data, _curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
+def bars(figure: FigureRecord, _curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
     """Horizontal bars in groups side by side, in rows where they have no room; what is subtracted is hatched."""
-    groups, width = figure["groups"], WIDTHS[size]
-    rows = _rows(groups, figure.get("unit", ""), width)
+    groups, width = figure.groups, WIDTHS[size]
+    rows = _rows(groups, figure.unit, width)
     below = 8 if all("range" not in group for group in groups) else 20
     heights = [26 + TALL * max(len(group["bars"]) for group in row) + below for row in rows]
     height = 4 + sum(heights)
@@ -218,7 +224,7 @@ def bars(figure: Data, _curves: Data, words: Catalogue, size: SizesSize = SizesS
         for group, named in zip(row, names, strict=False):
             room, tall = _room(names, width), TALL * len(group["bars"])
             box = (left + named + 4) / width, (top - 22 - tall) / height, room / width, tall / height
-            _group(sheet.add_axes(box), width, group, group.get("unit") or figure["unit"], words)
+            _group(sheet.add_axes(box), width, group, group.get("unit") or figure.unit, words)
             left += named + room + BESIDE
         top -= step
     return sheet
@@ -259,7 +265,7 @@ def _group(axes: Axes, width: float, group: Data, shown: str, words: Catalogue) 
         )
         text = displayed(group["bars"][index]["value"], shown, words["decimal"])
         axes.annotate(text, (max(value, 0), row), (3, 0), textcoords="offset points", va="center_baseline", size=8)
-    _across(axes, width, values, limits_of(group, shown), words)
+    _across(axes, width, values, limits_of(group.get("range"), shown), words)
     axes.set_yticks(rows, [plain(bar["label"]) for bar in group["bars"]], va="center_baseline")
     axes.set_ylim(-0.6, len(values) - 0.4)
     axes.axvline(0, color=INK, linewidth=0.8)
@@ -297,9 +303,11 @@ SIDES = {SizesSize.LARGE: 100 * MM, SizesSize.LOW: 74 * MM, SizesSize.HALF: 74 *
 HEADS = {SizesSize.LARGE: 16.0, SizesSize.HALF: 30.0}  # above it: beside the uppermost angle, or higher
 
 
-def polar(figure: Data, curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
+def polar(
+    figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue, size: SizesSize = SizesSize.LARGE
+) -> Figure:
     """Size of curves as distance from the pole over an angle; what is negative has another line."""
-    over = curves[figure["abscissa"]]
+    over = curves[figure.abscissa]
     side, width = SIDES.get(size, SIDES[SizesSize.LOW]), WIDTHS[size]
     total = side + HEADS.get(size, HEADS[SizesSize.HALF])
     sheet = canvas(width, total)
@@ -307,9 +315,9 @@ def polar(figure: Data, curves: Data, words: Catalogue, size: SizesSize = SizesS
         ((width - side + 40) / 2 / width, 30 / total, (side - 40) / width, (side - 30) / total),
         projection="polar",
     )
-    for index, series in enumerate(figure["series"]):
+    for index, series in enumerate(figure.series):
         x, y = through_pole(*continuous(curves[series["curve"]], over, period_of(over)))
-        y = y / unit(figure["unit"]).factor
+        y = y / unit(figure.unit).factor
         for sign, shade in ((1, 0), (-1, 1)):
             colour, dashes, width = STROKES[(2 * index + shade) % len(STROKES)]
             said = f"{marked(series['label'])}, {words['positive' if sign > 0 else 'negative']}"
@@ -325,11 +333,11 @@ def polar(figure: Data, curves: Data, words: Catalogue, size: SizesSize = SizesS
     axes.set_xticks(np.radians(np.arange(0, TURN, 30)))
     axes.yaxis.set_major_locator(MaxNLocator(4, steps=[1, 2, 2.5, 5, 10]))
     axes.tick_params(pad=1)
-    low, high = limits_of(figure, figure["unit"]) or (None, None)
+    low, high = limits_of(figure.range, figure.unit) or (None, None)
     axes.set_ylim(low or 0, high)
     greatest = max(tick for tick in axes.get_yticks() if tick <= axes.get_ylim()[1])
-    axes.yaxis.set_major_formatter(FuncFormatter(lambda v, _: _radial(v, greatest, figure["unit"], words)))
-    sheet.text(0.02, 1 - 14 / total, titled(over["description"], over["symbol"], over["display_unit"]))
+    axes.yaxis.set_major_formatter(FuncFormatter(lambda v, _: _radial(v, greatest, figure.unit, words)))
+    sheet.text(0.02, 1 - 14 / total, titled(over.description, over.symbol, over.display_unit))
     sheet.legend(*axes.get_legend_handles_labels(), loc="lower center", ncols=2, borderaxespad=0.1)
     return sheet
 
@@ -360,9 +368,9 @@ def tornado(today: float, bars: Sequence[Mapping[str, Any]], told: str, key: str
     return drawn(partial(_tornado, today, bars, decimal), told, key)
 
 
-def tornado_of(figure: Mapping[str, Any], _curves: Any, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
+def tornado_of(figure: TornadoFigure, _curves: Any, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
     """Draw a figure of a report's chapter on influence."""
-    return _tornado(figure["today"], figure["bars"], words["decimal"])
+    return _tornado(figure.today, figure.bars, words["decimal"])
 
 
 def _tornado(today: float, bars: Sequence[Mapping[str, Any]], decimal: str) -> Figure:

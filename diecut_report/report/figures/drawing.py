@@ -33,6 +33,7 @@ from diecut_report.report.figures.style import (
     text_size,
 )
 from diecut_report.report.text import Catalogue, joined, number, significant
+from diecut_report.results.model import FigureRecord
 
 # Shapes of drawings as points: where they reach, circles and arcs, the strokes of hatched areas.
 
@@ -221,10 +222,10 @@ LONG = 50.0  # a text of so many points may be folded
 class DrawingSheet:
     """A drawing in work: shapes in points, what texts must keep clear of, and the box that all of it needs."""
 
-    def __init__(self, figure: Mapping[str, Any], words: Catalogue, room: Array) -> None:
-        self.shapes: list[Shape] = figure["shapes"]
-        self.unit: str = figure["unit"]
-        self.schematic: bool = figure.get("schematic", False)
+    def __init__(self, figure: FigureRecord, words: Catalogue, room: Array) -> None:
+        self.shapes: list[Shape] = [*figure.shapes]
+        self.unit: str = figure.unit
+        self.schematic: bool = figure.schematic
         self.words = words
         self.scale = scaled(self.shapes, room, schematic=self.schematic)
         corners = np.concatenate([extent(shape) for shape in self.shapes]) * self.scale.both
@@ -377,7 +378,7 @@ WORTH = 25.0  # what stands in the way of texts, for which the drawing is rather
 
 
 def drawing(
-    figure: Mapping[str, Any], _curves: Mapping[str, Any], words: Catalogue, size: SizesSize = SizesSize.LARGE
+    figure: FigureRecord, _curves: Mapping[str, Any], words: Catalogue, size: SizesSize = SizesSize.LARGE
 ) -> Figure:
     """The shapes of a drawing, as large as their place on the page lets them be, with a scale bar unless it is a schematic."""
     best, least = None, np.inf
@@ -393,11 +394,11 @@ def drawing(
     return best
 
 
-def _shares(figure: Mapping[str, Any], size: SizesSize) -> tuple[float, ...]:
+def _shares(figure: FigureRecord, size: SizesSize) -> tuple[float, ...]:
     """How large a drawing is tried: one with many texts is not made lower, nor is a scheme's sketch so small as others."""
-    if size is SizesSize.SKETCH and figure.get("schematic"):
+    if size is SizesSize.SKETCH and figure.schematic:
         return SCHEMES
-    texts = sum(bool(shape.get("text") or shape.get("label")) for shape in figure["shapes"])
+    texts = sum(bool(shape.get("text") or shape.get("label")) for shape in figure.shapes)
     return SHARES[SizesSize.LARGE if size is SizesSize.LOW and texts > MANY_TEXTS else size]
 
 

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
+from collections.abc import Iterator, Sequence
 from dataclasses import dataclass, field
 from itertools import chain
 from typing import Any, NamedTuple
@@ -224,11 +224,11 @@ class Frame(NamedTuple):
         return x0 + points[:, 0] / self.width * (x1 - x0), y0 + points[:, 1] / self.height * (y1 - y0)
 
 
-def limits_of(drawn: Mapping[str, Any], shown: str) -> tuple[float | None, float | None] | None:
+def limits_of(ends: Sequence[float | None] | None, shown: str) -> tuple[float | None, float | None] | None:
     """The range of an axis that is declared with what is drawn, in the unit that is shown; None where there is none."""
-    if "range" not in drawn:
+    if not ends:
         return None
-    low, high = (None if end is None else end / unit(shown).factor for end in drawn["range"])
+    low, high = (None if end is None else end / unit(shown).factor for end in ends)
     return low, high
 
 

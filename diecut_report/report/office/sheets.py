@@ -12,12 +12,19 @@ from diecut_report.report.context import Material
 from diecut_report.report.scope import parts, scope
 from diecut_report.report.text import Catalogue, significant
 from diecut_report.report.text import parts as sheet_parts
+from diecut_report.results.model import (
+    CheckRecord,
+    CurveRecord,
+    MechanismRecord,
+    QuantityRecord,
+    ResultsRecord,
+    ShownRecord,
+)
 from diecut_report.text.phrases import worded
 
 # A sheet of a workbook as data: its name, its heads, and rows of texts and numbers with the digits that they show.
 
 
-Data = Mapping[str, Any]
 LONGEST_NAME = 31  # letters of a sheet's name
 LONGEST_TEXT = 32_767  # letters of a cell
 _FORBIDDEN = re.compile(r"[\[\]:*?/\\\x00-\x1f]")
@@ -55,11 +62,11 @@ def form_of(text: str) -> str:
     return f"0{decimals}" + ("E+00" if found[3] else "")
 
 
-def shown(value: Any, display: Data) -> Cell:
+def shown(value: Any, display: ShownRecord) -> Cell:
     """Return a value of the results in its display unit, a number with its digits where it is one, else its text."""
-    if isinstance(value, bool) or not isinstance(value, int | float) or sheet_parts(display["text"]) is None:
-        return str(display["text"])
-    return CellNumber(converted(value, display["unit"]), form_of(display["text"]))
+    if isinstance(value, bool) or not isinstance(value, int | float) or sheet_parts(display.text) is None:
+        return str(display.text)
+    return CellNumber(converted(value, display.unit), form_of(display.text))
 
 
 def converted(value: float, unit: str) -> float:
@@ -131,7 +138,7 @@ def sheets(material: Material) -> list[WorkSheet]:
     results, words = scope(material.said).results, material.words
     whole = [_summary(material), _inputs(results, words), _results(results, words), _checks(results, words)]
     phases = _phases(results, words)
-    curves = [_curves(name, data, words) for name, data in parts(results) if data.get("curves")]
+    curves = [_curves(name, data, words) for name, data in parts(results) if data.curves]
     return [*whole, *([phases] if phases.rows else []), *curves]
 
 
@@ -143,15 +150,15 @@ def _summary(material: Material) -> WorkSheet:
     project += [(words[role], who) for role, who in document.block.signers if who]
     governing = document.governing
     told = [
-        (words["press"], document.press["name"]),
+        (words["press"], document.press.name),
         *project,
         (words["verdict"], " ".join([document.verdict, *(f"{count}." for count in document.counts)])),
         *([(words["governing"], f"{governing.mechanism}: {governing.title}, {governing.used}")] if governing else []),
         *((words["fail"], f"{row.mechanism}: {row.title}. {row.message}") for row in document.failures),
         *(("", note) for note in document.notes),
-        (words["calculated_by"], f"{document.program['name']} {document.program['version']}"),
-        (words["config_file"], document.config["file"]),
-        (words["sha256"], document.config["sha256"]),
+        (words["calculated_by"], f"{document.program.name} {document.program.version}"),
+        (words["config_file"], document.config.file),
+        (words["sha256"], document.config.sha256),
     ]
     rows: list[list[Cell]] = [[name, text] for name, text in told]
     rows += [[], [words["mechanism"], words["description"], *(words[status] for status in STATUSES), words["verdict"]]]
@@ -164,61 +171,54 @@ def _summary(material: Material) -> WorkSheet:
     )
 
 
-def _inputs(results: Data, words: Catalogue) -> WorkSheet:
+def _inputs(results: ResultsRecord, words: Catalogue) -> WorkSheet:
     heads = (*QUANTITY, "basis", "note", "origin", "typed")
-    rows = [_input("", field["path"], field, words) for field in results["press"]["fields"]]
-    rows += [_input(name, key, row, words) for name, data in parts(results) for key, row in _of(data, "inputs")]
+    rows = [_input("", field.path, field, words) for field in results.press.fields]
+    rows += [_input(name, key, row, words) for name, data in parts(results) for key, row in data.inputs.items()]
     widths = [16, 28, 52, 9, 14, 11, 16, 11, 14, 30, 16, 30]
     return WorkSheet(words["inputs"], [[words[head] for head in heads]], rows, widths, held=2)
 
 
-def _input(mechanism: str, key: str, row: Data, words: Catalogue) -> list[Cell]:
-    origin = row.get("origin", "given")
-    typed = row.get("text") or (row.get("path", "") if origin != "given" else "")
-    basis = words[row.get("basis", "given")]
-    return [mechanism, key, *_quantity(row), basis, row.get("note", ""), words[origin], str(typed or "")]
+def _input(mechanism: str, key: str, row: QuantityRecord, words: Catalogue) -> list[Cell]:
+    origin = row.origin or "given"
+    typed = row.text or (row.path if origin != "given" else "")
+    basis = words[(row.basis or "given")]
+    return [mechanism, key, *_quantity(row), basis, row.note, words[origin], str(typed or "")]
 
 
-def _quantity(row: Data) -> list[Cell]:
+def _quantity(row: QuantityRecord) -> list[Cell]:
     """Return description, symbol, value, unit, and value and unit as calculated."""
-    value, display = row["value"], row["display"]
+    value, display = row.value, row.display
     cell = shown(value, display)
     if isinstance(cell, str):
-        return [row["description"], row["symbol"], worded(cell), pretty(display["unit"]), None, ""]
-    return [row["description"], row["symbol"], cell, pretty(display["unit"]), si(value), pretty(row["unit"])]
+        return [row.description, row.symbol, worded(cell), pretty(display.unit), None, ""]
+    return [row.description, row.symbol, cell, pretty(display.unit), si(value), pretty(row.unit)]
 
 
-def _of(data: Data, what: str) -> Iterator[tuple[str, Data]]:
-    """Give the rows of a mechanism; none of one that was not calculated."""
-    yield from data.get(what, {}).items()
-
-
-def _results(results: Data, words: Catalogue) -> WorkSheet:
+def _results(results: ResultsRecord, words: Catalogue) -> WorkSheet:
     """The results; each value has its name: ``drive.crank_torque_peak``."""
     heads = (*QUANTITY, "place", "unit", "key_result", "source")
     sheet = WorkSheet(
         words["results"], [[words[head] for head in heads]], [], [16, 30, 52, 9, 14, 11, 16, 11, 14, 11, 10, 40], held=2
     )
     for name, data in parts(results):
-        for key, row in _of(data, "outputs"):
-            is_key = words["yes"] if row.get("key") else ""
-            sheet.rows.append([name, key, *_quantity(row), *_place(row), is_key, row.get("source", "")])
+        for key, row in data.outputs.items():
+            is_key = words["yes"] if row.key else ""
+            sheet.rows.append([name, key, *_quantity(row), *_place(row), is_key, row.source])
             sheet.names[defined_name(f"{name}.{key}", sheet.names)] = (len(sheet.rows) + 1, 5)
     return sheet
 
 
-def _place(row: Data) -> list[Cell]:
+def _place(row: QuantityRecord) -> list[Cell]:
     """Return where an extreme lies, and the unit with the symbol of that."""
-    at = row.get("at")
+    at = row.at
     if not at:
         return [None, ""]
-    value = (
-        CellNumber(converted(at["value"], at["unit"]), form_of(at["text"])) if "value" in at else printed(at["text"])
-    )
-    return [value, f"{pretty(at['unit'])} ({at['symbol']})"]
+    value = CellNumber(converted(at.value, at.unit), form_of(at.text)) if at.value is not None else printed(at.text)
+    return [value, f"{pretty(at.unit)} ({at.symbol})"]
 
 
-def _checks(results: Data, words: Catalogue) -> WorkSheet:
+def _checks(results: ResultsRecord, words: Catalogue) -> WorkSheet:
     heads = (
         "mechanism",
         "path",
@@ -235,59 +235,59 @@ def _checks(results: Data, words: Catalogue) -> WorkSheet:
         "missing",
         "source",
     )
-    rows = [_check(name, check, words) for name, data in parts(results) for check in data.get("checks", ())]
+    rows = [_check(name, check, words) for name, data in parts(results) for check in data.checks]
     widths = [16, 24, 44, 11, 12, 14, 4, 14, 11, 11, 14, 70, 30, 40]
     return WorkSheet(words["checks"], [[words[head] if head else "" for head in heads]], rows, widths, held=3)
 
 
-def _check(name: str, check: Data, words: Catalogue) -> list[Cell]:
-    sides = {side: check[f"{side}_display"] for side in ("demand", "limit", "margin")}
-    unit = next((display["unit"] for display in sides.values() if display), "1")
-    demand, limit = (_side(check[side], sides[side], unit) for side in ("demand", "limit"))
-    margin = _margin(demand, limit, sides["margin"], unit)
-    share = check["utilisation"]
+def _check(name: str, check: CheckRecord, words: Catalogue) -> list[Cell]:
+    sides = (check.demand_display, check.limit_display, check.margin_display)
+    unit = next((display.unit for display in sides if display), "1")
+    demand, limit = _side(check.demand, sides[0], unit), _side(check.limit, sides[1], unit)
+    margin = _margin(demand, limit, sides[2], unit)
+    share = check.utilisation
     return [
-        name, check["id"], check["title"], words[f"class_{check['class']}"] if check.get("class") else "", words[check["status"]],
-        demand, check["operator"], limit, pretty(unit), None if share is None else CellNumber(share, SHARE), margin,
-        check["message"], ", ".join(check.get("missing", ())), check["source"],
+        name, check.id, check.title, words[f"class_{check.check_class}"], words[check.status],
+        demand, check.operator, limit, pretty(unit), None if share is None else CellNumber(share, SHARE), margin,
+        check.message, ", ".join(check.missing), check.source,
     ]  # fmt: skip
 
 
-def _side(value: float | None, display: Data | None, unit: str) -> Cell:
+def _side(value: float | None, display: ShownRecord | None, unit: str) -> Cell:
     """Return a side of a check as a number of the unit that all of the check stands in."""
     if value is None or display is None:
         return None
-    return shown(value, display) if display["unit"] == unit else CellNumber(converted(value, unit))
+    return shown(value, display) if display.unit == unit else CellNumber(converted(value, unit))
 
 
-def _margin(demand: Cell, limit: Cell, display: Data | None, unit: str) -> Cell:
+def _margin(demand: Cell, limit: Cell, display: ShownRecord | None, unit: str) -> Cell:
     """Return what is left to the limit, in the unit of the check, with the digits that the report prints."""
     if display is None or not isinstance(demand, CellNumber) or not isinstance(limit, CellNumber):
         return None
-    form = form_of(display["text"]) if display["unit"] == unit else "General"
+    form = form_of(display.text) if display.unit == unit else "General"
     return CellNumber(float(f"{limit.value - demand.value:.15g}"), form)
 
 
-def _phases(results: Data, words: Catalogue) -> WorkSheet:
+def _phases(results: ResultsRecord, words: Catalogue) -> WorkSheet:
     heads = ("mechanism", "path", "phase", "role", "from", "to", "length", "unit", "time_ms")
     rows: list[list[Cell]] = []
     for name, data in parts(results):
-        for key, phase in _of(data, "phases"):
-            display = phase["display"]
-            for (start, end), interval in zip(phase["intervals"], display["intervals"], strict=True):
+        for key, phase in data.phases.items():
+            display = phase.display
+            for (start, end), interval in zip(phase.intervals, display.intervals, strict=True):
                 ends = [
-                    CellNumber(converted(value, display["unit"]), form_of(interval[each]))
-                    for each, value in (("from", start), ("to", end), ("length", end - start))
+                    CellNumber(converted(value, display.unit), form_of(text))
+                    for text, value in ((interval.begin, start), (interval.to, end), (interval.length, end - start))
                 ]
-                time = printed(interval["time"]) if "time" in interval else None
+                time = printed(interval.time) if interval.time else None
                 rows.append(
                     [
                         name,
                         key,
-                        phase["description"],
-                        words[f"role_{phase['role']}"],
+                        phase.description,
+                        words[f"role_{phase.role}"],
                         *ends,
-                        pretty(display["unit"]),
+                        pretty(display.unit),
                         time,
                     ]
                 )
@@ -296,28 +296,28 @@ def _phases(results: Data, words: Catalogue) -> WorkSheet:
     )
 
 
-def _curves(name: str, data: Data, words: Catalogue) -> WorkSheet:
+def _curves(name: str, data: MechanismRecord, words: Catalogue) -> WorkSheet:
     """The samples of all curves, each beside its abscissa: names with units above, what they are below."""
-    columns = list(_columns(data["curves"]))
-    heads = [[f"{key} [{pretty(curve['display_unit']) or '1'}]" for key, curve in columns]]
-    heads.append([f"{curve['description']} {curve['symbol']}".strip() for _, curve in columns])
+    columns = list(_columns(data.curves))
+    heads = [[f"{key} [{pretty(curve.display_unit) or '1'}]" for key, curve in columns]]
+    heads.append([f"{curve.description} {curve.symbol}".strip() for _, curve in columns])
     values = [_samples(curve) for _, curve in columns]
     longest = max(map(len, values), default=0)
     rows: list[list[Cell]] = [[each[row] if row < len(each) else None for each in values] for row in range(longest)]
     return WorkSheet(name, heads, rows, [18] * len(columns))
 
 
-def _columns(curves: Data) -> Iterator[tuple[str, Data]]:
+def _columns(curves: Mapping[str, CurveRecord]) -> Iterator[tuple[str, CurveRecord]]:
     """Give the curves in groups, each behind its abscissa."""
-    axes = dict.fromkeys(curve["abscissa"] for curve in curves.values() if "abscissa" in curve)
+    axes = dict.fromkeys(curve.abscissa for curve in curves.values() if curve.abscissa)
     for axis in axes:
         yield axis, curves[axis]
-        yield from ((key, curve) for key, curve in curves.items() if curve.get("abscissa") == axis and key not in axes)
+        yield from ((key, curve) for key, curve in curves.items() if curve.abscissa == axis and key not in axes)
 
 
-def _samples(curve: Data) -> list[Cell]:
+def _samples(curve: CurveRecord) -> list[Cell]:
     """Return a curve's values in its display unit, with as many digits as its greatest one asks for; of very many some, evenly."""
-    step = -(-len(curve["values"]) // MOST_CURVE_ROWS) or 1
-    values = [None if value is None else converted(value, curve["display_unit"]) for value in curve["values"][::step]]
-    form = form_of(significant(max((abs(value) for value in values if value is not None), default=0.0), DIGITS))
-    return [None if value is None else CellNumber(value, form) for value in values]
+    step = -(-len(curve.values) // MOST_CURVE_ROWS) or 1
+    values = [converted(value, curve.display_unit) for value in curve.values[::step]]
+    form = form_of(significant(max(map(abs, values), default=0.0), DIGITS))
+    return [CellNumber(value, form) for value in values]

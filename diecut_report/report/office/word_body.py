@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from base64 import b64decode
 from collections.abc import Callable, Iterable, Mapping, Sequence
-from typing import TYPE_CHECKING, Any
+from typing import TYPE_CHECKING
 
 from markupsafe import Markup
 
@@ -32,6 +32,7 @@ from diecut_report.report.office.wordml import (
 )
 from diecut_report.report.symbols import own_words, prose
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import LogoRecord
 
 if TYPE_CHECKING:
     from diecut_report.report.figures.by_type import Raster
@@ -241,7 +242,7 @@ WIDEST, HIGHEST = 144.0, 48.0  # points
 POINTS = 0.75  # to a pixel
 
 
-def logo(body: WordBody, given: Mapping[str, Any], owner: str, embed_svg: Callable[[bytes], str]) -> None:
+def logo(body: WordBody, given: LogoRecord, owner: str, embed_svg: Callable[[bytes], str]) -> None:
     """Show the logo of the results; ``embed_svg`` puts an SVG into the file and returns what names it there.
 
     Word shows the SVG since 2016. Older programs show the picture of points beside it: as nothing here draws an SVG as one,
@@ -249,11 +250,11 @@ def logo(body: WordBody, given: Mapping[str, Any], owner: str, embed_svg: Callab
     """
     from diecut_report.report.figures.by_type import Raster, raster_of_text  # with matplotlib
 
-    content = b64decode(given["base64"])
+    content = b64decode(given.base64)
     told = owner or body.words["logo"]
     width, height = (POINTS * side for side in natural_size(content))
     scale = min(WIDEST / width, HIGHEST / height)
-    if given["media_type"] == SVG:
+    if given.media_type == SVG:
         plain = raster_of_text(told, width * scale, height * scale)
         body.say(body.drawn(plain, told, embed_svg(content)))
     else:

@@ -2,8 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator, Mapping, Sequence
-from typing import Any
+from collections.abc import Iterator, Sequence
 
 from markupsafe import Markup
 
@@ -29,6 +28,7 @@ from diecut_report.report.office.wordml import (
 from diecut_report.report.scope import BRIEF, FULL
 from diecut_report.report.symbols import SymbolRow, own_words, prose
 from diecut_report.report.text import joined
+from diecut_report.results.model import ProgramRecord
 
 # What stands before the chapters of a DOCX: title block, contents, summary with the verdict, changes.
 
@@ -47,7 +47,7 @@ def title_block(body: WordBody, document: ReportDocument) -> None:
     )
     body.say(run(document.title), "Title")
     body.say(bold(words["across"]) if block.is_held else "")
-    body.say(run(machine_named(document.press["name"], words)))
+    body.say(run(machine_named(document.press.name, words)))
     facts = [*((words[name], project[of]) for name, of in FACTS), (words["status"], block.status)]
     cells = [small(name) + new_line() + bold(text or "–") for name, text in facts]
     body.table([TableColumn("", 1)] * len(facts), [cells], headed=False)
@@ -110,7 +110,7 @@ def influence(body: WordBody, document: ReportDocument) -> None:
     for each in found.tornados:
         body.subheading(each.title)
         if each.rows:
-            body.figure(each.number, each.figure["title"], words["influence_caption"])
+            body.figure(each.number, each.figure.title, words["influence_caption"])
             body.table(columns, [[key(name), *map(run, values)] for name, *values in each.rows])
         body.tell(each.rest)
     if found.chances:
@@ -214,7 +214,7 @@ def check_table(body: WordBody, rows: Sequence[CheckRow]) -> None:
 def changes(body: WordBody, document: ReportDocument, found: PrintedChanges) -> None:
     """What changed since the former revision."""
     words = document.words
-    body.heading(1, "", former({"old": found.old, "new": found.new}, words), "changes")
+    body.heading(1, "", former(found.old, found.new, words), "changes")
     if not found:
         body.tell(words["no_changes"])
     _pairs(body, "changed_mechanisms", "mechanism", found.mechanisms)
@@ -281,7 +281,7 @@ def key_results(body: WordBody, document: ReportDocument) -> None:
             continue
         body.quantities(chapter.key_results, sourced=False)
         for number, figure in chapter.figures:
-            body.figure(number, figure["title"], "")
+            body.figure(number, figure.title, "")
     body.tell(words["more_in"], "Why")
 
 
@@ -447,7 +447,7 @@ def _rest(body: WordBody, part: PrintedChapter) -> None:
         [[key(each.name), rich(prose(each.content))] for each in part.files],
     )
     _head(body, part.parts.get("absent"))
-    body.listed(bold(str(each["title"])) + run(": ") + rich(prose(each["text"])) for each in part.absent)
+    body.listed(bold(str(each.title)) + run(": ") + rich(prose(each.text)) for each in part.absent)
     _head(body, part.parts.get("symbols"))
     columns = [body.head("symbol", 1), body.head("quantity", 6), body.head("unit", 1)]
     body.table(columns, [[rich(row.symbol), _meaning(body, row), run(row.unit)] for row in part.symbols])
@@ -474,13 +474,13 @@ def closing(body: WordBody, document: ReportDocument, digest: str) -> None:
     rows = [
         [
             run(words["calculated_by"]),
-            run(f"{program['name']} {program['version']}") + _hash(body, program.get("source_sha256")),
+            run(f"{program.name} {program.version}") + _hash(body, program.source_sha256),
         ],
-        *([run(words["extension"]), key(name) + _hash(body, digest)] for name, digest in _extensions(program).items()),
-        *([[run(words["libraries"]), run(_versions(program))]] if program.get("libraries") else ()),
-        [run(words["config_file"]), run(document.config["file"])],
-        [run(words["sha256"]), key(document.config["sha256"])],
-        *([run(file["file"]), key(file["sha256"])] for file in document.config.get("materials", ())),
+        *([run(words["extension"]), key(name) + _hash(body, digest)] for name, digest in program.extensions.items()),
+        *([[run(words["libraries"]), run(_versions(program))]] if program.libraries else ()),
+        [run(words["config_file"]), run(document.config.file)],
+        [run(words["sha256"]), key(document.config.sha256)],
+        *([run(file.file), key(file.sha256)] for file in document.config.materials),
         [run(f"{words['carried_results']}, {words['sha256']}"), key(digest)],
     ]
     body.table([TableColumn("", 2), TableColumn("", 6)], rows, headed=False)
@@ -503,13 +503,8 @@ def _foreign(body: WordBody, part: PrintedChapter) -> Inline:
     return told + (run(f", {body.words[f'plugin_{part.source_check}']}") if part.source_check else "")
 
 
-def _versions(program: Mapping[str, Any]) -> str:
-    return ", ".join(f"{name} {version}" for name, version in program["libraries"].items())
-
-
-def _extensions(program: Mapping[str, object]) -> Mapping[str, str]:
-    found = program.get("extensions")
-    return found if isinstance(found, Mapping) else {}
+def _versions(program: ProgramRecord) -> str:
+    return ", ".join(f"{name} {version}" for name, version in program.libraries.items())
 
 
 def _hash(body: WordBody, digest: object) -> Inline:
@@ -542,5 +537,5 @@ def appendix(body: WordBody, document: ReportDocument) -> None:
         for table in part.curves:
             body.data_table(table)
     body.heading(2, "5.3", words["configuration"], "configuration")
-    for line in document.config["source_text"].splitlines():
+    for line in document.config.source_text.splitlines():
         body.parts.append(f'<w:p><w:pPr><w:pStyle w:val="Listing"/></w:pPr>{run(line)}</w:p>')

@@ -113,7 +113,7 @@ def set_page(made: Document, document: ReportDocument) -> None:
     section.top_margin, section.bottom_margin = Mm(24), Mm(20)
     section.header_distance = section.footer_distance = Mm(10)
     words, project = document.words, document.project
-    left = " · ".join(filter(None, (project["organisation"] or document.press["name"], document.title)))
+    left = " · ".join(filter(None, (project["organisation"] or document.press.name, document.title)))
     numbered = [
         f"{words[name]} {project[of] or '–'}"
         for name, of in (("document", "document_number"), ("revision", "revision"))
@@ -126,9 +126,7 @@ def set_page(made: Document, document: ReportDocument) -> None:
         + small(f" {words['of']} ")
         + field("NUMPAGES", "1", "Small")
     )
-    _replace(
-        section.footer._element, small(f"{document.program['name']} {document.program['version']}") + _tab() + sheet
-    )
+    _replace(section.footer._element, small(f"{document.program.name} {document.program.version}") + _tab() + sheet)
 
 
 def _tab() -> str:
@@ -156,8 +154,8 @@ def describe(made: Document, document: ReportDocument, when: Any) -> None:
     """Say whose it is and what it holds, where programs and archives look for it."""
     told, project = made.core_properties, document.project
     told.title, told.subject = (holdable(text)[:255] for text in (document.title, project["document_number"]))
-    told.author = told.last_modified_by = holdable(project["prepared_by"] or document.program["name"])[:255]
-    told.comments = f"{document.program['name']} {document.program['version']}"[:255]
+    told.author = told.last_modified_by = holdable(project["prepared_by"] or document.program.name)[:255]
+    told.comments = f"{document.program.name} {document.program.version}"[:255]
     told.language, told.version = document.words.language, holdable(project["revision"])[:255]
     told.created = told.modified = when
     told.revision, told.keywords = 1, ""
@@ -174,7 +172,7 @@ def word_file(material: Material) -> bytes:
     describe(made, document, DATE)
     _without_thumbnail(made)
     body = WordBody(document.words, material.rasters, material.why_not_drawn, partial(_embedded, made))
-    if found := material.results["config"].get("logo"):
+    if found := material.results.config.logo:
         logo(body, found, document.project["organisation"], partial(_embedded_svg, made))
     with letters_declared(*material.letters):
         _write(body, material)

@@ -188,7 +188,7 @@ def _describe(book: Workbook, material: Material) -> None:
     project, document = material.document.project, material.document
     told = book.properties
     told.title, told.subject = holdable(document.title), holdable(project["document_number"])
-    told.creator = told.lastModifiedBy = holdable(project["prepared_by"] or document.program["name"])
-    told.description = holdable(f"{document.program['name']} {document.program['version']}")
+    told.creator = told.lastModifiedBy = holdable(project["prepared_by"] or document.program.name)
+    told.description = holdable(f"{document.program.name} {document.program.version}")
     told.language, told.version = document.words.language, holdable(project["revision"])
     told.created = told.modified = DATE

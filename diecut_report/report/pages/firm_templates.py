@@ -32,10 +32,12 @@ from jinja2.filters import do_round
 from jinja2.runtime import BlockReference, Context, LoopContext, Macro, TemplateReference, Undefined
 from jinja2.sandbox import ImmutableSandboxedEnvironment
 from jinja2.utils import Cycler, Joiner, Namespace
+from pydantic import BaseModel
 
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.report.pages.page_policy import fetched_by_css
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import Record
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.time_limit import Overran, limited
 
@@ -157,12 +159,11 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
         of_class = getattr(type(obj), attr, None)
         if attr in _names(obj) or of_class in self.functions:
             return True
-        is_record = is_dataclass(obj) or hasattr(type(obj), "_fields")
-        return is_record and (attr in _field_names(obj) or isinstance(of_class, property | cached_property))
+        is_own = isinstance(of_class, property | cached_property) and not hasattr(BaseModel, attr)
+        return _is_record(obj) and (attr in _field_names(obj) or is_own)
 
     def _is_shown(self, value: Any) -> bool:
-        shown = isinstance(value, (*PLAIN, *OF_JINJA)) or (is_dataclass(value) and not isinstance(value, type))
-        return shown or self.is_safe_callable(value)
+        return isinstance(value, (*PLAIN, *OF_JINJA)) or _is_record(value) or self.is_safe_callable(value)
 
     def _is_listed(self, obj: Any) -> bool:
         if not isinstance(obj, FunctionType | BuiltinFunctionType | MethodType | type):
@@ -182,7 +183,14 @@ def _names(obj: Any) -> frozenset[str]:
     return next((names for kind, names in METHODS.items() if isinstance(obj, kind)), frozenset())
 
 
+def _is_record(obj: Any) -> bool:
+    """Whether an object is of a class of plain data: a data class, a named tuple, or a part of the results."""
+    return not isinstance(obj, type) and (is_dataclass(obj) or isinstance(obj, Record) or hasattr(type(obj), "_fields"))
+
+
 def _field_names(obj: Any) -> Collection[str]:
+    if isinstance(obj, Record):
+        return type(obj).model_fields
     return [each.name for each in fields(obj)] if is_dataclass(obj) else obj._fields
 
 

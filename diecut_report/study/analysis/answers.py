@@ -25,6 +25,7 @@ from diecut_report.quantities.units import unit
 from diecut_report.report.text import number
 from diecut_report.results.checks import NOT_CHECKED
 from diecut_report.results.conclusion import governing
+from diecut_report.results.model import MoveRecord, ResultsRecord
 from diecut_report.results.origins import MOVES
 from diecut_report.study.analysis.query import Question, Request, Row, question
 from diecut_report.study.analysis.variant_config import variant_of
@@ -268,15 +269,15 @@ Data = Mapping[str, Any]
 SHARE = 0.1  # of a value, downwards and upwards
 
 
-def moves(config: Config, results: Data) -> list[dict[str, Any]]:
+def moves(config: Config, results: ResultsRecord) -> list[MoveRecord]:
     """Return the assumed values that move a governing check of a mechanism: path, check and change of its utilisation.
 
     Mechanisms whose plugin cannot take arrays are left out, with those that refer to them.
     """
-    varied = {path: found for path in results["summary"]["assumed"] if (found := _number(config, path))}
+    varied = {path: found for path in results.summary.assumed if (found := _number(config, path))}
     # the governing check of each mechanism, the press's first
-    known = [results.get("governing"), *(governing({name: data}) for name, data in results["mechanisms"].items())]
-    names = list(dict.fromkeys(f"{each['mechanism']}.checks.{each['check']}" for each in known if each))
+    known = [results.governing, *(governing({name: data.checks}) for name, data in results.mechanisms.items())]
+    names = list(dict.fromkeys(f"{each.mechanism}.checks.{each.check}" for each in known if each))
     if not varied or not names:
         return []
     try:
@@ -323,7 +324,7 @@ def _columns(varied: list[tuple[Input, float]]) -> Iterator[tuple[Input, Array]]
         yield asked, column
 
 
-def _moved(made: CalculatedVariants, paths: list[str], names: list[str]) -> Iterator[dict[str, Any]]:
+def _moved(made: CalculatedVariants, paths: list[str], names: list[str]) -> Iterator[MoveRecord]:
     found = verdicts(made.calculations, made.count)
     rows = {name: index for index, name in enumerate(found.names)}
     known = [name for name in names if name in rows]
@@ -332,7 +333,7 @@ def _moved(made: CalculatedVariants, paths: list[str], names: list[str]) -> Iter
         changes = {name: _change(found.ratios[rows[name]], at) for name in known}
         name = max(changes, key=lambda each: changes[each], default="")
         if name and changes[name] > MOVES:
-            yield {"path": path, "check": name.replace(".checks.", "."), "change": float(f"{changes[name]:.6g}")}
+            yield MoveRecord(path=path, check=name.replace(".checks.", "."), change=float(f"{changes[name]:.6g}"))
 
 
 def _change(utilisation: Array, at: list[int]) -> float:

@@ -16,7 +16,7 @@ import docx
 import pytest
 
 from diecut_report.report.rendering import Rendering
-from tests.report.made_results import sample
+from tests.report.made_results import sample, typed
 
 Data = dict[str, Any]
 W = "{http://schemas.openxmlformats.org/wordprocessingml/2006/main}"
@@ -44,7 +44,7 @@ def without_figures(detail: str) -> Data:
 @pytest.fixture(scope="module")
 def rendering() -> Rendering:
     """The sample in full."""
-    return Rendering(without_figures("full"))
+    return Rendering(typed(without_figures("full")))
 
 
 @pytest.fixture(scope="module")
@@ -75,10 +75,12 @@ def lines_of(content: bytes) -> Iterator[list[str]]:
 
 def test_every_result_stands_in_a_table_rightly_rounded(small_report: Path) -> None:
     results = json.loads((small_report / "small.json").read_text("utf-8"))
-    results["report"] = {"detail": "full"}
+    results["report"]["detail"] = "full"
     for mechanism in results["mechanisms"].values():
         mechanism["figures"] = []
-    rows = {(line[0], line[2].replace("\u202f", "")) for line in lines_of(Rendering(results).docx()) if len(line) > 2}
+    rows = {
+        (line[0], line[2].replace("\u202f", "")) for line in lines_of(Rendering(typed(results)).docx()) if len(line) > 2
+    }
     outputs = results["mechanisms"]["clutch"]["outputs"].values()
     assert len(outputs) > 5
     assert {(row["description"], row["display"]["text"].replace("-", "−")) for row in outputs} <= rows
@@ -120,7 +122,7 @@ def test_a_figure_has_words_for_those_who_do_not_see_it_and_fits_the_page(conten
 
 
 def test_a_brief_report_has_key_results_and_no_formula() -> None:
-    content = Rendering(without_figures("brief")).docx()
+    content = Rendering(typed(without_figures("brief"))).docx()
     root = part(content)
     assert not list(root.iter(f"{M}oMath")) and "Key results" in texts(root)
     headings = [
@@ -138,7 +140,7 @@ def test_elements_stand_in_the_order_of_their_schema(content: bytes) -> None:
 
 
 def test_equal_results_give_equal_bytes_without_a_time(content: bytes) -> None:
-    assert Rendering(without_figures("full")).docx() == content
+    assert Rendering(typed(without_figures("full"))).docx() == content
     with ZipFile(io.BytesIO(content)) as archive:
         assert {member.date_time for member in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}
     told = docx.Document(io.BytesIO(content)).core_properties
@@ -157,7 +159,7 @@ def test_a_hostile_title_is_a_text() -> None:
     results["mechanisms"]["cylinder"]["figures"] = []
     results["mechanisms"]["cylinder"] |= {"title": hostile, "summary": hostile}
     results["mechanisms"]["cylinder"]["sections"][0]["items"][0]["symbol"] = 'c<m:t>"_&'
-    root = part(Rendering(results).docx())
+    root = part(Rendering(typed(results)).docx())
     shown = 'a<w:t>&"\ufffd\ufffd\ufffd</w:p>]]>{{ x }}'
     assert texts(root).count(shown) >= 5 and 'c<m:t>"' in texts(root)
 
@@ -167,7 +169,7 @@ def test_the_language_is_told_to_the_word_processor(content: bytes) -> None:
 
 
 def test_inputs_left_at_their_default_stand_with_symbol_and_unit_as_on_the_page() -> None:
-    rendering = Rendering(without_figures("standard"))
+    rendering = Rendering(typed(without_figures("standard")))
     told = re.findall(r'<p class="run-in"><strong>Left at its default</strong>(.*?)</p>', rendering.html())
     on_page = {"".join(html.unescape(re.sub(r"<[^>]*>", "", line)).split()) for line in told}
     lines = texts(part(rendering.docx())).splitlines()

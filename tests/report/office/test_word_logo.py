@@ -11,6 +11,7 @@ import pytest
 
 from diecut_report.pictures import natural_size
 from diecut_report.report.rendering import Rendering
+from tests.report.made_results import typed
 from tests.report.office.test_word_file import part, without_figures
 from tests.test_pictures import png, svg
 
@@ -31,7 +32,7 @@ def word(content: bytes, media_type: str) -> bytes:
         "base64": base64.b64encode(content).decode(),
     }
     found["project"]["organisation"] = "Works & Sons $x^2$"
-    return Rendering(found).docx()
+    return Rendering(typed(found)).docx()
 
 
 def media(file: bytes) -> dict[str, bytes]:

@@ -14,6 +14,9 @@ import pytest
 
 from diecut_report.report.office.sheets import defined_name, form_of, sheet_names
 from diecut_report.report.rendering import Rendering
+from diecut_report.results.model import ResultsRecord
+from diecut_report.results.results_file import results_text
+from tests.report.made_results import typed
 
 Data = dict[str, Any]
 HOSTILE = '=HYPERLINK("http://example.com";"x")'
@@ -21,7 +24,7 @@ HOSTILE = '=HYPERLINK("http://example.com";"x")'
 
 def opened(results: Data) -> Any:
     """The workbook of results as a reader finds it."""
-    return openpyxl.load_workbook(io.BytesIO(Rendering(results).xlsx()))
+    return openpyxl.load_workbook(io.BytesIO(Rendering(typed(results)).xlsx()))
 
 
 def as_shown(cell: Any) -> str:
@@ -124,7 +127,7 @@ def test_the_curves_stand_beside_their_abscissa_with_a_bounded_number_of_rows(pl
 def test_a_text_is_never_a_formula_and_holds_no_control_character(plain: Data) -> None:
     plain["project"] |= {"title": HOSTILE, "document_number": "@SUM(A1)", "organisation": "a\x00\x1bb\ufffe"}
     plain["mechanisms"]["cylinder"]["inputs"]["material"]["display"]["text"] = "+1+cmd|' /C calc'!A0"
-    content = Rendering(plain).xlsx()
+    content = Rendering(typed(plain)).xlsx()
     book = openpyxl.load_workbook(io.BytesIO(content))
     cells = [cell for sheet in book for row in sheet.iter_rows() for cell in row if cell.value is not None]
     assert {cell.data_type for cell in cells} == {"s", "n"}
@@ -136,7 +139,10 @@ def test_a_text_is_never_a_formula_and_holds_no_control_character(plain: Data) -
 
 
 def test_equal_results_give_equal_bytes_without_a_time(plain: Data) -> None:
-    first, second = Rendering(plain).xlsx(), Rendering(json.loads(json.dumps(plain))).xlsx()
+    first, second = (
+        Rendering(typed(plain)).xlsx(),
+        Rendering(ResultsRecord.model_validate_json(results_text(typed(plain)))).xlsx(),
+    )
     assert first == second
     with ZipFile(io.BytesIO(first)) as archive:
         assert {member.date_time for member in archive.infolist()} == {(1980, 1, 1, 0, 0, 0)}

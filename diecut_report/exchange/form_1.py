@@ -1,0 +1,47 @@
+"""Results files of form 1 (up to 1.7), which kept how a text was made beside the texts, by the English sentence."""
+
+from __future__ import annotations
+
+from collections.abc import Mapping
+from typing import Any
+
+from diecut_report.results.model import WORDINGS, ResultsRecord
+from diecut_report.text.phrases import Phrase, message_of
+
+FIRST = "1.0"
+
+
+def is_own(results: Mapping[str, Any]) -> bool:
+    """Return whether results are of form 1; those before 1.3 do not report their form."""
+    return str(results.get("form_version", FIRST)).startswith("1.")
+
+
+def results_of(results: Mapping[str, Any]) -> ResultsRecord:
+    """Return results of form 1; ValueError (of pydantic) with all that is wrong with them."""
+    wordings = results.get("wordings", {})
+    made = {text: _message(wording) for text, wording in wordings.items()} if isinstance(wordings, dict) else {}
+    own = {key: part for key, part in results.items() if key != "wordings"}
+    context = {WORDINGS: {text: each for text, each in made.items() if each == text}}
+    return ResultsRecord.model_validate({"form_version": FIRST} | own, context=context)
+
+
+def _message(wording: Any) -> Phrase | None:
+    """A text with its template and values; None where it is not one."""
+    try:
+        return message_of(_data(wording))
+    except (ValueError, RecursionError):
+        return None
+
+
+def _data(wording: Any) -> Any:
+    if not isinstance(wording, dict):
+        return wording
+    values = {name: _data(each) for name, each in (wording.get("values") or {}).items()}
+    counted = {key: wording[key] for key in ("one", "count") if key in wording}
+    made = {"template": wording.get("text"), "values": values} | counted
+    filled = Phrase(str(made["template"]), {name: _text(each) for name, each in values.items()})
+    return made | {"text": str.__str__(filled)}
+
+
+def _text(value: Any) -> str:
+    return value["text"] if isinstance(value, dict) else str(value)
