@@ -5,7 +5,7 @@ from typing import Annotated
 from diecut_report.formulas.formula import Formula, formula
 from diecut_report.formulas.tree import GRAVITY, Constant, arccos, as_angle, as_number
 from diecut_report.mechanism.chapters import Chapter, Steps, prefixed
-from diecut_report.mechanism.checks import Check, Refusal
+from diecut_report.mechanism.checks import AdviceWay, Check, Refusal, Vary
 from diecut_report.mechanism.curve_inputs import (
     CurveInput,
     FromTable,
@@ -116,6 +116,7 @@ __all__ = [
     "POINTS",
     "Abscissa",
     "Accumulated",
+    "AdviceWay",
     "Annotated",
     "BarGroup",
     "Bars",
@@ -200,6 +201,7 @@ __all__ = [
     "Text",
     "Total",
     "Value",
+    "Vary",
     "Varying",
     "View",
     "Wired",

@@ -20,7 +20,7 @@ class Problem:
 
     `message` says in whole sentences what is wrong, what was given, what is allowed and what to do.
     `line` and `column` count from 1; `path` is the key path, such as "mechanisms.drive.crank_speed". `allowed` is the range of
-    the key, or its choices, where it has some.
+    the key, or its choices, where it has some; `advice` names values with which the machine is possible.
     """
 
     message: str
@@ -29,6 +29,7 @@ class Problem:
     column: int | None = None
     path: str = ""
     allowed: str = field(default="", compare=False)
+    advice: str = field(default="", compare=False)
 
     @property
     def key(self) -> str:
@@ -39,7 +40,12 @@ class Problem:
         """The one-line form that editors and terminals can follow: `press.yaml:12:5: path: message`."""
         file = self.file.replace("\n", r"\n")  # a name that holds lines stays within this one
         place = ":".join(str(part) for part in (file, self.line, self.column) if part not in ("", None))
-        return "".join(f"{part}: " for part in (place, self.path) if part) + self.message
+        words = (
+            joined([self.message, self.advice], " " if self.message.endswith(".") else ". ")
+            if self.advice
+            else self.message
+        )
+        return "".join(f"{part}: " for part in (place, self.path) if part) + words
 
 
 class UserError(Exception):

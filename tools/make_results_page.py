@@ -10,7 +10,7 @@ from diecut_report.results.model import FORM_VERSION, results_schema
 
 PAGE = Path(__file__).parents[1] / "docs" / "results-file.md"
 ADDED = {  # by the version of the form; a test holds them against its hashes
-    "2.0": "a text with values is a [message](#message) where it stands; `wordings` is gone",
+    "2.0": "a text with values is a [message](#message) where it stands, `wordings` is gone; `advice` of a check",
 }
 HISTORY = "\n".join(f"| {version} | {told} |" for version, told in ADDED.items())
 INTRODUCTION = f"""\

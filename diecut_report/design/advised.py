@@ -17,14 +17,19 @@ from diecut_report.design.inputs import (
     is_form,
     is_stepped,
     options_of,
-    texts_of,
 )
 from diecut_report.design.machines import MARGIN, SIZE, ChangedMachines, VariedMachines, upstream, varied
 from diecut_report.errors import PluginError, UserError
 from diecut_report.formulas import Array
-from diecut_report.mechanism.inputs import Block, Quantity
-from diecut_report.results.advised_changes import AdvisedChange, advised_changes
-from diecut_report.results.model import AdvisedChangeRecord, CheckRecord, FollowedAdviceRecord, ResultsRecord
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.quantities.formatting import with_unit
+from diecut_report.results.model import (
+    AdvisedChangeRecord,
+    CheckRecord,
+    FollowedAdviceRecord,
+    KeyChangeRecord,
+    ResultsRecord,
+)
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
 from diecut_report.text.phrases import Phrase
 
@@ -71,11 +76,8 @@ def advised(config: Config, failing: Iterable[tuple[str, CheckRecord]]) -> Advis
     """
     found = Advised({}, {})
     for name, check in failing:
-        home = name.split(".")[0]
-        instance = config.instances.get(home)
-        model = instance.model if instance else Block
-        is_taken = False
-        for way in advised_changes(check.message, model.model_fields, texts_of(model)):
+        home, is_taken = name.split(".")[0], False
+        for way in check.advice:
             known = Advised({}, {}) if is_taken else found
             taken = [_take(config, known, f"{MECHANISMS}.{home}.{change.key}", change) for change in way]
             is_taken = is_taken or any(taken)
@@ -83,23 +85,25 @@ def advised(config: Config, failing: Iterable[tuple[str, CheckRecord]]) -> Advis
     return found
 
 
-def _take(config: Config, found: Advised, path: str, change: AdvisedChange) -> bool:
+def _take(config: Config, found: Advised, path: str, change: KeyChangeRecord) -> bool:
     """Note a change that can be made, of a number the value that is furthest from today's; return whether it can."""
+    values = change.value if isinstance(change.value, list) else [change.value]
     try:
         asked = find_input(config, path)
         if not isinstance(asked.meta, Quantity):
-            if change.value not in options_of(asked):
-                return False
-            found.choices.setdefault(path, (asked, change.value))
-            return True
+            texts = [str(each).lower() if isinstance(each, bool) else str(each) for each in values]
+            known = [text for text in texts if text in options_of(asked)]
+            if known:
+                found.choices.setdefault(path, (asked, known[0]))
+            return bool(known)
         design = design_input(config, path)
-        values = [design.read(value) for value in (change.value, change.other) if value]
+        numbers = [design.read(with_unit(f"{each}", change.unit)) for each in values]
     except (UnknownPath, UserError, ValueError):  # of another mechanism, calculated, or not a value of this key
         return False
     if not design.today:
         return False
     today = design.today
-    value = min(values, key=lambda each: abs(each - today))
+    value = min(numbers, key=lambda each: abs(each - today))
     other = found.numbers.get(design.asked.path, (design, today))[1]
     furthest = max((value, other), key=lambda each: abs(each - today))
     found.numbers[design.asked.path] = (design, furthest)

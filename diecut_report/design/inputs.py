@@ -18,7 +18,7 @@ from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import Problem, UserError
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.checks import Check
-from diecut_report.mechanism.inputs import POINTS, Block, Quantity, meta_of, nested
+from diecut_report.mechanism.inputs import POINTS, Quantity
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import SI, Text
 from diecut_report.mechanism.steps import Require
@@ -239,18 +239,6 @@ def options_of(asked: Input) -> tuple[str, ...]:
     if isinstance(asked.meta, Quantity):
         return tuple(_listed(asked.meta))
     return _texts(asked.meta, asked.annotation)
-
-
-def texts_of(model: type[Block]) -> dict[str, tuple[str, ...]]:
-    """Return the texts that each key of a block may have, where these are a few; keys of blocks in it by their paths."""
-    found = dict[str, tuple[str, ...]]()
-    for name, field in model.model_fields.items():
-        block, meta = nested(field.annotation), meta_of(model, name)
-        if block:
-            found |= {f"{name}.{path}": texts for path, texts in texts_of(block[0]).items()}
-        elif isinstance(meta, Text):
-            found[name] = _texts(meta, field.annotation)
-    return found
 
 
 def _texts(meta: Any, annotation: Any) -> tuple[str, ...]:

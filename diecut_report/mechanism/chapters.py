@@ -16,6 +16,7 @@ from pydantic import create_model
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula
+from diecut_report.mechanism.checks import AdviceWay
 from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, meta_of
 from diecut_report.mechanism.names import Bound, ByText, Misdeclared, as_binding, bind, placed
@@ -195,9 +196,14 @@ class Steps(PhaseForm, MadeCurveForm, CodeForm, ListingForm):
         own = {"given": given, "abscissa": abscissa, "start": start, "lasts": lasts, "gains": gains}
         self._give(FromCurve, id, symbol, unit, description, options, **own)
 
-    def require(self, id: str, condition: Written, key: str, message: str, **when: Unpack[StepCondition]) -> None:
-        """Declare what must hold for the machine to be possible, the key to change, and what is said where it does not."""
-        self.add(Require(id=id, condition=as_binding(condition, id), key=key, message=message, **when))
+    def require(
+        self, id: str, condition: Written, key: str, message: str, advise: tuple[AdviceWay, ...] = (), **when: Unpack[StepCondition],
+    ) -> None:  # fmt: skip
+        """Declare what must hold for the machine to be possible, the key to change, and what is said where it does not.
+
+        ``advise`` names the inputs of which values are found with which the machine is possible, as that of a check does.
+        """
+        self.add(Require(id=id, condition=as_binding(condition, id), key=key, message=message, advise=advise, **when))
 
     def clash(
         self, id: str, function: Callable[..., Array], takes: tuple[str, ...], key: str, message: str, **when: Unpack[StepCondition],

@@ -17,6 +17,23 @@ CheckClass = Literal["function", "strength", "practice", "numerical"]
 UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: the declaration check tells which there are
 
 
+@dataclass(frozen=True)
+class Vary:
+    """Name an input that may be changed so that a check holds, where its key alone does not say enough.
+
+    ``to`` is the direction where only one makes sense; ``series`` are the values that can be bought, in the unit of the input,
+    or those of its texts that are tried.
+    """
+
+    key: str
+    to: Literal["up", "down", ""] = ""
+    series: tuple[float | str, ...] = ()
+
+
+AdviceWay = str | Vary | tuple[str, ...]
+"""An input that is changed alone, or several that are changed together in one proportion."""
+
+
 @dataclass(frozen=True, kw_only=True, eq=False)
 class Check:
     """Demand ``demand`` ≤ ``limit``, and ``at_least`` ≤ ``demand`` where that is given (ids, or plain numbers in ``unit``).
@@ -28,7 +45,9 @@ class Check:
     For an upper bound the demand is the machine's and the limit the allowed value; for a lower bound the demand is
     what is required and the limit what there is, so that the utilisation is required / available.
     ``severity`` "warn" makes a failing check a warning, beyond the utilisation ``fails_beyond`` still a failure.
-    ``consequence`` says what a failure means and what to change.
+    ``consequence`` says what a failure means; what to change besides the keys of ``advise`` may follow in words.
+    ``advise`` names the inputs that may be changed, each way by itself: ("shaft_diameter", "key_length"). The values with
+    which the check holds are found by calculating the mechanism with others, and are not written by hand.
 
     ``check_class`` must be given: "function" (the machine does not do what it is for), "strength" (a part breaks, wears,
     slips or overheats), "practice" (a rule of experience is left) or "numerical" (a self-test of the calculation, which is
@@ -73,6 +92,7 @@ class Check:
     named_by: str = ""
     part_id: str = "{id}_{name}"
     part_name: str = ""
+    advise: tuple[AdviceWay, ...] = ()
     index: int | None = None
     at: str = placed()
 

@@ -11,6 +11,7 @@ from dataclasses import dataclass
 from typing import Any, Literal, Protocol, TypedDict, Unpack, get_args
 
 from diecut_report.formulas import Array
+from diecut_report.mechanism.checks import AdviceWay
 from diecut_report.mechanism.names import Binding, ByText, as_binding, bound, placed
 
 
@@ -248,6 +249,7 @@ class Require(Step):
     condition: Binding
     key: str
     message: str
+    advise: tuple[AdviceWay, ...] = ()
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)

@@ -18,6 +18,8 @@ from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.mechanism.names import listed
 from diecut_report.quantities.formatting import place_shown, shown, with_unit
 from diecut_report.quantities.units import unit
+from diecut_report.results.advice import Advisor
+from diecut_report.results.advised_ways import Way, advice_records, advice_text
 from diecut_report.results.model import CheckRecord, ShownRecord
 from diecut_report.text.phrases import Phrase, joined, named, phrase
 
@@ -167,6 +169,11 @@ class JudgedCheck(NamedTuple):
     there: Array
     worst: Array
 
+    @property
+    def all_hold(self) -> bool:
+        """Return whether the check holds on all machines."""
+        return bool(self.governing(self.held).all())
+
     def governing(self, values: Array) -> Array:
         """Return what governs, shape (variants,)."""
         flat = values.reshape(len(values), -1)
@@ -176,18 +183,22 @@ class JudgedCheck(NamedTuple):
 
 def check_results(calc: Calculation) -> list[CheckRecord]:
     """Return each check with demand, limit, margin, utilisation and verdict; one that needs more keys as not checked."""
-    checks = [(check, _there(calc, check)) for check in checks_of(calc)]
-    ids = {check.id for check, sides in checks if sides is not None}
-    found = []
-    for check, sides in checks:
-        if sides is not None:
-            made = _check(calc, check, _judged(check, *sides))
-            keys = without_basis(calc, check) if made.status == "pass" else ()
-            found.append(unfounded(calc, check, keys) if keys else made)
+    sides = [(check, _there(calc, check)) for check in checks_of(calc)]
+    checks = [(check, None if pair is None else _judged(check, *pair)) for check, pair in sides]
+    ids = {check.id for check, found in checks if found is not None}
+    held = [check for check, found in checks if found is not None and found.all_hold and is_of_machine(check)]
+    failing = [check for check, found in checks if found is not None and not found.all_hold]
+    advisor = Advisor(calc, held, failing, holds)
+    made = []
+    for check, found in checks:
+        if found is not None:
+            own = _check(calc, check, found, advisor)
+            keys = without_basis(calc, check) if own.status == "pass" else ()
+            made.append(unfounded(calc, check, keys) if keys else own)
         elif check.id not in ids and (missing := missing_checks(calc, check)):
             ids.add(check.id)
-            found.append(not_made(calc, check, missing))
-    return found
+            made.append(not_made(calc, check, missing))
+    return made
 
 
 def checks_of(calc: Calculation) -> list[Check]:
@@ -268,7 +279,15 @@ def _side(calc: Calculation, name: str) -> Array:
     return np.asarray(found, dtype=float)
 
 
-def _check(calc: Calculation, check: Check, found: JudgedCheck) -> CheckRecord:
+def holds(calc: Calculation, check: Check) -> tuple[Array, Array]:
+    """Return where a check is made, and where it holds, each of shape (variants,)."""
+    if not is_made(calc, check):
+        return np.zeros(calc.count, dtype=bool), np.zeros(calc.count, dtype=bool)
+    found = judged(calc, check)
+    return found.governing(found.there), found.governing(found.held)
+
+
+def _check(calc: Calculation, check: Check, found: JudgedCheck, advisor: Advisor) -> CheckRecord:
     if np.isinf([found.demand[0], found.limit[0]]).any():
         raise ValueError(f"check {check.id} compares {found.demand[0].ravel()} with {found.limit[0].ravel()}")
     pair, part = divmod(int(found.worst[0]), found.demand.shape[2])
@@ -277,15 +296,17 @@ def _check(calc: Calculation, check: Check, found: JudgedCheck) -> CheckRecord:
     where, places = _where(calc, check, pair, part, found.demand.shape[2])
     sides = ("limit", "demand") if pair else ("demand", "limit")  # the lower bound may govern
     sentence = _bounds(told, *sides) + _beside(calc, check, display, found, pair, part) + where
-    message = Phrase("{bounds:capital}.", {"bounds:capital": sentence})
+    message, ways = Phrase("{bounds:capital}.", {"bounds:capital": sentence}), list[Way]()
     if told["status"] != "pass":
         consequence = filled(calc, check.consequence, places=places)
         message = Phrase("{bounds:capital}: {consequence}", {"bounds:capital": sentence, "consequence": consequence})
+        ways = advisor.ways(check)
     return CheckRecord(
         **_head(check),
         **told,
+        advice=advice_records(ways),
         **_further(calc, check, display, found, pair, part),
-        message=message,
+        message=joined([message, advice_text(ways)], " ") if ways else message,
         sized_to_limit=is_sized(calc.given, check),
         presumed=check.presumed,
     )

@@ -29,6 +29,7 @@ CheckClass = Literal["function", "strength", "practice", "numerical"]
 Basis = Literal["assumed", "given", "catalogue", "drawing", "standard", "measured"]
 Value = float | int | bool | str
 Texts = list[str]
+Relation = Literal["at_least", "at_most", "equal", "between", "one_of"]
 Name = Annotated[str, Field(pattern=r"^[A-Za-z][A-Za-z0-9_-]*$", max_length=1000)]
 Id = Annotated[str, Field(pattern=r"^[A-Za-z_][A-Za-z0-9_]*$", max_length=200)]
 Tree = list[Any]  # an expression: [operation, operand, …], each operand a tree, too
@@ -324,6 +325,15 @@ class CheckPartRecord(Record):
     margin_display: ShownRecord | None = sometimes("The margin as it is printed.")
 
 
+class KeyChangeRecord(Record):
+    """A change that is advised."""
+
+    key: str = always("The key, of a list's part by its path: `sections.0.diameter`.")
+    relation: Relation = always("How the key must stand to the value.")
+    value: Value | list[Value] = always("The value; two of them for `between`, some for `one_of`.")
+    unit: str = always("The unit of the value, in which it may be typed; `1` without one.")
+
+
 class CheckRecord(_Marked):
     """A check (docs/results.md explains the verdicts)."""
 
@@ -346,6 +356,10 @@ class CheckRecord(_Marked):
     limit_display: ShownRecord | None = always("The limit as it is printed.")
     margin_display: ShownRecord | None = always("The margin as it is printed.")
     missing: list[str] = sometimes("The keys without which it is not made.", [])
+    advice: list[list[KeyChangeRecord]] = sometimes(
+        "Of a check that does not hold: changes with which it holds, each way by itself, each way a list of changes.",
+        [],
+    )
     at: PlaceRecord | None = sometimes("Of a curve where it governs.")
     part: int | None = sometimes("Of repeated parts the one that governs, counted from 1.")
     part_name: Word = sometimes("Its name.", "")

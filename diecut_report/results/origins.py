@@ -3,8 +3,7 @@
 from __future__ import annotations
 
 import math
-import re
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Callable, Container, Iterator, Mapping, Sequence
 from dataclasses import dataclass
 from functools import cache
 from typing import Any, Literal, NamedTuple
@@ -40,11 +39,10 @@ InputsOf = Callable[
     [str], Mapping[str, str]
 ]  # what each input of a mechanism refers to, by its name; nothing of what is not one
 FOLLOWS = "{key} follows from {origin}: change it there, so that what else takes it keeps in step."
-ADVISED = r"(?:\bset |\blower |\braise |\btake |\bmake |\baccept |\bchange |\ban? |\bno )({key})\b|\b({key})\b(?= of at (?:least|most)|: )"
 
 
 def with_origins(mechanisms: Mapping[str, MechanismRecord]) -> dict[str, MechanismRecord]:
-    """Return the mechanisms' results, in which each failing check says where a key that it names begins."""
+    """Return the mechanisms' results, in which each failing check says where a key that it advises to change begins."""
 
     def paths(name: str) -> dict[str, str]:
         return {key: row.path for key, row in mechanisms[name].inputs.items()} if name in mechanisms else {}
@@ -58,20 +56,21 @@ def _warned(checks: list[CheckRecord]) -> dict[str, Any]:
 
 
 def checks_with_origins(checks: Mapping[str, list[CheckRecord]], inputs_of: InputsOf) -> dict[str, list[CheckRecord]]:
-    """Return the checks of all mechanisms, of which the failing ones say where a key that they name begins."""
+    """Return the checks of all mechanisms, of which the failing ones say where a key that they advise to change begins."""
     return {name: [_check(inputs_of, name, check) for check in own] for name, own in checks.items()}
 
 
 def _check(inputs_of: InputsOf, name: str, check: CheckRecord) -> CheckRecord:
     if check.status not in ("warn", "fail"):
         return check
-    words = dict.fromkeys(_origins(inputs_of, name, check.message))
+    keys = {change.key for way in check.advice for change in way}
+    words = dict.fromkeys(_origins(inputs_of, name, keys))
     return check.with_(message=joined([check.message, *words], " ")) if words else check
 
 
-def _origins(inputs_of: InputsOf, name: str, message: str) -> Iterator[str]:
+def _origins(inputs_of: InputsOf, name: str, keys: Container[str]) -> Iterator[str]:
     for key, path in inputs_of(name).items():
-        if path and re.search(ADVISED.format(key=re.escape(key)), message):
+        if path and key in keys:
             yield Phrase(FOLLOWS, key=key, origin=_beginning(inputs_of, path))
 
 

@@ -30,6 +30,9 @@ from diecut_report.mechanism.names import SI, Text
 from diecut_report.mechanism.steps import Clash, Require
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
+from diecut_report.results.advice import possible_ways
+from diecut_report.results.advised_ways import advice_text
+from diecut_report.results.checks import holds
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.model import CheckRecord, MechanismRecord, SourceRecord
 from diecut_report.results.origins import Absent, Bases, Provenance, Unavailable, Valueless, Withheld, origin_of, output
@@ -330,7 +333,9 @@ class Run:
         except Impossible as fault:
             for path, message in fault.reasons:
                 key = tuple(int(part) if part.isdigit() else part for part in path.split(".") if part)
-                self.problems.append(instance.place.problem(key, message))
+                ways = possible_ways(instance.mechanism, flatten(block), path, holds)
+                problem = instance.place.problem(key, message)
+                self.problems.append(replace(problem, advice=advice_text(ways)) if ways else problem)
         except SelfTestFailed as fault:
             self.self_tests[name] = fault.checks
             self._broke(instance, fault, str(fault))

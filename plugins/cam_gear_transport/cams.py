@@ -6,7 +6,7 @@ import numpy as np
 
 from diecut_report.api import Chapter, Formula, Steps, as_number, bind
 from diecut_report.mechanics import cam, common, contact
-from diecut_report.plugins.cam_gear_transport import advice, arms, loads
+from diecut_report.plugins.cam_gear_transport import arms, loads
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, TORQUE
 
 # fmt: off
@@ -150,7 +150,6 @@ both.value("tangent_distance_min", "q_min", "mm", "Least distance of O₁ from t
            lambda cam_1_tangent_min, cam_2_tangent_min: np.minimum(cam_1_tangent_min, cam_2_tangent_min), source="geometry")
 both.words("arms_that_fit", arms.arms_that_fit, arms.TAKES, lacks=("module",))
 both.words("arms_that_fit", arms.arms_that_fit, (*arms.TAKES, "module"), needs=("module",))
-both.words("roller_smaller", advice.smaller_roller, ("curvature_min", "tangent_distance_min"))
 
 
 def _loaded(number: str) -> Steps:
@@ -192,7 +191,5 @@ loads_chapter.value("roller_force_peak", "F_max", "N", "Greatest force on a roll
 loads_chapter.value("contact_pressure", "p_H,max", "MPa", "Greatest contact pressure of a roller",
                     lambda cam_1_contact_pressure_max, cam_2_contact_pressure_max: np.maximum(cam_1_contact_pressure_max, cam_2_contact_pressure_max),
                     source="Hertz", needs=("roller_width",))
-loads_chapter.words("contact_softer", advice.softer_contact, ("contact_pressure", "allowable_contact_pressure", "roller_width", "cycles_per_hour"),
-                    needs=("roller_width", "allowable_contact_pressure"))
 
 SECTIONS = (rocker, _cam("1"), _cam("2"), both, loads_chapter)

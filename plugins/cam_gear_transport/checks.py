@@ -2,22 +2,27 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check
+from diecut_report.api import Check, Vary
 from diecut_report.plugins.cam_gear_transport.cams import LOADED
 from diecut_report.plugins.cam_gear_transport.inputs import CAMS, GRIPPED, SHEET, TORQUE
+
+SHORTER = (Vary("dwell_angle", "down"), Vary("sector_stop_sweep", "down"))
+SLOWER = (Vary("cycles_per_hour", "down"),)
+MODULES = (20, 16, 12, 10, 8, 6, 5, 4, 3, 2.5, 2, 1.5, 1.25, 1)  # mm, the usual ones
 
 CHECKS = (
     Check(id="return_time", check_class="practice", title="Time of the sector's return",
           demand="min_return_time", limit="time_return", unit="1", operator="<",
           demand_label="needed share", limit_label="share left, T₄", source="practice",
-          consequence="the sector and the conveyor are thrown in too short a time; take {return_recommended}."),
+          consequence="the sector and the conveyor are thrown in too short a time.", advise=SHORTER),
     Check(id="gear_turn", check_class="numerical", title="One turn of the gear a cycle", demand="gear_rotation_error", limit=1e-6, unit="deg",
           demand_label="rotation off a full turn", limit_label="accepted", source="kinematics",
           consequence="the law of motion contradicts itself: its velocity is not the rate of its position; correct the law."),
     Check(id="tooth_undercut", check_class="practice", title="Least teeth of the gear",
           demand=17.0, limit="gear_teeth", unit="1", severity="warn", needs=("module",),
           demand_label="teeth without undercut", limit_label="teeth of the gear", source="involute teeth of 20°",
-          consequence="the gear's teeth are undercut at their roots; take {module_finer}, or shift the profile."),
+          consequence="the gear's teeth are undercut at their roots, unless the profile is shifted.",
+          advise=(Vary("module", "down", MODULES),)),
     Check(id="pressure_angle", check_class="practice", title="Pressure angle of the cams",
           demand="pressure_angle_max", limit="max_pressure_angle", unit="deg",
           demand_label="greatest pressure angle", limit_label="accepted", source="practice", needs=CAMS,
@@ -26,28 +31,28 @@ CHECKS = (
     Check(id="curvature", check_class="function", title="No undercut of the cams",
           demand="roller_radius", limit="curvature_min", unit="mm", operator="<",
           demand_label="roller radius", limit_label="least radius of pitch curves", source="geometry", needs=CAMS,
-          consequence="a profile ends in a point and its roller leaves the wanted path there; {roller_smaller}. Or change the arms: "
-          "{arms_that_fit}."),
+          consequence="a profile ends in a point and its roller leaves the wanted path there; {arms_that_fit}.",
+          advise=(Vary("roller_radius", "down"),)),
     Check(id="profile_turns", check_class="function", title="The cams go round the shaft",
           demand="roller_radius", limit="tangent_distance_min", unit="mm", operator="<",
           demand_label="roller radius", limit_label="least tangent distance", source="geometry", needs=CAMS,
-          consequence="a roller runs back around O₁ or its profile crosses itself; {arms_that_fit}."),
+          consequence="a roller runs back around O₁ or its profile crosses itself; {arms_that_fit}.", advise=(Vary("roller_radius", "down"),)),
     Check(id="contact_pressure", check_class="strength", title="Contact pressure of rollers",
           demand="contact_pressure", limit="allowable_contact_pressure",
           unit="MPa", tolerance=1e-9, demand_label="greatest contact pressure", limit_label="allowed", source="Hertz",
           needs=(*CAMS, *LOADED, "allowable_contact_pressure"),
-          consequence="rollers and cams wear and pit; {contact_softer}."),
+          consequence="rollers and cams wear and pit; a lighter conveyor presses less.", advise=(Vary("roller_width", "up"), *SLOWER)),
     Check(id="sheet_acceleration", check_class="function", title="Acceleration of the sheet",
           demand="sheet_acceleration_max", limit="allowable_sheet_acceleration",
           unit="m/s**2", tolerance=1e-9, demand_label="greatest acceleration", limit_label="allowed", source="input",
           needs=(*SHEET, "allowable_sheet_acceleration"),
-          consequence="the sheet slips from the grippers or tears; {sheet_gentler}."),
+          consequence="the sheet slips from the grippers or tears.", advise=("sector_stop_sweep", *SLOWER, Vary("dwell_angle", "down"))),
     Check(id="grippers", check_class="function", title="Hold of the grippers", demand="sheet_force", limit="gripper_force", unit="N", tolerance=1e-9,
           demand_label="pull of the sheet", limit_label="hold of the grippers", source="mechanics", needs=(*GRIPPED, "gripper_force"),
-          consequence="the sheet slips out of the grippers, and the register is lost; take {cycles_fewer}."),
+          consequence="the sheet slips out of the grippers, and the register is lost.", advise=SLOWER),
     Check(id="torque", check_class="strength", title="Torque at the disc's shaft", demand="torque_peak", limit="allowable_torque", unit="N*m",
           demand_label="greatest torque", limit_label="allowed", source="input",
-          consequence="the shaft and what drives it are overloaded; fewer cycles_per_hour or a lighter conveyor lowers it."),
+          consequence="the shaft and what drives it are overloaded; a lighter conveyor needs less.", advise=SLOWER),
     Check(id="energy_balance", check_class="numerical", title="Energy balance over a turn",
           demand="energy_residual", limit=1e-6, unit="1", needs=TORQUE,
           demand_label="relative difference", limit_label="accepted", source="conservation of energy",

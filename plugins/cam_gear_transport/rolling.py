@@ -7,7 +7,7 @@ import numpy as np
 from diecut_report.api import ByText, Chapter, bind
 from diecut_report.mechanics import common
 from diecut_report.mechanics.motion_laws import MIDDLE_POSITION, MIDDLE_VELOCITY, PEAK_ACCELERATION, PEAK_VELOCITY
-from diecut_report.plugins.cam_gear_transport import advice, formulas
+from diecut_report.plugins.cam_gear_transport import formulas
 
 # fmt: off
 
@@ -28,7 +28,6 @@ rolling_chapter.value("gear_teeth", "z_1", "1", "Teeth of the gear", bind(formul
                       source="this method", needs=("module",))
 rolling_chapter.value("sector_wheel_teeth", "z_3", "1", "Teeth of the sector, counted as a full wheel", formulas.other_teeth, whole=True,
                       source="this method", needs=("module",))
-rolling_chapter.words("module_finer", advice.finer_teeth, ("center_distance", "inputs.sector_dwell_sweep", "dwell_angle"), needs=("module",))
 rolling_chapter.require("some_teeth", lambda gear_teeth, sector_wheel_teeth: np.minimum(gear_teeth, sector_wheel_teeth) >= 1, key="module",
                         message="is {module}, with which the gear would have {gear_teeth} and the sector {sector_wheel_teeth} teeth; take "
                                 "{module_finer}, or change sector_dwell_sweep or dwell_angle", needs=("module",))
@@ -86,12 +85,9 @@ phases.value("stop_sweep_limit", "γ_lim", "deg", "Sweep of stop and start that 
 phases.value("stop_sweep_recommended", "γ_rec", "deg", "Sweep of stop and start that leaves the return its time, with this dwell",
              lambda time_dwell, sector_speed_dwell, law_peak_velocity, min_return_time:
                  (1 - min_return_time - time_dwell) * sector_speed_dwell / law_peak_velocity, source="003 eq. 4, solved")
-phases.words("return_recommended", advice.leaves_return, ("dwell_angle_recommended", "stop_sweep_recommended"), lacks=("module",))
-phases.words("return_recommended", advice.leaves_return_with_teeth, ("dwell_angle_recommended", "stop_sweep_recommended"), needs=("module",))
 phases.require("return_exists", bind(common.is_below, smaller=LEAST_RETURN, greater="time_return"), key="dwell_angle",
                message="is {dwell_angle}; with a sector_stop_sweep of {sector_stop_sweep} dwell, stop and start take the whole turn and leave T₄ = "
-                       "1 − T₂ − T₍₃₊₁₎ = {time_return} for the sector's return; take {return_recommended}, which leaves it {min_return_time} of "
-                       "the turn")
+                       "1 − T₂ − T₍₃₊₁₎ = {time_return} for the sector's return", advise=("dwell_angle", "sector_stop_sweep"))
 phases.value("angle_dwell", "φ_II", "deg", "Disc angle where the dwell begins, phase II", lambda: 0, source="this method", output=False)
 phases.value("angle_stop", "φ_IV", "deg", "Disc angle where the sector stops: end of phase III",
              lambda dwell_angle, time_stop: dwell_angle + np.pi * time_stop, source="003, after eq. 3", digits=6)

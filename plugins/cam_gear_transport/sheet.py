@@ -6,7 +6,7 @@ import numpy as np
 
 from diecut_report.api import Chapter, bind
 from diecut_report.mechanics import contact
-from diecut_report.plugins.cam_gear_transport import advice, formulas, loads
+from diecut_report.plugins.cam_gear_transport import formulas, loads
 from diecut_report.plugins.cam_gear_transport.inputs import GRIPPED, SHEET, TORQUE
 
 # fmt: off
@@ -22,16 +22,12 @@ conveyor.value("sheet_acceleration", "a_s", "m/s**2", "Acceleration of the sheet
 conveyor.reduction("sheet_velocity_max", "V_max", "m/s", "Greatest velocity of the sheet", "abs_max", of="sheet_velocity", source="kinematics")
 conveyor.reduction("sheet_acceleration_max", "a_s,max", "m/s**2", "Greatest acceleration of the sheet", "abs_max", of="sheet_acceleration",
                    source="kinematics")
-conveyor.words("sheet_gentler", advice.gentler_sheet,
-               ("sheet_acceleration_max", "allowable_sheet_acceleration", "time_dwell", "sector_dwell_sweep", "sector_stop_sweep",
-               "law_peak_velocity", "min_return_time", "cycles_per_hour"), needs=("allowable_sheet_acceleration",))
 
 grippers = Chapter("Hold of the grippers",
                    text="The grippers must hold the sheet against its own inertia; air and the friction of what it slides on are left out.",
                    needs=GRIPPED, absent="not calculated: {missing} not given")
 grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", contact.sheet_mass, source="geometry")
 grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", contact.sheet_force, source="mechanics")
-grippers.words("cycles_fewer", advice.gentler_grip, ("cycles_per_hour", "sheet_force", "gripper_force"), output=False, needs=("gripper_force",))
 rest = Chapter("Rest of the sheet within a tolerance",
                text="The sheet rests as long as it is no farther than e from where it stands in the dwell: so long before and after the dwell as its "
                     "product of both distances beyond e is negative.", needs=(*SHEET, "rest_tolerance"),

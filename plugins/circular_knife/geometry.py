@@ -6,12 +6,12 @@ import numpy as np
 
 from diecut_report.api import Chapter, Steps, bind, case
 from diecut_report.mechanics import common
-from diecut_report.plugins.circular_knife import advice
 from diecut_report.plugins.circular_knife import formulas as f
 
 # fmt: off
 
 OWN = "this method"
+PLACE = ("front_distance",)
 
 reach = Chapter("Reach of the edge",
                 text="The formulas of this calculation are its own. Of the source (001, third paper) only the first page survives: it gives the "
@@ -40,29 +40,27 @@ reach.value("face_depth", "H_h", "mm", "Depth of the board's upper face", lambda
 reach.value("reach_greatest", "x_max", "mm", "Greatest distance from the axis to which the edge cuts through", f.reach, source=OWN)
 reach.value("cut_end", "x_2", "mm", "Distance of the cut's end from the axis", lambda front_distance, cut_length: front_distance + cut_length,
             source="geometry", output=False)
-reach.words("reach_advice", advice.reach_advice, advice.SIZES)
 reach.require("reaches_board", bind(f.is_clear_of, smaller="front_distance", greater="reach_greatest"), key="front_distance",
               message="is {front_distance}, but the edge cannot reach the board: it cuts no further than √((R + r)² − H²) = {reach_greatest} from "
-                      "the axis; {reach_advice}. A higher counter-knife, a greater edge radius or a greater eccentricity reaches further")
+                      "the axis; a higher counter-knife, a greater edge radius or a greater eccentricity reaches further", advise=PLACE)
 reach.require("reaches_end",
               lambda cut_end, front_distance, reach_greatest, edge_radius:
                   f.is_clear_of(cut_end, reach_greatest, edge_radius) | ~f.is_clear_of(front_distance, reach_greatest, edge_radius), key="cut_length",
               message="is {cut_length}, so that the cut ends b + L = {cut_end} from the axis, but the edge cannot reach that: it cuts no further "
-                      "than √((R + r)² − H²) = {reach_greatest}; {reach_advice}. A higher counter-knife, a greater edge radius or a greater "
-                      "eccentricity reaches further")
+                      "than √((R + r)² − H²) = {reach_greatest}; a higher counter-knife, a greater edge radius or a greater "
+                      "eccentricity reaches further", advise=("cut_length", "front_distance"))
 reach.value("lowest_at_face", "x_h", "mm",
             "Distance from the axis at which the edge's lowest point passes the board's upper face", bind(f.lowest_passes, depth="face_depth"),
             source=OWN, output=False)
 reach.value("lowest_at_counter", "x_0", "mm", "The same at the counter-knife", bind(f.lowest_passes, depth="depth"), source=OWN, output=False)
-reach.words("entering_advice", advice.entering_advice, advice.SIZES[:4])
 reach.require("enters_face", lambda lowest_at_face, front_distance: lowest_at_face <= front_distance, key="front_distance",
               message="is {front_distance}, but the edge would come down on the board from above, {lowest_at_face} from the axis, and press it "
-                      "instead of shearing it from its front edge: b ≥ √(r² − (H − h − R)²) is needed; {entering_advice}")
+                      "instead of shearing it from its front edge: b ≥ √(r² − (H − h − R)²) is needed", advise=PLACE)
 reach.require("enters_counter",
               lambda lowest_at_counter, lowest_at_face, front_distance, edge_radius:
                   f.is_clear_of(lowest_at_counter, front_distance, edge_radius) | (front_distance < lowest_at_face), key="front_distance",
               message="is {front_distance}, but the edge would meet the counter-knife behind the board's front edge, {lowest_at_counter} from the "
-                      "axis: b > √(r² − (H − R)²) is needed; {entering_advice}")
+                      "axis: b > √(r² − (H − R)²) is needed", advise=PLACE)
 
 
 def _at_distance(name: str, symbol: str, description: str, distance: str) -> Steps:
@@ -88,7 +86,6 @@ shear_range.value("cut_time", "t", "ms", "Time of the cut", lambda cut_angle, sp
 shear_range.value("shear_angle_min", "τ_min", "deg", "Least shear angle: at the start of the cut", bind(f.edge_slope, angle="angle_start"),
                   source=OWN)
 shear_range.value("shear_angle_max", "τ_max", "deg", "Greatest shear angle: at the end of the cut", bind(f.edge_slope, angle="angle_end"), source=OWN)
-shear_range.words("shear_advice", advice.shear_advice, ("shear_angle_min", "shear_angle_max", *advice.SIZES))
 shear_range.value("shear_angle_lower", "τ_a", "deg", "Least shear angle that is usual", f.least_shear_angle, source="practice", output=False)
 shear_range.value("shear_angle_upper", "τ_b", "deg", "Greatest shear angle that is usual", f.greatest_shear_angle, source="practice", output=False)
 for name, symbol, description, above, below in (
@@ -101,7 +98,6 @@ for name, symbol, description, above, below in (
                            least="shear_angle_min")),
                  case(bind(common.same, quantity=below), "the least angle comes nearer to its limit"), output=False)
 shear_range.value("expulsion_angle", "τ_f", "deg", "Shear angle from which the board is pushed out", f.expulsion_angle, source="statics")
-shear_range.words("expulsion_advice", advice.expulsion_advice, ("shear_angle_max", *advice.SIZES))
 
 edge = Chapter("Edge",
                text="The edge meets the board first at its upper front edge, at φ_e, a little before the cutting point gets to the front edge. "
@@ -126,4 +122,3 @@ edge.value("used_sweep", "Δφ_2", "deg", "Turn of the knife from touching the c
            lambda angle_end, touch_angle: angle_end - touch_angle, source="kinematics", output=False)
 edge.value("usable_sweep", "Δφ_r", "deg", "Turn up to which the edge runs forward in the whole thickness",
            lambda face_return_angle, touch_angle: face_return_angle - touch_angle, source="kinematics", output=False)
-edge.words("return_advice", advice.return_advice, advice.SIZES)

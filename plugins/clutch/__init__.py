@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, Mechanism, Source
+from diecut_report.api import Check, Mechanism, Source, Vary
 from diecut_report.plugins.clutch.example import EXAMPLE
 from diecut_report.plugins.clutch.figures import FIGURES
 from diecut_report.plugins.clutch.inputs import Clutch
@@ -28,43 +28,49 @@ MECHANISM = Mechanism(
               demand="wedge_friction", limit="wedge_slope", unit="1", operator="<",
               demand_label="friction f", limit_label="slope tan α", source="statics",
               consequence="the wedge locks itself: without P_1 the clutch stays engaged, and the cone must be pulled out with "
-              "{release_force}; {release_advice}."),
+              "{release_force}.",
+              advise=(Vary("wedge_angle", "up"), Vary("wedge_friction", "down"))),
         Check(id="pressure", check_class="strength", title="Pressure of the lining",
               demand="pressure", limit="allowable_pressure", tolerance=ROUNDING, unit="MPa",
               sized_unless=("shoe_width",), demand_label="pressure", limit_label="allowed", source="002 eq. 17",
-              consequence="the given shoes are too narrow; {pressure_advice}."),
+              consequence="the given shoes are too narrow.",
+              advise=(Vary("shoe_width", "up"), Vary("shoe_radius", "up"), Vary("shoe_coverage", "up"))),
         Check(id="width_ratio", check_class="practice", title="Width of the shoes", demand="width_ratio", limit=0.5, tolerance=ROUNDING, unit="1",
               demand_label="width to diameter", limit_label="accepted", source="this method",
-              consequence="so wide shoes do not bear evenly; take a lining of more friction, whose shoes may be narrower, or "
-              "{width_advice}."),
+              consequence="so wide shoes do not bear evenly; of a lining of more friction they may be narrower.",
+              advise=(Vary("shoe_radius", "up"), Vary("shoe_width", "down"), ("shoe_radius", "shoe_width"))),
         Check(id="axial_travel", check_class="function", title="Travel of the cone",
               demand="axial_travel", limit="available_travel", tolerance=ROUNDING, unit="mm",
               needs=("radial_gap", "available_travel"), demand_label="travel for gap and wear", limit_label="available", source="geometry",
-              consequence="the cone meets its stop before the lining is worn; {travel_advice}."),
+              consequence="the cone meets its stop before the lining is worn.",
+              advise=(Vary("available_travel", "up"), Vary("wear_allowance", "down"), Vary("wedge_angle", "up"))),
         Check(id="engagement_force", check_class="function", title="Force of engagement", demand="engagement_force", limit="available_force",
               tolerance=ROUNDING, unit="N", demand_label="force needed", limit_label="available", source="002 eq. 15",
-              consequence="the clutch slips under its torque; a smaller wedge_angle, a lining of more friction or a larger drum needs less."),
+              consequence="the clutch slips under its torque; a lining of more friction needs less force.",
+              advise=(Vary("wedge_angle", "down"), Vary("shoe_radius", "up"))),
         Check(id="slip_time", check_class="function", title="Time of slip", demand="slip_time", limit="allowable_slip_time", tolerance=ROUNDING,
               unit="s", demand_label="slip", limit_label="allowed", source="input", needs=HEATED,
               consequence="the driven side comes too late into step; less driven_inertia or more torque shortens it."),
         Check(id="slip_share", check_class="function", title="Time between engagements",
               demand="slip_share", limit=1.0, unit="1", operator="<", needs=HEATED,
               demand_label="share of time in slip", limit_label="all of it", source="kinematics",
-              consequence="the next engagement begins before this one is over ({slip_time}); fewer engagements an hour, less inertia or "
-              "load, or more torque."),
+              consequence="the next engagement begins before this one is over ({slip_time}); less inertia or load, or more torque, "
+              "makes it shorter.", advise=(Vary("engagements_per_hour", "down"),)),
         Check(id="lining_power_density", check_class="strength", title="Friction power of the lining", demand="lining_power_density",
               limit="allowable_power_density", tolerance=ROUNDING, unit="W/cm**2", needs=(*HEATED, "allowable_power_density"),
               demand_label="mean power for each area", limit_label="allowed", source="this method",
-              consequence="the lining wears and burns; set engagements_per_hour to at most {engagements_limit:down}, or take wider shoes or "
-              "less driven inertia."),
+              consequence="the lining wears and burns; less driven inertia makes less heat.",
+              advise=(Vary("engagements_per_hour", "down"), Vary("shoe_width", "up"))),
         Check(id="pv", check_class="strength", title="Pressure times sliding speed",
               demand="pv", limit="allowable_pv", tolerance=ROUNDING, unit="MPa*m/s",
               needs=("speed", "allowable_pv"), demand_label="product as the shoes touch", limit_label="allowed", source="this method",
-              consequence="the lining glazes as it engages; {pv_advice}."),
+              consequence="the lining glazes as it engages.",
+              advise=(Vary("shoe_width", "up"), Vary("shoe_radius", "up"), ("shoe_radius", "shoe_width"), Vary("speed", "down"))),
         Check(id="temperature_rise", check_class="strength", title="Temperature of the lining", demand="lining_temperature_rise",
               limit="allowable_temperature_rise", tolerance=ROUNDING, unit="K", needs=(*HEATED, "allowable_temperature_rise"),
               demand_label="greatest rise", limit_label="allowed", source="this method",
-              consequence="the lining loses its friction; less driven inertia, wider shoes, fewer engagements or better cooling."),
+              consequence="the lining loses its friction; less driven inertia or better cooling helps, too.",
+              advise=(Vary("shoe_width", "up"), Vary("engagements_per_hour", "down"))),
     ),
     figures=FIGURES,
     assumptions=(

@@ -5,7 +5,6 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, bind, case
-from diecut_report.plugins.clutch import advice
 from diecut_report.plugins.clutch import formulas as f
 
 # fmt: off
@@ -28,10 +27,9 @@ wedge.value("wedge_angle_limit", "α_lim", "deg", "Wedge angle from which fricti
             lambda wedge_friction: np.pi / 2 - np.arctan(wedge_friction), source="002 eq. 13", output=False)
 wedge.value("wedge_friction_limit", "f_lim", "1", "Friction that does so at the given angle", lambda wedge_angle: 1 / np.tan(wedge_angle),
             source="002 eq. 13", output=False)
-wedge.words("wedge_advice", advice.against_jamming, ("wedge_angle_limit", "wedge_friction_limit"))
 wedge.require("wedge_lifts", lambda held_share, radial_share: held_share < radial_share, key="wedge_angle",
               message="is {wedge_angle}, but with a wedge friction of {wedge_friction} no force on the cone presses the shoes outwards: cos α > "
-                      "f·sin α is needed; {wedge_advice}")
+                      "f·sin α is needed: a wedge_angle below {wedge_angle_limit}, or a wedge_friction below {wedge_friction_limit}")
 wedge.require("load_below_capacity", lambda load_torque_at_engagement, design_torque: load_torque_at_engagement < design_torque,
               key="load_torque_at_engagement",
               message="is {load_torque_at_engagement}, but the slipping clutch carries {design_torque} only, so that the driven side never comes "
@@ -64,7 +62,6 @@ release.choice("release_behaviour", "B_r", "1", "Without the engagement force th
                case("stays engaged until the cone is pulled out", "friction is not less than the slope of the cone's face"), source="statics")
 release.value("self_locking", "L_s", "1", "Whether the wedge locks itself", lambda wedge_angle, wedge_friction: np.tan(wedge_angle) <= wedge_friction,
               source="statics")
-release.words("release_advice", advice.against_locking, ("friction_angle", "wedge_slope"))
 
 lining = Chapter("Lining", text="The shoes are cylindrical and press evenly on their share of the circumference.")
 lining.value("shoe_width", "b", "mm", "Shoe width required by the allowed pressure",
@@ -77,22 +74,6 @@ lining.value("lining_area", "A", "cm**2", "Area of the lining", f.lining_area, s
 lining.value("pressure", "q", "MPa", "Pressure of the lining", lambda pressing_force, lining_area: pressing_force / lining_area, source="002 eq. 17")
 lining.value("width_ratio", "k_b", "1", "Width of the lining to the drum's diameter",
              lambda lining_width, shoe_radius: lining_width / (2 * shoe_radius), source="this method")
-lining.value("least_radius", "r_min", "mm", "Radius from which this ratio is at most a half",
-             lambda design_torque, shoe_friction, shoe_coverage, allowable_pressure:
-                 (design_torque / (2 * np.pi * shoe_friction * shoe_coverage * allowable_pressure)) ** (1 / 3), source="002 eq. 17",
-             lacks=("shoe_width",), output=False)
-lining.value("least_radius", "r_min", "mm",
-             "Radius from which this ratio is at most a half, and the pressure allowed",
-             lambda lining_width, shoe_radius, shoe_width: np.maximum(lining_width, shoe_radius * np.sqrt(shoe_width / lining_width)),
-             source="002 eq. 17", needs=("shoe_width",), output=False)
-lining.words("pressure_advice", advice.against_pressure, ("shoe_width", "lining_width", "shoe_radius", "least_radius", "shoe_coverage"),
-             needs=("shoe_width",))
-lining.words("pressure_advice", advice.against_sized_width, ("lining_width",), lacks=("shoe_width",))
-lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width"), lacks=("shoe_width", "allowable_pv"))
-lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width"), lacks=("shoe_width", "speed"), needs=("allowable_pv",))
-lining.words("width_advice", advice.against_width, ("shoe_radius", "lining_width", "pv", "allowable_pv"), lacks=("shoe_width",),
-             needs=("speed", "allowable_pv"))
-lining.words("width_advice", advice.against_given_width, ("least_radius",), needs=("shoe_width",))
 
 travel = Chapter("Travel of the cone", text="Along the cone's face the shoes rise by tan α for each length that the cone travels.",
                  needs=("radial_gap",), absent="not calculated: radial_gap is not given")
@@ -100,20 +81,11 @@ travel.value("engagement_travel", "s_1", "mm", "Axial travel that closes the gap
              lambda radial_gap, wedge_angle: radial_gap / np.tan(wedge_angle), source="geometry")
 travel.value("axial_travel", "s", "mm", "Axial travel until the permitted wear is used up",
              lambda radial_gap, wear_allowance, wedge_angle: (radial_gap + wear_allowance) / np.tan(wedge_angle), source="geometry")
-travel.value("travel_angle", "α_s", "deg", "Wedge angle that does with the available travel",
-             lambda radial_gap, wear_allowance, available_travel: np.arctan((radial_gap + wear_allowance) / available_travel), source="geometry",
-             needs=("available_travel",), output=False)
-travel.words("travel_advice", advice.against_travel,
-             ("wedge_angle", "wedge_angle_limit", "travel_angle", "axial_travel", "available_travel", "radial_gap"), needs=("available_travel",))
 
 sliding = Chapter("Sliding at engagement", needs=("speed",), absent="not calculated: speed is not given")
 sliding.value("sliding_speed", "v", "m/s", "Sliding speed as the shoes touch the drum", lambda speed, shoe_radius: speed * shoe_radius,
               source="kinematics")
 sliding.value("pv", "qv", "MPa*m/s", "Pressure times sliding speed", lambda pressure, sliding_speed: pressure * sliding_speed, source="this method")
-sliding.words("pv_advice", advice.against_glazing_of_torque, ("shoe_radius", "shoe_width", "lining_width", "pv", "allowable_pv", "speed"),
-              needs=("allowable_pv", "torque"))
-sliding.words("pv_advice", advice.against_glazing, ("shoe_radius", "shoe_width", "lining_width", "pv", "allowable_pv"), needs=("allowable_pv",),
-              lacks=("torque",))
 
 heat = Chapter("Heat of the engagement",
                text="The driving shaft keeps its speed; the driven side starts from rest and is run up by M_a. The clutch slips the slower the "

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, Erratum, Mechanism, Source
+from diecut_report.api import Check, Erratum, Mechanism, Source, Vary
 from diecut_report.plugins.cylinder_drive import forces, linkage, timing
 from diecut_report.plugins.cylinder_drive.example import EXAMPLE
 from diecut_report.plugins.cylinder_drive.figures import FIGURES
@@ -32,10 +32,11 @@ MECHANISM = Mechanism(
         Check(id="transmission_angle", check_class="practice", title="Transmission angle",
               demand="min_transmission_angle", limit="transmission_angle_worst",
               unit="deg", demand_label="required", limit_label="worst position", source="practice",
-              consequence="the coupler pushes the rocker's joint more than it turns the rocker; lengthen the rocker or the frame."),
+              consequence="the coupler pushes the rocker's joint more than it turns the rocker.",
+              advise=(Vary("rocker_ratio", "up"), Vary("frame_ratio", "up"))),
         Check(id="stroke", check_class="function", title="Full turn of the cylinder over the stroke", demand="stroke_error", limit=0.5, unit="deg",
               demand_label="rotation off a full turn", limit_label="accepted", source="000, Fig. 1",
-              consequence="the flat stands tilted at an end of the stroke; make the sector ratio 2π/δ_max."),
+              consequence="the flat stands tilted at an end of the stroke, unless the sector ratio is 2π/δ_max.", advise=("sector_ratio",)),
         Check(
             id="unbalance",
             check_class="function",
@@ -51,17 +52,18 @@ MECHANISM = Mechanism(
         ),
         Check(id="crank_torque", check_class="strength", title="Torque at the crank", demand="crank_torque_peak", limit="allowable_torque",
               unit="N*m", demand_label="greatest torque", limit_label="allowed", source="input",
-              consequence="the crank's shaft and what drives it are overloaded; a slower crank or a lighter cylinder lowers it."),
+              consequence="the crank's shaft and what drives it are overloaded; a lighter cylinder lowers it.",
+              advise=(Vary("crank_speed", "down"),)),
         Check(id="acceleration", check_class="function", title="Acceleration of the cylinder", demand="acceleration_max",
               limit="allowable_acceleration", unit="m/s**2", demand_label="greatest acceleration", limit_label="allowed", source="input",
-              consequence="the cylinder slips on the board or its drive knocks; take a crank_speed of at most {crank_speed_most:down}."),
+              consequence="the cylinder slips on the board or its drive knocks.", advise=(Vary("crank_speed", "down"),)),
         Check(id="tooth_force", check_class="strength", title="Force of the sector's teeth", demand="tooth_force_max",
               limit="allowable_tooth_force", unit="kN", tolerance=ROUNDING, demand_label="greatest tangential force",
               limit_label="allowed", source="input",
-              consequence="the teeth wear and break; take a pinion_radius of at least {pinion_radius_least:up}."),
+              consequence="the teeth wear and break.", advise=(Vary("pinion_radius", "up"),)),
         Check(id="joint_force", check_class="strength", title="Force in the joints", demand="joint_force_max", limit="allowable_joint_force",
               unit="kN", tolerance=ROUNDING, demand_label="greatest force", limit_label="allowed", source="input",
-              consequence="pins and bearings are overloaded; take a crank_length of at least {crank_length_least:up}."),
+              consequence="pins and bearings are overloaded.", advise=(Vary("crank_length", "up"),)),
         Check(id="energy_balance", check_class="numerical", title="Energy balance over a turn", demand="energy_residual", limit=1e-6, unit="1",
               demand_label="relative difference", limit_label="accepted", source="conservation of energy",
               consequence="the calculation contradicts itself; do not use it."),

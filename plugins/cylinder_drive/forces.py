@@ -118,9 +118,6 @@ teeth.reduction("tooth_force_max", "F_t,max", "kN", "Greatest tangential force",
 teeth.reduction("tooth_normal_force_max", "F_n,max", "kN", "Greatest force square to the flanks", "abs_max", of="tooth_normal_force")
 teeth.value("tooth_radial_force_max", "F_r,max", "kN", "Greatest force that presses sector and pinion apart",
             lambda tooth_force_max, pressure_angle: tooth_force_max * np.tan(pressure_angle))
-teeth.value("pinion_radius_least", "r_p,min", "mm", "Pitch radius of the pinion with the allowed force",
-            lambda pinion_radius, tooth_force_max, allowable_tooth_force: pinion_radius * tooth_force_max / allowable_tooth_force, output=False,
-            needs=("allowable_tooth_force",))
 
 joints = Chapter("Forces in the joints",
                  text="The links are taken without mass: the coupler carries one force along itself, which each of its joints and the crank's "
@@ -150,6 +147,3 @@ joints.value("rocker_bearing_force", "F_3", "kN",
              lambda coupler_force, tooth_normal_force: abs(coupler_force) + abs(tooth_normal_force), needs=("pinion_radius",))
 joints.reduction("rocker_bearing_force_max", "F_3,max", "kN", "Greatest force on the rocker's bearing (upper bound)", "max",
                  of="rocker_bearing_force", needs=("pinion_radius",))
-joints.value("crank_length_least", "a_min", "mm", "Length of the crank with the allowed force",
-             lambda crank_length, joint_force_max, allowable_joint_force: crank_length * joint_force_max / allowable_joint_force, output=False,
-             needs=("allowable_joint_force",))

@@ -135,9 +135,6 @@ kinematics.value("cylinder_acceleration", "ε_c", "rad/s**2", "Angular accelerat
                  source="000, after eq. 12", output=False)
 kinematics.reduction("velocity_max", "V_max", "m/s", "Greatest speed of the cylinder", "abs_max", of="velocity")
 kinematics.reduction("acceleration_max", "a_c,max", "m/s**2", "Greatest acceleration of the cylinder", "abs_max", of="acceleration")
-kinematics.value("crank_speed_most", "ω_1,max", "rpm", "Speed of the crank with the allowed acceleration",
-                 lambda crank_speed, acceleration_max, allowable_acceleration: crank_speed * np.sqrt(allowable_acceleration / acceleration_max),
-                 output=False, needs=("allowable_acceleration",))
 
 TECHNOLOGICAL = Steps()
 TECHNOLOGICAL.choice("technological_moment", "M_t", "N*m", "Moment of the technological load at this crank angle",

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check, Erratum, Mechanism, Source
+from diecut_report.api import Check, Erratum, Mechanism, Source, Vary
 from diecut_report.plugins.cylinder_sizing.calculation import CHAPTERS
 from diecut_report.plugins.cylinder_sizing.drawing import FIGURES
 from diecut_report.plugins.cylinder_sizing.example import EXAMPLE
@@ -31,7 +31,8 @@ MECHANISM = Mechanism(
             demand_label="required wall",
             limit_label="wall at the flat",
             source="geometry",
-            consequence="{wall_verdict}; {wall_advice}.",
+            consequence="{wall_verdict}.",
+            advise=("bore_radius", "segment_height"),
         ),
         Check(
             id="radius",
@@ -45,7 +46,8 @@ MECHANISM = Mechanism(
             source="002 eq. 1",
             tolerance=1e-9,
             sized_unless=("radius",),
-            consequence="the circumference beside the flat is shorter than the working length; {radius_advice}.",
+            consequence="the circumference beside the flat is shorter than the working length.",
+            advise=(Vary("radius", "up"), Vary("segment_height", "down")),
         ),
         Check(
             id="closed_form_error",
@@ -72,7 +74,8 @@ MECHANISM = Mechanism(
             limit_label="allowed",
             source="simply supported beam",
             needs=("bearing_span", "allowable_deflection"),
-            consequence="the cut is lighter in the middle of the sheet than at its sides; {stiffer_advice}.",
+            consequence="the cut is lighter in the middle of the sheet than at its sides.",
+            advise=(Vary("bearing_span", "down"), Vary("bore_radius", "down"), Vary("segment_height", "down")),
         ),
         Check(
             id="closed_section",
@@ -87,7 +90,8 @@ MECHANISM = Mechanism(
             source="strength of materials",
             only_with=("bearing_span",),
             consequence="a slot of {overlap_chord} along the flat opens the section: it twists about a shear centre outside itself and "
-            "gives way in shear, so the calculated deflection does not hold and the true one is greater; {wall_advice}.",
+            "gives way in shear, so the calculated deflection does not hold and the true one is greater.",
+            advise=("bore_radius", "segment_height"),
         ),
     ),
     figures=FIGURES,

@@ -9,7 +9,7 @@ import numpy as np
 from diecut_report.api import Chapter, arccos, as_angle, as_number, bind, case, formula
 from diecut_report.mechanics import circular_segment as segment
 from diecut_report.mechanics import common
-from diecut_report.plugins.cylinder_sizing import advice, beam
+from diecut_report.plugins.cylinder_sizing import beam
 
 # fmt: off
 
@@ -51,9 +51,6 @@ size.require("segment_below_radius", lambda segment_height, radius: segment_heig
 size.require("bore_below_radius", lambda bore_radius, radius: bore_radius < radius, key="bore_radius",
              message="is {bore_radius}, but the bore must be narrower than the cylinder: 0 ≤ R_b < R = {radius}")
 
-size.value("segment_height_fitting", "h_R", "mm", "Segment height for which the adopted radius is exact",
-           lambda radius, working_length: radius * (1 - np.cos(np.pi - as_angle(working_length / (2 * radius)))), output=False)
-size.words("radius_advice", advice.against_radius, ("radius_exact", "radius", "working_length", "segment_height_fitting"), output=False)
 
 flat = Chapter("Segment and flat", text="All geometry uses the adopted radius.")
 flat.value("chord", "c", "mm", "Chord: width of the flat", bind(segment.chord, height="segment_height"), source="002 eq. 3; 000 eq. 16")
@@ -74,10 +71,6 @@ flat.choice("wall_verdict", "w", "1", "What the wall is",
             case("the wall is closed, but thinner than required", "the wall is less than the required one",
                  lambda wall_at_flat, min_wall: wall_at_flat < min_wall),
             case("the wall is thick enough", "the wall is at least the required one"), output=False)
-flat.value("bore_radius_limit", "R_b,max", "mm", "Bore radius that keeps the required wall, in a cylinder of at least the exact radius",
-           lambda radius, radius_exact, segment_height, min_wall: np.maximum(radius, radius_exact) - segment_height - min_wall, output=False)
-flat.words("wall_advice", advice.against_thin_wall, ("bore_radius_limit", "radius_exact", "radius", "segment_height", "bore_radius", "min_wall"),
-           output=False)
 flat.value("cutting_arc_fraction", "κ", "1", "Share of the circumference that is not flat", lambda half_angle: 1 - half_angle / np.pi)
 
 overlap = Chapter("Overlap of bore and segment",
@@ -170,9 +163,5 @@ bending.value("bending_moment", "M_b", "N*m", "Greatest bending moment",
               lambda line_load, generatrix_length, bearing_span:
                   line_load * generatrix_length * (2 * bearing_span - generatrix_length) / 8)
 bending.value("deflection", "f", "mm", "Bending deflection in the middle, of a closed section", beam.deflection)
-
-bending.words("stiffer_advice", advice.against_deflection,
-              ("generatrix_length", "bearing_span", "line_load", "elastic_modulus", "second_moment_min", "deflection", "allowable_deflection"),
-              output=False, needs=("allowable_deflection",))
 
 CHAPTERS = (size, flat, overlap, masses, inertia, bending)

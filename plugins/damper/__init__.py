@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from dataclasses import replace
 
-from diecut_report.api import Check, Mechanism, Source
+from diecut_report.api import Check, Mechanism, Source, Vary
 from diecut_report.plugins.damper.example import EXAMPLE
 from diecut_report.plugins.damper.figures import FIGURES
 from diecut_report.plugins.damper.formulas import SLENDEREST
@@ -13,47 +13,53 @@ from diecut_report.plugins.damper.steps import SECTIONS
 
 ROUNDING = 1e-9  # relative: a length that was sized for a limit reaches it
 
+RUBBER, PAD = ("elastic_modulus", "shore_hardness"), ("ring_width", "pad_height")
+ADVISE = ("adopted_length", *RUBBER, Vary("damper_count", "up"), PAD, (*PAD, "adopted_length"))
+LONGER, SOFTER = ("adopted_length", Vary("damper_count", "up")), ("adopted_length", *RUBBER)
+
 CHECKS = (
     Check(id="strain", check_class="strength", title="Strain within the linear law",
           demand="strain", limit="max_strain", unit="1", tolerance=ROUNDING,
           demand_label="strain", limit_label="linear up to", source="002 eq. 19",
-          consequence="the rubber is stiffer then than calculated, and the force greater; {advice}."),
+          consequence="the rubber is stiffer then than calculated, and the force greater.", advise=ADVISE),
     Check(id="stress", check_class="strength", title="Compression stress",
           demand="stress", limit="allowable_stress", unit="MPa", tolerance=ROUNDING,
           sized_unless=("adopted_length",), demand_label="stress", limit_label="allowed", source="002 eq. 22",
-          consequence="the block is too short to take up the energy; {advice}."),
+          consequence="the block is too short to take up the energy.", advise=ADVISE),
     Check(id="dynamic_stiffness", check_class="strength", title="Stiffness of the rubber at the impact",
           demand="dynamic_stiffness_factor", limit="stiffness_borne", unit="1", tolerance=ROUNDING, sized_unless=("adopted_length",),
           demand_label="dynamic to static stiffness", limit_label="ratio at which the stress is the allowed one", source="002 eq. 22",
-          consequence="at the speed of the impact the rubber is too stiff for the block's length; {advice}."),
+          consequence="at the speed of the impact the rubber is too stiff for the block's length.", advise=ADVISE),
     Check(id="slenderness", check_class="strength", title="Buckling of the block",
           demand="slenderness", limit=SLENDEREST, unit="1", tolerance=ROUNDING,
           demand_label="length over the smaller side", limit_label="straight up to", source="block with clamped ends",
-          consequence="the block buckles before it has taken up the energy; {advice}."),
+          consequence="the block buckles before it has taken up the energy.", advise=ADVISE),
     Check(id="driven_stress", check_class="strength", title="Stress with the drive still pushing",
           demand="driven_stress", limit="allowable_stress", unit="MPa",
           tolerance=ROUNDING, demand_label="stress", limit_label="allowed", source="energy",
-          consequence="the work of the drive adds to the energy; let it go before the stop, or {advice}."),
+          consequence="the work of the drive adds to the energy; it does not where it is let go before the stop.",
+          advise=ADVISE),
     Check(id="driven_strain", check_class="strength", title="Strain with the drive still pushing",
           demand="driven_strain", limit="max_strain", unit="1",
           tolerance=ROUNDING, demand_label="strain", limit_label="linear up to", source="energy",
-          consequence="the work of the drive presses the rubber beyond its linear law; let it go before the stop, or {advice}."),
+          consequence="the work of the drive presses the rubber beyond its linear law; it does not where it is let go before the stop.",
+          advise=ADVISE),
     Check(id="force", check_class="strength", title="Force of a damper", demand="peak_force", limit="allowable_force", unit="N",
           demand_label="greatest force", limit_label="allowed", source="input",
-          consequence="carriage or frame yields; longer dampers or more of them lower it."),
+          consequence="carriage or frame yields.", advise=LONGER),
     Check(id="deceleration", check_class="function", title="Deceleration of the stop", demand="peak_deceleration",
           limit="allowable_deceleration", unit="m/s**2", demand_label="greatest deceleration", limit_label="allowed", source="input",
-          consequence="the stop shakes the machine; longer dampers or a softer rubber lower it."),
+          consequence="the stop shakes the machine.", advise=SOFTER),
     Check(id="heat_power", check_class="strength", title="Heat of the dampers", demand="heat_power", limit="allowable_heat_power", unit="W",
           demand_label="heat of one end", limit_label="allowed", source="input",
           consequence="the rubber softens and ages; dampers that are met later (with a smaller velocity) or a rubber that loses less help."),
     Check(id="driven_force", check_class="strength", title="Force of a damper with the drive",
           demand="driven_peak_force", limit="allowable_force", unit="N",
           demand_label="greatest force", limit_label="allowed", source="input",
-          consequence="carriage or frame yields; longer dampers or more of them, or a drive that is let go, lower it."),
+          consequence="carriage or frame yields; a drive that is let go makes it less.", advise=LONGER),
     Check(id="driven_deceleration", check_class="function", title="Deceleration with the drive", demand="driven_peak_deceleration",
           limit="allowable_deceleration", unit="m/s**2", demand_label="greatest deceleration", limit_label="allowed", source="input",
-          consequence="the stop shakes the machine; longer dampers or a softer rubber lower it."),
+          consequence="the stop shakes the machine.", advise=SOFTER),
 )  # fmt: skip
 
 MECHANISM = Mechanism(

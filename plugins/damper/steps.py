@@ -2,13 +2,10 @@
 
 from __future__ import annotations
 
-from itertools import combinations
-
 import numpy as np
 
-from diecut_report.api import Chapter, Steps, as_number, bind, case
+from diecut_report.api import Chapter, as_number, bind, case
 from diecut_report.mechanics import common
-from diecut_report.plugins.damper import advice
 from diecut_report.plugins.damper import formulas as f
 from diecut_report.plugins.damper.inputs import STOPPED
 
@@ -138,25 +135,4 @@ drive.value("driven_length", "H_da", "mm", "Least length that bears the drive, r
 drive.value("driven_damper_count", "n_d", "1", "Least number of dampers of this pad and length that bears the drive", f.driven_count, whole=True,
             source="energy")
 
-KNOWN = ("kinetic_energy", "elastic_modulus", "ring_width", "pad_height", "damper_count", "allowable_stress", "max_strain",
-         "length_step")
-"""What advice is made of, whatever is given."""
-
-
-def advice_steps() -> Steps:
-    """The advice of failing checks, for each choice of what may be given beside: it is judged for all checks together."""
-    steps = Steps()
-    optional = {"drive": "driving_force", "adopted_length": "adopted_length", "shore_hardness": "shore_hardness",
-                "dynamic_stiffness_factor": "dynamic_stiffness_factor"}
-    for count in range(len(optional) + 1):
-        for given in combinations(optional, count):
-            takes = (*KNOWN, *(optional[key] for key in given))
-            lacks = tuple(key for key in optional if key not in given)
-            steps.words("advice", advice.advice(takes), takes, output=False, needs=given, lacks=lacks)
-    return steps
-
-
-advice_chapter = Chapter("Changes")
-advice_chapter.add(advice_steps())
-
-SECTIONS = (energy, length, load, loss, stop, heat, buckling, drive, advice_chapter)
+SECTIONS = (energy, length, load, loss, stop, heat, buckling, drive)

@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import ByText, Chapter, Check, Phrase, Steps, arccos, as_number, bind, formula, told
+from diecut_report.api import ByText, Chapter, Check, Steps, Vary, arccos, as_number, bind, formula
 from diecut_report.mechanics import common
 
 # fmt: off
@@ -77,11 +77,6 @@ def any_marked(is_cylinder: Any) -> Any:
     return is_cylinder.max(axis=1, keepdims=True)
 
 
-def pitch_advice(pitch: float, fewest: float) -> str:
-    """The pitch that puts enough teeth into mesh."""
-    return Phrase("a pitch of at most {pitch}", pitch=told(pitch * fewest / FEWEST_IN_MESH, 'mm', up=False))
-
-
 IS_MARKED = bind(common.is_positive, quantity="cylinder_pulley_there")
 
 listed = Chapter("Toothed belt: pulleys of the list",
@@ -127,8 +122,6 @@ listed.value("cylinder_wrap_height", "h_c", "1", "Height of the middle of its wr
 listed.value("engagement_angle", "γ", "deg", "Angle of the wrap's middle from the side of engagement",
              ByText("toothed_belt.engagement", {"away": angle_from_top, "die": angle_from_bottom}, height="cylinder_wrap_height"), source="geometry",
              output=False, exists=IS_MARKED)
-listed.words("pitch_advice", pitch_advice, (PITCH, "teeth_in_mesh_min"), output=False)
-
 MARKS = Steps()
 MARKS.lookup("is_cylinder_pulley", "κ", "1", "Cylinder's pulley: 1, another one: −1", {"cylinder": 1.0, "other": -1.0}, by=f"{PULLEYS}.role",
              source="this method", output=False)
@@ -139,7 +132,8 @@ LISTED_CHECKS = (
     Check(id="teeth_in_mesh", check_class="practice", title="Teeth in mesh",
           demand=FEWEST_IN_MESH, limit="teeth_in_mesh_min", unit="1", demand_label="required",
           limit_label="fewest of the toothed pulleys", source="practice",
-          consequence="the belt's teeth shear or jump; {pitch_advice}, a larger pulley or an idler outside that adds wrap helps."),
+          consequence="the belt's teeth shear or jump; a larger pulley or an idler outside that adds wrap helps.",
+          advise=(Vary(PITCH, "down"),)),
     Check(id="belt_engagement", check_class="function", title="Side of the cylinder's pulley",
           demand="engagement_angle", limit=90.0, unit="deg", operator="<",
           demand_label="belt off the engaged side", limit_label="allowed", source="geometry",

@@ -6,8 +6,15 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import as_number, formula
+from diecut_report.api import as_number, formula, standard_series, standard_series_by
 from diecut_report.mechanics import belt_path
+
+PULLEYS = standard_series("renard_r40_lengths")
+LENGTHS = standard_series_by("iso_4184_lengths")
+LARGEST_RATIO = 7.0
+LARGEST_DEVIATION = 2.0  # of the output's speed, %
+FASTEST_BELT = 30.0  # m/s
+LEAST_WRAP = 120.0  # deg
 
 
 @formula

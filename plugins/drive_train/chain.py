@@ -5,7 +5,7 @@ from __future__ import annotations
 import numpy as np
 
 from diecut_report.api import Chapter, bind, case
-from diecut_report.plugins.drive_train import advice, motor_advice, shafts
+from diecut_report.plugins.drive_train import belts, shafts
 
 # fmt: off
 
@@ -33,7 +33,7 @@ speeds.require("belt_steps_down", lambda vbelt_ratio: vbelt_ratio > 1 - 1e-12, k
 speeds.value("driven_diameter_exact", "d_2′", "mm", "Diameter of the driven pulley for this ratio",
              bind(lambda vbelt_ratio, driver_diameter: vbelt_ratio * driver_diameter, driver_diameter="vbelt.driver_diameter"), source="kinematics",
              output=False)
-speeds.pick("driven_diameter", "d_2", "mm", "Datum diameter of the driven pulley", "nearest", of="driven_diameter_exact", series=advice.PULLEYS,
+speeds.pick("driven_diameter", "d_2", "mm", "Datum diameter of the driven pulley", "nearest", of="driven_diameter_exact", series=belts.PULLEYS,
             beyond="last", source="R40 series")
 speeds.value("vbelt_ratio_actual", "i_b′", "1", "Ratio of the V-belt with this diameter",
              bind(lambda driven_diameter, driver_diameter: driven_diameter / driver_diameter, driver_diameter="vbelt.driver_diameter"),
@@ -81,7 +81,6 @@ turn.value("mean_difference", "ΔM_mean", "N*m", "Mean of the curve off the mean
            lambda driving_mean, braking_mean, torque_mean: abs(driving_mean - braking_mean - torque_mean), output=False)
 turn.value("peak_difference", "ΔM_peak", "N*m", "Peak of the curve off the peak torque given",
            lambda curve_peak, torque_peak: abs(curve_peak - torque_peak), output=False)
-turn.words("mean_advice", motor_advice.mean_advice, ("driving_mean", "braking_mean"), output=False)
 turn.value("accepted_difference", "[ΔM]", "N*m", "Permitted deviation of the curve", lambda curve_peak: curve_peak / 100, output=False)
 
 efficiency = Chapter("Efficiency")

@@ -4,16 +4,23 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, as_number, bind
+from diecut_report.api import Chapter, as_number, bind, standard_series, standard_table
 from diecut_report.mechanics import common
-from diecut_report.plugins.drive_train import belts, inertia, motor_advice
+from diecut_report.plugins.drive_train import belts, inertia
+
+RATINGS = standard_series("iec_60072_ratings")
+SYNCHRONOUS = tuple(
+    sorted(speed for name, speed in standard_table("motor_synchronous_speeds").values.items() if name.endswith("50 Hz"))
+)
+DENSITIES = {"steel": 7850.0, "cast_iron": 7200.0}  # kg/m³
+RIM_SPEEDS = {"steel": 60.0, "cast_iron": 35.0}  # m/s
 
 # fmt: off
 
 motor_chapter = Chapter("Motor")
 motor_chapter.value("power_required", "P_req", "kW", "Required power of the motor, with the reserve",
                     lambda shaft_1_power, reserve_factor: shaft_1_power * reserve_factor, source="this method")
-motor_chapter.pick("motor_power", "P_r", "kW", "Rated power of the motor", "above", of="power_required", series=motor_advice.RATINGS,
+motor_chapter.pick("motor_power", "P_r", "kW", "Rated power of the motor", "above", of="power_required", series=RATINGS,
                    beyond="last", source="IEC 60072-1")
 motor_chapter.value("motor_rated_torque", "M_r", "N*m", "Rated torque of the motor", lambda motor_power, shaft_1_speed: motor_power / shaft_1_speed,
                     source="mechanics")
@@ -22,9 +29,6 @@ motor_chapter.value("motor_peak_torque", "M_1,peak", "N*m", "Peak torque of the 
                         torque_peak / (gear_ratio_total * vbelt_ratio_actual * efficiency_total), source="this method", lacks=("torque_curve",))
 motor_chapter.value("motor_breakdown_torque", "M_br", "N*m", "Breakdown torque of the motor",
                     lambda breakdown_ratio, motor_rated_torque: breakdown_ratio * motor_rated_torque, source="this method", lacks=("torque_curve",))
-motor_chapter.words("motor_advice", motor_advice.motor_advice, ("shaft_1_power",), output=False)
-motor_chapter.words("overload_advice", motor_advice.overload_advice, ("motor_peak_torque", "breakdown_ratio", "shaft_1_speed", "shaft_1_power"),
-                    output=False, lacks=("torque_curve",))
 
 flywheel = Chapter("Flywheel",
                    text="The motor is taken to give the mean torque; what the load takes beyond it comes from the flywheel and returns to it. That "
@@ -46,7 +50,7 @@ flywheel.value("synchronous_speed", "n_s", "rpm", "Synchronous speed of the moto
                bind(lambda synchronous_speed: synchronous_speed, synchronous_speed="inputs.synchronous_speed"), source="input",
                needs=("synchronous_speed",))
 flywheel.pick("synchronous_speed", "n_s", "rpm", "Synchronous speed of the motor, at 50 Hz", "above", of="shaft_1_speed",
-              series=motor_advice.SYNCHRONOUS, beyond="last", source="practice", lacks=("synchronous_speed",))
+              series=SYNCHRONOUS, beyond="last", source="practice", lacks=("synchronous_speed",))
 flywheel.value("rated_slip", "s_n", "rpm", "Slip of the motor at its rated speed", lambda synchronous_speed, shaft_1_speed:
                synchronous_speed - shaft_1_speed, source="mechanics", output=False)
 SLIPS = bind(common.is_below, smaller=0, greater="rated_slip")
@@ -59,9 +63,9 @@ flywheel.value("loaded_output_speed", "n_oL", "rpm", "Speed of the output then, 
 flywheel.value("swing_to_slip", "κ_s", "1", "Swing of the motor's speed by the accepted fluctuation, to its slip at the rated speed",
                lambda speed_fluctuation, shaft_1_speed, rated_slip: speed_fluctuation * shaft_1_speed / rated_slip, source="this method",
                exists=lambda rated_slip: rated_slip > 0)
-flywheel.lookup("flywheel_density", "ρ", "kg/m**3", "Density of the flywheel", motor_advice.DENSITIES, by="flywheel_material", source="material",
+flywheel.lookup("flywheel_density", "ρ", "kg/m**3", "Density of the flywheel", DENSITIES, by="flywheel_material", source="material",
                 output=False)
-flywheel.lookup("flywheel_rim_limit", "[v]", "m/s", "Allowed speed of the flywheel's rim", motor_advice.RIM_SPEEDS, by="flywheel_material",
+flywheel.lookup("flywheel_rim_limit", "[v]", "m/s", "Allowed speed of the flywheel's rim", RIM_SPEEDS, by="flywheel_material",
                 source="material", output=False)
 flywheel.value("flywheel_diameter", "D", "mm", "Diameter of the flywheel as a disc",
                lambda flywheel_inertia, flywheel_density: (160 * flywheel_inertia / (np.pi * flywheel_density)) ** (1 / 5), source="this method")
@@ -71,12 +75,6 @@ flywheel.value("flywheel_mass", "m_f", "kg", "Mass of the flywheel",
                    flywheel_density * as_number(np.pi) * flywheel_diameter ** 2 / 4 * flywheel_width, source="geometry")
 flywheel.value("flywheel_rim_speed", "v_f", "m/s", "Speed of the flywheel's rim",
                bind(belts.rim_speed, speed="shaft_2_speed", diameter="flywheel_diameter"), source="kinematics")
-flywheel.words("rim_advice", motor_advice.rim_advice, ("flywheel_rim_speed", "flywheel_rim_limit", "speed_fluctuation", "flywheel_density"),
-               output=False)
-
-FOR_RUN_UP = ("allowable_run_up_time", "shaft_1_speed", "shaft_1_power", "run_up_torque", "run_up_torque_ratio", "run_up_load",
-              "shaft_1_torque", "run_up_inertia", "moved_inertia", "gear_ratio_total", "gears_efficiency", "vbelt_ratio_actual",
-              "vbelt.efficiency")
 
 run_up = Chapter("Run-up of the motor",
                  text="From rest the motor brings rotor, flywheel and load to their speeds with its mean run-up torque, less what the load takes. "
@@ -108,6 +106,3 @@ run_up.value("run_up_time", "t_a", "s", "Run-up time of the motor", inertia.run_
 for needs, lacks in (((), ("load_inertia",)), (("load_inertia",), ("motor_inertia",))):
     run_up.value("run_up_time_least", "t_a1", "s", "Run-up time of what is given: with the rest it is longer", inertia.run_up_time,
                  source="mechanics", exists=inertia.runs_up, needs=needs, lacks=lacks)
-run_up.words("run_up_advice", motor_advice.run_up_advice, (*FOR_RUN_UP, "flywheel_inertia", "speed_fluctuation"), output=False,
-             needs=("torque_curve",))
-run_up.words("run_up_advice", motor_advice.run_up_advice, FOR_RUN_UP, output=False, lacks=("torque_curve",))

@@ -6,26 +6,25 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind, standard_table
+from diecut_report.api import Chapter, Vary, bind, standard_table
 from diecut_report.mechanics import belt_path
-from diecut_report.plugins.drive_train import advice, belts
+from diecut_report.plugins.drive_train import belts
 
 # fmt: off
 
 PULLEYS = {"small": "small_radius", "large": "large_radius"}
-LARGEST: dict[str, str | float] = {"ratio": "vbelt_ratio", "largest": advice.LARGEST_RATIO}
+LARGEST: dict[str, str | float] = {"ratio": "vbelt_ratio", "largest": belts.LARGEST_RATIO}
 RATIO: dict[str, str | float] = LARGEST | {"distance": "vbelt.center_distance"}
 RANGE: dict[str, str | float] = LARGEST | {
     "shortest": "shortest_belt",
     "length": "vbelt_length",
     "longest": "longest_belt",
 }
+DISTANCE = ("vbelt.center_distance",)
 RATIO_TOO_GREAT = (
-    f"leave the V-belt a ratio of {{vbelt_ratio}}, above the {advice.LARGEST_RATIO:g} that one V-belt covers: from motor_speed = "
-    "{motor_speed} to output_speed = {inputs.output_speed} it is {total_ratio}, of which the gears have {gear_ratio_total}; {gears_advice}"
+    f"leave the V-belt a ratio of {{vbelt_ratio}}, above the {belts.LARGEST_RATIO:g} that one V-belt covers: from motor_speed = "
+    "{motor_speed} to output_speed = {inputs.output_speed} it is {total_ratio}, of which the gears have {gear_ratio_total}"
 )
-FOR_PULLEYS = ("vbelt_ratio", "vbelt.driver_diameter", "least_driver_diameter", "vbelt.center_distance", "shortest_belt", "longest_belt",
-               "shaft_1_speed")
 
 vbelt_chapter = Chapter("V-belt",
                         text="The belt's length follows exactly from its two runs and two arcs. The nearest standard length corrects the distance "
@@ -43,35 +42,33 @@ vbelt_chapter.value("large_radius", "r_2", "mm", "Radius of the larger pulley",
 vbelt_chapter.value("least_center_distance", "a_min", "mm", "Centre distance at which the pulleys touch",
                     lambda small_radius, large_radius: small_radius + large_radius, output=False)
 vbelt_chapter.lookup("shortest_belt", "L_min", "mm", "Shortest standard belt of the section",
-                     {name: series.values[0] for name, series in advice.LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
+                     {name: series.values[0] for name, series in belts.LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
 vbelt_chapter.lookup("longest_belt", "L_max", "mm", "Longest standard belt of the section",
-                     {name: series.values[-1] for name, series in advice.LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
-vbelt_chapter.words("gears_advice", advice.gears_advice,
-                    ("total_ratio", "vbelt.driver_diameter", "vbelt.center_distance", "shortest_belt", "longest_belt"), output=False)
-vbelt_chapter.words("distance_advice", advice.distance_advice, ("small_radius", "large_radius", "shortest_belt", "longest_belt"), output=False)
+                     {name: series.values[-1] for name, series in belts.LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
 vbelt_chapter.require("ratio_leaves_room", bind(belts.ratio_leaves_room, least="least_center_distance", **RATIO), key="gears",
-                      message=RATIO_TOO_GREAT)
+                      message=RATIO_TOO_GREAT, advise=("gears.driven_teeth",))
 vbelt_chapter.require("driver_large_enough",
                       bind(lambda least_driver_diameter, driver_diameter: least_driver_diameter <= driver_diameter,
                            driver_diameter="vbelt.driver_diameter"), key="vbelt.driver_diameter",
                       message="is {vbelt.driver_diameter}, but a belt of section {vbelt.section} needs pulleys of {least_driver_diameter} or more: "
-                              "take a larger pulley or a smaller section")
+                              "take a larger pulley or a smaller section", advise=(Vary("vbelt.driver_diameter", "up", belts.PULLEYS.values),))
 vbelt_chapter.require("pulleys_apart", bind(belts.has_room, least="least_center_distance", **RATIO), key="vbelt.center_distance",
                       message="is {vbelt.center_distance}, but pulleys of {vbelt.driver_diameter} and {driven_diameter} overlap up to "
-                              "{least_center_distance:up}: {distance_advice}")
+                              "{least_center_distance:up}", advise=DISTANCE)
 vbelt_chapter.value("vbelt_length", "L_0", "mm", "Length of the belt at the wanted distance of the shafts",
                     bind(belt_path.open_belt_length, center_distance="vbelt.center_distance", **PULLEYS), source="geometry")
-vbelt_chapter.require("ratio_leaves_belt", bind(belts.ratio_leaves_belt, **RANGE), key="gears", message=RATIO_TOO_GREAT)
+vbelt_chapter.require("ratio_leaves_belt", bind(belts.ratio_leaves_belt, **RANGE), key="gears", message=RATIO_TOO_GREAT,
+                      advise=("gears.driven_teeth",))
 vbelt_chapter.require("belt_exists", bind(belts.has_belt, **RANGE), key="vbelt.center_distance",
                       message="is {vbelt.center_distance}; that takes a belt of {vbelt_length}, but section {vbelt.section} has standard lengths "
-                              "of {shortest_belt} … {longest_belt}: {distance_advice}")
-vbelt_chapter.pick("vbelt_standard_length", "L", "mm", "Standard length of the belt", "nearest", of="vbelt_length", series=advice.LENGTHS,
+                              "of {shortest_belt} … {longest_belt}", advise=DISTANCE)
+vbelt_chapter.pick("vbelt_standard_length", "L", "mm", "Standard length of the belt", "nearest", of="vbelt_length", series=belts.LENGTHS,
                    source="ISO 4184", by="vbelt.section")
 vbelt_chapter.value("least_belt", "L_t", "mm", "Length of the belt with the pulleys touching",
                     bind(belt_path.open_belt_length, center_distance="least_center_distance", **PULLEYS), output=False)
 vbelt_chapter.require("standard_belt_fits", lambda least_belt, vbelt_standard_length: least_belt < vbelt_standard_length, key="vbelt.center_distance",
                       message="is {vbelt.center_distance}; the nearest standard belt, {vbelt_standard_length} long, draws the pulleys into each "
-                              "other ({least_belt:up} is the least): {distance_advice}")
+                              "other ({least_belt:up} is the least)", advise=DISTANCE)
 vbelt_chapter.root("center_distance", "a", "mm", "Distance of the shafts, corrected for the standard belt",
                    bind(belts.length_left_over, belt="vbelt_standard_length", **PULLEYS), low=lambda least_center_distance: least_center_distance,
                    high=lambda vbelt_standard_length: vbelt_standard_length / 2,
@@ -80,8 +77,6 @@ vbelt_chapter.root("center_distance", "a", "mm", "Distance of the shafts, correc
 vbelt_chapter.value("vbelt_wrap", "β_1", "deg", "Wrap on the smaller pulley", bind(belt_path.wrap_small, **PULLEYS), source="geometry")
 vbelt_chapter.value("vbelt_wrap_large", "β_2", "deg", "Wrap on the larger pulley", bind(belt_path.wrap_large, wrap_small="vbelt_wrap"),
                     source="geometry", output=False)
-vbelt_chapter.words("driver_advice", advice.driver_advice, FOR_PULLEYS, output=False)
-vbelt_chapter.words("slower_belt_advice", advice.slower_belt_advice, FOR_PULLEYS, output=False)
 
 REFERENCE_LENGTHS = {"SPZ": 1600, "SPA": 2500, "SPB": 3550, "SPC": 5600}  # mm
 MASSES = {"SPZ": 0.07, "SPA": 0.12, "SPB": 0.20, "SPC": 0.37}  # kg/m

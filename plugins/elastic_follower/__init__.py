@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Erratum, Mechanism, Source
 from diecut_report.plugins.elastic_follower import motion, response
-from diecut_report.plugins.elastic_follower.checks import CHECKS, advice_chapter
+from diecut_report.plugins.elastic_follower.checks import CHECKS
 from diecut_report.plugins.elastic_follower.example import EXAMPLE
 from diecut_report.plugins.elastic_follower.figures import FIGURES
 from diecut_report.plugins.elastic_follower.inputs import ElasticFollower
@@ -20,8 +20,7 @@ MECHANISM = Mechanism(
     inputs=ElasticFollower,
     example=EXAMPLE,
     chapters=(motion.drive, motion.times, motion.by_law, motion.by_curve, response.response_chapter, response.settling, response.peaks_chapter,
-              response.compared,
-              advice_chapter),
+              response.compared),
     key_results=("natural_frequency", "tuning_ratio", "peak_ratio", "residual_ratio", "acceleration_peak", "acceleration_rigid", "overshoot",
                  "torque_peak", "recommended_law"),
     checks=CHECKS,

@@ -1,46 +1,28 @@
-"""Checks of the elastic drive, and what their messages say."""
+"""Checks of the elastic drive."""
 
 from __future__ import annotations
 
-from diecut_report.api import Chapter, Check, bind, phrase
-from diecut_report.plugins.elastic_follower import formulas
-from diecut_report.plugins.elastic_follower.advice import passing
-from diecut_report.plugins.elastic_follower.motion import CURVE, LAW, RATE
+from diecut_report.api import AdviceWay, Check, Vary, phrase
+from diecut_report.plugins.elastic_follower.motion import CURVE, LAW
 from diecut_report.plugins.elastic_follower.spectrum import FIRST
 
 # fmt: off
 
 WANTED = 5  # natural periods within the rise
-TAKEN = (
-    "motion_law",
-    "stiffness",
-    "tuning_ratio",
-    "damping_ratio",
-    "rise_time",
-    "allowable_peak_ratio",
-    "allowable_residual_ratio",
-)
-
-
-advice_chapter = Chapter("Tuning")
-advice_chapter.value("wanted_stiffness", "K_5", "kN*m/rad", f"Stiffness with {WANTED} natural periods within the rise",
-                     bind(formulas.tuned_stiffness, wanted=WANTED), units=(("mass", "N/mm"),), source="this method", output=False)
-for body, stiffness in (("inertia", "kN*m/rad"), ("mass", "N/mm")):
-    for time, needs, lacks in (("ms", (), RATE), ("1", RATE, ())):
-        advice_chapter.words("advice", passing(stiffness, time), TAKEN, needs=(*LAW, body, *needs), lacks=lacks)
+TUNED = (Vary("stiffness", "up"), Vary("rise_time", "up"), "motion_law")
+SLOWER = (Vary("stiffness", "up"), Vary("rise_time", "up"))
 
 
 def _of_peak(id: str, title: str, demand: str, label: str, consequence: str) -> tuple[Check, Check]:
     limit = {"peak_ratio": "allowable_peak_ratio", "residual": "allowable_residual_ratio"}[id]
 
-    def check(needs: tuple[str, ...], words: str) -> Check:
+    def check(needs: tuple[str, ...], words: str, advise: tuple[AdviceWay, ...]) -> Check:
         return Check(id=id, check_class="function", title=title, demand=demand, limit=limit, unit="1", demand_label=label, limit_label="allowed",
-                     source="001, first paper", consequence=f"{consequence}; {words}", needs=needs)
+                     source="001, first paper", consequence=f"{consequence}; {words}", needs=needs, advise=advise)
 
-    by_curve = (
-        phrase("a stiffer drive or a lighter link has more natural periods within the motion (see the figure of this motion)")
-    )
-    return check(LAW, "{advice}."), check(CURVE, f"{by_curve}.")
+    lighter = phrase("a lighter link has more natural periods within the motion, too.")
+    by_curve = phrase("a lighter link has more natural periods within the motion, too (see the figure of this motion).")
+    return check(LAW, lighter, TUNED), check(CURVE, by_curve, (Vary("stiffness", "up"),))
 
 
 CHECKS = (
@@ -49,14 +31,16 @@ CHECKS = (
     Check(id="tuning_ratio", check_class="practice", title="Natural periods within the motion",
           demand=WANTED, limit="tuning_ratio", unit="1", severity="warn",
           demand_label="wanted", limit_label="natural periods within the motion", source="practice",
-          consequence="the link cannot follow the input; take a stiffness of at least {wanted_stiffness:up}, a lighter link or a longer motion."),
+          consequence="the link cannot follow the input; a lighter one can.", advise=SLOWER),
     *(Check(id="torque_peak", check_class="strength", title="Load of the drive", demand="torque_peak", limit="allowable_torque", unit=unit,
             needs=(body,), demand_label=label, limit_label="allowed", source="input",
-            consequence="shaft, chain or rod is overloaded; a longer or gentler motion or a lighter link lowers it.")
+            consequence="shaft, chain or rod is overloaded; a gentler motion or a lighter link lowers it.",
+            advise=(Vary("rise_time", "up"),))
       for body, unit, label in (("inertia", "N*m", "greatest torque"), ("mass", "N", "greatest force"))),
     *_of_peak("residual", "Vibration after the motion", "residual_ratio", "peak after the motion, to the rigid one",
               "the link goes on swinging in its rest"),
     Check(id="spectrum_start", check_class="function", title="Within the spectrum: not too soft", demand=FIRST, limit="tuning_ratio", unit="1",
           demand_label="the spectrum begins at", limit_label="natural periods within the motion", source="001, first paper",
-          consequence="the link stays behind the input, and its peaks are small only for that; the spectrum does not show this drive."),
+          consequence="the link stays behind the input, and its peaks are small only for that; the spectrum does not show this drive.",
+          advise=SLOWER),
 )

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Mechanism, Source
 from diecut_report.plugins.gear_pair import load, rating
-from diecut_report.plugins.gear_pair.checks import CHECKS, advice_chapter
+from diecut_report.plugins.gear_pair.checks import CHECKS
 from diecut_report.plugins.gear_pair.example import EXAMPLE
 from diecut_report.plugins.gear_pair.figures import FIGURES
 from diecut_report.plugins.gear_pair.inputs import ExternalGearPair
@@ -22,7 +22,7 @@ MECHANISM = Mechanism(
     inputs=ExternalGearPair,
     example=EXAMPLE,
     chapters=(load.cycle, load.load, load.factors, mesh, root_form, module, rating.sizes, rating.forces, rating.pitting, rating.root_stress,
-              rating.over_cycle, rating.sector, advice_chapter),
+              rating.over_cycle, rating.sector),
     key_results=("module", "center_distance", "shift_2", "contact_ratio", "tangential_force", "pitting_safety_1", "pitting_safety_2", "root_safety_1",
                  "root_safety_2"),
     checks=CHECKS,

@@ -4,8 +4,16 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind, case
-from diecut_report.plugins.gear_pair import advice
+from diecut_report.api import Chapter, bind, case, named
+
+KEYS = ("application_factor", "dynamic_factor", "face_load_factor", "transverse_load_factor")
+
+
+def assumed_factors(*assumed: float) -> str:
+    """The keys of the factors that are assumed."""
+    *first, last = [key for key, is_assumed in zip(KEYS, assumed, strict=True) if is_assumed] or [""]
+    return named([named(first, ", "), last] if first else [last], " and ")
+
 
 # fmt: off
 
@@ -64,4 +72,4 @@ for name, words in (*((name, words) for name, (_, words, _) in FACTORS.items()),
 ASSUMED = tuple(f"{name}_assumed" for name in (*FACTORS, "transverse_load"))
 factors.computed("factors_assumed", "n_K", "1", "K factors that are assumed", lambda *assumed: sum(assumed), ASSUMED, "those above that are assumed",
                  whole=True, source="this method")
-factors.words("assumed_told", advice.assumed_factors, ASSUMED, output=False)
+factors.words("assumed_told", assumed_factors, ASSUMED, output=False)

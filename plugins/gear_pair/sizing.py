@@ -7,8 +7,8 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import Bound, Chapter, Formula, Value, bind, phrase, si, standard_series
-from diecut_report.plugins.gear_pair import advice, rating
+from diecut_report.api import Bound, Chapter, Formula, Value, Vary, bind, phrase, si, standard_series
+from diecut_report.plugins.gear_pair import rating
 from diecut_report.plugins.gear_pair.mesh import GIVEN_DISTANCE, TEETH
 
 MODULES = standard_series("iso_54_modules")
@@ -65,9 +65,9 @@ module = Chapter("Module", text="The rating below is gone through with each modu
 module.computed("module_least", "m_min", "mm", "Least preferred module that is enough", function=least_module, takes=TAKES,
                 method="the safeties of pitting and root below, with each module of ISO 54, series I, in turn; 0 where none is enough",
                 lacks=GIVEN_DISTANCE, output=False)
-module.words("no_module", advice.no_module, ("face_width",), lacks=("module",), output=False)
 module.require("module_exists", lambda module_least: module_least > 0, key="face_width", lacks=("module",),
-               message="is {face_width}, with which no module of ISO 54 carries the torque; {no_module}")
+               message="is {face_width}, with which no module of ISO 54 carries the torque; better steel or a smaller torque helps",
+               advise=(Vary("face_width", "up"),))
 module.pick("module", "m_n", "mm", "Normal module: the least that is enough", "above", of="module_least", series=MODULES, lacks=("module",),
             source="ISO 54")
 module.value("module", "m_n", "mm", "Normal module: as given", bind(lambda given: given, given="inputs.module"), needs=("module",), source="input")

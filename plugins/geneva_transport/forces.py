@@ -6,12 +6,11 @@ import numpy as np
 
 from diecut_report.api import Chapter, as_angle, bind, case
 from diecut_report.mechanics import common, contact
-from diecut_report.plugins.geneva_transport import advice, formulas, loads
+from diecut_report.plugins.geneva_transport import formulas, loads
 from diecut_report.plugins.geneva_transport.motion import CONVEYOR_NEEDS
 
 # fmt: off
 
-GEOMETRY = ("slots", "center_distance", "locking_clearance", "roller_radius")
 
 HELD = ("cover_angle",)
 PLAY_NEEDS = (*CONVEYOR_NEEDS, *HELD, "allowable_sheet_play")
@@ -59,13 +58,9 @@ locking.choice("locking_radius", "r_l", "mm", "Radius of the wheel's locking arc
                case(loads.thick_tip, "the arm's tip between locking arc and slot is as thick as the roller", loads.leaves_thick_tip),
                case(loads.half_crank, "such a tip would not pass the cut-out: half the crank's radius", loads.is_deep_enough),
                case(loads.halfway, "the disc must reach into the wheel: halfway between rim and flank"), source="practice", lacks=("locking_radius",))
-locking.words("roller_fits", advice.roller_that_fits, GEOMETRY, lacks=("locking_radius",))
-locking.words("roller_fits", advice.roller_that_fits, (*GEOMETRY, "locking_radius"), needs=("locking_radius",))
-locking.words("arc_fits", advice.arc_that_fits, (*GEOMETRY, "locking_radius"))
-locking.words("clearance_fits", advice.clearance_that_fits, ("slots", "center_distance", "roller_radius", "locking_radius"))
 locking.require("locking_below_crank", lambda locking_radius, crank_radius: locking_radius < crank_radius, key="locking_radius",
                 message="is {locking_radius}, but the locking disc must stay inside the roller's path: below the crank radius C·sin(π/z) = "
-                        "{crank_radius}, and by a roller radius and the arm's thickness below it; take {arc_fits}{roller_fits}")
+                        "{crank_radius}, and by a roller radius and the arm's thickness below it", advise=("locking_radius",))
 locking.value("arm_tip", "w_t", "mm", "Thickness of an arm at its tip, between locking arc and slot",
               lambda flank_distance, locking_radius: flank_distance - locking_radius, source="geometry")
 locking.value("arm_neck", "w_n", "mm", "Width of an arm where the locking arc is deepest, from slot to slot",
@@ -73,7 +68,7 @@ locking.value("arm_neck", "w_n", "mm", "Width of an arm where the locking arc is
                   2 * ((center_distance - locking_radius) * np.sin(np.pi / slots) - roller_radius), source="geometry")
 locking.require("clearance_below_arc", lambda locking_clearance, locking_radius: locking_clearance < locking_radius, key="locking_clearance",
                 message="is {locking_clearance}, but the locking disc is smaller than its arc by that much: it must be below the arc's radius "
-                        "{locking_radius:down}, and leave the disc its reach: {clearance_fits}")
+                        "{locking_radius:down}, and leave the disc its reach", advise=("locking_clearance",))
 locking.value("disc_radius", "r_d", "mm", "Radius of the locking disc", lambda locking_radius, locking_clearance: locking_radius - locking_clearance,
               source="geometry")
 locking.value("locking_cutout_angle", "γ_c", "deg", "Angle of the disc's cut-out, in its middle the roller", formulas.cutout_angle, source="geometry",

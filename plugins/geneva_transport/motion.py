@@ -6,7 +6,7 @@ import numpy as np
 
 from diecut_report.api import Case, Chapter, Steps, as_angle, bind, case
 from diecut_report.mechanics import contact
-from diecut_report.plugins.geneva_transport import advice, formulas
+from diecut_report.plugins.geneva_transport import formulas
 from diecut_report.plugins.geneva_transport.inputs import GRIPPED
 
 # fmt: off
@@ -120,8 +120,6 @@ conveyor.value("sheet_velocity_max", "v_max", "m/s", "Greatest velocity of the s
                source="kinematics")
 conveyor.value("sheet_acceleration_max", "a_max", "m/s**2", "Greatest acceleration of the sheet",
                bind(formulas.travel_acceleration, ratio="acceleration_peak"), source="kinematics")
-conveyor.words("crank_slower", advice.slower_crank, ("crank_speed", "sheet_acceleration_max", "allowable_sheet_acceleration"),
-               needs=("allowable_sheet_acceleration",))
 conveyor.value("sheet_acceleration_entry", "a_e", "m/s**2", "Jump of the sheet's acceleration at entry and exit",
                bind(formulas.travel_acceleration, ratio="acceleration_entry"), source="kinematics")
 
@@ -130,8 +128,6 @@ grippers = Chapter("Hold of the grippers",
                    needs=GRIPPED, absent="not calculated: {missing} not given")
 grippers.value("sheet_mass", "m_s", "g", "Mass of the sheet", contact.sheet_mass, source="geometry")
 grippers.value("sheet_force", "F_g", "N", "Greatest force of the sheet on its grippers", contact.sheet_force, source="mechanics")
-grippers.words("crank_slower_for_grippers", advice.slower_crank, ("crank_speed", "sheet_force", "gripper_force"), output=False,
-               needs=("gripper_force",))
 rest = Chapter("Rest of the sheet within a tolerance",
                text="The sheet rests as long as it is no farther than e from where it stands in the dwell.",
                needs=(*CONVEYOR_NEEDS, "rest_tolerance"),

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check
+from diecut_report.api import Check, Vary
 from diecut_report.plugins.knife_drive.working import ALL, DriveKind
 
 
@@ -13,20 +13,24 @@ def of_drive(drive: DriveKind) -> tuple[Check, ...]:
         Check(id=f"{own}_paper_acceleration", check_class="function", title=f"{name}: acceleration of the paper", demand=f"{own}_acceleration_peak",
               limit="allowable_paper_acceleration", unit="m/s**2", demand_label="greatest in the working stroke", limit_label="allowed",
               needs=(own,), source="004, after Fig. 3",
-              consequence=f"the knife breaks or tears the paper at the fold; {{{own}_paper_advice}} ({{{own}_stroke}} now)."),
+              consequence=f"the knife breaks or tears the paper at the fold; a shorter stroke than {{{own}_stroke}} is gentler.",
+              advise=(Vary("cylinder_rate", "down"),)),
         Check(id=f"{own}_grip_acceleration", check_class="function", title=f"{name}: acceleration in the grip", demand=f"{own}_grip_size",
               limit="allowable_grip_acceleration", unit="m/s**2", demand_label="in the grip of the rollers", limit_label="allowed",
               needs=(own,), source="004, after Fig. 3",
-              consequence=f"the rollers change the signature's speed too fast and may tear it; {{{own}_grip_advice}}."),
+              consequence="the rollers change the signature's speed too fast and may tear it.",
+              advise=("roller_ratio", Vary("cylinder_rate", "down"), Vary("grip_angle", "up"))),
         Check(id=f"{own}_depth", check_class="function", title=f"{name}: stroke over working depth",
               demand="working_depth", limit=f"{own}_stroke", unit="mm",
               needs=(own,), demand_label="working depth", limit_label="stroke", source="geometry",
-              consequence=f"the edge never rises above the table; {drive.longer} makes the stroke greater."),
+              consequence=f"the edge never rises above the table; {drive.longer} makes the stroke greater.",
+              advise=(Vary(f"{own}.{drive.stroke_key}", "up"), Vary("working_depth", "down"))),
         Check(id=f"{own}_time_budget", check_class="function", title=f"{name}: time on the table",
               demand=f"{own}_table_time", limit="signature_interval", unit="ms",
               needs=(own, "signature_length"), demand_label="time of a signature on the table", limit_label="time between two signatures",
               source="004, before Fig. 2",
-              consequence=f"the next signature runs into the one that is still on the table; {{{own}_time_advice}}."),
+              consequence="the next signature runs into the one that is still on the table; a shorter working stroke leaves more time.",
+              advise=(Vary("roller_ratio", "up"),)),
     )  # fmt: skip
 
 

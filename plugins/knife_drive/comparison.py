@@ -9,7 +9,6 @@ import numpy as np
 from diecut_report.api import Binding, Chapter, Steps, bind, case
 from diecut_report.mechanics import common
 from diecut_report.plugins.knife_drive import formulas
-from diecut_report.plugins.knife_drive.advice import ADVICE
 from diecut_report.plugins.knife_drive.working import (
     ALL,
     CRANK_ROCKER,
@@ -127,7 +126,6 @@ SEVERAL = groups(least=2)
 best = Chapter("Comparison", text="The best drive is the one with the least greatest acceleration in the working stroke; ratios are to its numbers.")
 best.add(SIGNATURE_BEYOND_DEPTH)
 best.add(grips(drive) for drive in ALL)
-best.add(ADVICE)
 best.add(_alone(drive) for drive in ALL)
 best.add(_best(drives) for drives in SEVERAL)
 best.add(_ratios(drive) for drive in ALL)

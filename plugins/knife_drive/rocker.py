@@ -4,9 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Bound, Formula, Steps, bind
+from diecut_report.api import Bound, Formula, Steps, Vary, bind
 from diecut_report.mechanics import common, four_bar
-from diecut_report.plugins.knife_drive import advice, formulas, working
+from diecut_report.plugins.knife_drive import formulas, working
 from diecut_report.plugins.knife_drive.drives import GRIP, NO_SPEED
 
 # fmt: off
@@ -68,11 +68,11 @@ GEOMETRY = Steps()
 GEOMETRY.add(_ratio("Frame", "λ_1", "frame"))
 GEOMETRY.add(_ratio("Coupler", "λ_2", "coupler"))
 GEOMETRY.add(_ratio("Rocker", "λ_3", "rocker"))
-GEOMETRY.words("link_advice", advice.links, tuple(f"crank_rocker.{link}" for link in LINKS))
 GEOMETRY.require("turns_fully", four_bar.is_crank_rocker, key="crank_rocker.crank",
                  message="gives no crank-rocker: with crank = {crank_rocker.crank}, coupler = {crank_rocker.coupler}, rocker = "
                          "{crank_rocker.rocker} and frame = {crank_rocker.frame} the crank must be the shortest link, and it and the longest one "
-                         "together shorter than the other two together (Grashof); {crank_rocker_link_advice}")
+                         "together shorter than the other two together (Grashof)",
+                 advise=(Vary("crank_rocker.crank", "down"), "crank_rocker.coupler", "crank_rocker.rocker", "crank_rocker.frame"))
 GEOMETRY.value("outer_direction", "γ_3", "deg", "Direction of the rocker at its outer dead centre", four_bar.outer_rocker_direction,
                source="law of cosines", output=False)
 GEOMETRY.value("swing_angle", "ψ_s", "deg", "Swing of the rocker", four_bar.swing_angle, source="law of cosines")

@@ -19,17 +19,18 @@ DRIVES = ("planetary", "crank_slider", "crank_rocker")
 
 
 class DriveKind(NamedTuple):
-    """A drive: its block's key, its name in words, its letter in figure 1 of the source, what makes its stroke greater."""
+    """A drive: its block's key, its name in words, its letter in figure 1 of the source, what makes its stroke greater, in words and by its key."""
 
     key: str
     name: str
     letter: str
     longer: str
+    stroke_key: str
 
 
-PLANETARY = DriveKind("planetary", phrase("planetary drive"), "a", "a greater carrier_radius")
-CRANK_SLIDER = DriveKind("crank_slider", phrase("crank-slider"), "b", "a greater crank_radius")
-CRANK_ROCKER = DriveKind("crank_rocker", phrase("crank-rocker"), "c", "a longer knife_arm or a wider swing")
+PLANETARY = DriveKind("planetary", phrase("planetary drive"), "a", "a greater carrier_radius", "carrier_radius")
+CRANK_SLIDER = DriveKind("crank_slider", phrase("crank-slider"), "b", "a greater crank_radius", "crank_radius")
+CRANK_ROCKER = DriveKind("crank_rocker", phrase("crank-rocker"), "c", "a longer knife_arm or a wider swing", "knife_arm")
 ALL = (PLANETARY, CRANK_SLIDER, CRANK_ROCKER)
 Drives = tuple[DriveKind, ...]
 

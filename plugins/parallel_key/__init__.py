@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from diecut_report.api import Mechanism, Source
 from diecut_report.plugins.parallel_key import load, pressures
-from diecut_report.plugins.parallel_key.checks import CHECKS, advice
+from diecut_report.plugins.parallel_key.checks import CHECKS
 from diecut_report.plugins.parallel_key.dimensions import dimensions
 from diecut_report.plugins.parallel_key.example import EXAMPLE
 from diecut_report.plugins.parallel_key.figures import FIGURES
@@ -18,7 +18,7 @@ MECHANISM = Mechanism(
     "key's length is left out, the least standard one is taken that is enough.",
     inputs=ParallelKey,
     example=EXAMPLE,
-    chapters=(load.cycle, load.load, dimensions, pressures.allowed, pressures.needed, pressures.pressures, advice),
+    chapters=(load.cycle, load.load, dimensions, pressures.allowed, pressures.needed, pressures.pressures),
     key_results=("key_length", "key_force", "pressure_shaft", "pressure_hub", "safety", "governing"),
     checks=CHECKS,
     figures=FIGURES,

@@ -1,47 +1,34 @@
-"""Checks of the parallel key, and the chapter of words that they end with."""
+"""Checks of the parallel key."""
 
 from __future__ import annotations
 
-from diecut_report.api import Chapter, Check, Phrase, phrase, told
-from diecut_report.plugins.parallel_key.dimensions import LONGEST
+from diecut_report.api import Check, Vary
+from diecut_report.plugins.parallel_key.dimensions import LENGTHS
 from diecut_report.plugins.parallel_key.load import JUDGED, METHOD
 
 ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
 
 
-def longer(least: float, standard: float, count: float) -> str:
-    """The length that holds, where there is a standard one."""
-    if least > LONGEST * (1 + ROUNDING):
-        return phrase("no standard key is long enough: take a thicker shaft or stronger material")
-    second = "" if count > 1 else phrase(", or take key_count: 2")
-    return Phrase(
-        "set key_length to at least {standard}{second} or stronger material",
-        standard=told(standard, "mm"),
-        second=second,
-    )
-
-
 # fmt: off
 
-advice = Chapter("Advice")
-advice.words("length_advice", longer, ("least_key_length", "standard_key_length", "key_count"), output=False)
 SIZED = ("key_length",)
+LONGER = (Vary("key_length", "up", LENGTHS.values), "key_count")
 
 
 def _pressure(part: str) -> Check:
     return Check(id=f"pressure_{part}", check_class="strength", title=f"Pressure of the {part}", demand=f"pressure_{part}", limit=f"allowed_{part}",
                  unit="MPa", tolerance=ROUNDING, needs=JUDGED, sized_unless=SIZED, demand_label="pressure", limit_label="allowed", source=METHOD,
-                 consequence=f"the {part} yields where the key bears; {{length_advice}}.")
+                 consequence=f"the {part} yields where the key bears; a thicker shaft or stronger material helps, too.", advise=LONGER)
 
 
 CHECKS = (
     _pressure("shaft"), _pressure("hub"), _pressure("key"),
     Check(id="pressure_peak", check_class="strength", title="Pressure under the greatest torque", demand=1.0, limit="safety_peak", unit="1",
           tolerance=ROUNDING, sized_unless=SIZED, demand_label="required safety", limit_label="least safety of shaft, hub and key", source=METHOD,
-          consequence="a part yields at the peak; {length_advice}."),
+          consequence="a part yields at the peak; a thicker shaft or stronger material helps, too.", advise=LONGER),
     Check(id="shear", check_class="strength", title="Shear of the key", demand="shear_stress", limit="allowed_shear", unit="MPa", tolerance=ROUNDING,
           sized_unless=SIZED, demand_label="shear stress", limit_label="allowed", source="strength of materials",
-          consequence="the key is sheared off; {length_advice}."),
+          consequence="the key is sheared off; a thicker shaft or stronger material helps, too.", advise=LONGER),
     Check(id="length_ratio", check_class="practice", presumed=True, title="Length to diameter", demand="bearing_length", limit="longest_wanted",
           unit="mm",
           severity="warn", tolerance=ROUNDING, demand_label="bearing length", limit_label="1.3 diameters", source=METHOD,
@@ -53,11 +40,13 @@ CHECKS = (
                       "counted, or flank_changes itself."),
     Check(id="two_keys", check_class="practice", title="Two keys in a brittle hub", demand="key_count", limit=1.0, unit="1", severity="warn",
           needs=("brittle_hub=true",), demand_label="keys", limit_label="accepted in a brittle hub", source=METHOD,
-          consequence="a brittle hub does not even out the load of two keys; take one key, or a hub of steel."),
+          consequence="a brittle hub does not even out the load of two keys; a hub of steel does.", advise=("key_count",)),
     Check(id="standard_length", check_class="practice", title="Standard length", demand="length_off", limit=0.0, unit="mm", severity="warn",
           tolerance=1e-9, demand_label="off the nearest standard length", limit_label="accepted", source="DIN 6885-1",
-          consequence="no key of the shelf is so long; the nearest one has {nearest_length}."),
+          consequence="no key of the shelf is so long; the nearest one has {nearest_length}.",
+          advise=(Vary("key_length", series=LENGTHS.values),)),
     Check(id="hub_length", check_class="practice", title="Key within the hub", demand="key_length", limit="hub_length", unit="mm", severity="warn",
           needs=("hub_length",), tolerance=ROUNDING, demand_label="key", limit_label="hub", source="geometry",
-          consequence="what stands out of the hub does not bear; take a longer hub or a shorter key."),
+          consequence="what stands out of the hub does not bear.",
+          advise=("hub_length", Vary("key_length", "down", LENGTHS.values))),
 )

@@ -6,7 +6,7 @@ import numpy as np
 
 from diecut_report.api import Chapter, bind, case
 from diecut_report.mechanics import common, slider_crank
-from diecut_report.plugins.platen_press import advice, formulas
+from diecut_report.plugins.platen_press import formulas
 from diecut_report.plugins.platen_press.motion import ADOPTED, by_phase, in_phase
 
 # fmt: off
@@ -105,8 +105,6 @@ torque_chapter.choice("torque_source", "M_14", "N*m", "Torque by eq. 14 as print
 torque_chapter.reduction("torque_max_source", "M_14,max", "N*m", "Greatest torque by eq. 14 as printed", "max", of="torque_source")
 torque_chapter.value("torque_max_source_angle", "φ_14", "deg", "Its crank angle before the dead centre",
                      bind(formulas.before_dead_center, angle="torque_max_source_at"))
-torque_chapter.words("torque_lower", advice.smaller_force, LOAD, needs=("allowable_torque",), lacks=("guide_length",))
-torque_chapter.words("torque_lower", advice.smaller_force, (*LOAD, "weight_torque"), needs=("allowable_torque", "guide_length"))
 
 return_chapter = Chapter("Relaxing rods",
                          text="The stretched rods help the crank over an arm that grows until they have relaxed; friction resists over X.")
@@ -119,9 +117,6 @@ return_chapter.value("friction_limit", "f_rev", "1", "Coefficient of friction be
                      lacks=tuple(key for key, _, _ in ADOPTED), exists=lambda friction: friction > 0)
 return_chapter.value("deformation_limit", "Δl_rev", "mm", "Stretch of the drive above which the rods would drive the crank",
                      formulas.deformation_limit, source="statics", exists=lambda friction_arm, crank_radius: friction_arm < crank_radius)
-return_chapter.words("drive_stiffer", advice.softest_drive, ("deformation_limit",), needs=("drive_deformation",))
-return_chapter.words("drive_stiffer", advice.thinnest_rods, ("deformation_limit", "drive_deformation", "rod_area", "elastic_modulus"),
-                     lacks=("drive_deformation",))
 
 work = Chapter("Work and power",
                text="The model sets the platen moving in no time when the rods have relaxed; the energy of that is no part of the torque over the "
@@ -153,8 +148,6 @@ def _pressure(key: str, name: str, symbol: str, pins: str, radius: str) -> Chapt
                       absent=f"not calculated: {key} is not given")
     chapter.value(name, symbol, "MPa", f"Pressure of the {pins} on their projected area", bind(formulas.pin_pressure, radius=radius, length=key),
                   source="statics")
-    chapter.value(f"{key}_least", f"b_{symbol[-1]},min", "mm", f"Length of one of the {pins} at the allowed pressure",
-                  bind(formulas.pin_length, radius=radius), source="statics", output=False, needs=("allowable_pin_pressure",))
     return chapter
 
 
@@ -168,6 +161,3 @@ rods = Chapter("Stress of the rods", text="Two of them share the force, which pu
                absent="not calculated: rod_net_area is not given")
 rods.value("rod_stress", "σ_r", "MPa", "Greatest tensile stress of the rods", lambda force_max, rod_net_area: force_max / (2 * rod_net_area),
            source="statics")
-rods.value("rod_net_area_least", "A_n,min", "mm**2", "Least cross-section at the allowed stress",
-           lambda force_max, allowable_rod_stress: force_max / (2 * allowable_rod_stress), source="statics", output=False,
-           needs=("allowable_rod_stress",))

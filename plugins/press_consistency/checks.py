@@ -2,12 +2,14 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check
+from diecut_report.api import Check, Vary
 
 ROUNDING = 1e-9  # relative: a length that was taken over from the other is the same
 WHOLE = 1e-9  # by which pitches may miss a whole number
 FURTHEST_RATE = 0.02  # below the productivity, as for the speed of the drive train's output
 LARGEST_INERTIA_ERROR = 5.0  # percent
+
+MOTOR = (Vary("flywheel_inertia", "up"), Vary("motor_speed", "down"), Vary("motor_rated_torque", "up"))
 
 CHECKS = (
     Check(id="timing", check_class="function", title="Timing of the press", demand=0.0, limit="timing_slack", unit="deg", tolerance=1e-9,
@@ -51,7 +53,7 @@ CHECKS = (
           founded=("single_position",),
           unit="1", demand_label="lines that lose step", limit_label="accepted", source="kinematics",
           consequence="a friction clutch engages at any angle, and its slip turns back what it drives; out of step with the other lines: "
-          "{clutch_lines}; let the clutch drive all lines, or take one that engages at one angle only (single_position: true)."),
+          "{clutch_lines}; let the clutch drive all lines, or take one that engages at one angle only.", advise=("single_position",)),
     Check(id="damper_velocity", check_class="strength", title="Speed at the dampers", demand="contact_speed", limit="damper_velocity",
           unit="m/s", severity="warn", demand_label="speed at contact", limit_label="speed that the dampers are calculated with",
           source="kinematics",
@@ -83,13 +85,15 @@ CHECKS = (
           "{moved_inertia:up}."),
     Check(id="motor_thermal", check_class="strength", title="Heat of the motor", demand="motor_torque_rms", limit="motor_rated_torque",
           unit="N*m", demand_label="root mean square of its torque", limit_label="rated torque", source="this method",
-          consequence="the motor gets too hot; {thermal_advice}."),
+          consequence="the motor gets too hot; a greater slip or a greater reserve_factor of the drive train helps, too.",
+          advise=MOTOR),
     Check(id="motor_peak", check_class="strength", title="Peak torque of the motor", demand="motor_torque_peak", limit="breakdown_torque",
           unit="N*m", demand_label="greatest torque", limit_label="breakdown torque", source="this method",
-          consequence="the motor stalls; {peak_advice}, or a larger breakdown torque."),
+          consequence="the motor stalls; a greater slip, a larger breakdown torque or a greater reserve_factor of the drive train helps, too.",
+          advise=MOTOR),
     Check(id="speed_swing", check_class="function", title="Fluctuation of the speed", demand="speed_swing", limit="speed_fluctuation",
           unit="1", severity="warn", demand_label="by the motor's slip", limit_label="accepted", source="this method",
-          consequence="the flywheel of {flywheel_inertia} swings more than accepted; {swing_advice}."),
+          consequence="the flywheel of {flywheel_inertia} swings more than accepted.", advise=(Vary("flywheel_inertia", "up"),)),
     Check(id="cover_angle", check_class="function", presumed=True, title="Wheel's play and the timing", demand="cover_angle", limit="dwell_margin",
           unit="deg", tolerance=1e-6, demand_label="angle that the play is calculated with", limit_label="angle that the timing leaves",
           source="geometry",

@@ -7,7 +7,7 @@ import numpy as np
 from diecut_report.api import Chapter, as_number, bind, case
 from diecut_report.mechanics.timing import engagement as motor_slip
 from diecut_report.mechanics.timing.engagement import inertia_at_crank
-from diecut_report.plugins.press_consistency import clutch, ends, motor, motor_advice, on_main_shaft
+from diecut_report.plugins.press_consistency import clutch, ends, motor, on_main_shaft
 
 # fmt: off
 
@@ -118,9 +118,3 @@ motor_chapter.value("breakdown_torque", "M_br", "N*m", "Breakdown torque of the 
 motor_chapter.value("speed_swing", "δ_a", "1", "Fluctuation of the flywheel's speed: greatest less least, to the mean",
                     lambda lagged_max, lagged_min, flywheel_stiffness, flywheel_speed:
                         (lagged_max - lagged_min) / (flywheel_stiffness * flywheel_speed), source="this method")
-RESPONSE = ("flywheel_torque", "load_turns", "load_period", "time_constant", "flywheel_inertia")
-RATED = (*RESPONSE, "motor_rated_torque", "belt_ratio", "belt_efficiency", "motor_speed", "synchronous_speed")
-motor_chapter.words("thermal_advice", motor_advice.thermal, RATED)
-motor_chapter.words("peak_advice", motor_advice.peak, (*RATED, "breakdown_ratio"), needs=("breakdown_ratio",))
-motor_chapter.words("swing_advice", motor_advice.swing, (*RESPONSE, "flywheel_stiffness", "flywheel_speed", "speed_fluctuation"),
-                    needs=("speed_fluctuation",))

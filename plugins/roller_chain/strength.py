@@ -60,18 +60,5 @@ rating.value("design_power", "P_d", "kW", "Power with the application factor", l
 limits = Chapter("Limits of practice")
 limits.value("teeth_usual", "z_u", "1", "Least usual teeth of a drive", lambda: 17, needs=(DRIVE,), source="practice", output=False)
 limits.value("teeth_usual", "z_u", "1", "Least usual teeth of a conveyor", lambda: 12, needs=(CONVEYOR,), source="practice", output=False)
-limits.value("teeth_even_running", "z_e", "1", "Teeth with which the velocity falls by at most 2 %",
-             bind(lambda share: np.ceil(np.pi / np.arccos(1 - share)), share=UNEVENNESS), source="geometry", output=False, whole=True)
-limits.value("links_next", "X_n", "1", "Next even number of links", lambda links, links_odd: links + links_odd, source="this method", output=False,
-             whole=True)
-limits.value("center_low", "a_30", "mm", "Thirty pitches", bind(lambda pitch, count: count * pitch, count=USUAL_PITCHES[0]), source="practice",
-             output=False)
-limits.value("center_high", "a_50", "mm", "Fifty pitches", bind(lambda pitch, count: count * pitch, count=USUAL_PITCHES[1]), source="practice",
-             output=False)
-limits.value("center_wrapped", "a_β", "mm", "Distance of the axes from which the smaller sprocket is wrapped by 120°",
-             lambda sprocket_diameter_1, sprocket_diameter_2: abs(sprocket_diameter_2 - sprocket_diameter_1) / (2 * np.cos(np.pi / 3)),
-             source="geometry", output=False)
 limits.value("slack_tension", "F_l", "N", "Tension of the returning strand at rest", lambda sag_tension, pretension: sag_tension + pretension,
              needs=(CONVEYOR,), source="statics", output=False)
-limits.value("pretension_needed", "F_v,min", "N", "Pretension with which the returning strand stays tight",
-             lambda useful_tension, sag_tension: useful_tension - sag_tension, needs=(CONVEYOR,), source="statics", output=False)

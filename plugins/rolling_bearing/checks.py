@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Check
+from diecut_report.api import Check, Vary
 from diecut_report.plugins.rolling_bearing.loads import NAMES
 
 ROUNDING = 1e-9
@@ -17,17 +17,18 @@ SWINGS = "the life is calculated by the turned way and is optimistic; "
 CHECKS = (
     Check(id="life", check_class="strength", title="Life", demand="required_life", limit="life_modified", unit="h", demand_label="required",
           limit_label="modified rating life", tolerance=ROUNDING, source=LIFE, **OF_BEARING,
-          consequence="the bearing is worn out too soon; take one with a dynamic rating of at least {rating_needed:up}, or less load."),
+          consequence="the bearing is worn out too soon; less load lets it live longer.", advise=(Vary("bearings.dynamic_rating", "up"),)),
     Check(id="static", check_class="strength", title="Static safety", demand="static_required", limit="static_safety", unit="1",
           demand_label="required", limit_label="static safety", tolerance=ROUNDING, source=FIXED, **OF_BEARING,
-          consequence="rolling elements dent the raceways; take a bearing with a static rating of at least {static_needed:up}, or less load."),
+          consequence="rolling elements dent the raceways; less load does not.", advise=(Vary("bearings.static_rating", "up"),)),
     Check(id="min_load", check_class="practice", title="Least load", demand="least_load", limit="equivalent_load", unit="N", severity="warn",
           demand_label="needed", limit_label="mean load", tolerance=ROUNDING, source="SKF catalogue", **OF_BEARING,
-          consequence="rolling elements slide and do not roll; take a bearing with a dynamic rating of at most {most_rating:down}, or preload it."),
+          consequence="rolling elements slide and do not roll; a preload avoids it.", advise=(Vary("bearings.dynamic_rating", "down"),)),
     Check(id="load_level", check_class="practice", presumed=True, title="Validity of the rating life", demand="equivalent_load_max",
           limit="valid_load", unit="N",
           severity="warn", demand_label="greatest load", limit_label="half the dynamic rating", tolerance=ROUNDING, source="ISO 281", **OF_BEARING,
-          consequence="the raceways yield and the rating life does not hold; take a bearing with a dynamic rating of at least {dynamic_valid:up}."),
+          consequence="the raceways yield and the rating life does not hold.",
+          advise=(Vary("bearings.dynamic_rating", "up"),)),
     Check(id="axial", check_class="practice", title="Axial load", demand="axial_overload", limit=6.89, unit="1", severity="warn",
           demand_label="relative axial force", limit_label="end of the table", tolerance=ROUNDING, source="ISO 281, table 3", **OF_BEARING,
           consequence="the balls run over the edge of the raceway; take a larger bearing, or one for axial loads."),

@@ -108,11 +108,6 @@ value(limits, "rating_needed", "C_req", "kN", "Dynamic rating with which the lif
       exists=lambda lives: lives > 0, source=LIFE, output=False)
 value(limits, "static_needed", "C_0,req", "kN", "Static rating with which the safety is reached",
       lambda static_required, static_load: static_required * static_load, source="ISO 76", output=False)
-value(limits, "dynamic_valid", "C_val", "kN", "Dynamic rating from which on the rating life holds",
-      lambda equivalent_load_max: 2 * equivalent_load_max,
-      source="ISO 281", output=False)
-value(limits, "most_rating", "C_most", "kN", "Dynamic rating with which the load is not too small", lambda equivalent_load, least_share:
-      equivalent_load / least_share, exists=lambda equivalent_load: equivalent_load > 0, source="SKF catalogue", output=False)
 row(limits, "tilt_limit", "ψ_zul", "mrad", "Permitted tilt", lambda known: known.row(lambda i: known.permitted_tilt[i]),
     "as given, else 0.58 of balls, 0.87 of the rollers N, NJ and NU, and 0.29 of others", output=False)
 limits.part_table("limits_table", "Limits and needs of all bearings", "bearings",

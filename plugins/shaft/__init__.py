@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.api import Mechanism, Source
-from diecut_report.plugins.shaft import advice, geometry, sizing, steels, strength
+from diecut_report.plugins.shaft import geometry, sizing, steels, strength
 from diecut_report.plugins.shaft.checks import CHECKS
 from diecut_report.plugins.shaft.example import EXAMPLE
 from diecut_report.plugins.shaft.figures import FIGURES
@@ -20,7 +20,7 @@ MECHANISM = Mechanism(
     example=EXAMPLE,
     chapters=(
         sizing.diameters, geometry.sections, steels.steel, steels.own_steel, geometry.places, geometry.notches, geometry.endurance, strength.loads,
-        strength.bending, strength.fatigue, strength.yielding, strength.critical, advice.enough,
+        strength.bending, strength.fatigue, strength.yielding, strength.critical, strength.enough,
     ),
     key_results=("reaction_a_max", "reaction_b_max", "bending_moment_max", "fatigue_safety", "fatigue_place", "yield_safety", "deflection_max",
                  "bearing_slope_max", "speed_verdict", "shaft_mass"),

@@ -2,43 +2,47 @@
 
 from __future__ import annotations
 
-from diecut_report.api import Check
+from diecut_report.api import Check, Vary
 
 ROUNDING = 1e-9
+
+THICKER = (("sections.diameter", "sections.bore", "sections.fillet_radius"),)
 
 CHECKS = (
     Check(id="fatigue", check_class="strength", title="Fatigue", demand="required_fatigue_safety", limit="place_safety", unit="1",
           demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="Shigley 7-7",
-          consequence="a crack would begin at the {fatigue_place}, at {fatigue_position} from the left end; {fatigue_growth}"),
+          consequence="a crack would begin at the {fatigue_place}, at {fatigue_position} from the left end; a stronger steel "
+          "or bearings nearer to the loads helps, too.", advise=THICKER),
     Check(id="yield", check_class="strength", title="Yield", demand="required_yield_safety", limit="yield_safety", unit="1",
           demand_label="required safety", limit_label="safety", tolerance=ROUNDING, source="Shigley 7-16",
-          consequence="the shaft would bend for good at {nominal_position} from the left end; {yield_growth}"),
+          consequence="the shaft would bend for good at {nominal_position} from the left end; a stronger steel "
+          "or bearings nearer to the loads helps, too.", advise=THICKER),
     Check(id="yield_notch", check_class="practice", title="Yield in a notch", demand=1.0, limit="place_yield_safety", unit="1", severity="warn",
           demand_label="safety at least", limit_label="safety with the notch", tolerance=ROUNDING, source="Shigley 7-16",
-          consequence="the ground of a notch yields; a steel of a yield strength of {notch_yield:up} or a thicker shaft avoids it."),
+          consequence="the ground of a notch yields.", advise=(Vary("yield_strength", "up"), *THICKER)),
     Check(id="bearing_slope", check_class="practice", title="Slope at the bearings", demand="bearing_slope_max", limit="allowable_bearing_slope",
           unit="mrad", severity="warn", demand_label="greatest slope", limit_label="accepted", tolerance=ROUNDING, source="Shigley table 7-2",
-          consequence="rollers and balls are loaded unevenly (deep groove balls bear 1 to 3 mrad, cylindrical rollers 0.8 to 1.2 mrad); "
-                      "{slope_growth}"),
+          consequence="rollers and balls are loaded unevenly (deep groove balls bear 1 to 3 mrad, cylindrical rollers 0.8 to 1.2 mrad).",
+          advise=THICKER),
     Check(id="critical_speed", check_class="practice", title="Critical speed", demand="twice_speed", limit="turning_limit", unit="rpm",
           severity="warn", needs=("speed",), demand_label="twice the speed", limit_label="critical speed", tolerance=ROUNDING, source="Shigley 7-6",
-          consequence="the shaft runs too near to its critical speed; take a speed of at most {half_critical:down}, or a thicker or shorter shaft."),
+          consequence="the shaft runs too near to its critical speed; a shorter shaft has a higher one.",
+          advise=(Vary("speed", "down"), *THICKER)),
     Check(id="deflection", check_class="function", title="Deflection", demand="deflection_max", limit="allowable_deflection", unit="um",
           needs=("allowable_deflection",), demand_label="greatest deflection", limit_label="allowed", tolerance=ROUNDING, source="input",
-          consequence="what runs on the shaft leaves its place; {deflection_growth}"),
+          consequence="what runs on the shaft leaves its place.", advise=THICKER),
     Check(id="twist", check_class="function", title="Twist", demand="twist_by_length", limit="allowable_twist", unit="deg/m",
           needs=("allowable_twist",), demand_label="twist by length", limit_label="allowed", tolerance=ROUNDING, source="input",
-          consequence="the shaft is too soft in torsion; {twist_growth}"),
+          consequence="the shaft is too soft in torsion.", advise=THICKER),
     Check(id="notch_range", check_class="practice", title="Range of the fillets", demand="fillet_ratio", limit=4.0, at_least=0.25, unit="1",
           severity="warn", demand_label="step to radius", limit_label="charts end at", at_least_label="charts begin at", tolerance=ROUNDING,
           source="Peterson, charts 3.10 and 3.12",
           presumed=True,
-          consequence="the factors of shoulder {part} are taken beyond the charts, and are uncertain; take a fillet radius of a quarter of the "
-                      "step's height up to the height itself."),
+          consequence="the factors of shoulder {part} are taken beyond the charts, and are uncertain.", advise=("sections.fillet_radius",)),
     Check(id="hollow_notch", check_class="practice", title="Bore at a fillet", demand="bore_ratio", limit=0.5, unit="1", severity="warn",
           demand_label="bore to diameter", limit_label="charts end at", tolerance=ROUNDING, source="Peterson",
           presumed=True,
-          consequence="the charts are for solid shafts, and the factors of shoulder {part} uncertain; take a smaller bore."),
+          consequence="the charts are for solid shafts, and the factors of shoulder {part} uncertain.", advise=(Vary("sections.bore", "down"),)),
     Check(id="size", check_class="practice", title="Size of the shaft", demand="greatest_effective", limit=254.0, unit="mm", severity="warn",
           demand_label="effective diameter", limit_label="size factor known up to", tolerance=ROUNDING, source="Shigley 6-20",
           presumed=True,

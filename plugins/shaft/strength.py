@@ -191,3 +191,9 @@ critical.choice("speed_verdict", "n_k/n", "1", "Critical speed beside the speed"
                 case("less than twice as high", "the critical speed is near the speed"),
                 exists=lambda turns: turns > 0, source="Shigley 7-6", needs=("speed",))
 critical.value("twice_speed", "2n", "rpm", "Twice the speed", lambda speed: 2 * speed, source="Shigley 7-6", needs=("speed",), output=False)
+
+enough = Chapter("Size of the shaft")
+enough.value("effective_diameter", "d_e", "mm", "Effective diameter there", lambda size_share, place_diameter: size_share * place_diameter,
+             source="Shigley 6-24", output=False)
+enough.total("greatest_effective", "d_e,max", "mm", "Greatest effective diameter", "max", of="effective_diameter", source="Shigley 6-24",
+             output=False)

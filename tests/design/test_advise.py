@@ -15,7 +15,6 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.design.advice import mended, share_told
 from diecut_report.design.inputs import design_input
 from diecut_report.design.machines import varied
-from diecut_report.results.advised_changes import AdvisedChange, advised_changes
 from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 from tests.examples import few
 
@@ -112,48 +111,6 @@ def test_bad_input_is_told_and_ends_with_2(press: Path, capfd: Capture, more: li
     assert out == "" and words in err
 
 
-@pytest.mark.parametrize(
-    ("message", "changes"),
-    [
-        ("the bore breaks; set bore to at most 60.1 mm, with a radius of at least 105 mm.",
-         [[AdvisedChange("bore", "at most", "60.1 mm"), AdvisedChange("radius", "at least", "105 mm")]]),
-        ("short; set radius to at least 105.2 mm, or leave it out; or set bore to at most 3 mm.",
-         [[AdvisedChange("radius", "at least", "105.2 mm")], [AdvisedChange("bore", "at most", "3 mm")]]),
-        ("narrow; set bore to between 46.09 mm and 180 mm, or set angle to between 59 and 80.",
-         [[AdvisedChange("bore", "between", "46.09 mm", "180 mm")], [AdvisedChange("angle", "between", "59", "80")]]),
-        ("set angle to 30°, which asks for more.", [[AdvisedChange("angle", "to", "30°")]]),
-        ("take one that engages at one angle only (single: true).", [[AdvisedChange("single", "to", "true")]]),
-        ("yields; set bore.depth to at least 12.62 mm, or set radius.2.size to 3.",
-         [[AdvisedChange("bore.depth", "at least", "12.62 mm")], [AdvisedChange("radius.2.size", "to", "3")]]),
-        ("set unknown to at least 5 mm.", []),
-        ("set unknown.bore to at least 5 mm.", []),
-        ("make it stiffer.", []),
-    ],
-)  # fmt: skip
-def test_advice_is_read_where_it_names_a_key_and_a_value(message: str, changes: list[list[AdvisedChange]]) -> None:
-    assert advised_changes(message, {"bore", "radius", "angle", "single"}) == changes
-
-
-TEXTS = {"size": ("GM3-6", "GM3-60", "GM 4"), "way": ("mean",), "bore.fit": ("tight",)}
-BORE = [AdvisedChange("bore", "at most", "3 mm")]
-
-
-@pytest.mark.parametrize(
-    ("message", "changes"),
-    [
-        ("slips; set size to GM3-60.", [[AdvisedChange("size", "to", "GM3-60")]]),
-        ("slips; set size to GM 4, or set bore to at most 3 mm.", [[AdvisedChange("size", "to", "GM 4")], BORE]),
-        ("slips; set size to GM3-600, or set bore to at most 3 mm.", [BORE]),
-        ("slips; set size to the next, or set bore to at most 3 mm.", [BORE]),
-        ("slips; set bore.fit to tight.", [[AdvisedChange("bore.fit", "to", "tight")]]),
-        ("slips; set bore.2.fit to tight.", [[AdvisedChange("bore.2.fit", "to", "tight")]]),
-        ("slips; set bore to mean, or set way to mean.", [[AdvisedChange("way", "to", "mean")]]),
-    ],
-)
-def test_a_text_that_a_key_may_have_is_advised_as_a_number_is(message: str, changes: list[list[AdvisedChange]]) -> None:
-    assert advised_changes(message, {"bore", "size", "way"}, TEXTS) == changes
-
-
 DAMPER = (
     HEAD
     + """\
@@ -218,7 +175,7 @@ joint.value("opening", "F_o", "kN", "Force that opens the joint", lambda force: 
 MECHANISM = Mechanism(
     kind="bracket", version="1.0", title="Bracket", summary="A screw holds a bracket.", inputs=Bracket, chapters=(joint,), key_results=("opening",),
     checks=(Check(id="joint", check_class="strength", title="Joint", demand="opening", limit="screw.preload", unit="kN", demand_label="force",
-                  limit_label="preload", source="lever", consequence="the joint opens; set screw.preload to at least {opening:up}."),),
+                  limit_label="preload", source="lever", consequence="the joint opens.", advise=("screw.preload",)),),
     sources=(Source("lever", "Lever arms, by measure."),),
 )
 '''

@@ -66,21 +66,17 @@ def test_the_nearest_of_the_values_that_it_may_have_is_found(
     assert found["machine"]["status"] == "pass" and not found["ended"]
 
 
-NAMED = ("the pin gives way.", "the pin gives way; {grade_advice}.")
-WORDS = (
-    "MECHANISM = ",
-    "pin.words('grade_advice', lambda grade: 'set grade to hard, or set bore to at least 90 mm', takes=('grade',))\nMECHANISM = ",
-)
+NAMED = ('"the pin gives way."', '"the pin gives way.", advise=("grade", "bore")')
 
 
 def test_a_text_that_the_advice_names_is_followed_without_free(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setitem(globals(), "PLUGIN", PLUGIN.replace(*NAMED).replace(*WORDS))
+    monkeypatch.setitem(globals(), "PLUGIN", PLUGIN.replace(*NAMED))
     kept = PRESS.replace("bore: 20 mm", "bore: {value: 20 mm, basis: standard}")
     found = advise(tmp_path, capfd, text=kept)
     (change,) = found["changes"]
-    assert (change["name"], change["before"], change["after"]) == ("pin.grade", "soft", "hard")
+    assert (change["name"], change["before"], change["after"]) == ("pin.grade", "soft", "middle")
     assert found["machine"]["status"] == "pass"
 
 

@@ -86,7 +86,7 @@ def test_an_undercut_cam_fails_and_the_message_tells_the_greatest_roller() -> No
     for share, status in ((0.999, "pass"), (1.001, "fail")):
         check = checks(stepper(**CAMS | {"roller_radius": f"{share * least!r} m"}))["curvature"]
         assert check["status"] == status
-    told = re.search(r"roller_radius of at most ([\d.]+) mm", check["message"])
+    told = re.search(r"roller_radius to at most ([\d.]+) mm", check["message"])
     assert told is not None
     assert 0.999 * least < float(told[1]) / 1000 < least
 

@@ -120,7 +120,7 @@ def test_a_wall_of_exactly_nothing_fails_without_a_utilisation() -> None:
     assert (checks["wall_at_flat"].status, checks["wall_at_flat"].utilisation) == ("fail", None)
 
 
-SET = re.compile(r"set (\w+) to at (?:least|most) ([\d.]+ mm)")
+SET = re.compile(r"[Ss]et (\w+) to at (?:least|most) ([\d.]+ mm)")
 
 
 def verdicts(**changes: Any) -> dict[str, dict[str, Any]]:
@@ -150,13 +150,13 @@ def test_the_advised_segment_lies_at_the_limit() -> None:
 
 def test_no_segment_helps_a_radius_that_unrolls_less_than_the_sheet() -> None:
     message = verdicts(radius="74 mm", bore_radius="10 mm", segment_height="20 mm")["radius"]["message"]
-    assert "no segment is so low that 74 mm would do" in message
+    assert "set segment_height" not in message
 
 
 def test_the_advised_bearing_span_is_the_longest_that_is_stiff_enough() -> None:
     keys = {"bearing_span": "1200 mm", "allowable_deflection": "0.05 mm", "bore_radius": "50 mm"}
     message = verdicts(**keys)["deflection"]["message"]
-    span = float(dict(SET.findall(message))["bearing_span"].split()[0])
+    span = float(message.split("bearing_span to between 700 mm and ")[1].split()[0])
     assert verdicts(**keys | {"bearing_span": f"{span} mm"})["deflection"]["status"] == "pass"
     assert verdicts(**keys | {"bearing_span": f"{span * 1.002} mm"})["deflection"]["status"] == "fail"
 

@@ -14,6 +14,7 @@ from scipy.integrate import cumulative_trapezoid
 
 from diecut_report.api import standard_series
 from diecut_report.machine.calculation import CurveHandle, Impossible
+from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.quantities.units import unit as parsed
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
@@ -217,3 +218,21 @@ def test_results_do_not_depend_on_the_number_of_samples() -> None:
     few, many = train(**WORKING, n_points=36), train(**WORKING, n_points=3000)
     for name in ("energy_fluctuation", "flywheel_torque_mean", "run_up_time"):
         assert number(few, name) == pytest.approx(number(many, name), rel=1e-8)
+
+
+@pytest.mark.parametrize("changes", [{"load_inertia": 40, "run_up_load": 0.5}, {"motor_inertia": 0.3}])
+def test_the_run_up_without_a_flywheel_takes_what_the_energy_says(changes: dict[str, float]) -> None:
+    """The work of the motor less the load's, with the losses of belt and gears, is the energy of rotor and load."""
+    calc = train(**changes)
+    speeds = 1450 * RPM, number(calc, "output_speed")
+    energy = changes.get("motor_inertia", 0) * speeds[0] ** 2 / 2
+    energy += changes.get("load_inertia", 0) * speeds[1] ** 2 / 2 / (0.95 * 0.97)
+    rated = number(calc, "motor_power") / speeds[0]
+    torque = 1.6 * rated - changes.get("run_up_load", 1) * number(calc, "shaft_1_torque")
+    assert number(calc, "run_up_time") == pytest.approx(2 * energy / (torque * speeds[0]), rel=1e-12)
+    assert "run_up_time" in checked(calc)
+
+
+def test_labels_of_checks_are_short() -> None:
+    labels = {label for c in MECHANISM.checks for label in (c.demand_label, c.limit_label)}
+    assert labels and max(map(len, labels)) <= 30

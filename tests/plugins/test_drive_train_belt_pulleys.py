@@ -146,7 +146,7 @@ def test_a_loaded_pulley_outside_has_teeth_in_mesh_too() -> None:
 
 def test_the_advised_pitch_puts_six_teeth_into_mesh() -> None:
     told = check(belt(OVER, pitch=20), "teeth_in_mesh")
-    advised = re.search(r"a pitch of at most (\d+(?:\.\d+)?) mm", told["message"])
+    advised = re.search(r"toothed_belt.pitch to at most (\d+(?:\.\d+)?) mm", told["message"])
     assert told["status"] == "fail" and advised
     assert check(belt(OVER, pitch=float(advised[1])), "teeth_in_mesh")["status"] == "pass"
 

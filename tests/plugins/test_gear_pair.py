@@ -332,3 +332,22 @@ def test_lengths_of_a_tooth_grow_with_the_module() -> None:
 def test_a_film_that_bears_less_lowers_the_safety_against_pitting_in_proportion() -> None:
     whole, thin = (number(pair(HELICAL, film_factor=factor), "pitting_safety_1") for factor in (1.0, 0.8))
     assert thin == pytest.approx(0.8 * whole, rel=1e-12)
+
+
+@pytest.mark.parametrize(
+    ("change", "raises"),
+    [({"teeth_2": 80}, True), ({"addendum": 1.1}, True), ({"shift_1": 0.3}, True), ({"shift_1": 0.8}, False)],
+)
+def test_the_contact_ratio_rises_with_teeth_and_addendum_and_falls_with_shift(
+    change: dict[str, Any], raises: bool
+) -> None:
+    keys = STEEL | {
+        "module": 4,
+        "teeth_1": 14,
+        "teeth_2": 30,
+        "face_width": 40,
+        "torque": 100,
+        "shift_1": 0.6,
+        "shift_2": 0.6,
+    }
+    assert (number(pair(keys | change), "contact_ratio") > number(pair(keys), "contact_ratio")) is raises

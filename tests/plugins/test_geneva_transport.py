@@ -234,13 +234,13 @@ def checks(**changes: Any) -> dict[str, dict[str, Any]]:
         ({"roller_radius": "51 mm"}, "roller_clearance", "the wall between them is -2 mm"),
         ({"locking_radius": "95 mm"}, "arm_thickness", "90 mm"),
         ({"locking_radius": "20 mm"}, "locking_reach", "26.51 mm"),
-        (SHEET | {"allowable_sheet_acceleration": 50}, "sheet_acceleration", "more slots"),
+        (SHEET | {"allowable_sheet_acceleration": 50}, "sheet_acceleration", "set slots to"),
         (
             {"driven_inertia": 4, "roller_width": "5 mm", "allowable_contact_pressure": 1200},
             "contact_pressure",
-            "a roller_width of at least",
+            "Set roller_width to at least",
         ),
-        ({"slots": 12, "roller_radius": "13 mm"}, "cutout", "take a locking_radius of"),
+        ({"slots": 12, "roller_radius": "13 mm"}, "cutout", "Set locking_radius to"),
     ],
 )
 def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
@@ -304,3 +304,11 @@ def test_the_crank_makes_a_turn_for_each_sheet_of_the_press(tmp_path: Path) -> N
 def test_inputs_out_of_range_are_refused(tmp_path: Path, keys: str, words: str) -> None:
     found = problems(tmp_path, HEAD + f"  g: {{kind: geneva_transport, {keys}}}\n", Discovery([]))
     assert len(found) == 1 and words in found[0]
+
+
+def test_more_slots_lower_the_acceleration_also_with_the_same_step() -> None:
+    peaks = [
+        number(geneva(slots=z, roller_radius=3, **SHEET | {"gear_ratio": 4 * z / 6}), "sheet_acceleration_max")
+        for z in range(3, 19)
+    ]
+    assert sorted(peaks, reverse=True) == peaks

@@ -42,7 +42,7 @@ def test_the_rate_that_is_advised_is_the_greatest_that_the_grippers_hold(rate: s
     mechanism, keys = MACHINES[rate]
     found = gripped(mechanism, keys | SHEET)
     assert found["status"] == "fail"
-    told = re.search(rf"{rate} of at most ([\d.]+) (\S+)[;.]", found["message"])
+    told = re.search(rf"{rate} to at most ([\d.]+) (\S+)[,.]", found["message"])
     assert told
     for factor, status in ((1, "pass"), (1.002, "fail")):
         again = {rate: f"{float(told[1]) * factor} {told[2].replace('1/h', '1/h')}"}

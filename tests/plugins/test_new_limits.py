@@ -36,7 +36,7 @@ def test_a_drive_beyond_its_limit_is_told_a_size_that_keeps_it(
     name: str, given: dict[str, Any], key: str, unit: str
 ) -> None:
     message = check(drive(**given), name)["message"]
-    told = re.search(rf"{key} of at (?:least|most) ([\d.]+) {unit}", message)
+    told = re.search(rf"{key} to at (?:least|most) ([\d.]+) {unit}", message)
     assert told and check(drive(**given), name)["status"] == "fail"
     fixed = check(drive(**given | {key: f"{told[1]} {unit}"}), name)
     assert fixed["status"] == "pass" and fixed["utilisation"] == pytest.approx(1, abs=2e-3)
@@ -46,7 +46,7 @@ def test_play_beyond_the_register_is_told_the_clearance_that_keeps_it() -> None:
     sheet = {"sprocket_teeth": 24, "chain_pitch": "31.75 mm", "gear_ratio": 4, "allowable_sheet_play": "0.05 mm",
              "cover_angle": "20 deg"}  # fmt: skip
     found = check(geneva(**sheet), "sheet_play")
-    told = re.search(r"locking_clearance of at most ([\d.]+ \w+)", found["message"])
+    told = re.search(r"locking_clearance to at most ([\d.]+ \w+)", found["message"])
     assert found["status"] == "fail" and told
     kept = check(geneva(**sheet, locking_clearance=told[1]), "sheet_play")
     assert kept["status"] == "pass" and kept["utilisation"] == pytest.approx(1, abs=1e-3)

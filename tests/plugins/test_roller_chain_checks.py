@@ -18,8 +18,7 @@ from tests.configs import HEAD, loaded, problems
 from tests.machines import number
 from tests.plugins.chains import CUSTOM, DRIVE, GRIPPERS, RATED, UNEVEN, chain, checks, without
 
-SET = re.compile(r"set (\w+) to (?:at least |between )?(\d+(?:\.\d+)?)")
-LEAST = re.compile(r"at least ([\d.]+ (?:kN|mm²|mm))")
+SET = re.compile(r"[Ss]et (\w+) to (?:at least |between )?(\d+(?:\.\d+)?)")
 
 
 def told(keys: dict[str, Any], check: str) -> str:
@@ -89,28 +88,6 @@ def test_a_key_that_is_set_as_advised_passes(keys: dict[str, Any], check: str) -
     assert found is not None
     key, value = found.groups()
     assert checks(chain(keys, **{key: float(value)}))[check]["status"] == "pass"
-
-
-def test_a_chain_of_the_advised_breaking_load_passes() -> None:
-    for keys, check in ((DRIVE | {"torque": 400}, "safety_dynamic"), (DRIVE | {"torque": 280}, "safety_static")):
-        found = LEAST.search(told(keys, check))
-        assert found is not None
-        made = checks(chain(keys, breaking_load=found[1]))
-        assert {made["safety_dynamic"]["status"], made["safety_static"]["status"]} == {"pass"}
-
-
-def test_a_joint_of_the_advised_area_passes() -> None:
-    keys = DRIVE | {"allowable_bearing_pressure": 20}
-    found = LEAST.search(told(keys, "bearing_pressure"))
-    assert found is not None
-    assert checks(chain(keys, bearing_area=found[1].replace("mm²", "mm**2")))["bearing_pressure"]["status"] == "pass"
-
-
-def test_sprockets_at_the_advised_distance_are_wrapped() -> None:
-    keys = DRIVE | {"teeth_2": 120}
-    found = LEAST.search(told(keys, "wrap"))
-    assert found is not None
-    assert checks(chain(keys, center_distance=found[1]))["wrap"]["status"] == "pass"
 
 
 # --- what is refused -------------------------------------------------------------------------------------------------

@@ -244,15 +244,3 @@ def test_of_rollers_those_are_allowed_the_tilt_of_cylindrical_ones_that_are_know
     found = checks(one(ROLLER | ({"designation": designation} if designation else {}), tilt=0.28))["roller_tilt"]
     assert found["limit"] * 1e3 == pytest.approx(permitted) and found["status"] == "pass"
     assert checks(one(ROLLER, tilt=0.59))["roller_tilt"]["status"] == "fail"  # beyond twice what is permitted
-
-
-def test_advice_on_ratings_is_enough() -> None:
-    weak = one(ROLLER, radial_force=52000)
-    needed = value(weak, "static_needed") * 1.0001 / 1e3
-    assert checks(one(ROLLER, radial_force=52000, static_rating=needed))["roller_static"]["status"] == "pass"
-    light = one(ROLLER, radial_force=1500)
-    most = value(light, "most_rating") * 0.9999 / 1e3
-    assert checks(one(ROLLER, radial_force=1500, dynamic_rating=most))["roller_min_load"]["status"] == "pass"
-    level = one(ROLLER, radial_force=42000)
-    valid = value(level, "dynamic_valid") * 1.0001 / 1e3
-    assert checks(one(ROLLER, radial_force=42000, dynamic_rating=valid))["roller_load_level"]["status"] == "pass"

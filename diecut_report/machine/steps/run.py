@@ -532,6 +532,23 @@ def varied_curves(
     return x, {name: np.broadcast_to(curves[name], places.shape)[0] for name in names}
 
 
+def recalculated(
+    calc: Calculation, changed: Mapping[str, Any], count: int, names: Sequence[str] | None = None
+) -> Calculation | None:
+    """Return so many machines that differ from the first of a calculation in the inputs ``changed``; None where all are impossible.
+
+    Only the steps that ``names`` need are run; all of them where it is None.
+    """
+    first = np.zeros(count, dtype=int)
+    inputs = {name: _of(value, first, calc.count) for name, value in calc.inputs.items() if name in calc.given}
+    inputs |= changed
+    only = None if names is None else needed(calc.mechanism, frozenset(inputs) | texts_given(inputs), names)
+    try:
+        return calculate(calc.mechanism, inputs, count, only)
+    except (Impossible, Unproven):
+        return None
+
+
 def _calculated(calc: Calculation, changed: Mapping[str, Any], count: int, names: Sequence[str]) -> Calculation | None:
     inputs = {name: _repeated(value, count) for name, value in calc.inputs.items()}
     for name, value in changed.items():
@@ -547,4 +564,4 @@ def _repeated(value: Any, count: int) -> Any:
     return np.repeat(value[:1], count, axis=0) if isinstance(value, np.ndarray) else value
 
 
-__all__ = ["needed", "varied", "varied_curves"]
+__all__ = ["needed", "recalculated", "varied", "varied_curves"]

@@ -373,5 +373,5 @@ def reason_text(stored: Stored, variant: int, reason: str, discovery: Discovery)
         problems = error.problems
     except PluginError:  # it is reported where it broke
         return reason
-    same = (str(replace(each, file="", line=None, column=None)) for each in problems)
+    same = (str(replace(each, file="", line=None, column=None, advice="")) for each in problems)
     return next((localised(said(each)) for each in same if each == reason), reason)
