@@ -27,7 +27,7 @@ import numpy as np
 from batch_kernel import variants
 
 from diecut_report.machine.numerics.curves import Curves
-from diecut_report.machine.steps.rows import needed
+from diecut_report.machine.steps.needed import needed
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cylinder_drive import MECHANISM
 from diecut_report.study.execution.engines import settle

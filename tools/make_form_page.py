@@ -103,7 +103,8 @@ def _call(name: str, method: Any, step: str) -> Iterator[str]:
     yield from (f"### `chapter.{name}`", "", *_signature(f"chapter.{name}", method))
     own = list(paragraphs(method))
     if step:  # whose words are the longer ones; of the call's those that name nothing else anew
-        own = [each for each in own[1:] if not each.startswith("``")]
+        is_same = inspect.getdoc(method) == inspect.getdoc(getattr(api, step))
+        own = [] if is_same else [each for each in own[1:] if not each.startswith("``")]
     yield from (_text(each) for each in ((*paragraphs(getattr(api, step)), *own) if step else own))
     yield from _example(step or STEPLESS.get(name, ""))
 

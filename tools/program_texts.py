@@ -16,9 +16,10 @@ from diecut_report.cli.main import program
 from diecut_report.config.model import Press, Project
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration.texts import inputs_texts, is_text
-from diecut_report.machine.printing import items, tables
+from diecut_report.machine.printing import items, page
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.mechanism.inputs import fields
+from diecut_report.mechanism.steps import Accumulated, Derivative, pick, reduction, root, rows, table_steps
 from diecut_report.quantities.units import _table
 from diecut_report.report.text import COUNTED, ENGLISH, one
 from diecut_report.results import checks, document, mechanism, origins
@@ -27,8 +28,9 @@ from diecut_report.standards.tables import StandardSeries
 from diecut_report.text.translation import CITATION, EQUATIONS, PAPER
 
 ROOT = Path(__file__).parents[1]
-CONSTANTS = (*items.METHODS.values(), items.EQUAL_TERMS, items.TO_ROUNDING, "True", "False", *tables.SERIES_WORDS.values(),
-             tables.AS_GIVEN, tables.AMONG, mechanism.IDLE,
+CONSTANTS = (root.METHOD, reduction.SEARCHED, reduction.INTEGRATED, Accumulated.METHOD, Derivative.METHOD,
+             page.EQUAL_TERMS, items.TO_ROUNDING, "True", "False", *pick.SERIES_WORDS.values(),
+             table_steps.AS_GIVEN, rows.AMONG, mechanism.IDLE,
              origins.FOLLOWS, *checks.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
              "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated",
              "Taken at {place}, in the middle of its smooth piece; it is the same in all of it.",

@@ -31,8 +31,7 @@ from diecut_report.mechanism.curve_inputs import CurveInput, FromTable
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, fields, flatten, list_inputs, texts_given
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import FromPress, Text
-from diecut_report.mechanism.part_steps import ComputedCurve, PartNames
-from diecut_report.mechanism.steps import PREFIX, Step, part_result
+from diecut_report.mechanism.steps import PREFIX, ComputedCurve, PartNames, Step, part_result
 from diecut_report.quantities.units import UnitError, kind_name, unit
 from diecut_report.text.phrases import MessageError, Phrase, phrase
 

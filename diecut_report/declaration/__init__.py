@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from diecut_report.declaration import checks, code, figures, formulas, inputs, shape, tables, texts
+from diecut_report.declaration import checks, code, figures, formulas, inputs, shape, texts
 from diecut_report.declaration.names import DeclaredNames, Fault
 from diecut_report.mechanism.mechanism import Mechanism
 
@@ -17,7 +17,6 @@ RULES = (
     figures.phases_faults,
     inputs.conditions_faults,
     formulas.units_faults,
-    tables.faults,
     shape.doubled_faults,
     checks.idle_chapters_faults,
     code.impure_faults,
@@ -38,7 +37,7 @@ def faults_at_load(mechanism: Mechanism) -> list[Fault]:
 
     One that was found sound before is not judged again until one of its files changes.
     """
-    key = "" if shape.faults(mechanism) or list(formulas.unmarked(mechanism)) else code.content(mechanism)
+    key = "" if shape.faults(mechanism) else code.content(mechanism)
     if key and code.is_sound(key):
         return []
     found = [*faults(mechanism), *code.import_faults(mechanism)]
@@ -49,7 +48,7 @@ def faults_at_load(mechanism: Mechanism) -> list[Fault]:
 
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return every mistake in what a mechanism declares, and in its comparisons; in the order of reading."""
-    found = shape.faults(mechanism) or list(formulas.unmarked(mechanism)) or list(shape.unknown_units_faults(mechanism))
+    found = shape.faults(mechanism) or list(shape.unknown_units_faults(mechanism))
     if found:  # nothing can be asked of what is not a formula, or in a unit that is none
         return found
     names = DeclaredNames(mechanism)

@@ -11,7 +11,18 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from diecut_report.declaration.formulas import lacking, pairs
-from diecut_report.declaration.names import DeclaredNames, Fault, Giver, Key, When, short, unknown, world
+from diecut_report.declaration.names import (
+    DeclaredNames,
+    Fault,
+    Giver,
+    Key,
+    When,
+    of_check,
+    of_step,
+    short,
+    unknown,
+    world,
+)
 from diecut_report.declaration.names import told as shared_names_told
 from diecut_report.declaration.texts import files_around, own_files, parsed
 from diecut_report.errors import nearest
@@ -21,24 +32,9 @@ from diecut_report.mechanism.chapters import MISSING, taken
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import ByText, bound
-from diecut_report.mechanism.part_steps import PartTable
-from diecut_report.mechanism.steps import (
-    Breakpoints,
-    Choice,
-    Clash,
-    Computed,
-    CurvePeriod,
-    FromCurve,
-    Phase,
-    Require,
-    ResultName,
-    Step,
-    Value,
-    Words,
-    has_own_names,
-    names_ahead,
-    read,
-)
+from diecut_report.mechanism.steps import Require, ResultName, Step, Value, has_own_names, names_ahead, read
+from diecut_report.mechanism.steps.from_curve import CurveOverAbscissa
+from diecut_report.mechanism.steps.require import Obstacle
 from diecut_report.quantities.formatting import NAMED
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, named, phrase
@@ -91,7 +87,6 @@ def _ordered(part: Any) -> Any:
 
 
 def _ways(names: DeclaredNames, side: str | float) -> list[Node]:
-    """The expressions that a side may be, down to the inputs and to what is no closed formula."""
     if not isinstance(side, str):
         return [Node("num", (repr(float(side)),))]
     return list(dict.fromkeys(_expanded(names, side, giver, DEEP) for giver in names.givers(side)))
@@ -126,7 +121,6 @@ def _greatest(node: Node) -> set[Node]:
 
 
 def _arguments(node: Node, name: str) -> Iterator[Node]:
-    """What a least or greatest value is taken of, also of several after one another."""
     for part in node.args[1:] if node.op == "call" and node.args[0] == name else ():
         yield part
         yield from _arguments(part, name)
@@ -140,17 +134,15 @@ def _told(side: str | float) -> str:
 
 
 BRACE = re.compile(r"\{[^{}]*\}?|\}")  # what looks as if it were filled in
-MESSAGES_OF_PARTS = {Require: ("part", "next", "index"), Clash: ("part", "other", "index")}
 
 
 def messages_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the messages that name what cannot be printed, keys of no input, and texts that nothing fills in."""
     for number, (_, step) in enumerate(mechanism.steps):
-        if isinstance(step, Require | Clash):
-            when, parts = names.when(number), MESSAGES_OF_PARTS[type(step)]
-            for text in unprintable(names, step.message, when, parts, number):
-                yield Fault(step.at, Phrase("step {id}", id=step.id), Phrase("the message names {text}", text=text))
-            yield from (Fault(step.at, Phrase("step {id}", id=step.id), text) for text in _key(names, step.key))
+        if isinstance(step, Obstacle):
+            for text in unprintable(names, step.message, names.when(number), step.message_places, number):
+                yield of_step(step, Phrase("the message names {text}", text=text))
+            yield from (of_step(step, text) for text in _key(names, step.key))
     yield from _unfilled(mechanism)
 
 
@@ -165,7 +157,7 @@ def unprintable(
         if name in parts:
             continue
         braced = f"{{{name}}}"
-        makers = [g for g in names.givers(name) if isinstance(g.step, Words)]
+        makers = [g for g in names.givers(name) if g.step and g.step.is_made_late]
         words = lacking(names, name, when, None if makers else before)
         if not words and "curve" in names.kinds(name) | {k.replace("curve input", "curve") for k in names.kinds(name)}:
             words = Phrase("{name}, a curve, which has no single number; name an extreme or a mean of it", name=braced)
@@ -173,8 +165,7 @@ def unprintable(
             yield words
             continue
         for maker in makers:  # a text is made where a message asks for it, of what is known then
-            assert isinstance(maker.step, Words)
-            of = (lacking(names, taken, when.with_(maker.when), before) for taken in maker.step.takes)
+            of = (lacking(names, taken, when.with_(maker.when), before) for taken in getattr(maker.step, "takes", ()))
             yield from (Phrase("{name}, which takes {said}", name=braced, said=said) for said in of if said)
 
 
@@ -206,10 +197,9 @@ def _plain(mechanism: Mechanism) -> Iterator[tuple[str, str, str, str]]:
             for f in ("title", "text", "absent")
         )
     for _, step in mechanism.steps:
-        fields = {Computed: ("description", "method"), CurvePeriod: ("description", "otherwise")}
-        for field in fields.get(type(step), ("description",)):
-            yield step.at, Phrase("step {id}", id=step.id), field, getattr(step, field)
-        for case in step.cases if isinstance(step, Choice) else ():
+        for field in ("description", "method", "otherwise"):
+            yield step.at, Phrase("step {id}", id=step.id), field, getattr(step, field, "")
+        for case in getattr(step, "cases", ()):
             yield step.at, Phrase("step {id}", id=step.id), phrase("the words of a case"), case.words
     for check in mechanism.checks:
         texts = ("title", "demand_label", "limit_label", "at_least_label")
@@ -231,7 +221,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     yield from pairs(names, "check", made)
     for check in mechanism.checks:
         for text in _wrong(names, check):
-            yield Fault(check.at, Phrase("check {id}", id=check.id), text)
+            yield of_check(check, text)
 
 
 def _when(names: DeclaredNames, check: Check) -> list[When]:
@@ -294,7 +284,6 @@ def _names_of_parts(names: DeclaredNames, check: Check) -> Iterator[str]:
 
 
 def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:
-    """The units that a side may have where the check is made."""
     needs = (*check.needs, *check.only_with)
     beside = {unit for key, unit in giver.units if names.world.example(When(frozenset((*needs, key)))) is None}
     return giver.units_when(needs) - (beside - {giver.unit})
@@ -378,7 +367,6 @@ def _called(call: ast.Call) -> str:
 
 
 def _is_filled(tree: ast.Module, defined: Defined) -> bool:
-    """Whether anything is declared in it."""
     return any(_fills(s, defined.name) and defined.line < s.lineno < defined.until for s in tree.body)
 
 
@@ -404,7 +392,6 @@ def _may_name(statement: ast.stmt, name: str) -> bool:
 
 @lru_cache(maxsize=1024)
 def _words(statement: ast.AST) -> frozenset[str]:
-    """All that a name could be in it: what has none of it need not be gone through for each name."""
     words = {getattr(node, key, None) for node in ast.walk(statement) for key in ("id", "attr", "name", "value")}
     return frozenset(word for word in words if isinstance(word, str))
 
@@ -426,7 +413,6 @@ def _names(node: ast.AST, name: str) -> int:
 # Names of two things: a step that hides an input, or a name that the engine makes itself, as the place of an extreme.
 
 
-NAMELESS = Breakpoints | Require | Clash | Phase | PartTable  # whose ids nothing takes
 MADE = {
     "place": phrase("the place of its extreme"),
     "count": phrase("the number of its crossings"),
@@ -439,7 +425,7 @@ def shared_names_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[
     """Yield the steps that hide an input whose value nothing takes then, and names that the engine makes of another step."""
     inputs = world(mechanism.inputs).keys
     for number, (_, step) in enumerate(mechanism.steps):
-        if step.id in inputs and not isinstance(step, NAMELESS):
+        if step.id in inputs and step.is_taken:
             yield from _hidden(names, number, step, inputs[step.id])
         for name, place, when in _made_otherwise(names, number, step):
             yield from _made_twice(names, number, step, name, place, when)
@@ -457,13 +443,13 @@ def _hidden(names: DeclaredNames, number: int, step: Step, key: Key) -> Iterator
             else "has the id of an input, so that what the user gives for {id} counts nowhere; name the step otherwise, "
             'or let a formula take the input as "inputs.{id}"'
         )
-        yield Fault(step.at, Phrase("step {id}", id=step.id), Phrase(words, id=step.id, where=where))
+        yield of_step(step, Phrase(words, id=step.id, where=where))
 
 
 def _takers(names: DeclaredNames, path: str) -> Iterator[When]:
     """When something takes an input itself, not the step of its id."""
     for number, (_, step) in enumerate(names.mechanism.steps):
-        own = {getattr(step, "given", "")} | ({step.id} if isinstance(step, FromCurve) else set())
+        own = {getattr(step, "given", "")} | ({step.id} if isinstance(step, CurveOverAbscissa) else set())
         own |= {name.removeprefix("inputs.") for name in getattr(step, "holds", ()) if name.startswith("inputs.")}
         refuses = isinstance(step, Require) and step.key == path and path in step.needs
         if f"inputs.{path}" in taken(step) or path in own or refuses:
@@ -482,7 +468,7 @@ def _made_otherwise(names: DeclaredNames, number: int, step: Step) -> Iterator[t
         key = names.world.keys[name]
         yield made[name], "", When(frozenset((key.path,)) if key.may_be_absent else frozenset())
     for other, (_, declared) in enumerate(names.mechanism.steps):
-        if declared is step or isinstance(declared, NAMELESS):
+        if declared is step or not declared.is_taken:
             continue
         if declared.id in made:
             yield made[declared.id], declared.at, names.when(other)
@@ -491,7 +477,6 @@ def _made_otherwise(names: DeclaredNames, number: int, step: Step) -> Iterator[t
 
 
 def _both_make(made: dict[str, ResultName], other: Step) -> list[str]:
-    """A name that another step makes too."""
     if has_own_names(other):
         return [name for name in made if (found := read(name, other)) and found.role != "value"][:1]
     return [each.name for each in names_ahead(other) if each.role != "value" and each.name in made][:1]
@@ -506,4 +491,4 @@ def _made_twice(
     what = Phrase("that of another step (at {place})", place=short(place)) if place else phrase("that of an input")
     words = "gives {name} as {made}, and this name is {what}; name one of them otherwise"
     text = Phrase(words, name=made.name, made=MADE[made.role], what=what)
-    yield Fault(step.at, Phrase("step {id}", id=step.id), text)
+    yield of_step(step, text)

@@ -171,7 +171,6 @@ def _functions(mechanism: Mechanism, files: set[str]) -> Iterator[FunctionType]:
 
 
 def _whole(given: list[Any]) -> Iterator[Any]:
-    """Functions, and what those are made of that have some of their parameters already."""
     yield from (each.func if isinstance(each, partial) else each for each in given)
 
 
@@ -378,7 +377,6 @@ def _spoken(part: ast.expr) -> Iterator[str]:
 
 
 def _is_name(text: str) -> bool:
-    """Whether a text is a key, an id or a unit."""
     return NAMES.fullmatch(text) is not None and not text[:1].isupper()
 
 
@@ -445,11 +443,7 @@ def content(mechanism: Mechanism) -> str:
     found = hashlib.sha256(__version__.encode())
     texts = [(key.path, key.texts) for key in world(mechanism.inputs).keys.values()]
     found.update(repr((mechanism.kind, texts)).encode())
-    check = (
-        file
-        for part in ("declaration", "contract", "expressions", "formula_checks")
-        for file in (OWN / part).glob("*.py")
-    )
+    check = (file for part in ("declaration", "mechanism", "formulas") for file in (OWN / part).rglob("*.py"))
     for file in sorted({*files(mechanism), *check}):
         found.update(str(file).encode() + hashlib.sha256(file.read_bytes()).digest())
     return found.hexdigest()
@@ -497,7 +491,6 @@ def _places(mechanism: Mechanism) -> Iterator[str]:
 
 
 def _tables(step: Step) -> Iterator[str]:
-    """The files that a step's tables were read from."""
     taken = getattr(step, "table", None), getattr(step, "series", None)
     yield from (f"{each.file}:" for each in taken if isinstance(each, StandardTable | StandardSeries) and each.file)
 

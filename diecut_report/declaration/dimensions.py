@@ -4,7 +4,6 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
-from typing import Any
 
 from diecut_report.declaration.inputs import of_input
 from diecut_report.declaration.names import short
@@ -14,23 +13,10 @@ from diecut_report.formulas.tree import AS_ANGLE, AS_NUMBER, Node, symbols, writ
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.mechanism import Mechanism, axes
-from diecut_report.mechanism.names import Binding, Bound, ByText, bound
-from diecut_report.mechanism.steps import (
-    SILENT,
-    Abscissa,
-    Accumulated,
-    Breakpoints,
-    Case,
-    Choice,
-    Derivative,
-    FromCurve,
-    Reduction,
-    Root,
-    Step,
-    Value,
-    names_ahead,
-)
-from diecut_report.quantities.units import DIMENSIONS, Kind, si_text, unit
+from diecut_report.mechanism.names import Bound, ByText, bound
+from diecut_report.mechanism.steps import SilentStep, Step, names_ahead
+from diecut_report.mechanism.steps.rooms import StepFormula
+from diecut_report.quantities.units import DIMENSIONS, Kind, si_text, times, unit
 from diecut_report.text.phrases import Phrase, phrase
 
 # The kind of what a formula gives, found from the kinds of what it takes: its expression is gone through, nothing is computed.
@@ -56,13 +42,6 @@ class KindError(ValueError):
 def alike(one: Found, other: Found) -> bool:
     """Return whether two kinds may be equalled: they are the same, or differ by the angle alone beside a length."""
     return one is None or other is None or kinds_alike(one, other)
-
-
-def times(one: Found, other: Found, power: float = 1) -> Found:
-    """Return the kind of a product with a power of the other factor."""
-    if one is None or other is None:
-        return ANY
-    return tuple(round(a + power * b, 9) for a, b in zip(one, other, strict=True))
 
 
 def kind_text(kind: Found) -> str:
@@ -95,7 +74,6 @@ def _plain(value: float) -> Found:
 
 
 def _turned(kind: Kind, power: float) -> Kind:
-    """A kind with another power of the angle."""
     return (*kind[:ANGLE_AT], power, *kind[ANGLE_AT + 1 :])
 
 
@@ -230,36 +208,12 @@ def _shortened(node: Node) -> str:
     return text if len(text) <= TEXT_LENGTH else text[: TEXT_LENGTH - 1] + "…"
 
 
-def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, str, Bound]]:
-    """Yield every bound formula with its step and its part in it."""
+def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, StepFormula, Bound]]:
+    """Yield every bound formula with its step and its part in it; of a choice by a text all of them."""
     for _, step in mechanism.steps:
-        for part in (
-            phrase("formula"),
-            phrase("condition"),
-            "exists",
-            phrase("equation"),
-            "low",
-            "high",
-            "left",
-            "right",
-        ):
-            declared = getattr(step, part, None)
-            yield from _bindings(step, part, declared)
-        for case in getattr(step, "cases", ()):
-            yield from _of_case(step, case)
-
-
-def _of_case(step: Step, case: Case) -> Iterator[tuple[Step, str, Bound]]:
-    yield from _bindings(step, phrase("formula"), case.value)
-    yield from _bindings(step, phrase("condition"), case.condition)
-
-
-def _bindings(step: Step, part: str, declared: Any) -> Iterator[tuple[Step, str, Bound]]:
-    """The formulas of a part of a step; of a choice by text all of them."""
-    if isinstance(declared, ByText):
-        yield from ((step, part, option) for option in declared.options())
-    elif isinstance(declared, Binding):
-        yield step, part, bound(declared)
+        for each in step.formulas():
+            options = each.formula.options() if isinstance(each.formula, ByText) else (bound(each.formula),)
+            yield from ((step, each, link) for link in options)
 
 
 def units_of(mechanism: Mechanism) -> dict[str, str]:
@@ -267,12 +221,12 @@ def units_of(mechanism: Mechanism) -> dict[str, str]:
     found = {name: unit(meta.unit).si for name, meta in fields(mechanism.inputs) if hasattr(meta, "unit")}
     found |= {f"inputs.{name}": si for name, si in found.items()}
     for _, step in mechanism.steps:
-        if not isinstance(step, SILENT):
+        if not isinstance(step, SilentStep):
             found[step.id] = unit(step.unit).si
     axis_of = axes(tuple(step for _, step in mechanism.steps), mechanism.inputs)
     for _, step in mechanism.steps:
         for each in names_ahead(step):
-            of_place = found[axis_of[step.of]] if each.role == "place" else ""  # type: ignore[attr-defined]
+            of_place = found[axis_of[step.asked_curve]] if each.role == "place" else ""
             found.setdefault(each.name, {"count": "1", "place": of_place}.get(each.role, found[step.id]))
     return found
 
@@ -286,8 +240,8 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
         except KindError as error:
             yield f"{step.id}: {link.formula.__name__}: {error}"
             continue
-        wanted = _wanted(step, part, units)
-        if wanted is not None and not alike(given, unit(wanted).kind):
+        wanted = unit(step.unit).si
+        if part.is_of_unit and not alike(given, unit(wanted).kind):
             yield Phrase(
                 "{id}: {name} gives {given}, declared is {wanted}",
                 id=step.id,
@@ -301,40 +255,15 @@ def curve_units(mechanism: Mechanism) -> Iterator[str]:
     """Yield curves and what is laid over an abscissa, in other units than what they are made of has."""
     units = units_of(mechanism)
     axis_of = axes(tuple(step for _, step in mechanism.steps), mechanism.inputs)
-    for _, step in mechanism.steps:
-        for name, made, wanted in _made_of(step, units, axis_of):
-            if not alike(made, wanted):
-                yield Phrase(
-                    "{id}: {name} gives {given}, declared is {wanted}",
-                    id=step.id,
-                    name=name,
-                    given=kind_text(made),
-                    wanted=kind_text(wanted),
-                )
-
-
-def _made_of(step: Step, units: dict[str, str], axis_of: dict[str, str]) -> Iterator[tuple[str, Found, Found]]:
-    """What a step takes of a curve or an abscissa: in words, its kind, and the kind as it is wanted."""
 
     def of(name: str) -> Kind:
         return unit(units[name]).kind
 
-    own = of(step.id) if step.id in units else None
-    match step:
-        case Derivative(of=curve):
-            yield Phrase("the derivative of {curve}", curve=curve), times(of(curve), of(axis_of[curve]), -1), own
-        case Accumulated(of=curve) | Reduction(of=curve, operation="integral"):
-            yield Phrase("the integral of {curve}", curve=curve), times(of(curve), of(axis_of[curve])), own
-        case Reduction(of=curve):
-            yield curve, of(curve), own
-        case Abscissa(period=str() as period):
-            yield period, of(period), own
-        case FromCurve():
-            yield from ((step.given, of(step.given), own),) if step.given else ()
-            yield from ((name, of(name), of(step.abscissa)) for name in (step.lasts,) if name)
-            yield from ((name, of(name), NUMBER) for name in (step.start,) if name)
-        case Breakpoints():
-            yield from ((name, of(name), of(step.abscissa)) for name in (*step.places, step.every) if name)
+    for _, step in mechanism.steps:
+        for name, made, wanted in step.dimensions(of, axis_of.__getitem__):
+            if not alike(made, wanted):
+                filling = {"id": step.id, "name": name, "given": kind_text(made), "wanted": kind_text(wanted)}
+                yield Phrase("{id}: {name} gives {given}, declared is {wanted}", filling)
 
 
 def relations(mechanism: Mechanism) -> Iterator[str]:
@@ -342,7 +271,7 @@ def relations(mechanism: Mechanism) -> Iterator[str]:
     units = units_of(mechanism)
     sides: dict[str, list[Found]] = {}
     for step, part, link in formulas(mechanism):
-        if part in ("left", "right"):
+        if part.part in ("left", "right"):
             sides.setdefault(step.id, []).append(_given(link, units))
     for name, (a, b) in sides.items():
         if not alike(a, b):
@@ -350,17 +279,7 @@ def relations(mechanism: Mechanism) -> Iterator[str]:
             yield Phrase(words, name=name, one=kind_text(a), other=kind_text(b))
 
 
-def _wanted(step: Step, part: str, units: dict[str, str]) -> str | None:
-    """The unit that a part of a step must give; None for conditions, and for the sides of an equation (compared below)."""
-    if part == "formula" and isinstance(step, Value | Choice | Abscissa):
-        return unit(step.unit).si
-    if part in ("low", "high") and isinstance(step, Root):
-        return unit(step.unit).si
-    return None
-
-
 def _given(link: Bound, units: dict[str, str]) -> Found:
-    """The kind of what a bound formula gives; KindError where it has none."""
     taken = zip(link.names, link.takes, strict=True)
     kinds = {parameter: unit(units[name]).kind if isinstance(name, str) else name for parameter, name in taken}
     return kind_given(link.formula, kinds)

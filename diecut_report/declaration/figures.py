@@ -9,7 +9,7 @@ from math import isclose, pi
 import numpy as np
 
 from diecut_report.declaration.formulas import kind_of, lacking
-from diecut_report.declaration.names import KINDS, DeclaredNames, Fault, When, kinds_told, told
+from diecut_report.declaration.names import KINDS, DeclaredNames, Fault, When, kinds_told, of_figure, told
 from diecut_report.errors import nearest
 from diecut_report.formulas.tree import Constant
 from diecut_report.mechanism.figures import Bars, Figure, Panel, Plot, Polar
@@ -27,7 +27,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for figure in mechanism.figures:
         of_spectrum = isinstance(figure, Plot) and figure.abscissa in spectra
         for text in () if of_spectrum else _wrong(figure, names):
-            yield Fault(figure.at, Phrase("figure {id}", id=figure.id), text)
+            yield of_figure(figure, text)
 
 
 def _wrong(figure: Figure, names: DeclaredNames) -> Iterator[str]:

@@ -133,13 +133,11 @@ def forms(mechanism: Mechanism) -> Iterator[Mechanism]:
 
 
 def _excluded(model: type[Block], given: frozenset[str]) -> frozenset[str]:
-    """The keys that stand for what is given by other ones."""
     rules = [rule.groups for rule in model.one_of if any(given.intersection(group) for group in rule.groups)]
     return frozenset(key for groups in rules for group in groups if given.isdisjoint(group) for key in group)
 
 
 def _in_form(chapter: Chapter, given: frozenset[str], absent: frozenset[str]) -> tuple[Step, ...]:
-    """The steps of a chapter that may be made with some of the keys on which units depend, in their units."""
     made = [s for s in chapter.steps if absent.isdisjoint(chapter.needs + s.needs) and given.isdisjoint(s.lacks)]
     return tuple(in_unit(step, given) for step in made)
 
@@ -157,7 +155,7 @@ def printing(mechanism: Mechanism) -> Iterator[str]:
             yield Phrase(
                 "{id}: the {part} {formula} prints {printed}, computes {computed}",
                 id=step.id,
-                part=part,
+                part=part.part,
                 formula=link.formula.__name__,
                 printed=printed,
                 computed=computed,

@@ -5,7 +5,7 @@ from __future__ import annotations
 import inspect
 import math
 import re
-from collections.abc import Hashable, Iterator, Mapping
+from collections.abc import Hashable, Iterator, Mapping, Sequence
 from dataclasses import replace
 from functools import cache
 from inspect import get_annotations
@@ -16,15 +16,15 @@ from pydantic import PydanticSchemaGenerationError, TypeAdapter
 from pydantic.fields import FieldInfo
 
 from diecut_report.declaration.formulas import kind_of
-from diecut_report.declaration.names import DeclaredNames, Fault, Key, allowed
+from diecut_report.declaration.names import DeclaredNames, Fault, Key, allowed, of_check, of_step
 from diecut_report.errors import nearest
 from diecut_report.formulas.formula import FormulaError
 from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.curve_inputs import CurveInput
 from diecut_report.mechanism.inputs import BOUNDS, Block, Meta, Quantity, Referred, meta_of, nested
 from diecut_report.mechanism.mechanism import ExampleBlock, ForEach, Mechanism, Wired, kinds_named
-from diecut_report.mechanism.names import Binding, Bound, ByText, Text, bound
-from diecut_report.mechanism.steps import Choice, Computed, Require, Step, Value
+from diecut_report.mechanism.names import Bound, ByText, Text, Written, bound
+from diecut_report.mechanism.steps import Step
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
@@ -50,7 +50,7 @@ def allowed_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault
                 tolerance=repr(check.tolerance),
                 most=MOST_TOLERANCE,
             )
-            yield Fault(check.at, Phrase("check {id}", id=check.id), text)
+            yield of_check(check, text)
 
 
 def _declared(mechanism: Mechanism) -> Iterator[tuple[str, Any]]:
@@ -262,7 +262,6 @@ def _absent(declared: FieldInfo) -> Iterator[str]:
 
 
 def _kinds(annotation: Any) -> tuple[Any, ...]:
-    """The kinds that a union allows; of any other annotation itself."""
     return get_args(annotation) if get_origin(annotation) in (Union, UnionType) else (annotation,)
 
 
@@ -376,42 +375,28 @@ def _default(default: Any, annotation: Any, meta: Meta) -> Iterator[str]:
 # Conditions give yes or no, and choices end with a case that is always taken.
 
 
-MAY_BE_ABSENT = Value | Choice | Computed
 YES_OR_NO = ("cmp", "and", "or", "not")
 
 
 def conditions_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
-    """Yield conditions that are numbers, numbers that are conditions, and choices in which no case may hold."""
+    """Yield conditions that are numbers, and numbers that are conditions."""
     for _, step in mechanism.steps:
-        for part, condition in _conditions(step):
-            for link in condition.options() if isinstance(condition, ByText) else (bound(condition),):
-                if not _decides(link, names):
-                    text = Phrase(
-                        "the {part} gives a number, not yes or no; compare it with something ({formula} > 0)",
-                        part=part,
-                        formula=link.formula.__name__,
-                    )
-                    yield Fault(step.at, Phrase("step {id}", id=step.id), text)
-                    break
-        if step.exists is not None and not isinstance(step, MAY_BE_ABSENT):
-            kinds = ", ".join(kind.__name__.lower() for kind in get_args(MAY_BE_ABSENT))
-            yield Fault(
-                step.at,
-                Phrase("step {id}", id=step.id),
-                Phrase("has exists, which holds for {kinds} alone; put it on what this step takes", kinds=kinds),
-            )
-        texts = _cases(step.cases) if isinstance(step, Choice) else _flag(step, names)
-        yield from (Fault(step.at, Phrase("step {id}", id=step.id), text) for text in texts)
+        for each in step.formulas():
+            if each.is_condition:
+                strange = [link for link in _options(each.formula) if not _decides(link, names)]
+                words = "the {part} gives a number, not yes or no; compare it with something ({formula} > 0)"
+                part = phrase("condition exists") if each.part == "exists" else each.part
+                yield from (
+                    of_step(step, Phrase(words, part=part, formula=link.formula.__name__)) for link in strange[:1]
+                )
+        if step.exists is not None and not step.may_be_absent:
+            words = "has exists, which holds for {kinds} alone; put it on what this step takes"
+            yield of_step(step, Phrase(words, kinds="value, choice, computed"))
+        yield from (of_step(step, text) for text in _flag(step, names))
 
 
-def _conditions(step: Step) -> Iterator[tuple[str, Binding]]:
-    if step.exists is not None:
-        yield phrase("condition exists"), step.exists
-    if isinstance(step, Require):
-        yield phrase("condition"), step.condition
-    for case in step.cases if isinstance(step, Choice) else ():
-        if case.condition is not None:
-            yield phrase("condition of a case"), case.condition
+def _options(formula: Written) -> Sequence[Bound]:
+    return formula.options() if isinstance(formula, ByText) else (bound(formula),)
 
 
 def _decides(link: Bound, names: DeclaredNames, *, unread: bool = True) -> bool:
@@ -430,37 +415,20 @@ def _is_condition(node: Node, link: Bound, names: DeclaredNames, unread: bool) -
             return _is_condition(called.formula.tree, bound(called.formula), names, unread)
         case Node("sym", (parameter,)):
             steps = [giver.step for giver in names.givers(str(link.names.get(parameter)))]
-            return bool(steps) and all(isinstance(step, Value) and _decides(bound(step.formula), names, unread=unread) for step in steps)  # fmt: skip
+            formulas = [getattr(step, "formula", None) for step in steps]
+            return bool(steps) and all(
+                each is not None and _decides(bound(each), names, unread=unread) for each in formulas
+            )
     return node.op in YES_OR_NO
 
 
 def _flag(step: Step, names: DeclaredNames) -> Iterator[str]:
     """A comparison that stands as a quantity with a unit."""
-    if (
-        isinstance(step, Value)
-        and not isinstance(step.formula, ByText)
-        and _decides(bound(step.formula), names, unread=False)
-    ):
+    formula = getattr(step, "formula", None)
+    if formula is not None and not isinstance(formula, ByText) and _decides(bound(formula), names, unread=False):
         wrong = [each for each in (step.unit, *(other for _, other in step.units)) if kind_of(each) != kind_of("1")]
         if wrong:
             yield Phrase("gives yes or no (1 or 0), but has the unit {wrong}; a flag has the unit 1", wrong=wrong[0])
-
-
-def _cases(cases: tuple[object, ...]) -> Iterator[str]:
-    texts = [isinstance(getattr(case, "value", None), str) for case in cases]
-    if any(texts) and not all(texts):
-        yield phrase("mixes texts and numbers in its cases; give all cases texts, or all numbers")
-    if cases and getattr(cases[-1], "condition", None) is not None:
-        yield Phrase(
-            "has a condition in its last case, so that none may hold; take it away, or add a case for all else"
-        )
-    for number, case in enumerate(cases[:-1], 1):
-        if getattr(case, "condition", None) is None:
-            yield Phrase(
-                "has no condition in case {number} of {all}, so that those after it are never taken; add one",
-                number=number,
-                all=len(cases),
-            )
 
 
 # Examples name keys that there are, with values that these take.

@@ -10,41 +10,13 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from diecut_report.errors import nearest
+from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
+from diecut_report.mechanism.figures import Figure
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, meta_of, nested
-from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.mechanism import Mechanism, Profile
 from diecut_report.mechanism.names import OneOf, Text
-from diecut_report.mechanism.part_steps import (
-    ComputedCurve,
-    Fact,
-    Lookup,
-    Neighbour,
-    PartCurves,
-    PartNames,
-    PartTable,
-    Running,
-)
-from diecut_report.mechanism.steps import (
-    Abscissa,
-    Accumulated,
-    Breakpoints,
-    Choice,
-    Clash,
-    Computed,
-    Crossings,
-    Derivative,
-    FromCurve,
-    Phase,
-    Prepared,
-    Reduction,
-    Require,
-    Step,
-    Value,
-    Words,
-    has_own_names,
-    names_ahead,
-    read,
-)
+from diecut_report.mechanism.steps import Step, has_own_names, names_ahead, read
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 # What is wrong with a declaration, in words: where it stands, what it is of, and what to write instead.
@@ -60,6 +32,26 @@ class Fault(NamedTuple):
     def __str__(self) -> str:
         """The one line that is shown: ``gear.py:12: step force: takes arm, which nothing gives``."""
         return joined([part for part in (short(self.place), self.subject, self.text) if part], ": ")
+
+
+def of_step(step: Step, text: str, place: str = "") -> Fault:
+    """Return what is wrong with a step, at its place or at another one."""
+    return Fault(place or step.at, Phrase("step {id}", id=step.id), text)
+
+
+def of_check(check: Check, text: str) -> Fault:
+    """Return what is wrong with a check."""
+    return Fault(check.at, Phrase("check {id}", id=check.id), text)
+
+
+def of_figure(figure: Figure, text: str) -> Fault:
+    """Return what is wrong with a figure."""
+    return Fault(figure.at, Phrase("figure {id}", id=figure.id), text)
+
+
+def of_export(profile: Profile, text: str) -> Fault:
+    """Return what is wrong with an export."""
+    return Fault(profile.at, Phrase("export {id}", id=profile.id), text)
 
 
 def short(place: str) -> str:
@@ -184,7 +176,6 @@ class World:
             yield None
 
     def _is_allowed(self, known: Mapping[str, Given]) -> bool:
-        """Whether the rules let these be given together, as far as all that they name is known; what they refuse stays refused."""
         return all(_keeps(home, rule, known, self.keys) for home, rule in self.rules)
 
 
@@ -225,7 +216,6 @@ def _holds(token: str, known: Mapping[str, Given]) -> bool | None:
 
 
 def world(model: type[Block]) -> World:
-    """Return what may be given of a mechanism's inputs."""
     return World({key.path: key for key in _keys(model)}, tuple(_rules(model)))
 
 
@@ -283,9 +273,6 @@ def told(given: Mapping[str, Given], tokens: Iterable[str]) -> str:
     return joined(words, " and ")
 
 
-NO_QUANTITY = Breakpoints | Require | Clash | Phase | PartTable | PartCurves | Fact
-
-
 class Giver(NamedTuple):
     """What gives a name: an input, or a step at a place in the order; when, and what it is."""
 
@@ -311,7 +298,6 @@ class DeclaredNames:
 
     @cached_property
     def world(self) -> World:
-        """What may be given, with the facts that may hold."""
         found = world(self.mechanism.inputs)
         found.keys |= {name: Key(name, None, None, is_block=False, may_be_absent=True) for name in self.mechanism.facts}
         return found
@@ -334,32 +320,27 @@ class DeclaredNames:
         return found
 
     def _given(self, number: int, step: Step, found: dict[str, list[Giver]]) -> Iterator[tuple[str, Giver]]:
-        if isinstance(step, NO_QUANTITY):
-            return
+        def over(*names: str, of_all: bool = False) -> set[tuple[str, str]]:
+            """Return the kinds and axes of what runs over something; ``of_all`` also of texts."""
+            givers = [giver for name in names for giver in found.get(name, ()) if giver.axis or not of_all]
+            axes = {
+                (giver.kind, giver.axis) for giver in givers if of_all or giver.kind in ("curve", "abscissa", "row")
+            }
+            return {("curve" if kind == "abscissa" else kind, axis) for kind, axis in axes}
+
         when = self.when(number)
-        for kind, axis in _kinds(step, found):
-            yield (
-                step.id,
-                Giver(
-                    when,
-                    kind,
-                    axis,
-                    None if kind in ("text", "prepared", "list of parts") else step.unit,
-                    step,
-                    number,
-                    step.units,
-                ),
-            )
+        for kind, axis in step.kinds(over):
+            own = None if kind in ("text", "prepared", "list of parts") else step.unit
+            yield step.id, Giver(when, kind, axis, own, step, number, step.units)
         for each in names_ahead(step):
-            if each.role == "place" and isinstance(step, Reduction):
-                places = [axis for curve in found.get(step.of, ()) for axis in found.get(curve.axis, ())]
+            if each.role == "place":
+                places = [axis for curve in found.get(step.asked_curve, ()) for axis in found.get(curve.axis, ())]
                 own, forms = (places[0].unit, places[0].units) if places else (None, ())
                 yield each.name, Giver(when, "number", "", own, step, number, forms)
             if each.role == "count":
                 yield each.name, Giver(when, "number", "", "1", step, number)
 
     def givers(self, name: str) -> list[Giver]:
-        """Return what gives a name; of several crossings or numbered parts one that has a name of its own."""
         return self.known.get(name) or list(self._numbered(name))
 
     def _numbered(self, name: str) -> Iterator[Giver]:
@@ -368,12 +349,43 @@ class DeclaredNames:
             if found and found.role in ("crossing", "part"):
                 yield Giver(self.when(number), "number", "", step.unit, step, number)
 
+    def units(self, name: str) -> set[str]:
+        return {each for giver in self.givers(name) for each in giver.units_when(())}
+
+    def without(self, when: When, given: str) -> When:
+        path = given.removeprefix("inputs.")
+        return when.with_(When(frozenset(), frozenset((path,)))) if path else when
+
+    def incomplete(self, by: str, rows: Mapping[str, Any], when: When, none: str) -> Iterator[str]:
+        key = self.world.keys.get(by)
+        if key is None:
+            return  # told where ids are
+        if not key.texts:
+            allowed = ", ".join(map(repr, rows))
+            yield Phrase(
+                "is chosen by {by}, which may be any text; give it allowed ones: Annotated[Literal[{allowed}], Text(…)]",
+                by=by,
+                allowed=allowed,
+            )
+            return
+        possible = [
+            text for text in key.texts if key.home or self.world.example(when.with_(When(frozenset((f"{by}={text}",)))))
+        ]
+        missing = [text for text in possible if text not in rows]
+        if missing:
+            yield Phrase(
+                "has {none} for {by}={missing}; add {them}, or forbid the text",
+                none=none,
+                by=by,
+                missing=", ".join(missing),
+                them=phrase("it" if len(missing) == 1 else "them"),
+            )
+
     def kinds(self, name: str) -> set[str]:
         """Return what a name may be: number, row, curve, …"""
         return {giver.kind for giver in self.givers(name)}
 
     def axes(self, name: str) -> set[str]:
-        """Return the abscissas or lists that a name may run over; of an abscissa itself."""
         return {giver.axis for giver in self.givers(name) if giver.axis}
 
     def missing(self, name: str, when: When, before: int | None = None) -> dict[str, str | None] | None:
@@ -401,47 +413,3 @@ def _input(key: Key) -> Giver:
         case Text():
             kind = "text"
     return Giver(when, kind, key.home, None)
-
-
-def _kinds(step: Step, found: dict[str, list[Giver]]) -> set[tuple[str, str]]:
-    """What a step may give: the kind, and the abscissa or the list that it runs over."""
-
-    def over(*names: str) -> set[tuple[str, str]]:
-        axes = {
-            (g.kind, g.axis) for name in names for g in found.get(name, ()) if g.kind in ("curve", "abscissa", "row")
-        }
-        return {("curve" if kind == "abscissa" else kind, axis) for kind, axis in axes}
-
-    match step:
-        case Words():
-            return {("text", "")}
-        case Prepared():
-            return {("prepared", "")}
-        case Choice(cases=cases) if cases and isinstance(cases[0].value, str):
-            return {("text", axis) for _, axis in over(*_names(step))} or {("text", "")}
-        case Abscissa():
-            return {("abscissa", step.id)}
-        case Computed(is_text=True):
-            return {("text", "")}
-        case PartNames():
-            return {("list of parts", "")}
-        case FromCurve(abscissa=axis) | ComputedCurve(abscissa=axis):
-            return {("curve", axis)}
-        case Crossings():
-            return {("crossings", "")}
-        case Accumulated(of=of) | Derivative(of=of):
-            return over(of) or {("curve", "")}
-        case Neighbour(of=of) | Running(of=of):
-            return over(of) or {("row", "")}
-        case Computed(over=list_path) if list_path:
-            return {("row", list_path)}
-        case Lookup(by=by):
-            homes = {g.axis for g in found.get(by, ()) if g.axis}
-            return {("row", home) for home in homes} or {("number", "")}
-        case Value() | Choice():
-            return over(*_names(step)) or {("number", "")}
-    return {("number", "")}
-
-
-def _names(step: Value | Choice) -> list[str]:
-    return [name for name in step.takes() if isinstance(name, str)]

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterable, Iterator
 from keyword import iskeyword
 from pathlib import Path
 from typing import Any
 
 from diecut_report.declaration.code import files
 from diecut_report.declaration.inputs import of_class, of_input
-from diecut_report.declaration.names import DeclaredNames, Fault, short
+from diecut_report.declaration.names import DeclaredNames, Fault, of_check, of_figure, of_step, short
 from diecut_report.declaration.texts import parsed
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import Chapter
@@ -19,11 +19,10 @@ from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.figures import Bars, Drawing, Figure, Plot, Polar
 from diecut_report.mechanism.inputs import Inputs, fields
 from diecut_report.mechanism.mechanism import Erratum, Mechanism, Profile, Source
-from diecut_report.mechanism.names import Binding, Bound
-from diecut_report.mechanism.part_steps import Lookup, Pick
-from diecut_report.mechanism.steps import Abscissa, Breakpoints, Case, Choice, Phase, Step
+from diecut_report.mechanism.names import Bound
+from diecut_report.mechanism.steps import Step
+from diecut_report.mechanism.steps.base import tuple_faults
 from diecut_report.quantities.units import unit
-from diecut_report.standards.tables import StandardTable
 from diecut_report.text.phrases import Phrase, phrase
 
 ID = re.compile(r"[A-Za-z_]\w*(\.\w+)*")
@@ -37,12 +36,6 @@ HOLDS = {
     "errata": Erratum,
 }
 TEXTS = ("kind", "version", "title", "summary")
-IDS: dict[type[Step], tuple[str, ...]] = {
-    Abscissa: ("shown_at", "speed", "points"),
-    Breakpoints: ("abscissa", "every"),
-    Phase: ("abscissa", "period"),
-}
-FORMULAS = ("formula", "condition", "exists", "equation", "low", "high", "left", "right")
 
 
 def faults(mechanism: Mechanism) -> list[Fault]:
@@ -56,10 +49,10 @@ def faults(mechanism: Mechanism) -> list[Fault]:
     for chapter in mechanism.chapters:
         found += [
             Fault(chapter.at, Phrase("chapter {title}", title=repr(chapter.title)), text)
-            for text in _ids(chapter, "needs")
+            for text in tuple_faults(chapter, "needs")
         ]
         for step in chapter.steps:
-            found += [Fault(step.at, Phrase("step {id}", id=step.id), text) for text in _of_step(step)]
+            found += [of_step(step, text) for text in _of_step(step)]
     return found
 
 
@@ -109,116 +102,29 @@ def _of_step(step: Step) -> Iterator[str]:
         )
     if step.digits < 1:
         yield Phrase("has digits={digits}; at least one digit is printed", digits=repr(step.digits))
-    yield from _ids(step, "needs", "lacks")
-    for name in FORMULAS:
-        yield from _of_formula(getattr(step, name, None))
-    yield from _of_places(step)
-    match step:
-        case Abscissa(intervals=intervals) if intervals < 2:
-            yield Phrase(
-                "has intervals={intervals}; the search for extremes needs at least 2, usually 32 or 64",
-                intervals=repr(intervals),
-            )
-        case Breakpoints() if not _are_texts(step.places):
-            yield Phrase(
-                'has places={places}; name them one after another, each an id: "first", "second"',
-                places=repr(step.places),
-            )
-        case Phase():
-            yield from _of_spans(step)
-        case Choice():
-            yield from _of_cases(step)
-        case Pick(series=series, by=by):
-            yield from _of_series(series, by)
-        case Lookup(table=table) if not isinstance(table, StandardTable):
-            yield from _of_table(table)
-
-
-def _of_places(step: Step) -> Iterator[str]:
-    for name in IDS.get(type(step), ()):
+    yield from tuple_faults(step, "needs", "lacks")
+    for name in step.IDS:
         if not isinstance(given := getattr(step, name), str):
-            yield Phrase(
-                "has {name}={given}; name the input or the step that gives it, by its id", name=name, given=repr(given)
-            )
-
-
-def _of_spans(step: Phase) -> Iterator[str]:
-    spans: tuple[Any, ...] = step.spans
-    for span in spans:
-        if not isinstance(span, tuple) or len(span) != 2 or not all(isinstance(end, str | int | float) for end in span):
-            yield Phrase(
-                'goes between {span}; write a start and an end in brackets: ("begins", "ends")', span=repr(span)
-            )
-    yield from _ids(step, "union", "rest_of")
-
-
-def _ids(declared: Any, *names: str) -> Iterator[str]:
-    for name in names:
-        given = getattr(declared, name)
-        if not isinstance(given, tuple) or not _are_texts(given):
-            yield Phrase(
-                'has {name}={given}; write a tuple of texts, with a comma behind a single one: {name}=("key",)',
-                name=name,
-                given=repr(given),
-            )
-
-
-def _are_texts(given: Iterable[object]) -> bool:
-    return all(isinstance(each, str) for each in given)
+            words = "has {name}={given}; name the input or the step that gives it, by its id"
+            yield Phrase(words, name=name, given=repr(given))
+    wrong = list(step.shape_faults())
+    yield from wrong
+    for each in () if wrong else step.formulas():
+        yield from _of_formula(each.formula)
 
 
 def _of_formula(part: object) -> Iterator[str]:
     if isinstance(part, Bound):
         taken: dict[str, Any] = dict(part.names)
         strange = [name for name, value in taken.items() if not isinstance(value, str | int | float)]
-        yield from (
-            Phrase("binds {name} to {taken}; give an id or a number", name=name, taken=repr(taken[name]))
-            for name in strange
-        )
+        words = "binds {name} to {taken}; give an id or a number"
+        yield from (Phrase(words, name=name, taken=repr(taken[name])) for name in strange)
     formula = part.formula if isinstance(part, Bound) else part
     if isinstance(formula, Formula) and formula.function.__defaults__:
-        yield Phrase(
-            "takes the formula {formula}, whose parameters have a default; each takes a quantity: remove the default",
-            formula=formula.__name__,
+        words = (
+            "takes the formula {formula}, whose parameters have a default; each takes a quantity: remove the default"
         )
-
-
-def _of_cases(step: Choice) -> Iterator[str]:
-    cases: tuple[Any, ...] = step.cases
-    if not all(isinstance(case, Case) for case in cases):
-        yield Phrase(
-            'has cases that are none; give them one after another: case(value, "why", condition), case(value, "why")'
-        )
-        return
-    for case in cases:
-        if not isinstance(case.words, str):
-            yield phrase('has a case whose words are not a text; write case(value, "why it is taken", condition)')
-        if not isinstance(case.value, str | Binding):
-            yield Phrase(
-                "has a case of the value {value}; write a text, or a lambda that gives a number", value=repr(case.value)
-            )
-        yield from _of_formula(case.value)
-        yield from _of_formula(case.condition)
-
-
-def _of_series(series: object, by: str) -> Iterator[str]:
-    if isinstance(series, tuple) and not series:
-        yield phrase("picks from an empty series; give its values")
-    if isinstance(series, Mapping) and not by:
-        yield Phrase(
-            'picks from several series ({series}); name the text input that chooses one: by="…"',
-            series=", ".join(map(str, series)),
-        )
-
-
-def _of_table(table: Any) -> Iterator[str]:
-    if not isinstance(table, Mapping):
-        yield Phrase('takes from {table}; give a table, then the text input by which: table, by="…"', table=repr(table))
-        return
-    wrong = [key for key, value in table.items() if isinstance(value, bool) or not isinstance(value, int | float)]
-    if wrong:
-        told = ", ".join(f"{key} ({table[key]!r})" for key in wrong)
-        yield Phrase("has no number in its table for {told}; write numbers in the step's unit", told=told)
+        yield Phrase(words, formula=formula.__name__)
 
 
 # What a plugin's files define twice under one name: Python keeps the last and says nothing.
@@ -290,12 +196,12 @@ def unknown_units_faults(mechanism: Mechanism) -> Iterator[Fault]:
             yield Fault(of_input(mechanism.inputs, path, mechanism.at), Phrase("input {path}", path=path), text)
     for _, step in mechanism.steps:
         for text in _unknown([step.unit, *(own for _, own in step.units)]):
-            yield Fault(step.at, Phrase("step {id}", id=step.id), text)
+            yield of_step(step, text)
     for check in mechanism.checks:
-        yield from (Fault(check.at, Phrase("check {id}", id=check.id), text) for text in _unknown([check.unit]))
+        yield from (of_check(check, text) for text in _unknown([check.unit]))
     for figure in mechanism.figures:
         for text in _unknown(_drawn(figure)):
-            yield Fault(figure.at, Phrase("figure {id}", id=figure.id), text)
+            yield of_figure(figure, text)
 
 
 def _unknown(units: Iterable[object]) -> Iterator[str]:

@@ -13,31 +13,19 @@ from typing import Any, NamedTuple, get_args
 
 from diecut_report.declaration.formulas import lacking
 from diecut_report.declaration.inputs import of_input
-from diecut_report.declaration.names import DeclaredNames, Fault, When, short, unknown, world
+from diecut_report.declaration.names import DeclaredNames, Fault, When, of_step, short, unknown, world
 from diecut_report.errors import nearest
 from diecut_report.mechanism.figures import Drawing, Spectrum
 from diecut_report.mechanism.inputs import POINTS, Block, Quantity, meta_of, nested
 from diecut_report.mechanism.mechanism import Comparison, CurveTable, Mechanism
-from diecut_report.mechanism.names import bound
-from diecut_report.mechanism.part_steps import Lookup, Pick
-from diecut_report.mechanism.steps import (
-    SILENT,
-    Case,
-    Choice,
-    FromCurve,
-    Step,
-    Value,
-    has_own_names,
-    names_ahead,
-    numbered_symbol,
-)
+from diecut_report.mechanism.steps import Case, SilentStep, Step, has_own_names, names_ahead, numbered_symbol
 from diecut_report.standards.tables import StandardSeries, StandardTable
 from diecut_report.text.phrases import PLACE, Phrase, named, phrase, worded
 
 SAID = frozenset({"title", "summary", "text", "absent", "description", "method", "otherwise", "words", "message", "demand_label",
                   "limit_label", "at_least_label", "consequence", "caption", "label", "assumptions"})  # fmt: skip
 """Fields of declared things that the report prints."""
-ENTERED = frozenset({"chapters", "steps", "checks", "figures", "panels", "series", "levels", "marks", "spans", "groups", "cases", "heads",
+ENTERED = frozenset({"chapters", "steps", "checks", "figures", "panels", "series", "levels", "marks", "spans", "groups", "cases", "columns",
                      "errata", "exports", "comparisons", "spectra", "table", "mechanism"})  # fmt: skip
 """Fields that hold further declared things."""
 
@@ -77,7 +65,6 @@ def inputs_texts(model: type[Block], prefix: str = "") -> Iterator[DeclaredText]
 
 
 def _options(meta: Any, annotation: Any) -> Iterator[str]:
-    """The keys that may be given in place of a number, or as a text."""
     known = (*getattr(meta, "options", ()), *getattr(meta, "words", ()), *_literals(annotation))
     yield from (text for text in known if text.isidentifier() and text.islower())
 
@@ -154,11 +141,7 @@ def token_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
         yield from _wrong(names, step.at, Phrase("step {id}", id=step.id), "needs", step.needs)
         yield from _wrong(names, step.at, Phrase("step {id}", id=step.id), "lacks", step.lacks)
         for fact in sorted(mechanism.facts.intersection(step.lacks)):
-            yield Fault(
-                step.at,
-                Phrase("step {id}", id=step.id),
-                Phrase("lacks names the fact {fact}; a fact can only be needed", fact=fact),
-            )
+            yield of_step(step, Phrase("lacks names the fact {fact}; a fact can only be needed", fact=fact))
     for check in mechanism.checks:
         yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "needs", check.needs)
         yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "only_with", check.only_with)
@@ -274,7 +257,7 @@ def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 
 
 def _silent(mechanism: Mechanism) -> set[str]:
-    return {step.id for _, step in mechanism.steps if isinstance(step, SILENT)}
+    return {step.id for _, step in mechanism.steps if isinstance(step, SilentStep)}
 
 
 def _sources(mechanism: Mechanism) -> Iterator[Fault]:
@@ -415,7 +398,6 @@ def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> F
 
 
 def _of(mechanism: Mechanism, each: Printed, text: str) -> Fault:
-    """A fault where a quantity is declared."""
     if each.step:
         return Fault(each.at, Phrase("step {id}", id=each.name), text)
     return Fault(of_input(mechanism.inputs, each.name, each.at), Phrase("input {path}", path=each.name), text)
@@ -428,7 +410,7 @@ def _whole(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, Pr
             when, is_points = names.known[key.path][0].when, key.meta is POINTS
             yield key.meta.symbol, Printed(key.path, key.meta.at, when, is_points=is_points)
     for number, (_, step) in enumerate(mechanism.steps):
-        if step.symbol and step.printed and not isinstance(step, SILENT) and names.kinds(step.id) != {"text"}:
+        if step.symbol and step.printed and not isinstance(step, SilentStep) and names.kinds(step.id) != {"text"}:
             yield step.symbol, Printed(step.id, step.at, names.when(number), step)
 
 
@@ -442,21 +424,13 @@ def _single(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, P
 
 
 def _clash(names: DeclaredNames, one: Printed, other: Printed) -> bool:
-    if any(a.step is not None and b.name in _taken_over(a.step) for a, b in ((one, other), (other, one))):
-        return False
+    for a, b in ((one, other), (other, one)):
+        if (
+            a.step is not None
+            and b.name in {name.removeprefix("inputs.") for name in a.step.takes_over()} | a.step.takes_over()
+        ):
+            return False
     return names.world.example(one.when.with_(other.when)) is not None
-
-
-def _taken_over(step: Step) -> set[str]:
-    """The quantities that a step gives again as they are."""
-    found: set[str] = set()
-    if isinstance(step, FromCurve | Lookup | Pick):
-        found = {step.given}
-    elif isinstance(step, Value | Choice):
-        parts = [step.formula] if isinstance(step, Value) else [case.value for case in step.cases]
-        links = [bound(part) for part in parts if not isinstance(part, str)]
-        found = {str(name) for link in links if link.formula.tree.op == "sym" for name in link.names.values()}
-    return found | {name.removeprefix("inputs.") for name in found}
 
 
 # The files that a plugin is written in, and what stands in them as syntax.

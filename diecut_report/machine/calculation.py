@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping, Sequence
+from collections.abc import Callable, Iterable, Mapping
 from dataclasses import dataclass, field, replace
 from math import isfinite
 from typing import Any, NamedTuple, cast
@@ -12,27 +12,16 @@ import numpy as np
 
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
-from diecut_report.machine.curve_samples import CurveSampler, CurveStep, SampledCurve
+from diecut_report.machine.curve_samples import CurveSampler, SampledCurve
 from diecut_report.machine.numerics.curves import MANY, Curves, several
 from diecut_report.machine.numerics.domain import Domain, Inside, PieceSeries, RecentPlaces, SharedPlaces
 from diecut_report.machine.numerics.samples import SampleCache
 from diecut_report.mechanism.chapters import in_form, taken
 from diecut_report.mechanism.inputs import Extremes, Meta, Quantity, fields, texts_given
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import Binding, Misdeclared, bound
-from diecut_report.mechanism.steps import (
-    Accumulated,
-    Choice,
-    Derivative,
-    FromCurve,
-    Reduction,
-    ResultName,
-    Step,
-    Value,
-    named,
-    names_ahead,
-    numbered_symbol,
-)
+from diecut_report.mechanism.names import Misdeclared, Written, bound
+from diecut_report.mechanism.steps import ResultName, Step, named, names_ahead, numbered_symbol
+from diecut_report.mechanism.steps.rooms import Impossible, ImpossibleTogether
 from diecut_report.quantities.formatting import author_digits, easy_unit, shown
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase
@@ -114,7 +103,6 @@ def axis_unit(declared: str, heights: Iterable[float]) -> str:
 
 
 def _unit_of(calc: Calculation, name: str, declared: str, value: float) -> str:
-    """The same of one number."""
     return calc.chosen_units.of(name, declared) or easy_unit(value, declared)
 
 
@@ -193,7 +181,7 @@ def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, st
     step = steps[found.id]
     match found.role:
         case "place":
-            return steps[axis[cast(Reduction, step).of]]
+            return steps[axis[step.asked_curve]]
         case "count":
             many = Phrase("{description}: how many", description=step.description)
             return replace(
@@ -205,19 +193,6 @@ def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, st
 
 
 Found = tuple[Array, Array, Array]  # of an extreme: value, place, middle of its piece
-
-
-class Impossible(Exception):
-    """Report that the machine cannot exist: the keys to change, each with the reason in words."""
-
-    def __init__(self, reasons: Sequence[tuple[str, str]]) -> None:
-        super().__init__("; ".join(message for _, message in reasons))
-        self.reasons = tuple(reasons)
-        self.key, self.message = self.reasons[0]
-
-
-class ImpossibleTogether(Impossible):
-    """Report that plain code refuses many machines at once, which does not say whether each of them cannot exist."""
 
 
 class Unproven(Exception):
@@ -304,7 +279,7 @@ class Calculation:
         self.steps: dict[str, Step] = mechanism.steps_by_id(self.given)
         self.axis = mechanism.axes(self.given)
         self.names, self.values = NamedQuantities(), dict[str, Array]()
-        self.curves, self.domains = dict[str, CurveStep](), dict[str, Domain]()
+        self.curves, self.domains = dict[str, Step](), dict[str, Domain]()
         self.part_names: dict[str, tuple[str, ...]] = {}  # of the repeated parts that follow from the inputs
         self.row_of: dict[str, str] = {}  # for each number that is called by the name of its part, the row
         self.series, self.branch = dict[str, PieceSeries](), dict[str, Array]()  # the latter: for each choice its case
@@ -327,7 +302,14 @@ class Calculation:
         found: Array = self.values[name] if name in self.values else self.inputs[name.removeprefix("inputs.")]
         return found
 
-    def apply(self, part: Binding) -> Array:
+    @property
+    def possible(self) -> Array:
+        """Which variants are possible, as far as is known."""
+        found = np.ones(self.count, dtype=bool)
+        found[list(self.flaws)] = False
+        return found
+
+    def apply(self, part: Written) -> Array:
         """Return what a formula of numbers (or rows over repeated parts) gives, for all variants."""
         link = bound(part)
         result: Array = link.formula.function(*[self[n] if isinstance(n, str) else n for n in link.takes])
@@ -406,7 +388,16 @@ class Calculation:
         return self.names.declared(own, self.steps, self.axis, self.meta, self.mechanism.at)
 
 
-__all__ = ["Calculation", "CurveHandle", "CurveSampler", "Impossible", "SampledCurve", "Side", "Unproven"]
+__all__ = [
+    "Calculation",
+    "CurveHandle",
+    "CurveSampler",
+    "Impossible",
+    "ImpossibleTogether",
+    "SampledCurve",
+    "Side",
+    "Unproven",
+]
 
 
 # Whether a curve of a mechanism that was calculated twice is the same to the last bit: all that it follows from is then.
@@ -448,26 +439,26 @@ class _Pair:
         if name in one.domains:
             return one.steps[name] is other.steps.get(name) and self._domain(name)
         if name not in one.curves:
-            return self._given(name)
+            return self.is_given(name)
         if one.curves[name] is not other.curves.get(name) or not self.holds(one.axis[name]):
             return False
-        match one.curves[name]:
-            case Accumulated() | Derivative():
-                series = one.series[name], other.series[name]
-                return all(_same(*(getattr(each, part) for each in series)) for part in ("edges", "series"))
-            case FromCurve() as step:
-                beside = filter(None, (step.start, step.lasts))
-                return self._given(step.given or step.id) and all(map(self.holds, beside))
-            case Value() | Choice() as step:
-                return all(map(self.holds, taken(step)))
-        return False  # what plain code gives is not looked into
+        return one.curves[name].is_same(self)
+
+    def holds_all(self, step: Step) -> bool:
+        """Return whether all that a step takes is the same in both."""
+        return all(map(self.holds, taken(step)))
+
+    def same_series(self, name: str) -> bool:
+        """Return whether the series of a curve are the same in both."""
+        series = self.one.series[name], self.other.series[name]
+        return all(_same(*(getattr(each, part) for each in series)) for part in ("edges", "series"))
 
     def _domain(self, name: str) -> bool:
         one, other = self.one.domains[name], self.other.domains[name]
         return one.intervals == other.intervals and all(_same(getattr(one, n), getattr(other, n)) for n in DOMAIN)
 
-    def _given(self, name: str) -> bool:
-        """Whether a number, or what was given, is the same."""
+    def is_given(self, name: str) -> bool:
+        """Return whether a number, or what was given, is the same."""
         try:
             one, other = self.one[name], self.other[name]
         except KeyError:

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Sequence
 from dataclasses import dataclass
 from functools import cached_property
 from typing import Any, Protocol
@@ -11,18 +10,15 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.machine.numerics.domain import Domain, Inside, PieceSeries
-from diecut_report.mechanism.names import Binding, Bound, bound
-from diecut_report.mechanism.part_steps import ComputedCurve
-from diecut_report.mechanism.steps import Accumulated, Choice, Derivative, FromCurve, Value
-
-CurveStep = Value | Choice | FromCurve | ComputedCurve | Accumulated | Derivative
+from diecut_report.mechanism.names import Bound, Written, bound
+from diecut_report.mechanism.steps import Step
 
 
 class CalculatedMachines(Protocol):
     """Hold the machines that curves are of: a calculation."""
 
     count: int
-    curves: dict[str, CurveStep]
+    curves: dict[str, Step]
     domains: dict[str, Domain]
     inputs: dict[str, Any]
     series: dict[str, PieceSeries]
@@ -71,22 +67,10 @@ class CurveSampler:
         if step is None:
             number = self.owner[name]
             return number if self.rows is None else number[self.rows]
-        if type(step) is Value and not step.per_piece:  # most are, and matching takes as long as a formula
-            return self._apply(step.formula)
-        match step:
-            case FromCurve():
-                return self._taken_over(step)
-            case ComputedCurve():
-                found: Array = step.function(self.owner.inputs[step.of], self.x, self.mid, self.rows)
-                return found
-            case Accumulated() | Derivative():
-                return self.owner.series[name].values(self.x, self.mid, self.rows)
-            case Value(per_piece=True) | Choice(per_piece=True) if self.mid is not self.x:
-                return self._of_pieces(name)
-        return self.formula_of(step)
+        return step.curve(self)
 
-    def _of_pieces(self, name: str) -> Array:
-        """A flag of the pieces, at their middles."""
+    def of_pieces(self, name: str) -> Array:
+        """Return a flag of the pieces, at their middles."""
         if self._present is not None:
             pieces, own = self._present
             found: Array = pieces.over(name)[0].take(own)
@@ -112,38 +96,13 @@ class CurveSampler:
         middles = self.mid if self.inside is None else self.inside[0]
         return CurveSampler(self.owner, self.axis, middles, middles, self.rows)
 
-    def formula_of(self, step: Value | Choice) -> Array:
-        """Return what a step's formula gives at x itself, of a flag of the pieces too."""
-        if isinstance(step, Value):
-            return self._apply(step.formula)
-        held = [self._apply(c.condition) for c in step.cases if c.condition is not None]
-        taken = [self._apply(c.value) for c in step.cases if not isinstance(c.value, str)]
-        return chosen(held, taken)
-
-    def _taken_over(self, step: FromCurve) -> Array:
-        """A curve input at shares of its period; where it gains, with what it gained in the periods before."""
-        lasts = self[step.lasts] if step.lasts else self.owner.domains[self.axis].period_of(self.rows)
-        start = self[step.start] if step.start else 0.0
-        share, middle = start + self.x / lasts, start + self.mid / lasts
-        passed = np.floor(middle)
-        curve = self.owner.inputs[step.given or step.id]
-        found: Array = curve.values(share - passed, middle - passed, self.rows)
-        return found + passed * curve.gain(self.rows) if step.gains else found
-
-    def _apply(self, part: Binding) -> Array:
+    def apply(self, part: Written) -> Array:
+        """Return what a formula gives at the places."""
         link = part if type(part) is Bound else bound(part)
         known = self.known
         taken = [n if isinstance(n, float) else known[n] if n in known else self[n] for n in link.takes]
         found: Array = link.formula.function(*taken)
         return found
-
-
-def chosen(held: Sequence[Any], values: Sequence[Any]) -> Array:
-    """Return the values of the first condition that holds, the last where none does."""
-    found = values[-1]  # NumPy's select takes five times as long for the short arrays of one machine
-    for condition, value in zip(reversed(held), reversed(values[:-1]), strict=True):
-        found = np.where(condition, value, found)
-    return np.asarray(found)
 
 
 # A curve that is given as a list of values.

@@ -406,7 +406,6 @@ def _guarded(calc: Calculation, figure: Figure) -> dict[str, Any]:
 
 
 def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str, Any]:
-    """Return a figure as data, with the quantities that it shows: of a plot its curves, of others what was asked for."""
     view = MachineView(calc)
     made = _made(calc, figure, head, view)
     return made | {"shows": _curves(figure)[1:] or list(view.asked)}
@@ -436,7 +435,6 @@ def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: Machine
 
 
 def _of_its_size(panel: dict[str, Any]) -> dict[str, Any]:
-    """A chart's panel in the unit of its size."""
     heights = (height for line in panel["lines"] for height in line["y"] if height is not None)
     return panel | {"unit": axis_unit(panel["unit"], heights)}
 
@@ -514,14 +512,12 @@ def _on_curve(mark: Mark, shown: dict[str, Any], panel: Panel, view: MachineView
 
 
 def _height(size: str, curve: str, view: MachineView) -> float:
-    """The value of a curve where its size is greatest; at a jump on the side that was found there."""
     calc, place = view.calc, place_name(size)
     x, rows = calc[place][:1], np.zeros(1, dtype=int)
     return float(calc.sampler_of(calc.axis[curve], x, calc.middle[place][:1], rows).over(curve)[0, 0])
 
 
 def _in_chosen_unit(view: MachineView, made: dict[str, Any], heights: Iterable[float]) -> dict[str, Any]:
-    """A panel, all of whose values are in SI, in the unit that the report chose for its first curve or its dimension."""
     first = made["series"][0]["curve"] if made["series"] else ""
     return made | {"unit": view.calc.chosen_units.of(first, made["unit"]) or axis_unit(made["unit"], heights)}
 

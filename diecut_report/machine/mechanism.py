@@ -17,8 +17,7 @@ from diecut_report.mechanics.timing.intervals import TOUCHING, Interval, Interva
 from diecut_report.mechanism.curve_inputs import TakenWhole
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Misdeclared
-from diecut_report.mechanism.part_steps import Cell, ListedColumn, Listing
-from diecut_report.mechanism.steps import PREFIX, Abscissa, Phase
+from diecut_report.mechanism.steps import PREFIX, Abscissa, Cell, ListedColumn, Listing, Phase
 from diecut_report.quantities.formatting import listed_text, number_text
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
@@ -86,7 +85,6 @@ def phases_of(calc: Calculation) -> Mapping[str, Phase]:
 
 @lru_cache(maxsize=256)
 def _declared(mechanism: Mechanism, given: frozenset[str]) -> Mapping[str, Phase]:
-    """The same of all calculations with these inputs: among many machines they are asked for many times."""
     found = (step for _, step in mechanism.active(given) if isinstance(step, Phase))
     return MappingProxyType({step.id.removeprefix(PREFIX): step for step in found})
 
@@ -124,7 +122,6 @@ def _place(calc: Calculation, place: str | float, row: int) -> float:
 
 
 def _of_row(column: np.ndarray[tuple[int, ...], np.dtype[np.float64]], row: int) -> float:
-    """The number of a variant; one that holds for all has a single row."""
     return float(column[row if len(column) > 1 else 0, 0])
 
 
@@ -150,12 +147,12 @@ def rows(calc: Calculation, step: Listing) -> list[list[Cell]]:
     known = {name: calc[name] for name in step.holds if name in calc.values or name in calc.inputs}
     found = [[_plain(cell) for cell in row] for row in step.function(known)]
     for row in found:
-        if len(row) != len(step.heads) or any(isinstance(cell, float) and not math.isfinite(cell) for cell in row):
+        if len(row) != len(step.columns) or any(isinstance(cell, float) and not math.isfinite(cell) for cell in row):
             words = Phrase(
                 "step {id}: its function gives the row {row}; {count} texts and finite numbers are wanted",
                 id=step.id,
                 row=row,
-                count=len(step.heads),
+                count=len(step.columns),
             )
             raise Misdeclared(words, step.at)
     return found
@@ -171,7 +168,7 @@ def results(calc: Calculation) -> Data:
     for step in calc.steps.values():
         if isinstance(step, Listing):
             columns = [
-                {"id": each.id, "description": each.description, "unit": unit(each.unit).si} for each in step.heads
+                {"id": each.id, "description": each.description, "unit": unit(each.unit).si} for each in step.columns
             ]
             lines = rows(calc, step)
             marked = {"taken": taken} if (taken := _taken(calc, step, lines)) else {}
@@ -198,10 +195,10 @@ def _is_same(cell: Cell, value: Any) -> bool:
 def printed(calc: Calculation, step: Listing) -> list[Data]:
     """Return a listing as a table of the calculation, the rows that were taken marked in a column of their own; none where it has no rows."""
     columns = [
-        {"title": each.description, "symbol": each.symbol, "unit": each.unit} for each in step.heads if each.printed
+        {"title": each.description, "symbol": each.symbol, "unit": each.unit} for each in step.columns if each.printed
     ]
     found = rows(calc, step)
-    lines = [[_text(cell, head) for cell, head in zip(row, step.heads, strict=True) if head.printed] for row in found]
+    lines = [[_text(cell, head) for cell, head in zip(row, step.columns, strict=True) if head.printed] for row in found]
     if taken := _taken(calc, step, found):
         columns = [{"title": TAKEN, "symbol": "", "unit": "1"}, *columns]
         lines = [[MARK if number in taken else "", *line] for number, line in enumerate(lines)]
@@ -282,7 +279,6 @@ class MechanismHandle(TakenWhole):
         return () if found is None else tuple(float(value) for value in self._own(found))
 
     def _own(self, values: Array) -> Array:
-        """The values of the variant; those that hold for all have a single row."""
         found: Array = values[self.row if len(values) > 1 else 0]
         return found
 

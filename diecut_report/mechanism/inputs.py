@@ -164,7 +164,6 @@ class Quantity:
         return int(shown) if self.integer else value + 0.0  # no minus zero
 
     def _within(self, shown: Any) -> Any:
-        """Whether numbers in the display unit keep the bounds."""
         held = within(shown, (self.gt, self.ge, self.lt, self.le))
         return held & np.isin(np.round(np.clip(shown, -1e99, 1e99), 9), self.listed) if self.listed else held
 

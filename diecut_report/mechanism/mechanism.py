@@ -18,24 +18,9 @@ from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit
 from diecut_report.mechanism.figures import Figure, Spectrum
 from diecut_report.mechanism.inputs import Block, Inputs, fields, list_inputs, nested
 from diecut_report.mechanism.names import Curve, Misdeclared, OneOf, placed
-from diecut_report.mechanism.part_steps import ComputedCurve, Fact, Lookup, Neighbour, Running
-from diecut_report.mechanism.steps import (
-    SILENT,
-    Abscissa,
-    Accumulated,
-    Choice,
-    Computed,
-    Crossings,
-    Derivative,
-    FromCurve,
-    Phase,
-    Step,
-    Value,
-    names_ahead,
-    read,
-)
+from diecut_report.mechanism.steps import Fact, Phase, SilentStep, Step, names_ahead, read
 from diecut_report.quantities.units import unit
-from diecut_report.text.phrases import Phrase, named
+from diecut_report.text.phrases import Phrase
 
 # What plain code gets of one among many machines: the values of its inputs, the mechanisms that it names, what was made of it.
 
@@ -90,7 +75,6 @@ def of_machine(value: Any, row: int, count: int) -> Any:
 
 
 def _of_all(value: Any, row: int) -> Any:
-    """The number of a machine; one that holds for all has a single one."""
     return value if np.ndim(value) == 0 or len(value) == 1 else value[row]
 
 
@@ -163,30 +147,9 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
     """Return for each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
     found = dict(list_inputs(inputs))
     for step in steps:
-        match step:
-            case Abscissa():
-                found[step.id] = step.id
-            case FromCurve() | ComputedCurve():
-                found[step.id] = step.abscissa
-            case Accumulated(of=of) | Derivative(of=of) | Neighbour(of=of) | Running(of=of):
-                found[step.id] = found[of]
-            case Computed(over=over) if over:
-                found[step.id] = over
-            case Lookup(by=by) if by in found:
-                found[step.id] = found[by]
-            case Value() | Choice():
-                own = {found[n] for n in step.takes() if isinstance(n, str) and n in found}
-                if len(own) > 1:
-                    raise ValueError(Phrase("{id} mixes {axes}", id=step.id, axes=named(sorted(own), " and ")))
-                found |= {step.id: own.pop()} if own else {}
+        if axis := step.runs_over(found):
+            found[step.id] = axis
     return found
-
-
-def is_text(step: Step) -> bool:
-    """Return whether a step gives a text."""
-    if isinstance(step, Computed):
-        return step.is_text
-    return isinstance(step, Choice) and isinstance(step.cases[0].value, str)
 
 
 @dataclass(frozen=True, eq=False)
@@ -338,21 +301,19 @@ class Mechanism:
     def _named(self, given: frozenset[str]) -> dict[str, tuple[str | None, bool]]:
         found: dict[str, tuple[str | None, bool]] = {}
         for _, step in self.active(given):
-            if isinstance(step, SILENT):
+            if isinstance(step, SilentStep):
                 continue
             si = unit(step.unit).si
             for each in names_ahead(step):
                 of_place = self._unit_of_axis(step, given, found) if each.role == "place" else None
                 found[each.name] = {"count": "1", "place": of_place}.get(each.role, si), False
-            if not isinstance(step, Crossings):
-                text = is_text(step)
-                found[step.id] = None if text else si, self.axis_of(step.id, given) is not None
+            if not step.is_counted:
+                found[step.id] = None if step.is_text else si, self.axis_of(step.id, given) is not None
         return found
 
     def _unit_of_axis(
         self, step: Step, given: frozenset[str], found: Mapping[str, tuple[str | None, bool]]
     ) -> str | None:
-        """The unit of what a curve runs over; None with inputs of which one is missing that gives the curve, which is told of them."""
         axis = self.axis_of(step.of, given)  # type: ignore[attr-defined]
         return found[axis][0] if axis is not None and axis in found else None
 
@@ -417,7 +378,6 @@ def missing_keys(mechanism: Mechanism, check: Check, given: frozenset[str]) -> t
 
 
 def _ways(mechanism: Mechanism, check: Check) -> Iterator[Way]:
-    """The ways in which a check's sides can be calculated together."""
     for chosen in product(*(list(_givers(mechanism, name)) for name in check.named)):
         needs = frozenset(check.needs).union(*(way[0] for way in chosen))
         yield needs, frozenset().union(*(way[1] for way in chosen))
@@ -433,7 +393,6 @@ def _givers(mechanism: Mechanism, name: str) -> Iterator[Way]:
 
 
 def _settling(mechanism: Mechanism, missing: frozenset[str]) -> frozenset[str]:
-    """The missing tokens; in place of a fact that does not hold the first key with which nobody asks it, and those that go with that."""
     keys = {step.id: step.lacks[0] for _, step in mechanism.steps if isinstance(step, Fact) and step.lacks}
     groups = {group[0]: group for _, rule in _rules(mechanism.inputs) for group in rule.groups}
     return frozenset().union(*(groups.get(keys[each], (keys[each],)) if each in keys else (each,) for each in missing))
@@ -457,7 +416,6 @@ def _completing(
 
 
 def _clashes(rule: OneOf, home: str, known: set[str], missing: frozenset[str]) -> bool:
-    """Whether a rule of alternatives that the given keys keep refuses the missing ones beside them."""
     own, more = ({key.removeprefix(home) for key in keys if key.startswith(home)} for keys in (known, known | missing))
     fault = rule.fault(more)
     return bool(fault) and rule.fault(own) != fault

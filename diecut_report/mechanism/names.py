@@ -19,12 +19,15 @@ from diecut_report.formulas.formula import LAMBDA, Formula
 from diecut_report.text.phrases import Phrase
 
 OWN = "diecut_report.mechanism"
+GENERATED = "<string>"  # the code of a dataclass of a step type that stands elsewhere
 
 
 def here() -> str:
     """Return the place, ``file:line``, of the call outside the contract that declares what is being made."""
     frame = sys._getframe(1)
-    while frame.f_globals.get("__name__", "").startswith(OWN) and frame.f_back is not None:
+    while (
+        frame.f_globals.get("__name__", "").startswith(OWN) or frame.f_code.co_filename == GENERATED
+    ) and frame.f_back is not None:
         frame = frame.f_back
     return f"{frame.f_code.co_filename}:{frame.f_lineno}"
 
@@ -247,9 +250,11 @@ class ByText:
 
 
 Binding = Bound | Formula | ByText
+Written = Binding | Callable[..., Any]
+"""A formula as an author writes it: a lambda, a ``@formula``, one that is bound, one chosen by a text."""
 
 
-def as_binding(part: Binding | Callable[..., Any], name: str) -> Binding:
+def as_binding(part: Written, name: str) -> Binding:
     """Return what an author wrote as a formula of the engine; a lambda is called ``name`` in messages."""
     if isinstance(part, Bound) and part.formula.__name__ == LAMBDA:
         part.formula.__name__ = name
@@ -279,7 +284,7 @@ def _formula(function: Any, name: str) -> Formula:
     return Formula(function, name)
 
 
-def bound(part: Binding) -> Bound:
+def bound(part: Written) -> Bound:
     """Let a formula that is not bound yet take the quantities of its parameters' own names.
 
     A choice by a text stands here for its first formula: what it takes does not depend on the text.
@@ -290,5 +295,5 @@ def bound(part: Binding) -> Bound:
 
 
 @cache
-def _by_names(formula: Formula) -> Bound:
+def _by_names(formula: Callable[..., Any]) -> Bound:
     return bind(formula)

@@ -193,6 +193,13 @@ def _family(kind: Kind, si: str = "") -> dict[str, Any] | None:
     return next(iter(exact or alike), None)
 
 
+def times(one: Kind | None, other: Kind | None, power: float = 1) -> Kind | None:
+    """Return the kind of a product with a power of the other factor; None, that of zero, where one of them is zero."""
+    if one is None or other is None:
+        return None
+    return tuple(round(a + power * b, 9) for a, b in zip(one, other, strict=True))
+
+
 def si_text(kind: Kind) -> str:
     """The coherent SI unit of a kind, made of base units where it has no name of its own."""
     family = _family(kind)

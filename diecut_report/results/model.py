@@ -98,13 +98,13 @@ class MessageRecord(Record):
 
 
 class _Translated:
-    """Mark a text that is translated; ``is_message``: the file always holds how it was made."""
+    """Mark a text that is translated; ``is_message``: the file always holds how it was made, ``is_plain``: never."""
 
-    def __init__(self, role: TextRole, *, is_message: bool = False) -> None:
-        self.role, self.is_message = role, is_message
+    def __init__(self, role: TextRole, *, is_message: bool = False, is_plain: bool = False) -> None:
+        self.role, self.is_message, self.is_plain = role, is_message, is_plain
 
     def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        form: Any = MessageRecord if self.is_message else str | MessageRecord
+        form: Any = MessageRecord if self.is_message else str if self.is_plain else str | MessageRecord
         return core_schema.with_info_plain_validator_function(
             self._read,
             serialization=core_schema.plain_serializer_function_ser_schema(self._written),
@@ -119,7 +119,7 @@ class _Translated:
 
     def _written(self, text: str) -> Any:
         is_made = isinstance(text, Phrase) and bool(text.values)
-        return message_data(text) if self.is_message or is_made else str.__str__(text)
+        return message_data(text) if self.is_message or (is_made and not self.is_plain) else str.__str__(text)
 
 
 @cache
@@ -181,6 +181,7 @@ class _Drawn:
 
 Text = Annotated[str, _Translated(TextRole.TEXT)]
 Message = Annotated[str, _Translated(TextRole.TEXT, is_message=True)]
+ErrorText = Annotated[str, _Translated(TextRole.TEXT, is_plain=True)]
 Word = Annotated[str, _Translated(TextRole.WORD)]
 SourceText = Annotated[str, _Translated(TextRole.SOURCE)]
 Paper = Annotated[str, _Translated(TextRole.PAPER)]
@@ -473,7 +474,7 @@ class FigureRecord(Record):
         "What moves in it: over which abscissa, at which places, the shapes; those that move with their numbers at each (`moves`).",
         {},
     )
-    error: Text = sometimes("Why it could not be made.", "")
+    error: ErrorText = sometimes("Why it could not be made.", "")
 
 
 class SourceRecord(Record):
@@ -527,7 +528,7 @@ class ExportRecord(Record):
     type: Literal["table", "profile"] = always("A table (CSV), or a profile (CSV and DXF).")
     abscissa: str = always("The abscissa of its columns.")
     columns: list[str] = always("The curves that are its columns.")
-    error: Text = sometimes("Why it could not be made.", "")
+    error: ErrorText = sometimes("Why it could not be made.", "")
 
 
 class ListingColumnRecord(Record):
@@ -561,7 +562,7 @@ class MechanismRecord(Record):
     status: Status = always(
         "The worst of its checks; `error` where its plugin broke, `skipped` where it refers to one that did."
     )
-    error: Text = sometimes("Why it gives no results.", "")
+    error: ErrorText = sometimes("Why it gives no results.", "")
     summary: Text = always("What it calculates.")
     assumptions: list[Text] = always("What is assumed, and where it holds.")
     sources: list[SourceRecord] = always("The sources of its formulas.")
@@ -712,7 +713,7 @@ class FollowedAdviceRecord(Record):
 
     changes: list[AdvisedChangeRecord] = always("The changes.")
     failing: list[str] = always("The checks that fail then.")
-    error: Text | None = always("Why there is no such machine; null where there is one.")
+    error: ErrorText | None = always("Why there is no such machine; null where there is one.")
 
 
 class SummaryRecord(CountRecord):

@@ -20,7 +20,7 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle, declared_unit
 from diecut_report.machine.mechanism import MechanismHandle, PhaseHandle
 from diecut_report.machine.steps import soundness
-from diecut_report.machine.steps.rows import needed
+from diecut_report.machine.steps.needed import needed
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.curve_inputs import CurveInput, TakenWhole
 from diecut_report.mechanism.inputs import Block, Extremes, Quantity, Varying

@@ -20,7 +20,7 @@ from diecut_report.config.plugins import said
 from diecut_report.config.validation import declared, validate
 from diecut_report.errors import MAX_COMPARISONS, PluginError, Problem, UserError
 from diecut_report.machine.calculation import NONE_CHOSEN, Calculation, ChosenUnits, CurveHandle, Impossible
-from diecut_report.machine.steps.rows import needed
+from diecut_report.machine.steps.needed import needed
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form, taken
 from diecut_report.mechanism.curve_inputs import CurveInput

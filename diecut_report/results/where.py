@@ -13,7 +13,7 @@ import numpy as np
 from diecut_report.config.instances import Instance
 from diecut_report.errors import Problem, UnknownName, UserError, nearest
 from diecut_report.machine.calculation import Calculation, number_unit
-from diecut_report.machine.steps.rows import giver_of
+from diecut_report.machine.steps.needed import giver_of
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import Quantity

@@ -21,8 +21,7 @@ from diecut_report.machine.steps.run import calculate as many_machines_calculate
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.inputs import Quantity, fields
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.part_steps import Pick
-from diecut_report.mechanism.steps import Crossings, Value, named
+from diecut_report.mechanism.steps import Crossings, Pick, Value, named
 from diecut_report.results.checks import applies, judged
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute

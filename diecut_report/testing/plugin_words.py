@@ -14,7 +14,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.declaration.code import code_texts, template
 from diecut_report.declaration.texts import files_around, own_files, parsed, texts
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.part_steps import Interpolated, Lookup, Pick
+from diecut_report.mechanism.steps import Interpolated, Lookup, Pick
 from diecut_report.standards.tables import StandardSeries, StandardTable
 from diecut_report.text.catalogues import Catalogues, built_in
 

@@ -109,7 +109,7 @@ def without_return(arm: Any) -> Any:
 
 
 def plain(force: Any, arm: Any) -> Any:
-    return force * arm
+    force * arm
 
 
 def value(name: str, symbol: str = "", **changes: Any) -> Value:
@@ -345,13 +345,10 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "abscissa is moment, a number; the id of an Abscissa is wanted",
     ),
     # formulas and tables
-    "a plain function": (
-        made(value("x", formula=plain)),
-        "step x: the formula plain is a plain function; write @formula above it",
-    ),
+    "a plain function without a return": (made(value("x", formula=plain)), "the formula cannot be printed:"),
     "no return": (made(value("x", formula=without_return)), "the formula cannot be printed:"),
     "a table without an allowed text": (
-        made(Lookup(id="x", symbol="x", description="x", by="mode", table={"near": 1.0})),
+        made(Lookup(unit="1", id="x", symbol="x", description="x", by="mode", table={"near": 1.0})),
         "step x: has no row in the table for mode=away; add it",
     ),
     "a choice of a formula without a text": (
@@ -359,12 +356,13 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "step x: has no formula for mode=away",
     ),
     "a choice by any text": (
-        made(Lookup(id="x", symbol="x", description="x", by="remark", table={"a": 1.0}, needs=("remark",))),
+        made(Lookup(unit="1", id="x", symbol="x", description="x", by="remark", table={"a": 1.0}, needs=("remark",))),
         "remark, which may be any text",
     ),
     "an unknown that the equation does not take": (
         made(
             Root(
+                unit="1",
                 id="x",
                 symbol="x",
                 description="x",
@@ -379,7 +377,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
         "the unknown x is nothing that the equation takes",
     ),
     "an unknown unit": (made(value("x", unit="mmm")), "step x: has the unit 'mmm'"),
-    "no cases": (made(Choice(id="x", symbol="x", description="x", cases=())), "step x: has no cases"),
+    "no cases": (made(Choice(unit="1", id="x", symbol="x", description="x", cases=())), "step x: has no cases"),
     # figures
     "a curve in another unit than its axis": (
         made(figures=(plot(unit="mm"),)),
@@ -506,5 +504,7 @@ def test_a_place_is_the_line_of_the_author_and_is_kept() -> None:
 
 
 def test_a_case_of_a_text_and_its_words_are_read() -> None:
-    step = Choice(id="x", symbol="x", description="x", cases=(Case("yes", "as {moment}", is_long), Case("no", "else")))
+    step = Choice(
+        unit="1", id="x", symbol="x", description="x", cases=(Case("yes", "as {moment}", is_long), Case("no", "else"))
+    )
     assert "{moment} stands in braces in the words of a case" in str(faults(made(step)))

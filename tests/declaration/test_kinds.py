@@ -54,7 +54,7 @@ from diecut_report.formulas.tree import Node
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
 from diecut_report.mechanism.names import Bound
-from diecut_report.mechanism.part_steps import Between
+from diecut_report.mechanism.steps.interpolated import Between
 from diecut_report.quantities.units import DIMENSIONS, unit
 
 
@@ -266,7 +266,7 @@ def test_an_angle_is_no_number_elsewhere(name: str) -> None:
 
 TURN = Abscissa(id="place", symbol="χ", unit="deg", description="Place", period=2 * np.pi)
 RISE = value(bind(product, first="share", second="place"), "deg")
-REST: dict[str, Any] = {"symbol": "y", "description": "Quantity"}
+REST: dict[str, Any] = {"symbol": "y", "unit": "1", "description": "Quantity"}
 
 
 @pytest.mark.parametrize(
@@ -286,7 +286,7 @@ def test_what_runs_over_an_angle_has_its_unit(made: Step, unit: str, found: str)
 
 def test_the_work_of_a_turn_needs_no_word() -> None:
     over = value(bind(product, first="torque", second="place"), "N*m")
-    work = Reduction(id="y", of="x", operation="integral", unit="J", **REST)
+    work = Reduction(id="y", of="x", operation="integral", **REST | {"unit": "J"})
     check_mechanism(wheel(TURN, over, work))
 
 
@@ -296,7 +296,7 @@ def beyond(u: Any, share: Any) -> Any:
 
 
 def test_the_sides_of_a_relation_are_both_angles() -> None:
-    root = Root(id="u", unit="1", equation=beyond, unknown="u", low=common.zero, high=formula(lambda: 1),
+    root = Root(id="u", equation=beyond, unknown="u", low=common.zero, high=formula(lambda: 1),
                 left=bind(common.same, quantity="u"), right=bind(common.same, quantity="angle"), **REST)  # fmt: skip
     with pytest.raises(AssertionError, match="the relation equals a pure number with rad"):
         check_mechanism(wheel(root))

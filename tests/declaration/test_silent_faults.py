@@ -67,7 +67,7 @@ def nested_flag(arm: Any) -> Any:
 
 
 def chosen(*cases: Case, **changes: Any) -> Choice:
-    return Choice(**{"id": "x", "symbol": "x", "description": "x", "cases": cases, **changes})
+    return Choice(**{"id": "x", "symbol": "x", "unit": "1", "description": "x", "cases": cases, **changes})
 
 
 def of_bars(kind: Any, unit: str = "mm", of: str = "bars.length", **more: Any) -> Any:

@@ -127,7 +127,7 @@ OWN = Chapter(
         Abscissa(id="time", symbol="t", unit="s", description="Time", period="duration"),
         Value(id="quarter", symbol="t_4", unit="s", description="End of the rise", formula=quarter),
         Breakpoints(id="joints", abscissa="time", places=("quarter",), every="ripple"),
-        Value(id="passed", symbol="k", description="Share of the time", formula=passed),
+        Value(unit="1", id="passed", symbol="k", description="Share of the time", formula=passed),
         Value(id="middle", symbol="t_m", unit="s", description="Middle of the piece", per_piece=True, output=False,
               formula=bind(common.same, quantity="time")),
         Choice(id="position", symbol="y", unit="deg", units=LENGTH, description="Position",

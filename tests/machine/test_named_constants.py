@@ -6,7 +6,7 @@ import pytest
 
 from diecut_report.formulas.formula import formula
 from diecut_report.formulas.tree import Node
-from diecut_report.machine.printing.items import definitions
+from diecut_report.machine.printing.conversions import definitions
 from diecut_report.machine.printing.substitution import _constant, _quantity
 
 

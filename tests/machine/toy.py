@@ -155,7 +155,7 @@ MECHANISM = Mechanism(
                 Value(id="moment", symbol="M_0", unit="N*m", description="Moment", formula=moment),
                 Require(id="arm_limit", condition=shorter, key="arm", message="is {arm}, too long for {force}"),
                 Value(id="twice", symbol="2M_0", unit="N*m", description="Doubled, where it is light", formula=doubled, exists=is_light),
-                Choice(id="verdict", symbol="v", description="In words",
+                Choice(unit="1", id="verdict", symbol="v", description="In words",
                        cases=(Case("heavy", "F > 5 kN", heavy), Case("light", "F ≤ 5 kN"))),
                 Pick(id="rated", symbol="M_r", unit="N*m", description="Rated moment", of="moment", rule="above", series=(100, 200, 400, 800),
                      beyond="last"),
@@ -168,10 +168,10 @@ MECHANISM = Mechanism(
             needs=("gears",),
             absent="no gears are given",
             steps=(
-                Value(id="pair_ratio", symbol="i", description="Ratio of the pair",
+                Value(unit="1", id="pair_ratio", symbol="i", description="Ratio of the pair",
                       formula=bind(ratio, driver_teeth="gears.driver_teeth", driven_teeth="gears.driven_teeth")),
-                Total(id="total_ratio", symbol="i_Σ", description="Total ratio", of="pair_ratio", operation="product"),
-                Total(id="total_teeth", symbol="z_Σ", description="Teeth of all drivers", of="gears.driver_teeth", operation="sum"),
+                Total(unit="1", id="total_ratio", symbol="i_Σ", description="Total ratio", of="pair_ratio", operation="product"),
+                Total(unit="1", id="total_teeth", symbol="z_Σ", description="Teeth of all drivers", of="gears.driver_teeth", operation="sum"),
             ),
         ),
         Chapter("Spring", needs=("spring",), absent="no spring is given",
@@ -181,7 +181,7 @@ MECHANISM = Mechanism(
             steps=(
                 Abscissa(id="place", symbol="φ", unit="deg", description="Place", period=2 * np.pi),
                 Breakpoints(id="step", abscissa="place", places=("step_angle",)),
-                Choice(id="on", symbol="s", description="Switched", per_piece=True, output=False,
+                Choice(unit="1", id="on", symbol="s", description="Switched", per_piece=True, output=False,
                        cases=(Case(one, "after the step", is_on), Case(zero, "before the step"))),
                 Value(id="torque", symbol="T", unit="N*m", description="Torque", formula=wave),
                 Reduction(id="torque_max", symbol="M_max", unit="N*m", description="Greatest torque", of="torque", operation="max"),
@@ -218,7 +218,7 @@ ROOTED = Mechanism(
         Chapter(
             "Root",
             steps=(
-                Root(id="x", symbol="x", description="Cube root", equation=cube, unknown="x", low=bind(zero), high=plus_one,
+                Root(unit="1", id="x", symbol="x", description="Cube root", equation=cube, unknown="x", low=bind(zero), high=plus_one,
                      left=cubed, right=bind(same, quantity="target")),
                 READ,
             ),

@@ -27,9 +27,9 @@ from tests.machine.test_loop import told
 
 PARTS = 12
 
-TURNS = Crossings(id="turn", of="speed")
-PEAK = Reduction(id="peak", of="speed", operation="abs_max")
-MEAN = Reduction(id="mean", of="speed", operation="mean")
+TURNS = Crossings(symbol="", unit="1", description="", id="turn", of="speed")
+PEAK = Reduction(symbol="", unit="1", description="", id="peak", of="speed", operation="abs_max")
+MEAN = Reduction(symbol="", unit="1", description="", id="mean", of="speed", operation="mean")
 ROW = Step(id="gap")
 SHAFTS = Step(id="speeds", numbered="shaft_{}_speed", first=3)
 WRAPS = Step(id="wrap", numbered="wraps.{}", first=0)

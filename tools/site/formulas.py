@@ -6,12 +6,24 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report.formulas.tree import Node, transform
-from diecut_report.machine.printing.items import definitions
+from diecut_report.machine.printing.conversions import definitions
 from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import Binding, Bound, ByText, bound
-from diecut_report.mechanism.part_steps import Interpolated, Running, Total
-from diecut_report.mechanism.steps import Accumulated, Choice, Derivative, Reduction, Require, Root, Step, Value, named
+from diecut_report.mechanism.names import Bound, ByText, Written, bound
+from diecut_report.mechanism.steps import (
+    Accumulated,
+    Choice,
+    Derivative,
+    Interpolated,
+    Reduction,
+    Require,
+    Root,
+    Running,
+    Step,
+    Total,
+    Value,
+    named,
+)
 from diecut_report.report.equations import OPERATORS, Equations, Typesetter
 from diecut_report.report.text import Catalogue
 from diecut_report.results.model import ItemRecord
@@ -84,7 +96,7 @@ class Formulas:
             case Reduction() | Total() | Running() | Accumulated() | Derivative():
                 yield self._taken(step)
 
-    def _tree(self, step: Step, part: Binding) -> Node:
+    def _tree(self, step: Step, part: Written) -> Node:
         """A formula with the mechanism's symbols in place of its parameters."""
         link = bound(part)
         return transform(link.formula.tree, lambda leaf: self._leaf(leaf, link, step))
@@ -97,7 +109,7 @@ class Formulas:
 
     def _branches(self, step: Choice, cases: tuple[object, ...]) -> Iterator[tuple[Node, ...]]:
         for each in step.cases:
-            value = self._tree(step, each.value) if isinstance(each.value, Binding) else Node("num", (each.value,))
+            value = self._tree(step, each.value) if not isinstance(each.value, str) else Node("num", (each.value,))
             yield (value,) if each.condition is None else (value, self._tree(step, each.condition))
 
     def _equation(self, step: Step, tree: Node) -> Iterator[str]:

@@ -9,8 +9,20 @@ from markupsafe import escape
 from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.part_steps import Interpolated, Lookup, Pick
-from diecut_report.mechanism.steps import Abscissa, Breakpoints, Clash, FromCurve, Phase, Prepared, Require, Step, Words
+from diecut_report.mechanism.steps import (
+    Abscissa,
+    Breakpoints,
+    Clash,
+    FromCurve,
+    Interpolated,
+    Lookup,
+    Phase,
+    Pick,
+    Prepared,
+    Require,
+    Step,
+    Words,
+)
 from diecut_report.quantities.formatting import NAMED
 from diecut_report.quantities.units import pretty
 from diecut_report.report.figures.style import Svg

@@ -67,7 +67,7 @@ def _told(name: str, thing: Any) -> Iterator[str]:
     declared = declared_by(name)
     if declared:
         yield from called(f"chapter.{declared.__name__}", declared)
-        yield from described(declared)
+        yield from described(declared) if inspect.getdoc(declared) != inspect.getdoc(thing) else ()
     elif name not in TOLD:
         yield from called(name, thing)
     yield from (TOLD[name], "") if name in TOLD else described(thing)

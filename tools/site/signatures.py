@@ -9,6 +9,7 @@ from collections.abc import Iterator
 from pathlib import PurePath
 from typing import Any
 
+from diecut_report.mechanism.steps import Step
 from tools.site.markup import code, fenced, plain
 
 WIDEST = 100
@@ -95,6 +96,8 @@ def called(name: str, thing: Any) -> Iterator[str]:
 def methods(thing: type) -> dict[str, Any]:
     """Return what a class offers beside its making: methods and properties with words of their own, in their order."""
     own: dict[str, Any] = {}
+    if issubclass(thing, Step):  # what it offers is for the rooms of the program
+        return own
     for base in reversed(thing.__mro__):
         if base.__module__.startswith("diecut_report"):
             own |= {name: each for name, each in vars(base).items() if not name.startswith("_") and _is_offered(each)}

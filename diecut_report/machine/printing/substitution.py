@@ -18,10 +18,8 @@ import numpy as np
 from diecut_report.formulas.formula import evaluate
 from diecut_report.formulas.tree import APPLY, NUMERIC, Node, transform, walk
 from diecut_report.machine.calculation import declared_unit, number_unit, unit_for
-from diecut_report.machine.steps import plain_code
 from diecut_report.mechanism.names import Bound, bound
-from diecut_report.mechanism.part_steps import Interpolated
-from diecut_report.mechanism.steps import Step, Words
+from diecut_report.mechanism.steps import Interpolated, Step, Words, plain_code
 from diecut_report.quantities.formatting import (
     DIGITS,
     NAMED,
@@ -149,7 +147,6 @@ def _error(name: str, value: float, args: Sequence[Bounded]) -> float:
 
 
 def _about_the_cut(up: Bounded, across: Bounded) -> bool:
-    """Whether rounding may carry a direction over ±180°, or its point into the origin."""
     return bool(abs(up.value) <= up.error and across.value <= across.error)
 
 
@@ -221,7 +218,6 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
 
 
 def _plain(value: Any, variant: int) -> Any:
-    """A number of one machine, SI; a text as it is."""
     found = value[variant, 0] if isinstance(value, np.ndarray) else value
     return float(found) if isinstance(found, int | float | np.number | np.bool_) else found
 
@@ -332,7 +328,6 @@ class Substitution:
         return "deg" if angle and unit(declared).si == "rad" else formula_unit(declared)
 
     def _at(self, digits: int) -> Node:
-        """The expression with numbers of so many digits."""
         return self._with_numbers(self.part.formula.tree, digits, angle=self.in_degrees)
 
     def is_angle(self, node: Node) -> bool:
@@ -349,7 +344,6 @@ class Substitution:
         return False
 
     def _is_pure(self, node: Node) -> bool:
-        """Whether an expression holds pure numbers alone."""
         leaves = [leaf for leaf in walk(node) if leaf.op in ("sym", "qty")]
         return node.op != "apply" and all(leaf.op == "sym" and self._si_of(leaf.args[0]) == "1" for leaf in leaves)
 
@@ -427,14 +421,12 @@ class Substitution:
 
 
 def _beside_a_number(node: Node) -> list[str]:
-    """What a comparison holds against a plain number: 0.99 < 0.995, not 99 % < 0.995."""
     _, *sides = node.args if node.op == "cmp" else ("",)
     is_number = any(side.op == "num" and float(side.args[0]) for side in sides)
     return [side.args[0] for side in sides if side.op == "sym"] if is_number else []
 
 
 def _quantity(symbol: str) -> Node | None:
-    """A constant that is named by its number and its unit, as both; None for any other name."""
     found = QUANTITY.fullmatch(symbol)
     return Node("qty", found.groups()) if found else None
 
@@ -518,7 +510,6 @@ class BetweenRows(Substitution):
         return self._with_numbers(self.step.between.through(Node("sym", ("x",)), *rows), digits, angle=False)
 
     def _symbols(self, number: int) -> tuple[str, str]:
-        """The symbols of a row: those of the quantities with its number."""
         own = self.calc.step_or_input(self.step.of).symbol, self.step.symbol
         first, second = (f"{symbol}{',' if '_' in symbol else '_'}{number}" for symbol in own)
         return first, second

@@ -1,10 +1,9 @@
-"""Refuses numbers that are none, counts that are not whole and results that are not proved, of one machine; marks such variants."""
+"""What makes the numbers of curves untrue: jumps and poles inside smooth pieces; checks on curves; facts that are not met."""
 
 from __future__ import annotations
 
-from collections.abc import Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator
 from functools import cache
-from math import isfinite
 from pathlib import Path
 from typing import Any
 
@@ -13,17 +12,14 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import formula
 from diecut_report.formulas.tree import Node, substitute, written
-from diecut_report.machine.calculation import Calculation, Impossible, Side, Unproven
+from diecut_report.machine.calculation import Calculation, Side, Unproven
 from diecut_report.machine.numerics import extremes, jumps
 from diecut_report.machine.numerics.conditions import BranchCondition
 from diecut_report.machine.numerics.domain import shares
 from diecut_report.machine.numerics.jumps import JumpFault
-from diecut_report.machine.printing.substitution import filled
-from diecut_report.machine.steps import plain_code
 from diecut_report.mechanism.checks import Check
-from diecut_report.mechanism.names import bind, bound
-from diecut_report.mechanism.part_steps import Fact
-from diecut_report.mechanism.steps import Choice, Clash, Crossings, Require, Step, Value, read
+from diecut_report.mechanism.names import bind
+from diecut_report.mechanism.steps import Choice, Fact, Step, Value, read
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, phrase
@@ -52,7 +48,9 @@ def _words(calc: Calculation, found: JumpFault) -> str:
         return (Phrase("{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at "
 "{place}: it would be that of the middle of the piece; {fix}, or take per_piece away", where=where, place=place, fix=fix))  # fmt: skip
     step, link = found.condition.step, found.condition.link
-    name = Phrase("the formula {name}", name=link.formula.__name__) if isinstance(step, Value) else phrase("the choice")
+    name = (
+        Phrase("the formula {name}", name=link.formula.__name__) if hasattr(step, "formula") else phrase("the choice")
+    )
     decided = written(_in_symbols(calc, found.condition))
     of = (
         phrase("its formula")
@@ -111,7 +109,7 @@ def require_whole(calc: Calculation, curve: str) -> None:
 
 def sharpest(calc: Calculation, step: Step) -> str:
     """Return in words where the curve that a step asks for bends most; empty where it asks for none."""
-    curve = getattr(step, "of", "")
+    curve = step.asked_curve
     if calc.count > 1 or curve not in calc.curves:
         return ""
     found = _told(calc, curve, _sharpest(calc, curve))
@@ -136,7 +134,6 @@ def _pieces(calc: Calculation, curve: str) -> tuple[Array, Array]:
 
 
 def _values(calc: Calculation, curve: str, x: Array, middles: Array) -> Array:
-    """A curve at places (pieces, places)."""
     middle = np.broadcast_to(middles[:, None], x.shape)
     return np.broadcast_to(calc.sample(curve, x.reshape(1, -1), middle.reshape(1, -1)), (1, x.size)).reshape(x.shape)
 
@@ -145,7 +142,7 @@ def _torn(calc: Calculation, curve: str, x: Array, middles: Array, values: Array
     """The place where a formula stays apart however near it is looked at, as an angle that wraps; None where there is none."""
     steps = np.abs(np.diff(values))
     first = steps.max(initial=0.0)
-    if not isinstance(calc.curves[curve], Value | Choice) or not _stands_out(steps, 1):
+    if not calc.curves[curve].is_formula or not _stands_out(steps, 1):
         return None
     if not first > LEAST * _scale(calc, curve, x, middles):
         return None
@@ -158,7 +155,6 @@ def _torn(calc: Calculation, curve: str, x: Array, middles: Array, values: Array
 
 
 def _stands_out(sizes: Array, beside: int) -> bool:
-    """Whether the greatest of some sizes (pieces, places) is twice as great as the least so near to it: as nothing smooth is on this grid."""
     row, k = np.unravel_index(np.argmax(sizes), sizes.shape)
     near = sizes[row, max(int(k) - beside, 0) : int(k) + beside + 1]
     return bool(sizes[row, k] > 2 * near.min(initial=np.inf))
@@ -213,84 +209,6 @@ def _sharpest(calc: Calculation, curve: str) -> float:
     return float(x[0, WITHIN // 2])
 
 
-WHOLE = 1e-9  # by which a count may be off a whole number, for rounding
-
-
-def possible(calc: Calculation) -> Array:
-    """Return which variants are possible, as far as is known."""
-    found = np.ones(calc.count, dtype=bool)
-    found[list(calc.flaws)] = False
-    return found
-
-
-def prove(calc: Calculation, step: Step, residual: Array, tolerance: float) -> None:
-    """Refuse a result that is not proved for a single machine; mark the variant among several."""
-    if calc.count == 1 and residual[0, 0] <= tolerance:
-        calc.proof[step.id] = max(float(residual[0, 0]), 0.0)
-        return
-    unproved = ~(residual[:, 0] <= tolerance) & possible(calc)
-    calc.proof[step.id] = float(np.max(residual[possible(calc) & ~unproved], initial=0.0))
-    if unproved.any():
-        mark(
-            calc,
-            step,
-            unproved,
-            Phrase(
-                "{description}: the proof leaves {residual}, not {tolerance}",
-                description=step.description,
-                residual=format(np.max(residual[unproved]), ".1e"),
-                tolerance=format(tolerance, ".0e"),
-            )
-            + sharpest(calc, step),
-        )
-
-
-def mark(calc: Calculation, step: Step, bad: Array, words: str) -> None:
-    """Refuse a single machine in words; mark these among several."""
-    if calc.count == 1:
-        raise Unproven(words, step.at)
-    calc.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
-
-
-def finite(calc: Calculation, step: Step) -> None:
-    """Require that no number of a possible machine is NaN or infinite, but for an absent output and the padding of crossings."""
-    values = calc.values.get(step.id)
-    if values is None or values.dtype == object or step.exists is not None or isinstance(step, Crossings):
-        return
-    if values.size == 1 and isfinite(values.item()):
-        return
-    is_finite = np.isfinite(values)
-    if is_finite.all():
-        return
-    bad = ~is_finite.all(axis=1) & possible(calc)
-    if bad.any():
-        mark(
-            calc,
-            step,
-            bad,
-            Phrase("{description} ({id}) has no value with these inputs", description=step.description, id=step.id),
-        )
-
-
-def whole(calc: Calculation, step: Step) -> None:
-    """Require that what is marked as a count is whole: the results would round it."""
-    values = calc.values.get(step.id)
-    if not step.whole or values is None or values.dtype == object:
-        return
-    numbers = values / unit(step.unit).factor
-    bad = (np.abs(numbers - np.round(numbers)) > WHOLE * np.maximum(np.abs(numbers), 1)).any(axis=1) & possible(calc)
-    if bad.any():
-        given = f"{numbers[np.flatnonzero(bad)[0]].ravel()[0]:.6g}"
-        words = Phrase(
-            "{description} ({id}, {name}) is {given}, but is marked as a count (whole=True)",
-            description=step.description,
-            id=step.id,
-            name=Path(step.at).name,
-            given=given,
-        )
-        mark(calc, step, bad, Phrase("{words}; round it in its formula, or take whole=True away", words=words))
-
-
 # Checks on curves: the place of the abscissa where each goes furthest beyond its limit, or comes nearest to it.
 
 
@@ -326,7 +244,7 @@ def _stand_ins(check: Check) -> tuple[Value, ...]:
         return dict(zip(("demand", "limit"), in_si, strict=True))
 
     return tuple(
-        Value(id=f"checks.{check.id}.{i}", description=check.title, formula=bind(excess, **sides(pair)), output=False)
+        Value(f"checks.{check.id}.{i}", "", "1", check.title, bind(excess, **sides(pair)), output=False)
         for i, pair in enumerate(check.pairs)
     )
 
@@ -345,81 +263,12 @@ def _search(calc: Calculation, check: Check, number: int, step: Value) -> Array:
 
 
 def _there(calc: Calculation, side: str | float, place: Array, middle: Array) -> Array:
-    """One side of a check at the place found in each machine, shape (variants, 1)."""
     if not isinstance(side, str):
         return np.full(place.shape, side)
     return calc.sample(side, place, middle) if side in calc.curves else np.broadcast_to(calc[side], place.shape)
 
 
-# What must hold for a machine to be possible, and how its reasons are reported.
-
-
-def feasibility_require(calc: Calculation, step: Require) -> None:
-    """Mark each variant for which the condition does not hold (for one of its parts); a single machine is refused."""
-    held = calc.apply(step.condition).astype(bool)
-    for variant in np.flatnonzero(~held.all(axis=1)):
-        part, count = int(np.argmin(held[variant])), held.shape[1]
-        _said(calc, step, int(variant), {"part": part + 1, "next": (part + 1) % count + 1, "index": part})
-
-
-def clash(calc: Calculation, step: Clash) -> None:
-    """Mark each variant of which a part clashes with another; a single machine is refused."""
-    rows = plain_code.taken(calc, step.takes)
-    others = plain_code.partners(step, step.function(*rows), np.broadcast_shapes(*(np.shape(row) for row in rows)))
-    for variant in np.flatnonzero((others >= 0).any(axis=1)):
-        part = int(np.argmax(others[variant] >= 0))
-        _said(calc, step, int(variant), {"part": part + 1, "other": int(others[variant, part]) + 1, "index": part})
-
-
-def _said(calc: Calculation, step: Require | Clash, variant: int, places: dict[str, int]) -> None:
-    if variant in calc.flaws and calc.count > 1:  # what follows from impossible numbers says nothing more
-        return
-    message = "" if calc.is_partial else filled(calc, step.message, variant, places)
-    refuse(calc, variant, filled(calc, step.key, variant, places), message)
-
-
-def refuse(calc: Calculation, variant: int, key: str, message: str) -> None:
-    """Mark a variant as impossible, unless it is already; a single machine is refused."""
-    if variant in calc.flaws and calc.count > 1:
-        return
-    calc.flaws[variant] = key, message
-    if calc.count == 1:
-        raise Impossible([(key, message)])
-
-
-def reasons(calc: Calculation, steps: Sequence[Step]) -> Iterator[tuple[str, str]]:
-    """Yield why else a machine cannot exist, as far as it can be told from what is known already."""
-    known = {*calc.inputs, *calc.values, *(f"inputs.{name}" for name in calc.inputs)}
-    for step in steps:
-        if isinstance(step, Require) and known.issuperset(n for n in bound(step.condition).takes if isinstance(n, str)):
-            try:
-                feasibility_require(calc, step)
-            except Impossible as other:
-                yield from other.reasons
-
-
-# Facts that steps stand on: where a machine does not meet one, the steps that need it are left out.
-
-
-def judge(calc: Calculation, step: Fact) -> None:
-    """Note which variants do not meet a fact; where none does, the steps that need it take no part.
-
-    Where some do, the numbers of the others mean nothing: these variants are to be calculated by themselves.
-    """
-    missed: Array = calc.apply(step.condition)[:, 0] == 0
-    if not missed.any():
-        return
-    calc.withheld[step.id] = missed
-    if missed[possible(calc)].all():
-        calc.given -= {step.id}
-        known = dict(calc.curves)  # those of named parts too, which are not declared one by one
-        calc.steps = known | {each.id: each for _, each in calc.mechanism.active(calc.given)}
-        calc.axis = {name: calc.axis[name] for name in known} | calc.mechanism.axes(calc.given)
-
-
-def remaining(calc: Calculation, steps: Sequence[Step]) -> list[Step]:
-    """Return those of the coming steps that take part still."""
-    return [step for step in steps if step.id in calc.steps]
+# Facts that a machine does not meet: the steps that need them are left out.
 
 
 def without(calc: Calculation, name: str) -> tuple[Array, str]:

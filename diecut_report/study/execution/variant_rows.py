@@ -19,12 +19,12 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.soundness import is_made
 from diecut_report.mechanism.checks import by_part
 from diecut_report.mechanism.inputs import POINTS, list_inputs
-from diecut_report.mechanism.mechanism import is_text, missing_keys
-from diecut_report.mechanism.part_steps import PartNames
+from diecut_report.mechanism.mechanism import missing_keys
 from diecut_report.mechanism.steps import (
     CROSSING_COLUMNS,
     SILENT,
     Crossings,
+    PartNames,
     ResultName,
     Step,
     Value,
@@ -127,7 +127,7 @@ def _names(step: Step, parts: int | None, parts_names: Sequence[str] | None) -> 
 
 
 def _kind(step: Step) -> Kind:
-    if is_text(step):
+    if step.is_text:
         return "text"
     if isinstance(step, Value) and step.is_condition:
         return "bool"

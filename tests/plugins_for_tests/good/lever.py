@@ -114,6 +114,7 @@ MECHANISM = Mechanism(
                     id="pressure", symbol="p", unit="MPa", description="Pressure", formula=quotient, needs=("width",)
                 ),
                 Choice(
+                    unit="1",
                     id="size",
                     symbol="s",
                     description="Size",

@@ -1,0 +1,339 @@
+"""Prints the numbers, formulas and tables of one calculated machine: what steps ask for when they are printed (``StepPrinter``)."""
+
+from __future__ import annotations
+
+from collections.abc import Sequence
+from typing import Any
+
+import numpy as np
+
+from diecut_report.formulas import Array
+from diecut_report.formulas.tree import Node
+from diecut_report.machine import mechanism
+from diecut_report.machine.calculation import Calculation, Unproven, declared_unit, step_shown, unit_for
+from diecut_report.machine.curve_samples import CurveSampler
+from diecut_report.machine.numerics.domain import Domain
+from diecut_report.machine.printing.conversions import bridged, conversions, definitions
+from diecut_report.machine.printing.substitution import (
+    BetweenRows,
+    Contradiction,
+    Elsewhere,
+    Substitution,
+    contradicted,
+    printed,
+)
+from diecut_report.mechanism.names import Bound, bound
+from diecut_report.mechanism.steps import Abscissa, Choice, Interpolated, PartNames, PartTable, Step, part_result
+from diecut_report.mechanism.steps.rooms import Item
+from diecut_report.mechanism.steps.value import FormulaStep
+from diecut_report.quantities.formatting import (
+    DIGITS,
+    author_digits,
+    given_shown,
+    number_text,
+    place_shown,
+    shown,
+    with_unit,
+)
+from diecut_report.text.phrases import NAMING, Phrase, joined, phrase
+
+FIRST = np.zeros(1, dtype=int)  # the variant that is printed
+EQUAL_TERMS = "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
+OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
+
+
+class Page:
+    """Print one machine.
+
+    One place of each abscissa is shown for all formulas over it; what is taken elsewhere, as a flag of a smooth piece in its middle, is marked.
+    """
+
+    def __init__(self, calc: Calculation) -> None:
+        self.calc = calc
+
+    # Numbers.
+
+    def value_at(self, name: str, axis: str | None, *, flag: bool = False, part: int | None = None) -> float:
+        """Return a number, or a curve's value where formulas are shown, or that of a row's part (default: the one that is shown).
+
+        What goes into a flag of smooth pieces is taken at the middle of the piece.
+        """
+        if axis in self.calc.domains and self.calc.axis.get(name) == axis:
+            return float(np.ravel(self._sampler(str(axis), elsewhere=flag)[name])[0])  # a constant is a curve too
+        row = self.calc[name]
+        if row.shape[1] == 1:
+            return float(row[0, 0])
+        return float(row[0, self._shown_part(name) if part is None else part])
+
+    def result(self, step: Step, value: float) -> Item:
+        return step_shown(self.calc, step, value)
+
+    def printed(self, name: str) -> str:
+        return printed(self.calc, name)
+
+    def residual(self, step: Step) -> Item:
+        return {"text": number_text(self.calc.proof[step.id], 2), "unit": "1"}
+
+    def _sampler(self, axis: str, *, elsewhere: bool) -> CurveSampler:
+        """The curves at the place where formulas are shown, or in the middle of its smooth piece."""
+
+        def places(_: Domain) -> tuple[Array, Array]:
+            place, middle = self._shown_place(axis)
+            return middle if elsewhere else place, middle
+
+        return self.calc.kept(f"shown {elsewhere}", axis, places, FIRST)
+
+    def _shown_place(self, axis: str) -> tuple[Array, Array]:
+        """The place of an abscissa at which formulas are shown, and the middle of its smooth piece, each of shape (1, 1)."""
+        calc, step = self.calc, self.calc.steps[axis]
+        assert isinstance(step, Abscissa)
+        domain = calc.domains[axis]
+        if step.shown_at in calc.middle:  # of an extreme, which knows the piece that it lies in
+            return calc[step.shown_at][:1], calc.middle[step.shown_at][:1]
+        asked = np.mod(calc[step.shown_at][:1], domain.period[:1]) if step.shown_at else None
+        place = domain.samples[:1, domain.samples.shape[1] // 8][:, None] if asked is None else asked
+        return place, domain.middle_of(place, rows=FIRST)
+
+    def _shown_part(self, name: str) -> int:
+        """Which part of a row formulas are shown with, from 0: the asked one, or the first that has all values; 0 of a number too."""
+        known = self._known_parts(name)
+        names = self.calc.steps.get(self.calc.axis.get(name, ""))
+        if isinstance(names, PartNames) and names.shown_at:
+            asked = int(self.calc[names.shown_at][0, 0])
+            if known is None or known[asked]:
+                return asked
+        return 0 if known is None else int(np.argmax(known))
+
+    def _known_parts(self, name: str) -> Array | None:
+        """For which parts a row and all that it takes have values; None of a text."""
+        calc = self.calc
+        formula = getattr(calc.steps.get(name), "formula", None)
+        taken = [] if formula is None else [each for each in bound(formula).names.values() if isinstance(each, str)]
+        rows = [
+            calc.values[n][0] for n in (name, *taken) if n in calc.values and calc.axis.get(n) == calc.axis.get(name)
+        ]
+        known = [~np.isnan(row.astype(float)) for row in rows if row.dtype != object]
+        return np.asarray(np.all(known, axis=0)) if known else None
+
+    # Places of an abscissa.
+
+    def place(self, axis: str, place: float) -> Item:
+        step = self.calc.steps[axis]
+        return {"symbol": step.symbol} | place_shown(place, declared_unit(self.calc, axis, step.unit))
+
+    def shown(self, axis: str, elsewhere: bool = False) -> Item:
+        return self.place(axis, float(self._sampler(axis, elsewhere=elsewhere).x[0, 0]))
+
+    def over_axis(self, step: FormulaStep) -> tuple[bool, Item]:
+        axis = self.calc.axis.get(step.id)
+        if axis is None or axis not in self.calc.domains:
+            return False, {}
+        elsewhere = self._is_elsewhere(step, axis)
+        place = self.shown(axis, elsewhere)
+        if not elsewhere:
+            return False, {"at": place}
+        told = f"{place['symbol']} = {with_unit(place['text'], place['unit'])}"
+        words = "Taken at {place}, in the middle of its smooth piece; it is the same in all of it."
+        return True, {"at": place, "note": Phrase(words, place=told)}
+
+    def _is_elsewhere(self, step: FormulaStep, axis: str) -> bool:
+        """Whether a flag has to be shown in the middle of its smooth piece: where curves are shown its formula gives another."""
+        if not step.per_piece:
+            return False
+        here, there = (step.shown_formula(self, flag) for flag in (False, True))
+        if here is not there:
+            return True
+        link = bound(here)
+        taken = (self.value_at(name, axis) if isinstance(name, str) else name for name in link.takes)
+        return bool(link.formula(*taken) != self.value_at(step.id, axis))
+
+    def case_taken(self, step: Choice, elsewhere: bool) -> int:
+        axis = self.calc.axis.get(step.id)
+        if axis is None:
+            return int(self.calc.branch[step.id][0, 0])
+        for index, case in enumerate(step.cases):
+            if case.condition is None:
+                return index
+            link = bound(case.condition)
+            taken = (self.value_at(n, axis, flag=elsewhere) if isinstance(n, str) else n for n in link.names.values())
+            if link.formula(*taken):
+                return index
+        return len(step.cases) - 1
+
+    def _marks(self, axis: str | None, elsewhere: bool) -> Elsewhere | None:
+        """How curves are marked that are taken elsewhere than the chapter's."""
+        if not elsewhere or axis is None:
+            return None
+        place = self.shown(axis, True)
+        marked = Node("sym", (place["symbol"],)), Node("qty", (place["text"], place["unit"]))
+
+        def of(name: str) -> tuple[Node, Node] | None:
+            curve = self.calc.steps.get(name)
+            holds = curve is None or name == axis or getattr(curve, "per_piece", False)
+            return None if holds or self.calc.axis.get(name) != axis else marked
+
+        return of
+
+    # Formulas.
+
+    def symbolic(self, part: Bound) -> Node:
+        return Substitution(self.calc, part, lambda name: self.value_at(name, None)).symbolic()
+
+    def sides(self, part: Bound, held: bool, axis: str | None = None, elsewhere: bool = False) -> tuple[Any, Any]:
+        marked = self._marks(axis, elsewhere)
+        substitution = Substitution(self.calc, part, lambda name: self.value_at(name, axis, flag=elsewhere), marked)
+        sides = substitution.symbolic(), substitution.comparison(held)
+        symbolic, numeric = (side and (side if held else negated(side)).to_json() for side in sides)
+        return symbolic, numeric
+
+    def formula(self, step: Step, part: Bound, elsewhere: bool = False) -> Item:
+        calc, axis = self.calc, self.calc.axis.get(step.id)
+        target = self.value_at(step.id, axis)
+        result = step_shown(calc, step, target)
+        own = None if axis is None or axis in calc.domains else self._shown_part(step.id)
+        marked = self._marks(axis, elsewhere)
+
+        def value_of(name: str) -> float:
+            return self.value_at(name, axis, flag=elsewhere, part=own)
+
+        between = BetweenRows(calc, step, value_of, marked) if isinstance(step, Interpolated) else None
+        substitution = between or Substitution(calc, part, value_of, marked)
+        takes = [name for name in part.names.values() if isinstance(name, str)]
+        try:
+            numeric = substitution.numeric(target, result["unit"], step.digits) if takes else None
+        except Contradiction as found:
+            raise Unproven(contradicted(step, part, found), step.at) from None
+        symbolic = substitution.symbolic()
+        item: Item = {"equation": symbolic.to_json(), "substituted": numeric and numeric.to_json()}
+        if defined := definitions(symbolic):
+            item["where"] = defined
+        if takes and numeric is None:
+            item["note"] = EQUAL_TERMS
+        item = (between.told() if between else {}) | item
+        return (
+            item
+            | bridged(substitution, numeric, target, result)
+            | conversions(substitution, numeric)
+            | {"result": result}
+        )
+
+    # Tables.
+
+    def parts_shown(self, step: Step, item: Item, names: Sequence[str]) -> list[Item]:
+        axis = self.calc.axis[step.id]
+        item["note"] = joined(filter(None, (item.get("note"), self._part_told(step, axis))), ". ")
+        return [item] if self.has_tables(axis) else [item, self.table(step, [*names, step.id])]
+
+    def _part_told(self, step: Step, axis: str) -> str:
+        """Which of repeated parts the numbers in a row's formula are of; nothing where there is but one."""
+        names, part = self.calc.part_names.get(axis) or self._names(step), self._shown_part(step.id)
+        if names:
+            return Phrase("Shown for: {name}.", name=phrase(names[part]))
+        return Phrase("Shown for part {part}.", part=part + 1) if self.calc[step.id].shape[1] > 1 else ""
+
+    def has_tables(self, parts: str) -> bool:
+        steps = self.calc.steps.values()
+        return parts in self.calc.part_names or any(
+            isinstance(step, PartTable) and step.parts == parts for step in steps
+        )
+
+    def is_index(self, name: str) -> bool:
+        return any(isinstance(step, PartNames) and step.shown_at == name for step in self.calc.steps.values())
+
+    def _names(self, step: Step) -> Sequence[str] | None:
+        """The names of the parts that a row runs over, where its list has them: by the step's own, else by its list's names."""
+        if step.named_by:
+            names: Sequence[str] | None = self.calc.inputs.get(step.named_by)
+            return names
+        home = self.calc.axis.get(step.id, "")
+        for key in NAMING:
+            given = [str(each or "") for each in self.calc.inputs.get(f"{home}.{key}", ())]
+            if all(given) and len(set(given)) == len(given) > 0:
+                return given
+        return None
+
+    def table(self, step: Step, names: Sequence[str]) -> Item:
+        count = self.calc[step.id].shape[1]
+        own = [
+            n for n in names if n == step.id or self.calc[n].shape[1] == count
+        ]  # what is one for all, the formula says
+        known = self._names(step)
+        table = self._lines("Name" if known else "No.", known or [str(i + 1) for i in range(count)], own)
+        return {"type": "table", "title": step.description} | table
+
+    def table_of_parts(self, step: Step, parts: str, names: Sequence[str]) -> Item:
+        calc, first = self.calc, self.calc.step_or_input(names[0])
+        known = calc.part_names.get(parts) or calc.inputs.get(calc.steps[names[0]].named_by)
+        heads = known or [str(number + 1) for number in range(calc[names[0]].shape[1])]
+        table = self._lines("Name" if getattr(first, "named_by", "") else "Place", heads, names)
+        return {"type": "table", "id": step.id, "title": step.description} | table
+
+    def _lines(self, title: str, heads: Sequence[str], names: Sequence[str]) -> Item:
+        units = [self._column_unit(name) for name in names]
+        columns = [
+            _head(title),
+            *(_column(self.calc.step_or_input(n), unit) for n, unit in zip(names, units, strict=True)),
+        ]
+        cells = list(zip(names, units, strict=True))
+        return {
+            "columns": columns,
+            "rows": [[head, *(self._cell(*each, i) for each in cells)] for i, head in enumerate(heads)],
+        }
+
+    def table_of_places(self, step: Step, places: Sequence[float]) -> Item:
+        display = unit_for(self.calc, step.id, step.unit, places)
+        lines = [[str(i), place_shown(x, display)["text"]] for i, x in enumerate(places, 1)]
+        columns = [_head("No."), _column(step, display)]
+        return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": lines}
+
+    def table_of_curves(self, step: Step, at: Item) -> Item:
+        parts, axis = self.calc.inputs[step.named_by], self.calc.axis
+        own = [part_result(name, step) for name in parts]
+        values = [self.value_at(name, axis[name]) for name in own]
+        display = unit_for(self.calc, step.id, step.unit, values)
+        texts = [shown(value, display, author_digits(value, display, step.digits))["text"] for value in values]
+        place = {"symbol": at["symbol"], "value": with_unit(at["text"], at["unit"])}
+        where = Phrase("{title} at {symbol} = {value}", {"title": phrase(step.description), **place})
+        columns = [_head("Name"), _column(step, display)]
+        lines = [list(line) for line in zip(parts, texts, strict=True)]
+        return {"type": "table", "id": step.id, "title": where, "columns": columns, "rows": lines}
+
+    def listing(self, step: Any) -> list[Item]:
+        return mechanism.printed(self.calc, step)
+
+    def _column_unit(self, name: str) -> str:
+        """The one unit of a column; that of an input is its own."""
+        declared, row = self.calc.step_or_input(name), self.calc[name]
+        if name not in self.calc.values or np.asarray(row).dtype.kind not in "fc":
+            return declared_unit(self.calc, name, declared.unit)
+        return unit_for(self.calc, name, declared.unit, row[0])
+
+    def _cell(self, name: str, display: str, part: int) -> str:
+        row = self.calc[name]
+        value = row[0, min(part, row.shape[1] - 1)]
+        if isinstance(value, str):
+            return value
+        if isinstance(value, np.bool_):
+            return "yes" if value else "no"
+        if np.isnan(float(value)):
+            return "–"
+        if name not in self.calc.values:
+            return given_shown(float(value), display)["text"]
+        digits = getattr(self.calc.step_or_input(name), "digits", DIGITS)
+        return shown(float(value), display, author_digits(float(value), display, digits))["text"]
+
+
+def _head(title: str) -> Item:
+    return {"title": title, "symbol": "", "unit": "1"}
+
+
+def _column(declared: Any, display: str) -> Item:
+    return {"title": declared.description, "symbol": declared.symbol, "unit": display}
+
+
+def negated(condition: Node) -> Node:
+    """Return the condition that holds where this one does not."""
+    if condition.op != "cmp":
+        return Node("not", (condition,))
+    sign, *sides = condition.args
+    return Node("cmp", (OPPOSITE[sign], *sides))

@@ -1,0 +1,100 @@
+"""The types of steps, each in one file, and their register: an import for each, and the call of a chapter by which authors declare it."""
+# mypy: implicit-reexport
+# ruff: noqa: F401
+
+from __future__ import annotations
+
+from collections.abc import Iterable, Iterator, Sequence
+from dataclasses import dataclass, field
+from typing import Any
+
+from diecut_report.mechanism.names import Misdeclared
+from diecut_report.mechanism.steps.abscissa import Abscissa, Breakpoints
+from diecut_report.mechanism.steps.base import SILENT, Options, ResultName, SilentStep, Step, StepCondition, form
+from diecut_report.mechanism.steps.choice import Case, Choice, case
+from diecut_report.mechanism.steps.code_curves import ComputedCurve, PartCurves
+from diecut_report.mechanism.steps.computed import Computed
+from diecut_report.mechanism.steps.crossings import Crossings
+from diecut_report.mechanism.steps.fact import Fact
+from diecut_report.mechanism.steps.from_curve import CurvePeriod, FromCurve, MadeCurve
+from diecut_report.mechanism.steps.interpolated import Interpolated
+from diecut_report.mechanism.steps.lookup import Lookup
+from diecut_report.mechanism.steps.part_names import PartNames, PartTable
+from diecut_report.mechanism.steps.phase import PREFIX, ROLES, Phase
+from diecut_report.mechanism.steps.pick import Pick
+from diecut_report.mechanism.steps.prepared import Cell, ListedColumn, Listing, Prepared
+from diecut_report.mechanism.steps.reduction import Operation, Reduction
+from diecut_report.mechanism.steps.require import Clash, Require
+from diecut_report.mechanism.steps.result_names import (
+    CROSSING_COLUMNS,
+    MOST_NAMED,
+    Pattern,
+    count_name,
+    has_own_names,
+    named,
+    names_ahead,
+    numbered_symbol,
+    part_result,
+    pattern,
+    place_name,
+    read,
+    result_names,
+)
+from diecut_report.mechanism.steps.root import Root
+from diecut_report.mechanism.steps.rows import Neighbour, Part, Running, Total
+from diecut_report.mechanism.steps.series import Accumulated, Derivative
+from diecut_report.mechanism.steps.value import Value
+from diecut_report.mechanism.steps.words import Words
+from diecut_report.text.phrases import Phrase
+
+
+@dataclass(eq=False)
+class Steps:
+    """Hold declared steps in the order in which they are calculated; a family of them may be added to several chapters."""
+
+    steps: Sequence[Step] = field(default=(), kw_only=True)
+
+    def __iter__(self) -> Iterator[Step]:
+        return iter(self.steps)
+
+    def add(self, *steps: Step | Iterable[Any]) -> None:
+        """Add steps that are declared elsewhere: a family, several of them, or what several chapters share."""
+        for step in steps:
+            if isinstance(step, Step):
+                if any(step is other for other in self.steps):
+                    raise Misdeclared(Phrase("{id} is added twice; add it once", id=step.id))
+                self.steps = (*self.steps, step)
+            else:
+                self.add(*step)
+
+    value = form(Value)
+    choice = form(Choice.of)
+    root = form(Root)
+    abscissa = form(Abscissa)
+    breakpoints = form(Breakpoints.of)
+    crossings = form(Crossings)
+    reduction = form(Reduction)
+    accumulated = form(Accumulated)
+    derivative = form(Derivative)
+    computed = form(Computed)
+    curve_period = form(CurvePeriod)
+    from_curve = form(FromCurve)
+    made_curve = form(MadeCurve)
+    computed_curve = form(ComputedCurve)
+    part_names = form(PartNames)
+    part_table = form(PartTable)
+    part_curves = form(PartCurves)
+    prepared = form(Prepared)
+    listing = form(Listing)
+    fact = form(Fact)
+    require = form(Require)
+    clash = form(Clash)
+    words = form(Words)
+    phase = form(Phase.of)
+    total = form(Total)
+    neighbour = form(Neighbour)
+    running = form(Running)
+    part = form(Part)
+    lookup = form(Lookup)
+    interpolated = form(Interpolated)
+    pick = form(Pick)

@@ -1,0 +1,338 @@
+"""What all types of step have: their fields, and the questions that the rooms of the program ask them.
+
+A step gives one quantity, known by its id, and takes others by id: what earlier steps gave, and inputs (``inputs.ID`` where a step shares it).
+A type of step is a subclass in a file of its own: its fields, what it takes and gives, its dimension, its faults, how it runs and prints.
+"""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Collection, Iterable, Iterator, Mapping
+from dataclasses import dataclass, field
+from inspect import Parameter, Signature, signature
+from typing import Any, ClassVar, Concatenate, Literal, ParamSpec, Protocol, TypedDict
+
+from diecut_report.errors import nearest
+from diecut_report.formulas import Array
+from diecut_report.mechanism.names import Misdeclared, Written, as_binding, here
+from diecut_report.mechanism.steps.rooms import (
+    LABELS,
+    OF_UNIT,
+    ROW,
+    Called,
+    Item,
+    Kinds,
+    Names,
+    StepEngine,
+    StepFormula,
+    StepPrinter,
+    TakenName,
+)
+from diecut_report.quantities.units import Kind
+from diecut_report.text.phrases import Phrase
+
+P = ParamSpec("P")
+
+
+class StepHolder(Protocol):
+    """What steps can be added to."""
+
+    def add(self, *steps: Step | Iterable[Any]) -> None:
+        """Add steps."""
+
+
+def form(make: Callable[P, Step]) -> Callable[Concatenate[StepHolder, P], None]:
+    """Return the call of a chapter that declares a step of a type: it takes what the type takes."""
+    step_type: type[Step] = make if isinstance(make, type) else make.__self__  # type: ignore[attr-defined]
+    own, shared = _options(make, step_type)
+
+    def declare(self: StepHolder, /, *args: P.args, **options: P.kwargs) -> None:
+        for name in options.keys() - own.keys() - shared.__annotations__.keys():
+            known = (*own, *shared.__annotations__)
+            words = "{id} has no option {name}{near}"
+            raise Misdeclared(Phrase(words, id=[*args, ""][0], name=name, near=nearest(name, known)))
+        try:
+            step = make(*args, **options)
+        except Misdeclared:
+            raise
+        except TypeError as wrong:  # what is missing, or too much
+            raise TypeError(str(wrong).replace(f"{step_type.__name__}.__init__()", f"{name_of_call}()")) from None
+        self.add(step)
+
+    name_of_call = "".join(f"_{each.lower()}" if each.isupper() else each for each in step_type.__name__).lstrip("_")
+    taken = [Parameter("self", Parameter.POSITIONAL_ONLY), *sorted(own.values(), key=lambda each: each.kind)]
+    more = Parameter("options", Parameter.VAR_KEYWORD, annotation=f"Unpack[{shared.__name__}]")
+    declare.__name__, declare.__doc__ = name_of_call, make.__doc__
+    declare.__signature__ = Signature([*taken, more])  # type: ignore[attr-defined]
+    return declare
+
+
+def _options(make: Callable[..., Step], step_type: type[Step]) -> tuple[dict[str, Parameter], type]:
+    """What a type takes of its own, and the options that it shares with others."""
+    declared = {
+        name for base in step_type.__mro__ if base not in Step.__mro__ for name in vars(base).get("__annotations__", ())
+    }
+    found = signature(make).parameters
+    own = {
+        n: each
+        for n, each in found.items()
+        if n == "id" or n in declared or (make is not step_type and each.kind is not each.VAR_KEYWORD)
+    }
+    return own, StepCondition if issubclass(step_type, SilentStep) else Options
+
+
+def tuple_faults(declared: Any, *names: str) -> Iterator[str]:
+    """Yield fields that are no tuples of texts."""
+    words = 'has {name}={given}; write a tuple of texts, with a comma behind a single one: {name}=("key",)'
+    for name in names:
+        given = getattr(declared, name)
+        if not isinstance(given, tuple) or not all(isinstance(each, str) for each in given):
+            yield Phrase(words, name=name, given=repr(given))
+
+
+class Options(TypedDict, total=False):
+    """Declare what any step that gives a quantity may say besides; see ``Step``."""
+
+    source: str
+    source_symbol: str
+    digits: int
+    output: bool
+    needs: tuple[str, ...]
+    lacks: tuple[str, ...]
+    exists: Written | None
+    numbered: str
+    first: int
+    named_by: str
+    whole: bool
+    printed: bool
+    units: tuple[tuple[str, str], ...]
+
+
+class StepCondition(TypedDict, total=False):
+    """Declare with which optional inputs a step takes part that gives no quantity."""
+
+    needs: tuple[str, ...]
+    lacks: tuple[str, ...]
+
+
+Role = Literal["value", "place", "count", "crossing", "part"]
+
+
+@dataclass(frozen=True)
+class ResultName:
+    """Hold a name, the id of the step that gives it, and what it is of the step's quantity.
+
+    A crossing and a part have an ``index``, counted from 0, and the ``number`` that tells them apart in print: the one in
+    the name, or counted from 1 where the name is a path (``wraps.0``).
+    """
+
+    name: str
+    id: str
+    role: Role = "value"
+    index: int = -1
+    number: int = 0
+
+
+Over = Callable[..., set[tuple[str, str]]]  # of names: the kinds and axes of what runs over something
+
+
+@dataclass(frozen=True, eq=False)
+class Step:
+    """Declare what all steps have: the quantity that it gives, and the inputs without which (or with which) it is left out.
+
+    ``needs`` and ``lacks`` name optional inputs: the step is part of the calculation when all of ``needs`` are given and none of ``lacks``.
+    ``output`` puts the quantity among the outputs of the results file, else among its values. A text input takes part in them by its value:
+    ``needs=("engagement=away",)``. ``exists`` is a condition on numbers: where it does not hold the quantity is absent. ``source_symbol`` is the
+    source's letter, where another. ``whole`` marks a count, an integer in the results. ``units`` are other units, each with the input beside which
+    it holds: (("mass", "N"),). A row over repeated parts is named ``ID.0``, ``ID.1`` … in the results, or by ``numbered`` (``shaft_{}_speed``) from
+    ``first`` on, or with ``named_by``, the text input of the parts' names: ``NAME_ID``. What is not ``printed`` serves messages or other steps.
+    """
+
+    id: str
+    symbol: str = field(default="", kw_only=True)
+    unit: str = field(default="1", kw_only=True)
+    description: str = field(default="", kw_only=True)
+    source: str = field(default="", kw_only=True)
+    source_symbol: str = field(default="", kw_only=True)
+    digits: int = field(default=4, kw_only=True)
+    output: bool = field(default=True, kw_only=True)
+    needs: tuple[str, ...] = field(default=(), kw_only=True)
+    lacks: tuple[str, ...] = field(default=(), kw_only=True)
+    exists: Written | None = field(default=None, kw_only=True)
+    numbered: str = field(default="", kw_only=True)
+    first: int = field(default=1, kw_only=True)
+    named_by: str = field(default="", kw_only=True)
+    whole: bool = field(default=False, kw_only=True)
+    units: tuple[tuple[str, str], ...] = field(default=(), kw_only=True)
+    printed: bool = field(default=True, kw_only=True)
+    at: str = field(default_factory=here, kw_only=True, repr=False, compare=False)
+
+    NAMES: ClassVar[tuple[str, ...]] = ()
+    """Fields that name quantities, beside the formulas."""
+    FORMULAS: ClassVar[dict[str, Kinds]] = {}
+    """Fields that are formulas, each with what it may take."""
+    IDS: ClassVar[tuple[str, ...]] = ()
+    """Fields that hold one id, and are often given a number by mistake."""
+    is_counted: ClassVar[bool] = False  # whether how many it gives shows in calculating
+    is_taken: ClassVar[bool] = True  # whether anything may take its id
+    is_run: ClassVar[bool] = True  # whether it is part of the run, not made where it is asked for
+    is_made_late: ClassVar[bool] = False  # whether it may take what stands below it
+    is_formula: ClassVar[bool] = False  # whether nothing but formulas gives it
+    may_be_absent: ClassVar[bool] = False  # whether ``exists`` holds for it
+    is_shown_at_place: ClassVar[bool] = (
+        False  # whether its chapter says at which place of their abscissa curves are shown
+    )
+    message_places: ClassVar[tuple[str, ...]] = ()  # what its message may name beside quantities
+
+    def __post_init__(self) -> None:
+        for name in ("exists", *self.FORMULAS):
+            if (written := getattr(self, name)) is not None:
+                called = self.id if name in ("formula", "condition") else f"{self.id} ({name})"
+                object.__setattr__(self, name, as_binding(written, called))
+
+    # What it is made of.
+
+    def formulas(self) -> Iterator[StepFormula]:
+        """Yield its formulas."""
+        for name, takes in self.FORMULAS.items():
+            part, field = LABELS.get(name, (name, name))
+            yield StepFormula(part, field, getattr(self, name), name in OF_UNIT, takes, name == "condition")
+        if self.exists is not None:
+            yield StepFormula("exists", "exists", self.exists, False, ROW, True)
+
+    def takes_ids(self) -> Iterator[TakenName]:
+        """Yield what it takes by its other fields."""
+        yield from ()
+
+    @property
+    def instead(self) -> str:
+        """Return the input that may be given in place of the quantity."""
+        return ""
+
+    @property
+    def own_names(self) -> frozenset[str]:
+        """Return the names in its fields that stand for nothing elsewhere."""
+        return frozenset()
+
+    @property
+    def called(self) -> Called | None:
+        """Return how its function is called, where it has one: with what it takes."""
+        takes = getattr(self, "takes", None)
+        return Called(len(takes)) if isinstance(takes, tuple) else None
+
+    # What it gives.
+
+    @property
+    def is_text(self) -> bool:
+        """Return whether it gives a text."""
+        return False
+
+    @property
+    def is_condition(self) -> bool:
+        """Return whether it gives yes or no."""
+        return False
+
+    @property
+    def all_units(self) -> set[str]:
+        """Return the units that it may have."""
+        return {self.unit, *(other for _, other in self.units)}
+
+    @property
+    def standard_values(self) -> set[float]:
+        """Return all numbers that it may have, where these are known."""
+        return set()
+
+    def kinds(self, over: Over) -> set[tuple[str, str]]:
+        """Return what it may give: the kind, and the abscissa or the list that it runs over."""
+        return {("number", "")}
+
+    def runs_over(self, known: Mapping[str, str]) -> str | None:
+        """Return the abscissa of the curve, or the list of the row, that it gives; ``known`` are those of other names."""
+        return None
+
+    def beside(self) -> Iterator[ResultName]:
+        """Yield what it gives beside its value."""
+        yield from ()
+
+    def takes_over(self) -> set[str]:
+        """Return the quantities that it gives again as they are."""
+        return {self.instead} if self.instead else set()
+
+    # What may be wrong with it.
+
+    def shape_faults(self) -> Iterator[str]:
+        """Yield what has not the shape that is wanted."""
+        yield from ()
+
+    def faults(self, names: Names, when: Any) -> Iterator[str]:
+        """Yield what is wrong with what it takes."""
+        yield from ()
+
+    def same_units(self, units: Callable[[str], set[str]], names: Names) -> Iterator[tuple[str, set[str]]]:
+        """Yield what it takes over as it is, with the units that this may have."""
+        yield from ()
+
+    def dimensions(self, of: Callable[[str], Kind], axis: Callable[[str], str]) -> Iterator[tuple[str, Any, Any]]:
+        """Yield what it makes of a curve or an abscissa: in words, its dimension, and the one that is wanted."""
+        yield from ()
+
+    # How it runs and prints.
+
+    def run(self, calc: StepEngine) -> None:
+        """Calculate it, for all variants."""
+
+    def can_be_judged(self, known: Collection[str]) -> bool:
+        """Return whether it tells from what is known already why a machine cannot be."""
+        return False
+
+    def curve(self, sampler: Any) -> Array:
+        """Return the curve that it is at the places of a sampler."""
+        raise TypeError(f"{self.id} is not a curve")
+
+    def is_same(self, pair: Any) -> bool:
+        """Return whether a curve of two calculations is the same; what plain code gives is not looked into."""
+        return False
+
+    @property
+    def asked_curve(self) -> str:
+        """Return the curve that it searches or integrates."""
+        return ""
+
+    @property
+    def signs(self) -> tuple[float, ...]:
+        """Return which extremes of that curve it searches: the greatest (1), the least (-1)."""
+        return ()
+
+    def cuts(self, axis: str, axes: Mapping[str, str]) -> bool:
+        """Return whether it cuts an abscissa into finer pieces."""
+        return getattr(self, "abscissa", "") == axis
+
+    def items(self, page: StepPrinter) -> list[Item]:
+        """Return what is printed of it."""
+        return []
+
+    def head(self) -> Item:
+        """Return what is printed of the quantity itself."""
+        return {"id": self.id, "symbol": self.symbol, "description": self.description, "source": self.source}
+
+
+@dataclass(frozen=True, eq=False)
+class QuantityStep(Step):
+    """Declare the base of steps that give a quantity: a chapter's call begins with id, symbol, unit and description."""
+
+    symbol: str = field()
+    unit: str = field()
+    description: str = field()
+
+
+@dataclass(frozen=True, eq=False)
+class SilentStep(Step):
+    """Declare the base of steps that give no quantity."""
+
+    is_taken: ClassVar[bool] = False
+
+    def kinds(self, over: Over) -> set[tuple[str, str]]:
+        """Return nothing."""
+        return set()
+
+
+SILENT = SilentStep

@@ -1,0 +1,73 @@
+"""A number, a row or a text that plain code finds."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar
+
+import numpy as np
+
+from diecut_report.mechanism.steps import plain_code
+from diecut_report.mechanism.steps.base import Over, QuantityStep
+from diecut_report.mechanism.steps.rooms import A_VALUE, PLAIN, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.value import answer
+
+
+@dataclass(frozen=True, eq=False)
+class Computed(QuantityStep):
+    """Declare a number found by plain code where no closed formula tells it; ``method`` says in words how.
+
+    ``function`` takes the quantities ``takes`` by position: numbers as arrays of shape (variants, 1), texts, the handles of curve inputs (``Curve``).
+    It gives an array of shape (variants, 1), SI; (variants, parts) for a row over the list ``over``, or over what ``PartNames`` declares; or with
+    ``is_text`` a text for each variant. Truth values are printed as yes and no.
+    """
+
+    function: Callable[..., Any]
+    takes: tuple[str, ...]
+    method: str
+    over: str = field(default="", kw_only=True)
+    is_text: bool = field(default=False, kw_only=True)
+
+    NAMES: ClassVar[tuple[str, ...]] = ("takes",)
+    may_be_absent: ClassVar[bool] = True
+
+    def takes_ids(self) -> Iterator[TakenName]:
+        yield from (TakenName("takes", name, PLAIN, A_VALUE) for name in self.takes)
+
+    def kinds(self, over: Over) -> set[tuple[str, str]]:
+        return {("text", "")} if self.is_text else {("row", self.over)} if self.over else {("number", "")}
+
+    def runs_over(self, known: Mapping[str, str]) -> str | None:
+        return self.over or None
+
+    def run(self, calc: StepEngine) -> None:
+        taken = plain_code.taken(calc, self.takes)
+        found = calc.computed(self, taken)
+        if (
+            calc.count > 1
+            and np.shape(found)[:1] != (calc.count,)
+            and any(isinstance(each, np.ndarray) for each in taken)
+        ):
+            raise TypeError(f"{self.id} was given {calc.count} machines and has one value for all")
+        if self.is_text:
+            calc.values[self.id] = plain_code.texts(self, found, calc.count)
+            return
+        give = plain_code.row if self.over else plain_code.number
+        calc.values[self.id] = calc.existing(self, give(self, found, calc.count))
+
+    def items(self, page: StepPrinter) -> list[Item]:
+        calc, axis = page.calc, page.calc.axis.get(self.id)
+        if page.is_index(self.id):
+            return []  # from 0, of the part that the formulas are shown for, which is told by its name
+        if axis is not None:
+            return [] if page.has_tables(axis) else [page.table(self, [self.id])]
+        if calc[self.id].dtype == bool:
+            return [self.head() | answer(held=bool(calc[self.id][0, 0]))]
+        result = (
+            {"text": calc[self.id][0, 0], "unit": "1"}
+            if self.is_text
+            else page.result(self, page.value_at(self.id, None))
+        )
+        chosen = {"chosen": True} if self.lacks else {}  # in the place of an input that may be given
+        return [self.head() | {"type": "found", "relation": None, "method": self.method, "result": result} | chosen]

@@ -1,0 +1,103 @@
+"""One number of a curve: an extreme, a mean, an integral."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+
+from diecut_report.mechanism.steps.base import QuantityStep, ResultName
+from diecut_report.mechanism.steps.result_names import place_name
+from diecut_report.mechanism.steps.rooms import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.quantities.formatting import is_rounding
+from diecut_report.quantities.units import Kind, times
+from diecut_report.text.phrases import Phrase
+
+Operation = Literal["max", "min", "abs_max", "range", "mean", "rms", "integral"]
+SIGNS = {"max": (1.0,), "min": (-1.0,), "abs_max": (1.0, -1.0), "range": (1.0, -1.0)}
+SEARCHED = "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included"
+INTEGRATED = "Gauss–Legendre between the breakpoints, repeated with the doubled order"
+
+
+@dataclass(frozen=True, eq=False)
+class Reduction(QuantityStep):
+    """Declare one number of the curve ``of`` over its abscissa; extremes also give their place, the quantity ``ID_at``."""
+
+    operation: Operation
+    of: str
+
+    NAMES: ClassVar[tuple[str, ...]] = ("of",)
+
+    def takes_ids(self) -> Iterator[TakenName]:
+        yield TakenName("of", self.of, *A_CURVE)
+
+    @property
+    def is_extreme(self) -> bool:
+        """Return whether it has a place."""
+        return self.operation in ("max", "min", "abs_max")
+
+    def beside(self) -> Iterator[ResultName]:
+        if self.is_extreme:
+            yield ResultName(place_name(self.id), self.id, "place")
+
+    @property
+    def asked_curve(self) -> str:
+        return self.of
+
+    @property
+    def signs(self) -> tuple[float, ...]:
+        return SIGNS.get(self.operation, ())
+
+    def same_units(self, units: Callable[[str], set[str]], names: Names) -> Iterator[tuple[str, set[str]]]:
+        if self.operation != "integral":
+            yield self.of, units(self.of)
+
+    def dimensions(self, of: Callable[[str], Kind], axis: Callable[[str], str]) -> Iterator[tuple[str, Any, Any]]:
+        if self.operation == "integral":
+            yield Phrase("the integral of {curve}", curve=self.of), times(of(self.of), of(axis(self.of))), of(self.id)
+        else:
+            yield self.of, of(self.of), of(self.id)
+
+    def run(self, calc: StepEngine) -> None:
+        if not self.signs:
+            self._integrate(calc)
+            return
+        ends = [calc.extreme(self.of, sign) for sign in self.signs]
+        calc.prove(
+            self,
+            np.maximum.reduce([calc.beyond(self.of, end[0], sign) for end, sign in zip(ends, self.signs, strict=True)]),
+        )
+        if self.operation == "range":
+            calc.values[self.id] = ends[0][0] - ends[1][0]
+            return
+        upper = np.abs(ends[0][0]) >= np.abs(ends[-1][0]) * (1 - calc.SAME_HEIGHT)  # of two alike the upper one
+        value, place, middle = (np.where(upper, top, bottom) for top, bottom in zip(ends[0], ends[-1], strict=True))
+        calc.values[self.id] = np.maximum(*(np.abs(end[0]) for end in ends)) if self.operation == "abs_max" else value
+        calc.values[place_name(self.id)], calc.middle[place_name(self.id)] = place, middle
+
+    def _integrate(self, calc: StepEngine) -> None:
+        whole, residual = calc.integral(self.of, 2 if self.operation == "rms" else 1)
+        calc.prove(self, residual)
+        mean = whole / calc.domains[calc.axis[self.of]].period
+        calc.values[self.id] = {"integral": whole, "mean": mean, "rms": np.sqrt(np.abs(mean))}[self.operation]
+
+    def items(self, page: StepPrinter) -> list[Item]:
+        calc, axis, value = page.calc, page.calc.axis[self.of], page.value_at(self.id, None)
+        item = self.head() | {
+            "type": "reduction",
+            "of": calc.step_or_input(self.of).symbol,
+            "result": page.result(self, value),
+        }
+        item |= {
+            "operation": self.operation,
+            "method": SEARCHED if self.signs else INTEGRATED,
+            "residual": page.residual(self),
+        }
+        if self.operation == "integral":
+            item["over"] = page.place(axis, float(calc.domains[axis].period_of(None)[0, 0]))
+        place = place_name(self.id)
+        if place in calc.values and not is_rounding(value, self.unit):
+            item["at"] = page.place(axis, float(calc[place][0, 0]))
+        return [item]

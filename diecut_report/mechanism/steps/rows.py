@@ -1,0 +1,125 @@
+"""Rows over repeated parts: their total, their neighbours, what runs along them, one of their parts."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator, Mapping
+from dataclasses import dataclass, field
+from typing import Any, ClassVar, Literal
+
+import numpy as np
+
+from diecut_report.mechanism.steps.base import Over, QuantityStep
+from diecut_report.mechanism.steps.rooms import A_ROW, Impossible, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.text.phrases import Counted, Phrase, phrase
+
+NEUTRAL = {"sum": 0.0, "product": 1.0, "min": np.inf, "max": -np.inf}
+REDUCE: dict[str, Any] = {"sum": np.sum, "product": np.prod, "min": np.min, "max": np.max}
+AMONG = "over the parts with {symbol} > 0"
+
+
+class RowStep(QuantityStep):
+    """Declare the base of what is made of the row ``of`` over repeated parts."""
+
+    of: str
+
+    NAMES: ClassVar[tuple[str, ...]] = ("of",)
+
+    def takes_ids(self) -> Iterator[TakenName]:
+        yield TakenName("of", self.of, *A_ROW)
+
+    def same_units(self, units: Callable[[str], set[str]], names: Names) -> Iterator[tuple[str, set[str]]]:
+        if getattr(self, "operation", "") == "product":
+            yield phrase("a product of any number of parts"), {"1"}
+        yield self.of, units(self.of)
+
+    def reduced(self, page: StepPrinter, operation: str, method: str) -> list[Item]:
+        """Return the number that is made of the row."""
+        result = page.result(self, float(page.calc[self.id][0, 0]))
+        item = {"type": "reduction", "of": page.calc.step_or_input(self.of).symbol, "result": result}
+        return [self.head() | item | {"operation": operation, "method": method}]
+
+
+class RowAlong(RowStep):
+    """Declare the base of a row that is made of a row."""
+
+    def kinds(self, over: Over) -> set[tuple[str, str]]:
+        return over(self.of) or {("row", "")}
+
+    def runs_over(self, known: Mapping[str, str]) -> str:
+        return known[self.of]
+
+
+@dataclass(frozen=True, eq=False)
+class Total(RowStep):
+    """Declare the sum, product, least or greatest over repeated parts; with ``among`` (a row) only over the parts where that is above zero."""
+
+    operation: Literal["sum", "product", "min", "max"]
+    of: str
+    among: str = field(default="", kw_only=True)
+
+    NAMES: ClassVar[tuple[str, ...]] = ("of", "among")
+
+    def takes_ids(self) -> Iterator[TakenName]:
+        yield from super().takes_ids()
+        yield from (TakenName("among", self.among, *A_ROW),) if self.among else ()
+
+    def run(self, calc: StepEngine) -> None:
+        parts = calc[self.of]
+        if self.among:
+            parts = np.where(calc[self.among] > 0, parts, NEUTRAL[self.operation])
+        calc.values[self.id] = REDUCE[self.operation](parts, axis=1, keepdims=True)
+
+    def items(self, page: StepPrinter) -> list[Item]:
+        counted = Phrase(AMONG, symbol=page.calc.step_or_input(self.among).symbol) if self.among else ""
+        return self.reduced(page, self.operation, counted)
+
+
+@dataclass(frozen=True, eq=False)
+class Neighbour(RowAlong):
+    """Declare a row: the value of the next part (``shift`` = 1) or of the one before (-1), the parts standing in a closed loop.
+
+    It is not printed by itself: it stands beside its part in the table of what takes it.
+    """
+
+    of: str
+    shift: Literal[1, -1] = 1
+
+    def run(self, calc: StepEngine) -> None:
+        calc.values[self.id] = np.roll(calc[self.of], -self.shift, axis=1)
+
+
+@dataclass(frozen=True, eq=False)
+class Running(RowAlong):
+    """Declare a row: sum or product of a row's parts from the first one up to each."""
+
+    operation: Literal["sum", "product"]
+    of: str
+
+    def run(self, calc: StepEngine) -> None:
+        cumulate: Any = np.cumsum if self.operation == "sum" else np.cumprod
+        calc.values[self.id] = cumulate(calc[self.of], axis=1)
+
+    def items(self, page: StepPrinter) -> list[Item]:
+        return [page.table(self, [self.of, self.id])]
+
+
+@dataclass(frozen=True, eq=False)
+class Part(RowStep):
+    """Declare the value of one part of a row: the first (``index`` = 0), the last (-1)."""
+
+    of: str
+    index: int
+
+    def run(self, calc: StepEngine) -> None:
+        count = calc[self.of].shape[1]
+        if not -count <= self.index < count:
+            number = self.index + 1 if self.index >= 0 else -self.index
+            which = Phrase("part {number}" if self.index >= 0 else "part {number} from the last", number=number)
+            many = Counted(count, "{n} entry", "{n} entries")
+            words = "has {count}, but {description} ({id}) takes {which}; add what is missing"
+            filled = Phrase(words, count=many, description=self.description, id=self.id, which=which)
+            raise Impossible([(calc.axis[self.of], filled)])
+        calc.values[self.id] = calc[self.of][:, [self.index]]
+
+    def items(self, page: StepPrinter) -> list[Item]:
+        return self.reduced(page, "last" if self.index < 0 else "first", "")

@@ -1,0 +1,74 @@
+"""What steps have in common that take from tables and series: a number given in their place, the key to change, units, sources."""
+
+from __future__ import annotations
+
+from collections.abc import Iterator
+from typing import Any
+
+from diecut_report.errors import nearest
+from diecut_report.mechanism.inputs import Quantity
+from diecut_report.mechanism.steps.rooms import Calculated, Item, Names, StepPrinter
+from diecut_report.quantities.units import unit
+from diecut_report.standards.tables import StandardSeries, StandardTable, sources_told
+from diecut_report.text.phrases import Phrase, phrase
+
+SAME = 1e-9  # relative difference within which a number is that of a row
+MOST_DIGITS = 17
+AS_GIVEN = "as given"
+
+
+def given_of(calc: Calculated, given: str) -> Any:
+    """Return what is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
+    return calc.inputs.get(given.removeprefix("inputs.")) if given else None
+
+
+def as_given(page: StepPrinter, given: str) -> Item:
+    """Return what is printed of a number that is given in place of the table's."""
+    declared = page.calc.meta[given.removeprefix("inputs.")]
+    return {"type": "lookup", "by": declared.description, "key": AS_GIVEN, "table": ""}
+
+
+def sources(taken_from: object) -> Item:
+    """Return the published tables that agree on a standard value."""
+    return {"note": sources_told(taken_from)} if isinstance(taken_from, StandardTable | StandardSeries) else {}
+
+
+def given_faults(step: Any, other: str, taken: str, names: Names) -> Iterator[str]:
+    """Yield what is wrong with the input that may stand in the table's place; ``other`` is the field of what is ``taken``."""
+    path = step.given.removeprefix("inputs.")
+    if not path:
+        return
+    keys = names.world.keys
+    key, by = keys.get(path), keys.get(taken)
+    if key is None or not isinstance(key.meta, Quantity):
+        known = [name for name, each in keys.items() if isinstance(each.meta, Quantity)]
+        words = "given is {path}, which is not an input that is a number{nearest}"
+        yield Phrase(words, path=path, nearest=nearest(path, known))
+        return
+    if not key.may_be_absent or key.has_default:
+        yield Phrase("given is {path}, which is always there; let it be float | None with the default None", path=path)
+    if by is not None and by.home != key.home:
+        words = "given is {path}, {other} is {second}; both must be inputs of one list, or of none"
+        yield Phrase(words, path=path, other=other, second=by.path)
+    yield from unlike_units(Phrase("given, {path},", path=path), key.meta.unit, step.all_units, phrase("the step"))
+
+
+def key_faults(key: str, taken: str, names: Names, is_covered: bool, beyond: str) -> Iterator[str]:
+    """Yield what is wrong with the input at which an impossible machine is told."""
+    inputs = [name for name in names.world.keys if "=" not in name]
+    if key and key not in inputs:
+        yield Phrase("key is {key}, which is not an input{nearest}", key=key, nearest=nearest(key, inputs))
+    elif not key and taken.removeprefix("inputs.") not in inputs and not is_covered:
+        words = 'takes {taken}, which may {where}; name the input that is then to be changed, key="…"'
+        yield Phrase(words, taken=taken, where=beyond)
+
+
+def unlike_units(what: str, own: str, wanted: set[str], whose: str) -> Iterator[str]:
+    """Yield the unit of a table beside that of the quantity it is for; unknown units are told where they are declared."""
+    try:
+        is_alike = not wanted or any(unit(each).kind == unit(own).kind for each in wanted)
+    except ValueError:
+        return
+    if not is_alike:
+        words = "{what} is in {own}, {whose} in {units}"
+        yield Phrase(words, what=what, own=own, whose=whose, units=", ".join(sorted(wanted)))

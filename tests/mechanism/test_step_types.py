@@ -1,0 +1,144 @@
+"""A new type of step is one class and a line of the register: declared, checked, calculated, printed and stored without any other room knowing it."""
+
+from __future__ import annotations
+
+from collections.abc import Callable, Iterator
+from dataclasses import dataclass
+from typing import Annotated, Any, ClassVar
+
+import numpy as np
+import pytest
+
+from diecut_report.api import POINTS, Chapter, Inputs, Mechanism, Quantity
+from diecut_report.declaration import faults
+from diecut_report.declaration.formula_checks import check_mechanism
+from diecut_report.machine.printing.items import section_items
+from diecut_report.machine.steps.run import calculate
+from diecut_report.mechanism.names import Misdeclared
+from diecut_report.mechanism.steps import Step, Steps, form
+from diecut_report.mechanism.steps.base import QuantityStep
+from diecut_report.mechanism.steps.rooms import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.quantities.units import Kind
+from diecut_report.results.mechanism import mechanism_results
+
+
+@dataclass(frozen=True, eq=False)
+class Swing(QuantityStep):
+    """Declare how far a curve goes beyond ``level`` times its mean: a type of step that the program does not have."""
+
+    of: str
+    level: float = 1.0
+
+    NAMES: ClassVar[tuple[str, ...]] = ("of",)
+
+    def takes_ids(self) -> Iterator[TakenName]:
+        yield TakenName("of", self.of, *A_CURVE)
+
+    @property
+    def asked_curve(self) -> str:
+        return self.of
+
+    @property
+    def signs(self) -> tuple[float, ...]:
+        return (1.0,)
+
+    def shape_faults(self) -> Iterator[str]:
+        if self.level <= 0:
+            yield "has a level that is not above zero"
+
+    def same_units(self, units: Callable[[str], set[str]], names: Names) -> Iterator[tuple[str, set[str]]]:
+        yield self.of, units(self.of)
+
+    def dimensions(self, of: Callable[[str], Kind], axis: Callable[[str], str]) -> Iterator[tuple[str, Any, Any]]:
+        yield self.of, of(self.of), of(self.id)
+
+    def run(self, calc: StepEngine) -> None:
+        integral, residual = calc.integral(self.of, 1)
+        calc.prove(self, residual)
+        mean = integral / calc.domains[calc.axis[self.of]].period
+        calc.values[self.id] = calc.extreme(self.of, 1.0)[0] - self.level * mean
+
+    def items(self, page: StepPrinter) -> list[Item]:
+        result = page.result(self, page.value_at(self.id, None))
+        return [self.head() | {"type": "found", "relation": None, "method": "top less mean", "result": result}]
+
+
+class WiderSteps(Steps):
+    """The register with one line more."""
+
+    swing = form(Swing)
+
+
+class WiderChapter(WiderSteps, Chapter):
+    """A chapter with the call of the new type."""
+
+
+class Wave(Inputs):
+    size: Annotated[float, Quantity("a", "mm", "Size of the wave", gt=0)] = 20
+    n_points: Annotated[int, POINTS] = 36
+
+
+def wave(unit: str = "mm", of: str = "height", level: float = 1.0) -> Mechanism:
+    chapter = WiderChapter("Wave")
+    chapter.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
+    chapter.value("height", "h", "mm", "Height", lambda size, angle: size * (3 + np.sin(angle)))
+    chapter.swing("swing", "s", unit, "Swing", of, level)
+    chapter.value("doubled", "s_2", "mm", "Twice the swing", lambda swing: 2 * swing)
+    return Mechanism(kind="wave", version="1", title="Wave", summary="", inputs=Wave, chapters=(chapter,))
+
+
+def test_it_is_checked_as_others_are() -> None:
+    assert faults(wave()) == []
+    check_mechanism(wave())
+
+
+@pytest.mark.parametrize(
+    ("made", "words"),
+    [
+        (wave(unit="kN"), "step swing: is in kN, height in mm"),
+        (wave(of="size"), "step swing: of is size, a number; a curve over an abscissa is wanted"),
+        (wave(of="lost"), "step swing: takes lost, which nothing gives"),
+        (wave(level=0.0), "step swing: has a level that is not above zero"),
+    ],
+)
+def test_what_is_wrong_with_it_is_told_with_its_place(made: Mechanism, words: str) -> None:
+    told = list(map(str, faults(made)))
+    assert any(words in line and line.startswith("test_step_types.py:") for line in told), told
+
+
+def test_its_call_knows_the_options_of_all_steps() -> None:
+    with pytest.raises(Misdeclared, match=r"swing has no option neds \(did you mean 'needs'\?\)"):
+        WiderChapter("Wave").swing("swing", "s", "mm", "Swing", "height", neds=("size",))  # type: ignore[call-arg]
+    with pytest.raises(TypeError, match=r"swing\(\) missing 1 required positional argument: 'of'"):
+        WiderChapter("Wave").swing("swing", "s", "mm", "Swing")  # type: ignore[call-arg]
+
+
+def test_it_is_calculated_of_one_machine_and_of_many() -> None:
+    assert calculate(wave(), {"size": 0.02, "n_points": 36})["swing"] == pytest.approx(0.02)
+    many = calculate(wave(), {"size": np.linspace(0.01, 0.1, 12), "n_points": 36}, 12)
+    assert many["doubled"][:, 0] == pytest.approx(2 * np.linspace(0.01, 0.1, 12))
+
+
+def test_it_is_printed_and_stored() -> None:
+    calc = calculate(wave(), {"size": 0.02, "n_points": 36})
+    [chapter] = section_items(calc)
+    assert {item["id"]: item["result"]["text"] for item in chapter["items"] if item["id"] == "swing"} == {"swing": "20"}
+    assert mechanism_results(calc, {})["outputs"]["swing"]["value"] == pytest.approx(0.02)
+
+
+def test_each_type_has_a_call_of_its_name() -> None:
+    calls = {name: call.__name__ for name, call in vars(Steps).items() if hasattr(call, "__signature__")}
+    assert len(calls) > 30 and calls == {name: name for name in calls}
+
+
+def test_names_of_fields_are_fields_of_each_type() -> None:
+    for each in _types(Step):
+        fields = getattr(each, "__dataclass_fields__", {})
+        if "__dataclass_fields__" in vars(each):
+            assert {name for name in (*each.NAMES, *each.FORMULAS, *each.IDS) if name not in fields} == set(), each
+
+
+def _types(base: type[Step]) -> Iterator[type[Step]]:
+    for each in base.__subclasses__():
+        yield each
+        yield from _types(each)
