@@ -28,8 +28,8 @@ from diecut_report.text.phrases import Phrase, phrase
 
 _OPEN = re.compile(r"/proc/(self|thread-self|\d+)(/task/\d+)?/fd")
 TEMPORARY = ".*.part"  # what a killed run may leave behind
-NOTHING = phrase("Nothing was written; make room and try again.")
-KEPT = phrase("What was finished is kept: make room, then continue with --resume.")
+NOTHING = phrase("Nothing was written; free disk space and try again.")
+KEPT = phrase("Finished parts are kept: free disk space, then continue with --resume.")
 STORED = ("study.json", "study.yaml", "base.yaml", "tables", "variants")  # in the folder of a study
 
 MISNAMED = {
@@ -98,7 +98,7 @@ def _steps(place: Path) -> Iterator[Path]:
 
 def _refuse_config(path: Path, keep: Path | None) -> None:
     if keep is not None and path.exists() and keep.exists() and path.samefile(keep):
-        raise refusal("This is the configuration itself; it would be written over. Choose another place with -o.", path)
+        raise refusal("This is the configuration itself and would be overwritten. Choose another place with -o.", path)
 
 
 def _refuse_stored(place: Path) -> None:
@@ -231,10 +231,10 @@ def reason(error: OSError, after: str = NOTHING) -> str:
     elsewhere = phrase("Choose another place with -o.")
     reasons = {
         errno.ENOSPC: Phrase("the disk is full. {after}", after=after),
-        errno.EDQUOT: Phrase("the quota of the disk is used up. {after}", after=after),
+        errno.EDQUOT: Phrase("the disk quota is exhausted. {after}", after=after),
         errno.EACCES: Phrase("writing is not permitted there. {elsewhere}", elsewhere=elsewhere),
         errno.EPERM: Phrase("writing is not permitted there. {elsewhere}", elsewhere=elsewhere),
-        errno.EROFS: Phrase("the disk can only be read. {elsewhere}", elsewhere=elsewhere),
+        errno.EROFS: Phrase("the disk is read-only. {elsewhere}", elsewhere=elsewhere),
         errno.ENOTDIR: Phrase("a part of the path is a file, not a folder. {elsewhere}", elsewhere=elsewhere),
         errno.EEXIST: Phrase("a part of the path is a file, not a folder. {elsewhere}", elsewhere=elsewhere),
         errno.EISDIR: Phrase("a folder has this name. {elsewhere}", elsewhere=elsewhere),
@@ -299,7 +299,11 @@ def room(folder: Path | None = None) -> Iterator[None]:
 
     Without a folder they go where temporary files go.
     """
-    after = KEPT if folder else phrase("Nothing was written; make room, or name another folder in the variable TMPDIR.")
+    after = (
+        KEPT
+        if folder
+        else phrase("Nothing was written; free disk space, or name another folder in the variable TMPDIR.")
+    )
     folder = folder or _for_temporary_files()
     before = tempfile.tempdir
     with in_words(folder, after), tempfile.TemporaryDirectory(prefix=".", suffix=".part", dir=folder) as place:
@@ -315,7 +319,7 @@ def _for_temporary_files() -> Path:
         return Path(tempfile.gettempdir())
     except OSError as error:  # none of those that the system names can be written
         words = phrase(
-            "There is no folder for temporary files with room in it. Make room, or name one in the variable TMPDIR."
+            "No folder for temporary files has enough free space. Free some, or name a folder in the variable TMPDIR."
         )
         raise Unwritable(Problem(words)) from error
 

@@ -198,13 +198,13 @@ def _calculated(
     run = compute(config, lambda name: tell(Phrase("calculating {name}", name=name)))
     results = document(run)
     if weigh is not None and results.summary.assumed and not run.errors:
-        tell(phrase("weighing what is assumed"))
+        tell(phrase("evaluating the influence of assumed inputs"))
         results = results.with_(summary=results.summary.with_(moves=weigh(config, results)))
     if follow is not None and results.summary.fail and not run.errors:
-        tell(phrase("following the advice"))
+        tell(phrase("applying the advice"))
         results = results.with_(summary=results.summary.with_(advice=follow(config, results)))
     if matter is not None and config.report.influence and not run.errors:
-        tell(phrase("changing one input after the other"))
+        tell(phrase("varying one input at a time"))
         results = results.with_(influence=matter(config) or {})
     return results, (*run.errors.values(), *_failed(results)), _places(run)
 
@@ -253,7 +253,7 @@ def rendered(
         with template_limits.bounded(house):
             contents |= {"html": encoded(rendering.html())} if "html" in formats else {}
             if "pdf" in formats:
-                tell(phrase("setting the pages"))
+                tell(phrase("typesetting the pages"))
                 contents["pdf"] = _pdf(rendering)
         if "docx" in formats:
             tell(phrase("writing the document"))

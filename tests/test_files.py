@@ -125,7 +125,7 @@ def test_a_full_disk_leaves_all_names_of_a_file_as_they_were(tmp_path: Path, mon
         raise OSError(errno.ENOSPC, "full")
 
     monkeypatch.setattr(os, "posix_fallocate", full)
-    with pytest.raises(Unwritable, match=r"the disk is full\. Nothing was written; make room and try again"):
+    with pytest.raises(Unwritable, match=r"the disk is full\. Nothing was written; free disk space and try again"):
         files.write(path, b"after, and longer", instead_of=hashlib.sha256(b"before").hexdigest())
     assert other.read_bytes() == b"before" and len(list(tmp_path.iterdir())) == 2
 

@@ -33,8 +33,8 @@ CONSTANTS = (root.METHOD, reduction.SEARCHED, reduction.INTEGRATED, Accumulated.
              table_steps.AS_GIVEN, rows.AMONG, mechanism.IDLE,
              origins.FOLLOWS, *checks.MISSING.values(), document.LEFT_OUT, "a curve", "yes", "no", "Name", "No.", "Place",
              "does not apply to this machine", "It refers to what is not there, which gives no results.", "not calculated",
-             "Taken at {place}, in the middle of its smooth piece; it is the same in all of it.",
-             "There is no {kinds}, or there are several: name one by {key}.")  # fmt: skip
+             "Shown at {place}, in the middle of its smooth piece, over which it is constant.",
+             "There is no {kinds}, or there are several: select one with {key}.")  # fmt: skip
 """Texts that the program holds outside of the calls that make phrases."""
 MAKING = dict.fromkeys(("Phrase", "phrase", "say", "refusal", "UnitError", "ConditionError", "Unresolved", "PictureFault", "StandardFault"),
                        0) | {".problem": 1, ".absent": 1}  # fmt: skip

@@ -83,12 +83,13 @@ class JudgedFile:
 @click.argument("files", metavar="FILE…", nargs=-1, required=True, type=path_of)
 @click.option(
     "--dry-run", "tries", is_flag=True,
-    help="Of a study also its size, columns and first variant, what the constraints drop, and the time and room that a few variants take.",
+    help="For a study also report its size, columns and first variant, what the constraints exclude, and the time and disk space measured on a "
+         "few variants.",
 )  # fmt: skip
 @json_option
 @common
 def validate(files: tuple[Path, ...], tries: bool, form: str, folders: tuple[Path, ...], quiet: bool) -> int:
-    """Judge configurations and studies without their results; all problems of all files are reported."""
+    """Validate configurations and studies without calculating; all problems of all files are reported."""
     discovery, judged = Discovery(folders), []
     for file in files:
         found = _judged(file, discovery, tries)
@@ -258,13 +259,13 @@ HEADS = (
     metavar="LIST",
     default="html,pdf,xlsx,csv,json",
     callback=formats_of(lambda: FORMATS),
-    help="Of the summary: html,pdf,xlsx,csv,json or some of them.",
+    help="Formats of the summary: html,pdf,xlsx,csv,json or some of them.",
 )
 @jobs_option
 @common
 def check(given: tuple[Path, ...], folder: Path | None, strict: bool, formats: list[str], jobs: int | None,
           folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
-    """Calculate many machines, side by side, and show a table of their verdicts; folders are searched for configurations."""
+    """Calculate many machines and show a table of their verdicts; folders are searched for configurations."""
     from diecut_report.study.machines import compared, configurations, in_language
 
     known = configurations(given)
@@ -357,9 +358,9 @@ def counted(counts: Mapping[str, int]) -> list[str]:
 def _passed_over(files: Mapping[Path, str]) -> Iterator[str]:
     """Tell which files of folders are not configurations, the first of many."""
     for path, why in islice(files.items(), MAX_SHOWN):
-        yield Phrase("{file}: passed over: {why}", file=path, why=why)
+        yield Phrase("{file}: skipped: {why}", file=path, why=why)
     if len(files) > MAX_SHOWN:
-        yield Counted(len(files) - MAX_SHOWN, "and {n} more file is passed over", "and {n} more files are passed over")
+        yield Counted(len(files) - MAX_SHOWN, "and {n} more file is skipped", "and {n} more files are skipped")
 
 
 def _code(verdicts: Sequence[Verdict], strict: bool) -> int:

@@ -53,7 +53,7 @@ if TYPE_CHECKING:
 
 corrected_option = click.option(
     "-o", "target", metavar="FILE", type=path_of,
-    help="Write the configuration with what was found: all else in it stays as it is, byte for byte.",
+    help="Write the configuration with the result: everything else in it is preserved byte for byte.",
 )  # fmt: skip
 
 
@@ -70,9 +70,9 @@ corrected_option = click.option(
     "--for", "asked", required=True, metavar="QUESTION",
     help='`drive.crank_torque_peak = 400 N*m`, with = <= or >=; or `max press.productivity`, `min cylinder.mass`.',
 )  # fmt: skip
-@click.option("--from", "low", metavar="VALUE", help="Where the range begins (default: a third of today's value).")
-@click.option("--to", "high", metavar="VALUE", help="Where it ends (default: three times today's value).")
-@click.option("--passing", is_flag=True, help="Only values with which no check fails.")
+@click.option("--from", "low", metavar="VALUE", help="Lower end of the range (default: a third of the present value).")
+@click.option("--to", "high", metavar="VALUE", help="Upper end of the range (default: three times the present value).")
+@click.option("--passing", is_flag=True, help="Only values for which no check fails.")
 @corrected_option
 @json_option
 @common
@@ -80,9 +80,9 @@ def solve(
     config: Path, vary: str, asked: str, low: str | None, high: str | None, passing: bool, target: Path | None,
     form: str, folders: tuple[Path, ...], quiet: bool,
 ) -> int:  # fmt: skip
-    """Find the values of one input with which a machine does what is asked, the nearest to today's first.
+    """Find the values of one input that satisfy a requirement, the nearest to the present value first.
 
-    Exit codes: 0 found, 1 out of reach (the nearest value is told), 2 bad input, 3 a plugin broke.
+    Exit codes: 0 found, 1 out of reach (the nearest value is reported), 2 bad input, 3 a plugin broke.
     """
     from diecut_report.design.answers import data, lines, question
     from diecut_report.design.inputs import design_input, with_input
@@ -110,14 +110,14 @@ def solve(
     help="An input that may be changed; may be given several times (default: sizes, angles and ratios).",
 )
 @click.option(
-    "--keep", metavar="INPUT", shell_complete=output.inputs, multiple=True, help="An input that stays as it is."
+    "--keep", metavar="INPUT", shell_complete=output.inputs, multiple=True, help="An input to keep unchanged."
 )
 @click.option(
     "--most",
     metavar="N",
     type=click.IntRange(1),
     default=10_000,
-    help="Machines that are calculated at most (default: 10000).",
+    help="Maximum number of machines to calculate (default: 10000).",
 )
 @corrected_option
 @json_option
@@ -126,7 +126,7 @@ def advise(
     config: Path, free: tuple[str, ...], keep: tuple[str, ...], most: int, target: Path | None, form: str,
     folders: tuple[Path, ...], quiet: bool,
 ) -> int:  # fmt: skip
-    """Find the smallest changes with which no check fails: the advice of all checks tried together, then less and less.
+    """Find the smallest changes for which no check fails: the advice of all checks is tried together, then reduced.
 
     Exit codes: 0 a machine that passes was found (or passes already), 1 none was found, 2 bad input, 3 a plugin broke.
     """
@@ -162,32 +162,36 @@ def _share(_context: click.Context, _option: click.Parameter, percent: float) ->
     type=click.FloatRange(0, 100, min_open=True),
     callback=_share,
     default=10.0,
-    help="By how much each input is lowered and raised (default: 10).",
+    help="Percentage by which each input is decreased and increased (default: 10).",
 )
-@click.option("--defaults", is_flag=True, help="Change inputs that stand at their default too.")
+@click.option("--defaults", is_flag=True, help="Also vary inputs that have their default values.")
 @click.option(
     "--tolerance",
     "tolerances",
     metavar="INPUT=SIZE",
     shell_complete=output.inputs,
     multiple=True,
-    help="drive.crank_length=0.1 mm: an input that scatters by as much to both sides; may be given several times.",
+    help="drive.crank_length=0.1 mm: symmetric tolerance of an input; may be given several times.",
 )
 @click.option(
     "--distribution",
     type=click.Choice(["normal", "uniform"]),
     default="normal",
-    help="Of what scatters: normal (the tolerance is three standard deviations) or uniform.",
+    help="Distribution within the tolerances: normal (the tolerance is three standard deviations) or uniform.",
 )
 @click.option(
     "--count",
     metavar="N",
     type=click.IntRange(10, 1_000_000),
     default=1000,
-    help="Machines that are drawn (default: 1000).",
+    help="Number of random machines (default: 1000).",
 )
 @click.option(
-    "--seed", metavar="N", type=click.IntRange(0), default=1, help="Equal seeds draw equal machines (default: 1)."
+    "--seed",
+    metavar="N",
+    type=click.IntRange(0),
+    default=1,
+    help="Random seed; equal seeds give equal machines (default: 1).",
 )
 @target_option
 @click.option(
@@ -202,16 +206,16 @@ def influence(
     config: Path, names: tuple[str, ...], share: float, defaults: bool, tolerances: tuple[str, ...], distribution: Any, count: int, seed: int,
     target: Path | None, form: str, folders: tuple[Path, ...], quiet: bool,
 ) -> int:  # fmt: skip
-    """Tell what matters: how far each input moves the governing checks, and how probable it is that checks hold within tolerances.
+    """Report how strongly each input affects the governing checks, and the probability that checks pass within tolerances.
 
-    Exit codes: 0 told, 2 bad input, 3 a plugin broke.
+    Exit codes: 0 reported, 2 bad input, 3 a plugin broke.
     """
     from diecut_report.design.influence import by_input, data, lines, page, tornados, within_tolerances
 
     with Progress(quiet) as progress, without_output():
         loaded, _ = _loaded(config, folders, progress)
         sizes = by_input(_tolerance(loaded, each) for each in tolerances)
-        progress(phrase("changing one input after the other"))
+        progress(phrase("varying one input at a time"))
         found = tornados(loaded, names, share, sizes, defaults=defaults)
         progress(phrase("drawing machines within tolerances"))
         drawn = within_tolerances(loaded, sizes, distribution, count, seed) if sizes else None
@@ -251,7 +255,7 @@ def _wrong_tolerance(words: str) -> click.BadParameter:
 @json_option
 @common
 def where(name: str, config: Path, form: str, folders: tuple[Path, ...], quiet: bool) -> int:
-    """Tell where a number comes from: file and line of its formula, what it takes, its source, and the checks that compare it.
+    """Show where a number comes from: file and line of its formula, its inputs, its source, and the checks that use it.
 
     NAME is an output or value of the results file, `inputs.KEY` or `checks.ID`.
 
@@ -330,7 +334,7 @@ def _machines(_context: click.Context, _option: click.Parameter, given: str) -> 
 @click.command(cls=HelpfulCommand)
 @click.argument("study", required=False, type=path_of)
 @study_folder_option
-@click.option("--resume", metavar="DIR", type=path_of, help="Go on with the search of a folder where it ended.")
+@click.option("--resume", metavar="DIR", type=path_of, help="Resume the search of a folder where it stopped.")
 @click.option(
     "--report",
     "reports",
@@ -341,20 +345,20 @@ def _machines(_context: click.Context, _option: click.Parameter, given: str) -> 
 )
 @jobs_option
 @dask_option
-@click.option("--yes", is_flag=True, help="Calculate also a very large number of machines or reports.")
+@click.option("--yes", is_flag=True, help="Allow a very large number of machines or reports.")
 @click.option(
     "--format",
     "form",
     default="text",
     type=click.Choice(["text", "json", "csv"]),
-    help="Of what is shown: text (default), json, or csv of the whole front.",
+    help="Output format: text (default), json, or csv of the whole front.",
 )
 @common
 def optimise(study: Path | None, folder: Path | None, resume: Path | None, reports: list[str], jobs: int | None, dask: str | None, yes: bool,
              form: str, folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
-    """Find the best machines of a STUDY by its objectives: a search through what it varies, within its constraints.
+    """Find the best machines of a STUDY by its objectives: a search over its varied inputs, within its constraints.
 
-    Exit codes: 0 found, 1 no machine is allowed (what conflicts is told), 2 bad input, 3 a plugin broke, 130 stopped by Ctrl-C.
+    Exit codes: 0 found, 1 no machine is feasible (conflicts are reported), 2 bad input, 3 a plugin broke, 130 stopped by Ctrl-C.
     """
     from diecut_report.design.optimisation import command
     from diecut_report.study.command import Shown

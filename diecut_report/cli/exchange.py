@@ -84,7 +84,7 @@ def _last(carried: CarriedResults, found: Verification) -> str:
     if not found.holds:
         return say("Not everything agrees.")
     if found.pages is None and carried.form != "json":
-        return say("The results agree; what the pages show was not compared.")
+        return say("The results agree; the contents of the pages were not compared.")
     return say("Everything agrees.")
 
 
@@ -123,7 +123,7 @@ def _value(value: object) -> str:
 @here_option
 @common
 def extract(report: Path, folder: Path, folders: tuple[Path, ...], quiet: bool) -> int:
-    """Take the configuration and the results out of a REPORT (PDF or HTML), as NAME.yaml and NAME.json."""
+    """Extract the configuration and the results from a REPORT (PDF or HTML), as NAME.yaml and NAME.json."""
     from diecut_report.exchange.carried import extract as taken
 
     files = taken(report, folder)
@@ -136,13 +136,13 @@ previous_option = click.option(
     "--previous",
     metavar="FILE",
     type=path_of,
-    help="The former report, results, configuration or variant, since which the report shows changes.",
+    help="The previous report, results, configuration or variant to which the changes shown in the report refer.",
 )
 
 
 @click.command(cls=HelpfulCommand)
 @click.argument("report", metavar="REPORT", type=path_of)
-@click.option("--numbers", is_flag=True, help="Hold the results alone against it, not the pages, which takes longer.")
+@click.option("--numbers", is_flag=True, help="Compare only the results, not the pages, which takes longer.")
 @click.option("--trust", metavar="FILE", type=path_of, help="Certificates (PEM) to which signatures must lead.")
 @previous_option
 @template_option
@@ -151,7 +151,7 @@ def verify(
     report: Path, numbers: bool, trust: Path | None, previous: Path | None, house: HouseStyle | None, folders: tuple[Path, ...],
     quiet: bool,
 ) -> int:  # fmt: skip
-    """Calculate a REPORT (PDF, HTML or results) again; tell whether all that it shows comes out again, and who has signed it.
+    """Recalculate a REPORT (PDF, HTML or results); report whether everything it shows is reproduced, and who has signed it.
 
     Exit codes: 0 everything agrees, 1 something does not or is not proved, 2 the report cannot be read, 3 a plugin broke.
     """
@@ -204,7 +204,7 @@ def render(
     folders: tuple[Path, ...],
     quiet: bool,
 ) -> int:
-    """Make the report of a results file again, without calculating."""
+    """Regenerate the report from a results file, without calculating."""
     from diecut_report.exchange.rendering import render as rendered
     from diecut_report.exchange.rendering import told
 
@@ -226,12 +226,12 @@ def render(
     "--format", "form", default="text", type=click.Choice(["text", "json", "html"]), help="text, json or html."
 )
 @target_option
-@click.option("--all", "all_rows", is_flag=True, help="Show as text all that changed, not the most important alone.")
+@click.option("--all", "all_rows", is_flag=True, help="As text, show all changes, not only the most important ones.")
 @common
 def diff(
     old: Path, new: Path, form: str, target: Path | None, all_rows: bool, folders: tuple[Path, ...], quiet: bool
 ) -> int:
-    """Tell what changed from OLD to NEW: each a configuration, a results file, a report, or a variant of a study (DIR#N).
+    """Report what changed from OLD to NEW: each a configuration, a results file, a report, or a variant of a study (DIR#N).
 
     Exit codes are those of NEW: 0 no check fails, 1 a check fails, 3 a plugin broke; 2 where one of the two cannot be read.
     """
@@ -275,9 +275,9 @@ PASSWORD = "DIECUT_REPORT_KEY_PASSWORD"  # the name of a variable of the environ
 )
 @click.option("--cert", metavar="FILE", type=path_of, help="Its certificate (PEM), where it is not in the same file.")
 @click.option(
-    "--field", metavar="NAME", help="prepared, checked, norm_checked or approved; needed where several are free."
+    "--field", metavar="NAME", help="prepared, checked, norm_checked or approved; required if several are free."
 )
-@click.option("--reason", metavar="TEXT", help="Why you sign, as the signature tells it.")
+@click.option("--reason", metavar="TEXT", help="Reason for signing, as stored in the signature.")
 @click.option("-o", "target", metavar="FILE", type=path_of, help="Write to another file (default: REPORT.pdf itself).")
 @previous_option
 @template_option
@@ -286,9 +286,9 @@ def sign(
     report: Path, key: Path, cert: Path | None, field: str | None, reason: str | None, target: Path | None, previous: Path | None,
     house: HouseStyle | None, folders: tuple[Path, ...], quiet: bool,
 ) -> int:  # fmt: skip
-    """Sign a report in one of its fields. What is there stays as it is, byte for byte, so that others can sign it too.
+    """Sign a report in one of its fields. Existing content is preserved byte for byte, so that others can sign it too.
 
-    It is verified before: a report that is not as this program makes it is not signed.
+    The report is verified first: one that differs from what this program produces is not signed.
     The key's password is asked for, or taken from the variable DIECUT_REPORT_KEY_PASSWORD.
     """
     from diecut_report.exchange.signing import Signing
@@ -298,7 +298,7 @@ def sign(
     out = target or report
     for given in filter(None, (key, cert)):
         if out.exists() and given.exists() and out.samefile(given):
-            words = "This is the key or its certificate; it would be written over. Choose another file with -o."
+            words = "This is the key or its certificate and would be overwritten. Choose another file with -o."
             raise refusal(words, out)
 
     def require_as_made() -> None:
@@ -306,7 +306,8 @@ def sign(
         if not found.holds:
             faults = [line for line in verification_lines(carried, found) if line.startswith(("✗", " "))]
             words = phrase(
-                "The report is not as this program makes it, and is not signed. What `diecut-report verify` finds:"
+                "The report differs from what this program produces, and was not signed. Findings of `diecut-report "
+                "verify`:"
             )
             raise UserError([Problem(words, str(report)), *map(Problem, faults)])
 

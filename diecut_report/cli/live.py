@@ -34,9 +34,9 @@ if TYPE_CHECKING:
 @click.option("--open/--no-open", "is_opened", default=True, help="Whether to open the page in the browser.")
 @common
 def live(config: Path, port: int, is_opened: bool, folders: tuple[Path, ...], quiet: bool) -> int:
-    """Show CONFIG as a page that follows each change of the file, and change its numbers there. Ends with Ctrl-C.
+    """Show CONFIG as a live page that follows each change of the file and lets you edit its numbers. End with Ctrl-C.
 
-    The page is for this machine alone: its address holds a secret.
+    The page is only for this machine: its address contains a secret.
     """
     _require_file(config)
     from diecut_report.live.server import LiveApplication, serve
@@ -95,7 +95,7 @@ def _door(folder: str, address: str) -> str:
 def _require_file(config: Path) -> None:
     """Refuse what cannot be followed: standard input, a folder, a file that is not there, a study."""
     if config == DASH:
-        words = "The page follows a file that is saved again and again; standard input is read once. Name a file."
+        words = "The live page follows a file that is saved repeatedly; standard input is read only once. Name a file."
         raise refusal(words, SHOWN)
     if os.path.isdir(config):
         raise refusal("This is a folder. Name one configuration in it.", config)
@@ -123,4 +123,4 @@ def _of_project(session: LiveSession) -> str | None:
 def _unwritten(session: LiveSession) -> Iterator[str]:
     """Return what was changed on the page and not written, so that nothing is lost."""
     for name, typed in session.edits.items():
-        yield say("changed on the page and not written: {name}: {typed}", name=name, typed=typed)
+        yield say("changed on the page but not saved: {name}: {typed}", name=name, typed=typed)

@@ -217,21 +217,22 @@ def program() -> None:
     "--previous",
     metavar="FILE",
     type=path_of,
-    help="A former report, results, configuration or variant: mark what changed since, and add a page of it.",
+    help="A previous report, results file, configuration or variant: mark changes since then and add a page of "
+    "changes.",
 )
 @click.option(
     "--detail",
     metavar="DETAIL",
     shell_complete=output.one_of(lambda: DETAILS),
     callback=read_detail,
-    help="brief, standard or full, in place of the configuration's (standard).",
+    help="brief, standard or full, overriding the configuration (standard).",
 )
 @click.option(
     "--only",
     metavar="NAMES",
     shell_complete=output.mechanisms,
     callback=read_mechanisms,
-    help="Report these mechanisms alone: drive,clutch.",
+    help="Report only these mechanisms: drive,clutch.",
 )
 @template_option
 @strict_option
@@ -265,7 +266,7 @@ def report(
 @strict_option
 @common
 def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:
-    """Calculate, and give the results file alone."""
+    """Calculate and write only the results file."""
     from diecut_report import pipeline
 
     # a plugin that prints does not spoil the JSON

@@ -102,7 +102,7 @@ json_option = click.option(
     "--format", "form", default="text", type=click.Choice(["text", "json"]), help="text (default) or json."
 )
 target_option = click.option(
-    "-o", "target", metavar="FILE", type=output_file, help="Write to a file, not to standard output."
+    "-o", "target", metavar="FILE", type=output_file, help="Write to a file instead of standard output."
 )
 here_option = click.option(
     "-o", "folder", metavar="DIR", default=".", type=path_of, help="Where to write (default: here)."
@@ -111,7 +111,7 @@ study_folder_option = click.option(
     "-o", "folder", metavar="DIR", type=path_of, help="Where to write (default: the study's name, here)."
 )
 jobs_option = click.option(
-    "--jobs", metavar="N", type=click.IntRange(1), help="Processes (default: one for each core)."
+    "--jobs", metavar="N", type=click.IntRange(1), help="Number of processes (default: one per core)."
 )
 dask_option = click.option(
     "--dask", metavar="ADDRESS", help="Calculate on the cluster of this Dask scheduler, such as tcp://host:8786."
@@ -119,7 +119,7 @@ dask_option = click.option(
 strict_option = click.option(
     "--strict",
     is_flag=True,
-    help="Exit with 1 for warnings too, for checks that are not made because a key is not given, and for a plugin with faults.",
+    help="Exit with 1 also for warnings, for checks that are not performed because a key is not given, and for a plugin with faults.",
 )
 template_option = click.option(
     "--template",
@@ -163,7 +163,7 @@ def from_standard_input() -> Tree:
     """Return what standard input holds; UserError where the command has read it already."""
     meta = click.get_current_context().meta
     if meta.get(READ):
-        raise refusal("Standard input has been read already; give - once, and files beside it.", SHOWN)
+        raise refusal("Standard input has already been read; give - only once, with files beside it.", SHOWN)
     meta[READ] = True
     return load_standard_input()
 
@@ -171,7 +171,7 @@ def from_standard_input() -> Tree:
 def results_folder(study: Path | None, folder: Path | None, resume: Path | None) -> Path:
     """Return the folder of a study's results; UsageError where it cannot be told."""
     if resume is not None and folder is not None:
-        raise click.UsageError(say("--resume names the folder; leave -o out."))
+        raise click.UsageError(say("--resume names the folder; omit -o."))
     if study is None and resume is None:
         raise click.UsageError(say("Name a study file, or a folder to continue with --resume DIR."))
     if study == DASH:

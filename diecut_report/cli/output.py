@@ -210,7 +210,7 @@ def _language(context: click.Context, _: click.Parameter, given: str | None) -> 
 
 def language_option(command: Command) -> Command:
     """Give a command the option ``--language``, of which it need not know."""
-    words = "Language of messages and documents (en, uk), in place of the environment's and the project's."
+    words = "Language of messages and documents (en, uk), overriding the environment and the project."
     option = click.option(
         "--language",
         metavar="LANGUAGE",
@@ -499,8 +499,8 @@ def _with_words(context: click.Context, _: click.Parameter, folders: tuple[Path,
 def common(command: Command) -> Command:
     """The options that every command has."""
     folders = click.option("--plugins", "folders", metavar="DIR", multiple=True, type=click.Path(path_type=Path), callback=_with_words,
-                           help="A folder with plugins: programs that run with your rights; may be given several times.")  # fmt: skip
+                           help="A folder with plugins (programs that run with your permissions); may be given several times.")  # fmt: skip
     quiet = click.option(
-        "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are reported all the same."
+        "--quiet", is_flag=True, help="Show neither progress nor a summary; errors are still reported."
     )
     return folders(quiet(language_option(command)))

@@ -46,10 +46,10 @@ SHOWN = "<stdout>"
 @click.command("new", cls=HelpfulCommand)
 @click.argument("kinds", metavar="[KIND[:NAME] …]", nargs=-1, shell_complete=output.kinds)
 @click.option("-o", "file", metavar="FILE", type=output_file, help="Where to write (default: standard output).")
-@click.option("--force", is_flag=True, help="Write over a file that is there.")
+@click.option("--force", is_flag=True, help="Overwrite an existing file.")
 @common
 def new(kinds: tuple[str, ...], file: Path | None, force: bool, folders: tuple[Path, ...], quiet: bool) -> int:
-    """Begin a configuration with mechanisms of these kinds: example values, wired to each other, each key explained.
+    """Start a configuration with mechanisms of these kinds: example values, linked to each other, with each key explained.
 
     Without a KIND the kinds are listed. `clutch:main` names a mechanism; a kind may be given several times.
 
@@ -89,7 +89,7 @@ def _list(discovery: Discovery) -> int:
 def _refuse_existing(file: Path) -> None:
     """Refuse a file that is there; a device or a pipe is written into."""
     if os.path.lexists(file) and (file.is_file() or file.is_symlink() or file.is_dir()):
-        raise refusal("This is there already; it is not written over. Choose another name, or give --force.", file)
+        raise refusal("This already exists and is not overwritten. Choose another name, or give --force.", file)
 
 
 def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]:
@@ -112,12 +112,12 @@ def _draft_messages(made: Draft, file: Path | None) -> Iterator[str]:
     """Say what was added, and what no example tells."""
     if file is not None:
         yield Phrase("written: {path}", path=file)
-    words = "added: {name} ({kind}), which {asking} cannot be without"
+    words = "added: {name} ({kind}), required by {asking}"
     yield from (say(words, name=new.name, kind=new.kind, asking=asking.name) for new, asking in made.added)
     if made.guessed:
-        yield say("no example tells these; put in your own: {keys}", keys=", ".join(made.guessed))
+        yield say("no example values exist for these; enter your own: {keys}", keys=", ".join(made.guessed))
     if made.open:
-        yield say("these take a reference that only you can give: {keys}", keys=", ".join(made.open))
+        yield say("these need a reference that you must provide: {keys}", keys=", ".join(made.open))
 
 
 # The commands of plugin authors: ``new-plugin`` writes a mechanism that runs, ``check-plugin`` judges one.
@@ -135,20 +135,20 @@ STATES = {
 @click.command("new-plugin", cls=HelpfulCommand)
 @click.argument("name")
 @click.option(
-    "--package", "as_package", is_flag=True, help="As a package that can be installed, not a folder for --plugins."
+    "--package", "as_package", is_flag=True, help="Create an installable package instead of a folder for --plugins."
 )
 @click.option(
     "--like",
     default="parts",
     type=click.Choice(["parts", "motion", "selection"]),
-    help="What to begin with: parts (default; a list of springs), motion (curves over a turn), selection (a size of a table).",
+    help="Template: parts (default; a list of springs), motion (curves over a turn), selection (a size from a table).",
 )
-@click.option("-o", "folder", metavar="DIR", type=path_of, help="The folder to make (default: NAME, here).")
+@click.option("-o", "folder", metavar="DIR", type=path_of, help="Folder to create (default: NAME, here).")
 @common
 def new_plugin(
     name: str, as_package: bool, like: str, folder: Path | None, folders: tuple[Path, ...], quiet: bool
 ) -> int:
-    """Write a new mechanism of the kind NAME that runs: plugin, tests, example, study, words."""
+    """Create a working mechanism of the kind NAME: plugin, tests, example, study, translations."""
     from diecut_report.testing.scaffold import scaffold
 
     home = folder or Path(name)
@@ -162,7 +162,7 @@ def new_plugin(
 @click.command("check-plugin", cls=HelpfulCommand, epilog=output.OF_PLUGIN)
 @click.argument("plugin", metavar="NAME|DIR")
 @click.option("--config", "configs", metavar="FILE", multiple=True, type=path_of,
-              help="A configuration with machines to try it on (default: those that lie beside the plugin).")  # fmt: skip
+              help="A configuration with machines to test it on (default: those beside the plugin).")  # fmt: skip
 @json_option
 @click.option(
     "-o",
@@ -174,20 +174,20 @@ def new_plugin(
 @click.option(
     "--write-po",
     is_flag=True,
-    help="Write the texts that its catalogues lack into them, to be translated, and mark those that nothing says any more.",
+    help="Add missing texts to its catalogues for translation, and mark unused ones as obsolete.",
 )
 @click.option(
     "--open",
     "is_shown",
     is_flag=True,
-    help="Show the rendered chapter in the browser; without -o from a folder for what is temporary.",
+    help="Show the rendered chapter in the browser; without -o from a temporary folder.",
 )
 @common
 def check_plugin(
     plugin: str, configs: tuple[Path, ...], form: str, page: Path | None, write_po: bool, is_shown: bool, folders: tuple[Path, ...],
     quiet: bool,
 ) -> int:  # fmt: skip
-    """Try a plugin on the rules of its contract; with -o set its chapter as HTML. Ends with 1 where a rule is broken."""
+    """Test a plugin against the rules of its contract; with -o render its chapter as HTML. Ends with 1 where a rule is broken."""
     from diecut_report.testing.plugin_page import CheckedPlugin, checked, meant
 
     known, kinds = meant(plugin, folders)

@@ -60,9 +60,7 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
 @click.command(cls=HelpfulCommand, epilog=output.OF_STUDY)
 @click.argument("study", required=False, type=path_of)
 @study_folder_option
-@click.option(
-    "--resume", metavar="DIR", type=path_of, help="Continue the run of a folder; what is finished there is kept."
-)
+@click.option("--resume", metavar="DIR", type=path_of, help="Continue the run in a folder; finished parts are kept.")
 @jobs_option
 @dask_option
 @click.option(
@@ -78,9 +76,9 @@ def _numbers(_context: click.Context, _option: click.Parameter, given: str) -> l
     "chunk_limit",
     metavar="SECONDS",
     type=click.FloatRange(0),
-    help="How long a part of the study may take before it is ended as in error; 0 for any time (default: many times as long as others).",
+    help="Time limit for a part of the study, after which it is ended as an error; 0 for none (default: many times the duration of other parts).",
 )
-@click.option("--yes", is_flag=True, help="Calculate also a very large sample without being asked.")
+@click.option("--yes", is_flag=True, help="Calculate even a very large sample without confirmation.")
 @strict_option
 @common
 def batch(study: Path | None, folder: Path | None, resume: Path | None, jobs: int | None, dask: str | None, formats: list[str],
@@ -113,12 +111,14 @@ def _outcome_lines(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     counts = outcome.counts
     yield Phrase("written: {path}, with summary.html and summary.pdf", path=target) + _reports(target)
     named = counted({status: counts.get(status, 0) for status in ("pass", "warn", "fail", "error")})
-    more = "; the constraints drop {n} more of the sample{why}"
+    more = "; the constraints exclude {n} more of the sample{why}"
     dropped = Phrase(more, n=counts["dropped"], why=why_dropped(counts)) if counts.get("dropped") else ""
     count = counts.get("variants", 0)
     yield (Counted(count, "{n} variant: ", "{n} variants: "), *(named or [phrase("none")]), dropped, ".")
     if outcome.has_none:
-        yield phrase("No variant can exist; the summary tells why. Vary other inputs, or within other limits.")
+        yield phrase(
+            "No variant is feasible; the summary gives the reasons. Vary other inputs, or within other limits."
+        )
     is_broken = outcome.broken if outcome.is_broken else {}
     yield from told_plugins({kind: why for kind, why in outcome.slow.items() if kind not in is_broken}, {}, {}, {})
     yield from outcome.notes
@@ -128,7 +128,7 @@ def told_plugins(
     slow: Mapping[str, str], broken: Mapping[str, str], doubtful: Mapping[str, Any], broken_reports: Mapping[str, str]
 ) -> Iterator[str]:
     """Tell by their kinds which plugins were slow, which broke, and which have faults in their formulas."""
-    words = "{kind} cannot take arrays and was calculated variant by variant, which is slow: {why}"
+    words = "{kind} does not support arrays and was calculated variant by variant, which is slow: {why}"
     yield from (Phrase(words, kind=kind, why=phrase(why)) for kind, why in slow.items())
     broke = "plugin {kind} broke; variants that it broke for are in error, the others are kept: {why}"
     yield from (Phrase(broke, kind=repr(kind), why=phrase(why)) for kind, why in broken.items())
@@ -149,17 +149,19 @@ def _reports(target: Path) -> str:
 @click.option(
     "--where", metavar="CONDITION", help="Such as \"drive.crank_torque_peak < '40 N*m' and status = 'pass'\"."
 )
-@click.option("--sort", metavar="COLUMN", help="Sort by a column, -COLUMN downwards.")
-@click.option("--top", metavar="N", type=click.IntRange(1), help="So many variants (default: 20 in a table, else all).")
-@click.option("--pick", metavar="LIST", callback=_numbers, default="", help="These variants alone, such as 3, 17, 205.")
+@click.option("--sort", metavar="COLUMN", help="Sort by a column; -COLUMN for descending order.")
+@click.option(
+    "--top", metavar="N", type=click.IntRange(1), help="Number of variants (default: 20 in a table, otherwise all)."
+)
+@click.option("--pick", metavar="LIST", callback=_numbers, default="", help="Only these variants, such as 3, 17, 205.")
 @click.option(
     "--columns",
     metavar="LIST",
     callback=lambda _, __, given: split(given) or None,
     default="",
-    help="These columns alone, parted by commas.",
+    help="Only these columns, separated by commas.",
 )
-@click.option("--transpose", is_flag=True, help="A line for each quantity, a column for each variant: a comparison.")
+@click.option("--transpose", is_flag=True, help="Compare variants: one row per quantity, one column per variant.")
 @click.option(
     "--format",
     "form",
@@ -169,17 +171,15 @@ def _reports(target: Path) -> str:
 )
 @click.option("-o", "file", metavar="FILE", type=output_file, help="Where to write (default: standard output).")
 @click.option(
-    "--units", type=click.Choice(UNITS), help="Of csv, json and xlsx: si (default), or display as in a table."
+    "--units", type=click.Choice(UNITS), help="Units in csv, json and xlsx: si (default), or display as in a table."
 )
-@click.option("--separator", type=click.Choice(SEPARATORS), help="Between the values of csv.")
-@click.option(
-    "--decimal", type=click.Choice(DECIMALS), help="The decimal sign of csv; comma wants another --separator."
-)
+@click.option("--separator", type=click.Choice(SEPARATORS), help="Separator of the values in csv.")
+@click.option("--decimal", type=click.Choice(DECIMALS), help="Decimal sign in csv; comma requires another --separator.")
 @common
 def variants(folder: Path, where: str | None, sort: str | None, top: int | None, pick: list[int], columns: list[str] | None,
              transpose: bool, form: str, file: Path | None, units: str | None, separator: str | None, decimal: str | None,
              folders: tuple[Path, ...], quiet: bool) -> int:  # fmt: skip
-    """Ask the stored variants of a study."""
+    """Query the stored variants of a study."""
     from diecut_report.files import write_all
     from diecut_report.study.analysis.answers import Notation, answer, answer_workbook, unfinished
     from diecut_report.study.analysis.query import Request
@@ -212,7 +212,7 @@ def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) 
     takes = {"csv": tuple(given), "json": ("--units",), "xlsx": ("--units",), "table": ()}[form]
     for option, value in given.items():
         if value is not None and option not in takes:
-            raise click.UsageError(say("{option} says nothing for {form}.", option=option, form=form))
+            raise click.UsageError(say("{option} does not apply to {form}.", option=option, form=form))
     if form == "xlsx" and file is None:
         raise click.UsageError(say("A workbook is written to a file; name it with -o FILE."))
 
@@ -220,10 +220,10 @@ def _refuse_idle(form: str, file: Path | None, given: Mapping[str, str | None]) 
 @click.command(cls=HelpfulCommand)
 @click.argument("variant", metavar="DIR#N")
 @click.option("-o", "file", metavar="FILE", type=path_of, required=True, help="Where to write the configuration.")
-@click.option("--digits", metavar="N", type=click.IntRange(1, 15), help="Round its values to so many digits.")
+@click.option("--digits", metavar="N", type=click.IntRange(1, 15), help="Round its values to this number of digits.")
 @common
 def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...], quiet: bool) -> int:
-    """Take a variant of a study for a configuration of its own: the study's base with that variant's values, comments kept."""
+    """Write a variant of a study as a configuration: the study's base with that variant's values, comments kept."""
     from diecut_report.config.plugins import Discovery
     from diecut_report.files import write_all
     from diecut_report.study.analysis.variant_config import taken_config
@@ -247,6 +247,6 @@ def take(variant: str, file: Path, digits: int | None, folders: tuple[Path, ...]
         }
         tell([say("written: {file}; in the study: {status}, governed by {check}", **judged)])
         missing = {name: copy for name, copy in found.beside.items() if not (file.parent / name).exists()}
-        words = "it names {name}, which is sought beside it; the study keeps a copy: {copy}"
+        words = "it names {name}, which is looked up beside it; the study keeps a copy: {copy}"
         tell(say(words, name=name, copy=copy) for name, copy in missing.items())
     return PASSED

@@ -48,10 +48,10 @@ def lacking(catalogues: Catalogues, kinds: Iterable[str]) -> list[str]:
 def _lacking(kind: str, catalogues: Catalogues) -> str:
     own, language = catalogues.of(kind), catalogues.language
     if own is None:
-        words = "The plugin of {kind} has no catalogue locale/{language}.po; its words stay English."
+        words = "The plugin of {kind} has no catalogue locale/{language}.po; its texts remain in English."
         return Phrase(words, kind=repr(kind), language=language)
     count = len(own.missing)
-    words = "The catalogue {language} of the plugin of {kind} lacks {count} texts, which stay English."
+    words = "The catalogue {language} of the plugin of {kind} lacks {count} texts, which remain in English."
     return Phrase(words, language=language, kind=repr(kind), count=count) if count else ""
 
 
@@ -62,7 +62,7 @@ def _incomplete(kind: str, catalogues: Catalogues, file: str) -> Problem | None:
     texts = [] if own is None else own.missing
     told = "; ".join(f"“{text}”" for text in texts[:MAX_LISTED])
     words = Phrase(
-        "Reports in {language} wait for the words of {kind}: {count} texts are not translated ({told} …). ",
+        "Reports in {language} need a translation of {kind}: {count} texts are not translated ({told} …). ",
         language=catalogues.language,
         kind=kind,
         count=len(texts),

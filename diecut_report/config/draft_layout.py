@@ -325,7 +325,7 @@ class BlockWriter:
         elif isinstance(meta, Quantity) and meta.press is not None:
             yield say("default: from {path}", path=meta.press.path)
         elif titles := self._checks(f"{path}{name}"):
-            yield say("without it not checked: {titles}", titles=", ".join(titles))
+            yield say("if omitted, not checked: {titles}", titles=", ".join(titles))
 
     def _checks(self, key: str) -> list[str]:
         """The titles of the checks that a key alone makes possible: it is their limit, or one of their needs."""

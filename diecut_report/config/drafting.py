@@ -45,7 +45,7 @@ def chosen(given: Sequence[str], discovery: Discovery) -> list[Drafted]:
     parts = [text.partition(":") for text in given]
     found, problems = [], list(_wrong_names([name for _, colon, name in parts if colon]))
     if len(given) > MAX_MECHANISMS:
-        words = "{count} mechanisms are asked for; a configuration has at most {most}."
+        words = "{count} mechanisms are requested; a configuration has at most {most}."
         problems.append(Problem(Phrase(words, count=len(given), most=MAX_MECHANISMS)))
     names = {name for _, _, name in parts if name}
     for kind, _, name in parts:
@@ -211,7 +211,7 @@ def _wire(
             try:
                 mechanism = discovery.mechanism(need.kind)
             except (UnknownKind, DuplicateKind) as fault:
-                words = Phrase("its example cannot be without another mechanism: {fault}", fault=str(fault))
+                words = Phrase("its example requires another mechanism: {fault}", fault=str(fault))
                 raise PluginError(words, asking.kind, asking.name) from fault
             new = Drafted(_free_name(mechanism, [each.name for each in mechanisms]), need.kind, mechanism)
             mechanisms.append(new)
@@ -255,9 +255,9 @@ def _head(mechanisms: Sequence[Drafted], file: str) -> Iterator[str]:
     yield ""
     language = {} if spoken_language() == SOURCE_LANGUAGE else {"language": spoken_language()}
     project = {"title": say("New press"), **language}
-    yield from _block("project", say("what the title block of every sheet says"), Project, project)
+    yield from _block("project", say("title block of each sheet"), Project, project)
     yield ""
-    yield from _block("press", say("what all mechanisms share"), Press, _press(mechanisms))
+    yield from _block("press", say("data shared by all mechanisms"), Press, _press(mechanisms))
 
 
 def _press(mechanisms: Sequence[Drafted]) -> dict[str, Any]:

@@ -363,7 +363,7 @@ class Instance:
         """Why there is no such phase, in words."""
         if phase in self.declared_steps:
             missing = self.missing(phase)
-            words = "is there only if {missing} is given in {name}."
+            words = "exists only if {missing} is given in {name}."
             return Phrase(words, missing=" and ".join(missing), name=self.name)
         name, known = phase.removeprefix(PREFIX), [each.removeprefix(PREFIX) for each in self.phases]
         near = nearest(name, known)

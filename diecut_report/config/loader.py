@@ -56,7 +56,7 @@ def overruled(
 
 def typed_beside(reference: str) -> Phrase:
     """Return what is wrong with a value in place of what a block that compares others takes from them."""
-    words = "is typed here, but {reference} has it, which is compared with the others. Remove the key; change it there."
+    words = "is given here, but {reference} already provides it and is compared with the others. Remove the key; change it there."
     return Phrase(words, reference=reference)
 
 
@@ -330,7 +330,7 @@ class _ConfigReader:
             assert instance is not None
             _ = instance.given, instance.results
         except Exception as cause:
-            raise PluginError(Phrase("it declares what cannot be: {said}", said=said(cause)), kind) from cause
+            raise PluginError(Phrase("its declarations are invalid: {said}", said=said(cause)), kind) from cause
 
 
 def _of_instance(error: DuplicateKind | PluginError, kind: str, name: str) -> PluginError:

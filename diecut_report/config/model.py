@@ -26,7 +26,7 @@ class Revision(Block):
     """A line of the revision table."""
 
     revision: Annotated[str, Text("Mark of the revision")]
-    date: Annotated[str | None, Text("Date, as it is to be printed")] = None
+    date: Annotated[str | None, Text("Date as printed")] = None
     description: Annotated[str | None, Text("What was changed")] = None
     by: Annotated[str | None, Text("Who made the revision")] = None
 
@@ -37,14 +37,14 @@ class Project(Block):
     title: Annotated[str, Text("Title of the document"), Field(min_length=1)]
     document_number: Annotated[str | None, Text("Number of the document")] = None
     revision: Annotated[str | None, Text("Mark of this revision")] = None
-    date: Annotated[str | None, Text("Date, as it is to be printed; without it none is printed")] = None
+    date: Annotated[str | None, Text("Date as printed; if omitted, none is printed")] = None
     organisation: Annotated[str | None, Text("Organisation")] = None
     prepared_by: Annotated[str | None, Text("Who prepared the document")] = None
     checked_by: Annotated[str | None, Text("Who checked it")] = None
     norm_checked_by: Annotated[str | None, Text("Who checked it against the standards (norm control)")] = None
     approved_by: Annotated[str | None, Text("Who approved it")] = None
     department: Annotated[str | None, Text("Responsible department")] = None
-    document_type: Annotated[str | None, Text("Type of the document; without it “Calculation”")] = None
+    document_type: Annotated[str | None, Text("Type of the document; default: “Calculation”")] = None
     revisions: Annotated[list[Revision], Text("Revisions so far"), Field(default_factory=list)]
     language: Annotated[Literal["en", "uk"], Text("Language of the report"), AfterValidator(known)] = "en"
 

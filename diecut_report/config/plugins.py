@@ -188,7 +188,7 @@ def refuse_other_contract(file: Callable[[], Path]) -> None:
     if found and int(found[1]) != CONTRACT:
         words = "it is written for contract {needed}, this program ({version}) has contract {own}; "
         newer = phrase("install a newer version of diecut-report")
-        older = phrase("take a newer version of the plugin")
+        older = phrase("use a newer version of the plugin")
         told = Phrase(words, needed=found[1], version=__version__, own=str(CONTRACT))
         raise OtherContract(told + (newer if int(found[1]) > CONTRACT else older))
 
@@ -336,10 +336,10 @@ def _judge_declarations(origin: Origin, mechanism: Mechanism) -> None:
     try:
         found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
     except Exception as cause:
-        words = Phrase("what {told} declares cannot be read: {said}", told=origin.label, said=said(cause))
+        words = Phrase("the declarations of {told} cannot be read: {said}", told=origin.label, said=said(cause))
         raise PluginError(words, origin.kind) from cause
     if found:
-        head = Phrase("{told} declares what cannot be", told=origin.label)
+        head = Phrase("{told} has invalid declarations", told=origin.label)
         lines = joined([head, found[0]], ": ") if len(found) == 1 else joined([head + ":", *found], "\n  ")
         raise PluginError(lines, origin.kind)
     for each in (mechanism, *(comparison.mechanism for comparison in mechanism.comparisons)):

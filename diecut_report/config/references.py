@@ -331,8 +331,8 @@ def _loop_problem(instances: Mapping[str, Instance | None], links: Mapping[Node,
 
 ANCHOR = re.compile(r"&\S+\s+")
 EXPRESSION = phrase(
-    "holds ${…}, a reference or an expression, and is not written over; change what it refers to, "
-    "or write a number there first"
+    "holds ${…}, a reference or an expression, and is not overwritten; change what it refers to, or write a number "
+    "there first"
 )
 SHARED = phrase(
     "stands in a part that an anchor (&) and its aliases (*) share, so that it cannot be changed "

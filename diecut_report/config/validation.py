@@ -241,8 +241,8 @@ class _Fault:
         home = declared(self.model, self.key[:-1]) if len(self.key) > 1 else self.model
         known = list(home.model_fields) if isinstance(home, type) else []
         if self.given is None and re.match(r"\d", str(self.key[-1])):
-            comma = phrase("YAML parts entries within braces at each comma; write a decimal point, as in {gap: 0.5 mm}")
-            return Phrase("is what a decimal comma leaves behind it: {words}.", words=comma)
+            comma = phrase("YAML separates entries in braces at each comma; write a decimal point, as in {gap: 0.5 mm}")
+            return Phrase("is the remainder of a number with a decimal comma: {words}.", words=comma)
         own = ["kind"] if self.place.root[:1] == ("mechanisms",) and len(self.key) == 1 else []
         words = "is an unknown key{nearest}. Known keys: {own}."
         return Phrase(words, nearest=nearest(str(self.key[-1]), known), own=", ".join(own + known))

@@ -312,7 +312,7 @@ class _Builder:
     def _count(self, more: int, event: Any, path: KeyPath) -> None:
         self._values += more
         if self._values > MAX_VALUES:
-            message = Phrase("More than {max_values} values, with those that aliases (*name) repeat. Write fewer.",
+            message = Phrase("More than {max_values} values, counting repetitions by aliases (*name). Write fewer.",
                 max_values=MAX_VALUES)  # fmt: skip
             self._stop(message, _position(event), path)
 

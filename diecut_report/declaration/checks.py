@@ -262,7 +262,7 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
     yield from _names_of_parts(names, check)
     made = _when(names, check)
     if not made:
-        yield phrase("is never made: what it needs and what it compares is never given together")
+        yield phrase("is never performed: what it needs and what it compares are never given together")
     parts = OF_PARTS if any(names.kinds(name) == {"row"} for name in sides) else ()
     wrong_names = (text for when in made for text in unprintable(names, check.consequence, when, parts))
     yield from dict.fromkeys(Phrase("the consequence names {text}", text=text) for text in wrong_names)

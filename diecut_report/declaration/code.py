@@ -146,11 +146,11 @@ def _of_loops(tree: ast.Module, node: ast.AST) -> Iterator[ast.Name]:
 
 
 def _fault(file: Path, where: ast.expr, what: str, name: str) -> Fault:
-    words = "asks {what} ({code}), so that equal inputs give unlike results; take it as an input, or read a table when the module is loaded"
+    words = "uses {what} ({code}), so that equal inputs give different results; take it as an input, or read a table when the module is loaded"
     if what == END:
-        words = "ends the whole program ({code}), without a word to who uses it; raise Refusal(…), or an exception"
+        words = "ends the whole program ({code}) without a message to the user; raise Refusal(…), or an exception"
     if what == LEAVE:
-        words = "leaves the folder that the program works in ({code}), so that reports are written elsewhere; name files by their whole path"
+        words = "leaves the working folder of the program ({code}), so that reports are written elsewhere; name files by their absolute path"
     text = Phrase(words, what=what, code=ast.unparse(where))
     return Fault(f"{file}:{where.lineno}", Phrase("function {name}", name=name), text)
 

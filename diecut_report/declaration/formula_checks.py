@@ -51,8 +51,7 @@ def idle_inputs(mechanism: Mechanism) -> Iterator[str]:
         if not isinstance(meta, Text) and path not in used and path.rpartition(".")[2] not in told:
             place = Path(of_input(mechanism.inputs, path, mechanism.at)).name
             yield Phrase(
-                "{place}: input {path}: nothing takes it, so that it changes no result; take it in a step, or "
-                "remove it",
+                "{place}: input {path}: nothing uses it, so it affects no result; use it in a step, or remove it",
                 place=place,
                 path=path,
             )
@@ -255,7 +254,10 @@ def _idle_chapters(mechanism: Mechanism) -> Iterator[str]:
         if chapter.steps and all(isinstance(step, Value) for step in chapter.steps):
             used = asked | _taken_elsewhere(mechanism, chapter)
             if not any(step.id in used or written[step.id] > 1 for step in chapter.steps):
-                words = "{place}: chapter {title}: no check, key result, figure or other chapter takes what it gives; name the result that it is for in key_results, or check it"  # noqa: E501
+                words = (
+                    "{place}: chapter {title}: no check, key result, figure or other chapter uses its results; name its result in "
+                    "key_results, or check it"
+                )
                 yield Phrase(words, place=short(chapter.at), title=repr(chapter.title))
 
 

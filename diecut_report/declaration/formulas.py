@@ -27,7 +27,7 @@ def order_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for number, (_, step) in enumerate(mechanism.steps):
         when = names.when(number)
         if names.world.example(when) is None:
-            yield of_step(step, phrase("is never calculated: what it needs and lacks is never given together"))
+            yield of_step(step, phrase("is never calculated: what it needs and what it lacks are never given together"))
             continue
         if not isinstance(step, SilentStep) and not (step.symbol and step.description):
             yield of_step(step, phrase("has no symbol or no description"))

@@ -277,7 +277,7 @@ def mended(
     path, is_ended = _searched(MendingPath(run, inputs, _start(run, inputs, advice)), choices, tell)
     run = _machines(path)
     if path.passes:
-        tell(phrase("leaving out what is not needed"))
+        tell(phrase("removing unnecessary changes"))
         run.spent.most = math.inf  # what is found is not lost for want of a few more
         return _shortest(config, discovery, before, run, path.share)
     why = None
@@ -335,7 +335,7 @@ def _with_single_change(path: MendingPath, tell: Tell) -> MendingPath:
     changed = np.flatnonzero(path.share).tolist()
     if path.passes and len(changed) < 2:
         return path
-    tell(phrase("trying to change one input alone"))
+    tell(phrase("trying changes of a single input"))
     failing = {name.split(".")[0] for name in run(today[None]).failing(0)}
     among = changed if path.passes else range(len(path.inputs))
     among = [each for each in among if failing <= set(downstream(run.config, path.inputs[each].asked.instance))]
@@ -441,16 +441,19 @@ def lines(found: Mended) -> Iterator[str]:
         yield Phrase(words, check=found.before.governing or phrase("none"))
         return
     yield Counted(
-        len(failing), "{n} check fails today: {checks}", "{n} checks fail today: {checks}", checks=", ".join(failing)
+        len(failing),
+        "{n} check fails at present: {checks}",
+        "{n} checks fail at present: {checks}",
+        checks=", ".join(failing),
     )
     if found.machine is None:
         yield from _without(found)
         return
-    one = "with {n} change none fails, calculated as a machine of its own:"
-    yield Counted(len(found.changes), one, "with {n} changes none fails, calculated as a machine of its own:")
+    one = "with {n} change no check fails, recalculated as a single machine:"
+    yield Counted(len(found.changes), one, "with {n} changes no check fails, recalculated as a single machine:")
     width = max(len(each.name) for each in found.changes)
     yield from (_change(each, width) for each in found.changes)
-    words = "sum of the changes: {size} % of today's values; governing: {check}"
+    words = "total change: {size} % of the present values; governing: {check}"
     yield Phrase(
         words, size=localised(number_text(100 * found.size, 3)), check=found.machine.governing or phrase("none")
     )
@@ -487,40 +490,40 @@ def _said(typed: str) -> str:
 
 
 def _without(found: Mended) -> Iterator[Phrase]:
-    words = "none of the {machines} machines that were calculated with other values of the free inputs ({free}) passes"
+    words = "none of the {machines} machines calculated with other values of the free inputs ({free}) passes"
     if found.calculated:
         yield Phrase(words, machines=found.calculated, free=found.free)
     if found.is_ended:
-        yield phrase(
-            "that is as many as the search may calculate: it is not at its end; let it calculate more with --most"
-        )
+        yield phrase("the search stopped at its limit and has not converged; increase --most")
     if found.calculated and found.left:
-        one = "of the best of them {n} check fails: {checks}"
-        many = "of the best of them {n} checks fail: {checks}"
+        one = "in the best of them {n} check fails: {checks}"
+        many = "in the best of them {n} checks fail: {checks}"
         yield Counted(len(found.left), one, many, checks=", ".join(found.left))
     if found.conflict:
         yield from _advice_text_conflict(found.conflict)
     if found.untried:
         words = "not tried, as --free must name them, and then names all that may be changed: {names}"
         yield Phrase(words, names=", ".join(found.untried))
-    yield phrase("let more inputs be changed with --free, or change what the machine is made of")
+    yield phrase("allow more inputs to change with --free, or change the concept of the machine")
 
 
 def _advice_text_conflict(found: CheckConflict) -> Iterator[Phrase]:
     """What is proved of it, and what is not."""
     count, checks = len(found.checks), ", ".join(found.checks)
     if found.is_proved:
-        one = "proved: {checks} follows from none of the free inputs, and fails with all of their values"
-        many = "proved: {checks} follow from none of the free inputs, and fail with all of their values"
+        one = "proved: {checks} does not depend on any free input and fails for all of their values"
+        many = "proved: {checks} do not depend on any free input and fail for all of their values"
         yield Counted(count, one, many, checks=checks)
     elif count == 1:
-        yield Phrase("no machine was found in which {checks} holds; that there is none is not proved", checks=checks)
+        yield Phrase(
+            "no machine was found that satisfies {checks}; this does not prove that none exists", checks=checks
+        )
     elif found.is_least:
         yield Phrase(
-            "no machine was found in which these hold together; that there is none is not proved: {checks}",
+            "no machine was found that satisfies all of these; this does not prove that none exists: {checks}",
             checks=checks,
         )
-        yield phrase("with any one of them left out, the others hold in a machine that was calculated")
+        yield phrase("if any one of them is dropped, a calculated machine satisfies the others")
     else:
-        words = "no machine was found in which these hold together, of which not all may be needed for that: {checks}"
+        words = "no machine was found that satisfies all of these; a smaller set may conflict already: {checks}"
         yield Phrase(words, checks=checks)

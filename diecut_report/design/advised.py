@@ -203,7 +203,7 @@ class MendingPath:
         scale, tries = 1.0, 0
         while self.steps < STEPS and tries < TRIES and not (until_it_holds and self.passes):
             before, had_passed = self.merit, self.passes
-            tell(Phrase("mending: step {step}, failing checks: {n}", step=self.steps + 1, n=len(self.failing)))
+            tell(Phrase("correcting: step {step}, failing checks: {n}", step=self.steps + 1, n=len(self.failing)))
             self._step(scale)
             self.steps += 1
             least = SMALLEST if self.among is None else FEASIBLE

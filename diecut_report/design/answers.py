@@ -202,12 +202,16 @@ def lines(answer: Answer) -> Iterator[str]:
     design, asked, today = answer.design, answer.question.quantity, answer.design.today
     passing = phrase(" with no check failing") if answer.passing else ""
     reached = "" if math.isnan(answer.reached) else f", {asked.name} {localised(asked.told(answer.reached))}"
-    now = phrase("not given today") if today is None else Phrase("today {value}", value=localised(design.told(today)))
+    now = (
+        phrase("not given at present")
+        if today is None
+        else Phrase("at present {value}", value=localised(design.told(today)))
+    )
     words = "{question}{passing}, by {input} ({now}{reached})"
     yield Phrase(words, question=answer.question.told, passing=passing, input=design.name, now=now, reached=reached)
     yield from (_indented(line) for line in (_found(answer) if answer.found else _nearest(answer)))
     for place in answer.jumps:
-        jump = "  at {place} {asked} jumps over {value} and does not take that value"
+        jump = "  at {place} {asked} jumps past {value} without taking that value"
         yield Phrase(
             jump,
             place=localised(design.told(place)),
@@ -223,7 +227,7 @@ def _indented(line: str) -> Phrase:
 def _found(answer: Answer) -> Iterator[str]:
     design, asked, machine = answer.design, answer.question.quantity, answer.machine
     first = answer.found[0]
-    what = phrase("holds today already") if first.role == "today" else f"{design.name} = {first.typed}"
+    what = phrase("is already satisfied") if first.role == "today" else f"{design.name} = {first.typed}"
     yield Phrase(
         "{what}: {asked} is {value}{end}",
         what=what,
@@ -234,9 +238,9 @@ def _found(answer: Answer) -> Iterator[str]:
     if machine is not None:
         yield _verdict(machine, first)
     if first.beyond:
-        yield Phrase("just beyond it fails {checks}", checks=", ".join(first.beyond))
+        yield Phrase("just beyond it, these fail: {checks}", checks=", ".join(first.beyond))
     for low, high in answer.ranges:
-        yield Phrase("it holds from {low} to {high}", low=_side(low), high=_side(high))
+        yield Phrase("satisfied from {low} to {high}", low=_side(low), high=_side(high))
     if not answer.ranges:
         yield from _also(answer)
 
@@ -256,27 +260,27 @@ def _also(answer: Answer) -> Iterator[str]:
 
 
 def _side(found: FoundValue) -> str:
-    return Phrase("{value} (end of the search)", value=found.typed) if found.at_end else found.typed
+    return Phrase("{value} (end of the search range)", value=found.typed) if found.at_end else found.typed
 
 
 def _end(found: FoundValue) -> str:
-    return phrase(", at the end of the range that was searched") if found.at_end else ""
+    return phrase(", at the end of the search range") if found.at_end else ""
 
 
 def _verdict(machine: ProvedMachine, found: FoundValue) -> Phrase:
     """The machine that was calculated alone."""
     if not found.failing:
-        words = "calculated as a machine of its own: no check fails; governing: {check}"
+        words = "recalculated as a single machine: no check fails; governing: {check}"
         return Phrase(words, check=machine.governing or phrase("none"))
-    one = "calculated as a machine of its own: {n} check fails: {checks}"
-    many = "calculated as a machine of its own: {n} checks fail: {checks}"
+    one = "recalculated as a single machine: {n} check fails: {checks}"
+    many = "recalculated as a single machine: {n} checks fail: {checks}"
     return Counted(len(found.failing), one, many, checks=", ".join(found.failing))
 
 
 def _nearest(answer: Answer) -> Iterator[str]:
     design, asked, near = answer.design, answer.question.quantity, answer.nearest
     ends = {"low": localised(design.told(answer.low)), "high": localised(design.told(answer.high))}
-    yield Phrase("no value of {input} from {low} to {high} does", input=design.name, **ends)
+    yield Phrase("no value of {input} from {low} to {high} satisfies it", input=design.name, **ends)
     if near is not None:
         words = "nearest: {input} = {typed}, where {asked} is {value}{end}{fails}"
         value, fails = localised(asked.told(near.reached)), _fails(near)
@@ -284,8 +288,8 @@ def _nearest(answer: Answer) -> Iterator[str]:
             words, input=design.name, typed=near.typed, asked=asked.name, value=value, end=_end(near), fails=fails
         )
     if answer.always:
-        one = "whatever it is, {checks} fails: change another input first; `advise` looks for one"
-        many = "whatever it is, {checks} fail: change another input first; `advise` looks for one"
+        one = "at any value, {checks} fails: change another input first; `advise` looks for one"
+        many = "at any value, {checks} fail: change another input first; `advise` looks for one"
         yield Counted(len(answer.always), one, many, checks=", ".join(answer.always))
     elif near is not None:
         yield phrase("give another range with --from and --to, or change another input")

@@ -106,7 +106,7 @@ def tornados(
     numbers = [*given_numbers(config), *(standing if defaults else ())]
     inputs = [*tolerances, *(each for each in numbers if each.today and each.asked.path not in own)]
     if not inputs:
-        words = phrase("nothing is given as a number that is not zero, so nothing has an influence.")
+        words = phrase("no input is given as a non-zero number, so none has an influence.")
         raise UserError(Problem(words, config.tree.file))
     ends = [_ends(each, tolerances.get(each) or _step(each, share)) for each in inputs]
     asked = list({each.column: each for each in (quantity(config, name) for name in names)}.values())
@@ -134,13 +134,13 @@ def by_input(sizes: Iterable[tuple[DesignInput, float]]) -> dict[DesignInput, fl
 def require_scatter(design: DesignInput) -> None:
     """Refuse a tolerance of what does not scatter: a whole number, or one without a value today."""
     if design.is_whole or design.today is None:
-        words = "{input} is a whole number or has no value today, so that it has no tolerance."
+        words = "{input} is a whole number or has no value at present, so it cannot have a tolerance."
         raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
 
 
 def _require_value(config: Config, made: VariedMachines, asked: AskedNumber) -> None:
     if not np.isfinite(made.values(asked.column)[0]):
-        words = "{asked} has no value today: an input that it needs is not given, or the check is not made."
+        words = "{asked} has no value at present: an input that it needs is not given, or the check is not performed."
         raise UserError(Problem(Phrase(words, asked=asked.name), config.tree.file, path="--of"))
 
 
@@ -286,7 +286,7 @@ def lines(found: Sequence[Tornado], tolerances: Tolerances | None, option: str =
 
 def _influence_text_tornado(found: Tornado) -> Iterator[Phrase]:
     asked = found.asked
-    yield Phrase("{asked}, today {value}", asked=asked.name, value=localised(asked.told(found.today, 4)))
+    yield Phrase("{asked}, at present {value}", asked=asked.name, value=localised(asked.told(found.today, 4)))
     bars = found.bars[:SHOWN]
     width = max((len(each.design.name) for each in bars), default=0)
     for each in bars:
@@ -299,21 +299,21 @@ def _influence_text_tornado(found: Tornado) -> Iterator[Phrase]:
             "  {input}  {low} … {high}: {first} … {second}", input=each.design.name.ljust(width), **ends, **gives
         )
     more = len(found.bars) - len(bars)
-    rest = [Phrase("{n} more move it less", n=more)] if more else []
-    rest += [Phrase("{n} do not move it", n=found.still)] if found.still else []
-    yield Phrase("  {rest}", rest=joined(rest, ", ") or phrase("no other input moves it"))
+    rest = [Phrase("{n} more have a smaller effect", n=more)] if more else []
+    rest += [Phrase("{n} have no effect", n=found.still)] if found.still else []
+    yield Phrase("  {rest}", rest=joined(rest, ", ") or phrase("no other input has an effect"))
 
 
 def _left_out(found: Sequence[Tornado], option: str) -> Iterator[Phrase]:
     """How many inputs nobody gave, so that they were not changed."""
     if left := max((each.at_default for each in found), default=0):
-        one = "{n} input stands at its default and is not changed; {option} changes it too"
-        many = "{n} inputs stand at their default and are not changed; {option} changes them too"
+        one = "{n} input has its default value and is not varied; {option} includes it"
+        many = "{n} inputs have their default values and are not varied; {option} includes them"
         yield Counted(left, one, many, option=option)
 
 
 def _value(found: Tornado, value: float) -> str:
-    return phrase("no machine") if math.isnan(value) else localised(found.asked.told(value, 4))
+    return phrase("not feasible") if math.isnan(value) else localised(found.asked.told(value, 4))
 
 
 def _tolerances(found: Tolerances) -> Iterator[Phrase]:
@@ -408,8 +408,8 @@ def page(found: Sequence[Tornado], tolerances: Tolerances | None, name: str) -> 
             if bars
             else ""
         )
-        words = "In {unit}; blue: with the input raised, brown: lowered; ×: there is no such machine; the line: today."
-        caption = say(words, unit=pretty(each.asked.unit) or phrase("a share"))
+        words = "In {unit}; blue: input increased; brown: input decreased; ×: not feasible; line: present value."
+        caption = say(words, unit=pretty(each.asked.unit) or phrase("a fraction"))
         below = f"<p>{html.escape(caption)}</p>\n<pre>{html.escape(text)}</pre>"
         parts.append(f"<h2>{html.escape(each.asked.name)}</h2>\n{figure}\n{below}")
     parts += [f"<p>{html.escape(said(each))}</p>" for each in _left_out(found, "--defaults")]

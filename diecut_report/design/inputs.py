@@ -159,7 +159,7 @@ def _followed(config: Config, asked: Input, name: str) -> DesignInput:
         words = "{name} is a text, a choice or a yes/no; name an input that is a number."
         raise UserError(Problem(Phrase(words, name=name), config.tree.file))
     if asked.meta is POINTS:
-        words = "{name} says how densely curves are listed; the machine is the same with any number of points."
+        words = "{name} only sets how densely curves are listed; it does not affect the machine."
         raise UserError(Problem(Phrase(words, name=name), config.tree.file))
     return _made(config, asked)
 
@@ -384,7 +384,7 @@ def named_paths(config: Config, names: Iterable[str]) -> tuple[list[str], set[st
 def _require_values(config: Config, named: Iterable[DesignInput]) -> None:
     for each in named:
         if not each.today:
-            words = "{input} has no value today, or is zero, and has no share that could be changed; give it one first."
+            words = "{input} has no value at present, or is zero, and cannot be varied by a percentage; give it a value first."
             raise UserError(Problem(Phrase(words, input=each.name), config.tree.file, path="--free"))
 
 

@@ -262,7 +262,7 @@ def searched_range(design: DesignInput, low: float | None, high: float | None) -
         known = _listed(design)
         return float(known[0]) if low is None else low, float(known[-1]) if high is None else high
     if (low is None or high is None) and not today:
-        words = "{input} has no value today; give the range to search with --from and --to."
+        words = "{input} has no value at present; give the range to search with --from and --to."
         raise UserError(Problem(Phrase(words, input=design.name), path="--vary"))
     around = sorted((today / WIDER, today * WIDER)) if today else (math.nan, math.nan)
     first = max(around[0], least) if low is None else low
@@ -333,7 +333,7 @@ def _proved(answer: Answer, config: Config, discovery: Discovery) -> Answer:
             found=(replace(first, reached=reached, failing=failing), *answer.found[index + 1 :]),
             machine=machine,
         )
-    words = "{input} = {typed} answers, but the rest of the machine cannot be as it is then: {reason}"
+    words = "{input} = {typed} satisfies it, but the rest of the machine is then not feasible: {reason}"
     what = {"input": answer.design.name, "typed": answer.found[0].typed, "reason": faults[0].problems[0].message}
     raise UserError(Problem(Phrase(words, what), config.tree.file))
 

@@ -209,7 +209,7 @@ def extract(report: Path, folder: Path) -> list[Path]:
 def _refused(files: Mapping[Path, bytes], folder: Path) -> Iterator[Problem]:
     for path, wanted in files.items():
         if os.path.lexists(path) and not _is_same(path, wanted):
-            words = phrase("There is another file of this name. It is not written over: choose another folder with -o.")
+            words = phrase("Another file of this name exists and is not overwritten: choose another folder with -o.")
             yield Problem(words, str(path))
         elif not Path(os.path.realpath(path.parent)).is_relative_to(os.path.realpath(folder)):
             words = phrase("A link leads out of the folder here, and is not followed: choose another folder with -o.")

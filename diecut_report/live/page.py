@@ -232,7 +232,7 @@ def _pictures_of_run_shown(machine: LiveMachine, mechanism: str, index: int) -> 
     declared = shown_figures(machine.run.calculations[mechanism])[index]
     found = next((figure for figure in machine.run.figures(mechanism) if figure.id == declared.id), None)
     if found is None:
-        raise refusal("{title}: there is nothing of this machine to show.", title=declared.title)
+        raise refusal("{title}: nothing to show for this machine.", title=declared.title)
     return found
 
 
@@ -265,7 +265,7 @@ WORDS = {
     "verdict_fault": phrase("The file cannot be calculated"),
     "count_pass": phrase("{n} pass"),
     "governing": phrase("governing: {check}"),
-    "failed_before": phrase("at the start {n} failed"),
+    "failed_before": phrase("initially {n} failed"),
     "status_pass": phrase("pass"),
     "status_warn": phrase("warn"),
     "status_fail": phrase("fail"),
@@ -274,23 +274,23 @@ WORDS = {
     "write": phrase("Write to file"),
     "write_n": phrase("Write {n} to file"),
     "written": phrase("Written to {file}."),
-    "taken_back": phrase("Taken back: {n}."),
-    "put_back": phrase("Put back again"),
-    "take_back": phrase("Take back"),
-    "take_back_of": phrase("Take back {input}"),
+    "taken_back": phrase("Undone: {n}."),
+    "put_back": phrase("Redo"),
+    "take_back": phrase("Undo"),
+    "take_back_of": phrase("Undo {input}"),
     "slider": phrase("{input}, slider"),
-    "before": phrase("at the start {value}"),
-    "no_inputs": phrase("The file gives no number here that is not taken from elsewhere."),
-    "not_found": phrase("No input that the file gives has this in its key or words."),
+    "before": phrase("initially {value}"),
+    "no_inputs": phrase("The file gives no number of its own here; all are taken from elsewhere."),
+    "not_found": phrase("No input in the file has this in its key or description."),
     "effect": phrase("Effect"),
     "effect_of": phrase("Effect of {input}"),
     "effect_line": phrase("utilisation from {first} to {last}"),
     "absent_before": phrase("not there"),
     "drawing": phrase("drawing …"),
-    "refused": phrase("The program does not take this ({status})."),
-    "no_answer": phrase("The program does not answer; is it still running?"),
-    "making": phrase("The report is being made; it opens in a tab of its own."),
-    "lost": phrase("The program does not answer. If it was started anew, open the address that it prints."),
+    "refused": phrase("The program rejected this ({status})."),
+    "no_answer": phrase("The program does not respond; is it still running?"),
+    "making": phrase("The report is being generated; it opens in a new tab."),
+    "lost": phrase("The program does not respond. If it was restarted, open the address that it prints."),
 }
 """What is in braces the script fills in."""
 

@@ -215,7 +215,7 @@ class LiveApplication:
     async def _report(self, request: Request) -> Response:
         machine = self.session.machine
         if machine is None:
-            return Response(say("There is no machine to report of yet; see the faults of the file."), 409)
+            return Response(say("There is no machine to report yet; see the errors in the file."), 409)
         results = await self._done(lambda: self._document(machine))
         made = await self.reports.made(results, request.path_params["form"])
         return Response(made.content, media_type=made.media_type, headers=made.headers)
@@ -432,7 +432,7 @@ def _bound(port: int) -> socket.socket:
     except OSError as error:
         found.close()
         is_taken = error.errno == errno.EADDRINUSE
-        why = phrase("another program has it") if is_taken else (error.strerror or f"{error.errno}")
-        words = "The port {port} of this machine cannot be had: {why}. Leave --port out, and a free one is taken."
+        why = phrase("another program is using it") if is_taken else (error.strerror or f"{error.errno}")
+        words = "Port {port} of this machine is not available: {why}. Omit --port to use a free one."
         raise refusal(words, port=port, why=why) from error
     return found

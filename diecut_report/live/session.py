@@ -122,7 +122,7 @@ class LiveSession:
         """
         self.read()  # as it stands now, whatever the editor has saved meanwhile
         if self.faults or self.tree is None:
-            words = "Nothing is written, as this cannot be calculated; undo a change, or fix the file first."
+            words = "Nothing is saved because this cannot be calculated; undo a change, or fix the file first."
             raise refusal(words, self.file)
         tree, text = self.tree, rewritten(self.tree, self._edited()).text
         if text != tree.text:
@@ -203,7 +203,7 @@ def in_time(file: Path) -> Iterator[None]:
         with limited(SESSION_PATIENCE):
             yield
     except Overran as cause:
-        words = "it did not come back within {seconds} s ({said})"
+        words = "it did not finish within {seconds} s ({said})"
         raise refusal(words, file, seconds=f"{SESSION_PATIENCE:g}", said=said(cause)) from cause
 
 
@@ -286,9 +286,9 @@ class LiveReports:
         except TimeoutError:
             process.kill()
             await process.wait()
-            words = "The report was not made within {seconds} s, and was given up."
+            words = "The report was not finished within {seconds} s and was aborted."
             raise refusal(words, seconds=f"{PATIENCE:g}") from None
         files = list((folder / "made").glob(f"*.{form}"))
         if not files:
-            raise refusal(told.decode(errors="replace").strip() or phrase("The report was not made."))
+            raise refusal(told.decode(errors="replace").strip() or phrase("The report was not generated."))
         return files[0].read_bytes()

@@ -95,8 +95,8 @@ def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
 def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> CheckRecord:
     """Return a check that would hold by what was typed alone, in the form of those that are not made."""
     words = (
-        "Not checked: it would hold by {keys} alone, which nothing proves; give the basis there, as in {value: 1.2, basis: standard, "
-        "note: …}: measured, drawing, or the standard or catalogue that the note names."
+        "Not checked: it would pass only because of {keys}, which is not substantiated; give the basis there, as in "
+        "{value: 1.2, basis: standard, note: …}: measured, drawing, or the standard or catalogue that the note names."
     )
     return not_made(calc, check, keys).with_(message=Phrase(words, keys=listed(keys)))
 
@@ -134,7 +134,7 @@ def _of_partners(calc: Calculation, keys: tuple[str, ...]) -> Iterator[str]:
             homes = listed([f"{calc.inputs[partner.key]}.{partner.takes[key]}" for key in wanted])
             yield Phrase("{keys} are not there." if len(wanted) > 1 else "{keys} is not there.", keys=homes)
         elif wanted:
-            none = "There is no {kinds}, or there are several: name one by {key}."
+            none = "There is no {kinds}, or there are several: select one with {key}."
             yield Phrase(none, kinds=named(partner.kinds, " or "), key=partner.key)
 
 

@@ -50,8 +50,8 @@ from diecut_report.text.phrases import Phrase
 
 Data = dict[str, Any]
 LEFT_OUT = (
-    "{count} comparisons are left out, the first is {first}: at most {most} are made. "
-    "To get one, let its mechanisms be the first of their kinds in the configuration, or put them into one of their own."
+    "{count} comparisons are omitted, the first is {first}: at most {most} are made. To obtain one, list its "
+    "mechanisms first of their kinds in the configuration, or use a separate configuration."
 )
 
 

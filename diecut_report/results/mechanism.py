@@ -306,7 +306,7 @@ def _is_there(calc: Calculation, name: str) -> bool:
     return any(isinstance(value, str) or not np.isnan(value) for value in calc.values[name][0])
 
 
-IDLE = "not checked, though {key} is given: what it limits is not calculated"
+IDLE = "not checked although {key} is given: the quantity it limits is not calculated"
 
 
 def absent(calc: Calculation, provenance: Mapping[str, Provenance]) -> list[AbsentRecord]:

@@ -38,7 +38,7 @@ from diecut_report.text.phrases import Phrase, joined, phrase
 InputsOf = Callable[
     [str], Mapping[str, str]
 ]  # what each input of a mechanism refers to, by its name; nothing of what is not one
-FOLLOWS = "{key} follows from {origin}: change it there, so that what else takes it keeps in step."
+FOLLOWS = "{key} follows from {origin}; change it there, so that everything that depends on it stays consistent."
 
 
 def with_origins(mechanisms: Mapping[str, MechanismRecord]) -> dict[str, MechanismRecord]:

@@ -194,7 +194,7 @@ def lines(found: FoundPlace) -> Iterator[str]:
         yield Phrase("  formula: {place}", place=_from_here(found.formula))
     if found.source:
         yield Phrase("  source: {source}", source=phrase(found.source))
-    for head, places in ((phrase("  takes:"), found.takes), (phrase("  compared by:"), found.checks)):
+    for head, places in ((phrase("  inputs:"), found.takes), (phrase("  used by checks:"), found.checks)):
         if places:
             yield head
             yield from (f"    {_line(each)}" for each in places)

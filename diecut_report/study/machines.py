@@ -71,7 +71,7 @@ def configurations(given: Sequence[Path]) -> FoundFiles:
     found.files = list(dict.fromkeys(found.files))
     if not found.files:
         words = "There is no configuration in {given}. Name files, or folders with .yaml files."
-        others = [Problem(Phrase("passed over: {why}", why=why), str(path)) for path, why in found.passed_over.items()]
+        others = [Problem(Phrase("skipped: {why}", why=why), str(path)) for path, why in found.passed_over.items()]
         raise UserError([Problem(Phrase(words, given=", ".join(map(str, given)))), *others])
     if len(found.files) > MAX_MACHINES:
         words = "These are {count} configurations; at most {most} are checked at once."

@@ -52,14 +52,14 @@ TITLES = {
     "declaration": phrase("Declarations"),
     "dimensions": phrase("Dimensions of formulas"),
     "printed": phrase("Printed as computed"),
-    "inputs": phrase("Inputs that are taken"),
+    "inputs": phrase("Inputs that are used"),
     "doubts": phrase("Doubtful declarations"),
     "example": phrase("Example machine"),
-    "alone": phrase("Many machines as each alone"),
+    "alone": phrase("Batch and single calculation agree"),
     "verdicts": phrase("Checks that can fail"),
     "hostile": phrase("Extreme inputs"),
     "figures": phrase("Figures and report"),
-    "languages": phrase("Words in all languages"),
+    "languages": phrase("Texts in all languages"),
     "speed": phrase("Time of 1000 variants"),
 }
 """The rules of the contract, in the order in which they are tried."""
@@ -135,9 +135,9 @@ def _verdicts(machine: MachineCase, count: int, seed: int) -> Iterator[tuple[str
 
 def _constant_verdict(holds: bool, count: int) -> Phrase:
     words = (
-        "holds in all of {n} machines far from the example; make sure that it can fail"
+        "passes in all {n} machines far from the example; make sure that it can fail"
         if holds
-        else "fails in all of {n} machines far from the example; make sure that it can hold"
+        else "fails in all {n} machines far from the example; make sure that it can pass"
     )
     return Phrase(words, n=count)
 
@@ -200,7 +200,7 @@ class ContractTest:
                 is_tried = found.status == "pass" or id not in ("declaration", "example")
                 yield found
             else:
-                yield TriedRule(id, "not_tried", phrase("not tried before what is above holds"))
+                yield TriedRule(id, "not_tried", phrase("not run until the rules above are satisfied"))
 
     def tried_alone(self, id: str) -> TriedRule:
         """Return what one rule finds; where the plugin breaks in it, that is its fault."""
@@ -211,7 +211,7 @@ class ContractTest:
                 return tried()
         except Overran as cause:
             words = Phrase(
-                "it did not come back within {seconds} s ({said})", seconds=f"{MAX_RULE_SECONDS:g}", said=said(cause)
+                "it did not finish within {seconds} s ({said})", seconds=f"{MAX_RULE_SECONDS:g}", said=said(cause)
             )
             return rule(id, "", [words], "broke")
         except UserError as refused:
@@ -262,7 +262,7 @@ class ContractTest:
             return rule("example", phrase("its configuration is refused"), map(str, self.refused))
         if self.config is None:
             words = (
-                "there is no machine of this kind to try the rest on; give a configuration that has one with --config"
+                "no machine of this kind is available to test the rest; give a configuration that has one with --config"
             )
             return TriedRule("example", "note", faults=(phrase(words),))
         found = self.results.mechanisms.get(self.name)
@@ -291,7 +291,7 @@ class ContractTest:
 
     def alone(self) -> TriedRule:
         """Try whether machines that are calculated together are each as alone; one that cannot take arrays is noted."""
-        told = Phrase("{count} machines at once, {alone} of them alone too", count=TOGETHER, alone=ALONE)
+        told = Phrase("{count} machines at once, {alone} of them individually too", count=TOGETHER, alone=ALONE)
         try:
             found = list(unlike(self.case, TOGETHER, ALONE, SEED))
             if machines.has_picks(self.case):
@@ -301,7 +301,7 @@ class ContractTest:
         except Unproven:
             raise
         except Exception as cause:  # a refusal too, which refuses all for one of them
-            words = "cannot take arrays, so that a study calculates it variant by variant: {said}"
+            words = "does not support arrays, so that a study calculates it variant by variant: {said}"
             return rule("alone", told, [Phrase(words, said=said(cause))], "note")
         return rule("alone", told, (at_place(self.mechanism, name, text) for name, text in found))
 
@@ -361,7 +361,7 @@ class ContractTest:
         for text, of in self.words.untranslated(language):
             yield Phrase("{language}: “{text}” ({of}) is not translated", language=language, text=text, of=of)
         for text in self.words.unused(language):
-            words = "{language}: “{text}” is in the catalogue, and nothing says it any more; --write-po marks it as obsolete"
+            words = "{language}: “{text}” is in the catalogue but no longer used; --write-po marks it as obsolete"
             yield Phrase(words, language=language, text=text)
 
     def _as_given(self, language: str) -> str:

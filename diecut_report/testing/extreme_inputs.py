@@ -124,7 +124,7 @@ def outcome_of(text: str, discovery: Discovery, press: WarmPress, find: Find | N
         results = results_text(document(run))
     except UserError as refusal:
         odd = next((str(problem) for problem in refusal.problems if _odd(str(problem.message))), None)
-        return Outcome(odd and Phrase("refused without words: {problem}", problem=odd), is_refused=True)
+        return Outcome(odd and Phrase("refused without a message: {problem}", problem=odd), is_refused=True)
     except Exception as cause:
         return Outcome(f"{type(cause).__name__}: {cause}")
     if broken := [*run.errors.values()]:
@@ -178,7 +178,9 @@ class TriedExtremes:
     @property
     def summary(self) -> str:
         """Return what was tried, and what came of it where nothing is wrong."""
-        words = "an extreme value in the place of one input at a time: {numbers} gave numbers, {refused} were refused in words"
+        words = (
+            "one input at a time set to an extreme value: {numbers} gave numbers, {refused} were refused with a message"
+        )
         told = Phrase(words, numbers=self.numbers, refused=self.refused)
         chosen, all = len(self.cases[0]), self.cases[1]
         return told + Phrase("; they are a sample of {all}", all=all) if chosen < all else told

@@ -151,19 +151,19 @@ def _nudged(value: Any, draw: np.random.Generator) -> Any:
 def _refused_alone(why: str, together: Calculation, i: int) -> str:
     if i in together.flaws:
         other = phrase(together.flaws[i][1])
-        words = "a machine is refused alone ({why}), and among others for another reason ({other})"
+        words = "a machine is refused on its own ({why}), and in a batch for another reason ({other})"
         return Phrase(words, why=phrase(why), other=other)
-    return Phrase("a machine is refused alone ({why}), and calculated among others", why=phrase(why))
+    return Phrase("a machine is refused on its own ({why}), but calculated in a batch", why=phrase(why))
 
 
 def _among(found: str, alone: str) -> str:
-    return Phrase("is {found} among others, {alone} alone", found=found, alone=alone)
+    return Phrase("is {found} in a batch, {alone} on its own", found=found, alone=alone)
 
 
 def _differences(together: Calculation, alone: Calculation, i: int) -> Iterator[tuple[str, str]]:
     if i in together.flaws:
         key, message = together.flaws[i]
-        yield key, Phrase("a machine is refused among others ({why}), and calculated alone", why=phrase(message))
+        yield key, Phrase("a machine is refused in a batch ({why}), but calculated on its own", why=phrase(message))
         return
     yield from unlike_numbers(together, alone, i)
     yield from unlike_curves(together, alone, i)
@@ -180,7 +180,7 @@ def unlike_numbers(together: Calculation, alone: Calculation, i: int) -> Iterato
     """Yield the numbers, rows, texts and places of one among many that are not those of the same machine alone."""
     scale = scales(alone)
     for name in alone.values.keys() - together.values.keys():
-        yield name, phrase("is there for a machine alone, and not among others")
+        yield name, phrase("is there for a machine on its own, but not in a batch")
     for name, values in together.values.items():
         found, expected = values[i], alone.values[name][0] if name in alone.values else np.array([np.nan])
         if values.dtype == object:
@@ -253,7 +253,7 @@ def unlike_verdicts(together: Calculation, alone: Calculation, i: int) -> Iterat
         if check.check_class == "numerical":  # what it compares is rounding, which is not the same twice
             same = np.ones_like(same)
         if not (same.all() and np.array_equal(found.held[i], own.held[0])):
-            yield check.id, phrase("the check has another verdict among others than alone")
+            yield check.id, phrase("the check has another verdict in a batch than on its own")
 
 
 # One machine of a mechanism, calculated as a report calculates it: ``calculate(MECHANISM, {"teeth": 30})``.

@@ -34,7 +34,7 @@ def scaffold(name: str, folder: Path, *, as_package: bool, like: str = "parts") 
     """
     refuse_name(name)
     if folder.exists() or folder.is_symlink():
-        words = "There is something of this name already, and it is not written over. Name another folder with -o."
+        words = "This name already exists and is not overwritten. Name another folder with -o."
         raise refusal(words, folder)
     made = {
         folder / place: content.encode() for place, content in contents(name, as_package=as_package, like=like).items()

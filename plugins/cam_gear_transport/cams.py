@@ -41,18 +41,18 @@ def _swing(number: str) -> Steps:
 
 
 rocker = Chapter("Rocker on the cams",
-                 text="The rocker is fixed to the sector; the rollers on its arms run on two cams that stand still, each profile lying towards O₁ "
-                      "from its roller. ψ is an arm's direction from the outward line O₁O₃, w is the rocker's speed to the disc's, γ″ the second "
-                      "derivative of the sector's angle by the disc's.", needs=CAMS, absent=NO_CAMS)
-rocker.value("sector_rate_change", "γ″", "1", "Acceleration of the sector to the square of the disc's speed",
+                 text="The rocker is fixed to the sector; the rollers on its arms run on two fixed cams, each profile lying on the O₁ side of "
+                      "its roller. ψ is the direction of an arm from the outward line O₁O₃, w the ratio of the rocker's speed to the disc's, γ″ "
+                      "the second derivative of the sector's angle with respect to the disc's.", needs=CAMS, absent=NO_CAMS)
+rocker.value("sector_rate_change", "γ″", "1", "Ratio of the sector's acceleration to the square of the disc's speed",
              lambda sector_acceleration, cycles_per_hour: as_number(sector_acceleration / (2 * np.pi * cycles_per_hour) ** 2), source="kinematics",
              output=False)
 rocker.require("sweep_leaves_arms", lambda sector_sweep: sector_sweep < np.pi, key="sector_dwell_sweep",
                message="makes the whole sweep of the sector {sector_sweep}; it must be less than 180°, or no arm can stay on one side of the line "
                        "O₁O₃")
-rocker.value("least_arm_angle", "χ_min", "deg", "Least angle of an arm on the left of O₁O₃", lambda sector_stop_sweep: sector_stop_sweep / 2,
+rocker.value("least_arm_angle", "χ_min", "deg", "Minimum angle of an arm to the left of O₁O₃", lambda sector_stop_sweep: sector_stop_sweep / 2,
              source="geometry", output=False)
-rocker.value("greatest_arm_angle", "χ_max", "deg", "Greatest angle of an arm on the left of O₁O₃",
+rocker.value("greatest_arm_angle", "χ_max", "deg", "Maximum angle of an arm to the left of O₁O₃",
              lambda sector_sweep, sector_stop_sweep: np.pi - sector_sweep + sector_stop_sweep / 2, source="geometry", output=False)
 rocker.words("arm_angles_best", arms.angles_at_the_ends, ("center_distance", "arm_length", "sector_dwell_sweep", "sector_sweep"))
 rocker.add(_swing("1"))
@@ -93,11 +93,11 @@ def _profile(number: str) -> Steps:
                 bind(common.sum_of, first=f"arm_angle_{number}", second="sector_angle"), output=False, source="geometry")
     curve("pitch_x", f"x_p{number}", "mm", "Pitch curve x", cam.pitch_x)
     curve("pitch_y", f"y_p{number}", "mm", "Pitch curve y", cam.pitch_y)
-    curve("path", f"l_{number}", "mm", "Path of the roller's centre for each radian of the disc", cam.roller_path, output=False)
+    curve("path", f"l_{number}", "mm", "Travel of the roller's centre per radian of the disc", cam.roller_path, output=False)
     curve("x", f"x_{number}", "mm", "Profile x", cam.profile_x)
     curve("y", f"y_{number}", "mm", "Profile y", cam.profile_y)
     curve("pressure_angle", f"δ_{number}", "deg", "Pressure angle", cam.pressure_angle)
-    curve("swing_part", f"c_{number}", "1", "Part of the curvature that comes with the arm's swing", cam.swing_part, output=False)
+    curve("swing_part", f"c_{number}", "1", "Component of the curvature due to the arm's swing", cam.swing_part, output=False)
     curve("curvature", f"κ_{number}", "1/m", "Curvature of the pitch curve", cam.curvature)
     curve("tangent_distance", f"q_{number}", "mm", "Distance of O₁ from the pitch curve's tangent", cam.tangent_distance, output=False)
     return steps
@@ -106,22 +106,23 @@ def _profile(number: str) -> Steps:
 def _extremes(number: str) -> Steps:
     """What a cam is judged by."""
     steps = Steps()
-    steps.reduction(f"cam_{number}_pressure_angle_max", f"δ_max,{number}", "deg", f"Greatest pressure angle of cam {number}", "max",
+    steps.reduction(f"cam_{number}_pressure_angle_max", f"δ_max,{number}", "deg", f"Maximum pressure angle of cam {number}", "max",
                     of=f"cam_{number}_pressure_angle", source="this method")
-    steps.reduction(f"cam_{number}_curvature_greatest", f"κ_max,{number}", "1/m", f"Greatest curvature of pitch curve {number}, convex", "max",
+    steps.reduction(f"cam_{number}_curvature_greatest", f"κ_max,{number}", "1/m", f"Maximum curvature of pitch curve {number}, convex", "max",
                     of=f"cam_{number}_curvature", source="geometry", output=False)
     steps.reduction(f"cam_{number}_curvature_least", f"κ_min,{number}", "1/m",
-                    f"Least curvature of pitch curve {number}, below zero where it is hollow", "min", of=f"cam_{number}_curvature", source="geometry",
+                    f"Minimum curvature of pitch curve {number}, negative where it is concave", "min", of=f"cam_{number}_curvature",
+                    source="geometry",
                     output=False)
-    steps.reduction(f"cam_{number}_tangent_min", f"q_min,{number}", "mm", f"Least distance of O₁ from the tangents of pitch curve {number}", "min",
+    steps.reduction(f"cam_{number}_tangent_min", f"q_min,{number}", "mm", f"Minimum distance of O₁ from the tangents of pitch curve {number}", "min",
                     of=f"cam_{number}_tangent_distance", source="geometry", output=False)
-    steps.value(f"cam_{number}_curvature_min", f"ρ_min,{number}", "mm", f"Least radius of curvature of pitch curve {number} where it is convex",
+    steps.value(f"cam_{number}_curvature_min", f"ρ_min,{number}", "mm", f"Minimum radius of curvature of pitch curve {number} where it is convex",
                 bind(cam.least_radius, greatest_curvature=f"cam_{number}_curvature_greatest"), source="geometry")
     steps.value(f"cam_{number}_profile_radius_min", f"ρ_c,{number}", "mm",
-                f"Least radius of profile {number} where it is convex; below zero it undercuts",
+                f"Minimum radius of profile {number} where it is convex; negative: undercut",
                 bind(cam.profile_radius, pitch_radius=f"cam_{number}_curvature_min"), source="geometry")
     steps.value(f"cam_{number}_hollow_radius_min", f"ρ_h,{number}", "mm",
-                f"Least radius of profile {number} where it is hollow: no greater grinding wheel",
+                f"Minimum radius of profile {number} where it is concave: upper limit for the grinding wheel",
                 bind(cam.hollow_radius, least_curvature=f"cam_{number}_curvature_least"), source="geometry",
                 exists=bind(cam.is_hollow, least_curvature=f"cam_{number}_curvature_least"))
     return steps
@@ -129,24 +130,24 @@ def _extremes(number: str) -> Steps:
 
 def _cam(number: str) -> Chapter:
     chapter = Chapter(f"Cam {number}",
-                      text="The pitch curve is the path of the roller's centre; the profile is set off from it by the roller's radius, towards O₁. "
-                           "Curvature counts above zero where the pitch curve is convex, its centre of curvature being on O₁'s side: there the "
-                           "profile's radius is ρ − r, and where ρ < r the profile undercuts. Where the pitch curve is hollow the profile's radius "
-                           "is |ρ| + r, whatever the roller.", needs=CAMS, absent=NO_CAMS)
+                      text="The pitch curve is the path of the roller's centre; the profile is offset from it by the roller's radius, towards "
+                           "O₁. Curvature is positive where the pitch curve is convex, its centre of curvature being on the O₁ side: there the "
+                           "profile's radius is ρ − r, and where ρ < r the profile is undercut. Where the pitch curve is concave the profile's "
+                           "radius is |ρ| + r, whatever the roller.", needs=CAMS, absent=NO_CAMS)
     chapter.add(_profile(number))
     chapter.add(_extremes(number))
     return chapter
 
 
 both = Chapter("Both cams",
-               text="A roller touches its profile once only where, besides, the tangents of the pitch curve keep more than r from O₁: then profile "
-                    "and pitch curve go round O₁ without turning back.", needs=CAMS, absent=NO_CAMS)
-both.value("pressure_angle_max", "δ_max", "deg", "Greatest pressure angle of both cams",
+               text="A roller touches its profile at one point only if, in addition, the tangents of the pitch curve keep more than r from O₁: "
+                    "then profile and pitch curve go round O₁ without reversing.", needs=CAMS, absent=NO_CAMS)
+both.value("pressure_angle_max", "δ_max", "deg", "Maximum pressure angle of both cams",
            lambda cam_1_pressure_angle_max, cam_2_pressure_angle_max: np.maximum(cam_1_pressure_angle_max, cam_2_pressure_angle_max),
            source="this method")
-both.value("curvature_min", "ρ_min", "mm", "Least radius of curvature of both pitch curves where convex",
+both.value("curvature_min", "ρ_min", "mm", "Minimum radius of curvature of both pitch curves where convex",
            lambda cam_1_curvature_min, cam_2_curvature_min: np.minimum(cam_1_curvature_min, cam_2_curvature_min), source="geometry")
-both.value("tangent_distance_min", "q_min", "mm", "Least distance of O₁ from the tangents of both pitch curves",
+both.value("tangent_distance_min", "q_min", "mm", "Minimum distance of O₁ from the tangents of both pitch curves",
            lambda cam_1_tangent_min, cam_2_tangent_min: np.minimum(cam_1_tangent_min, cam_2_tangent_min), source="geometry")
 both.words("arms_that_fit", arms.arms_that_fit, arms.TAKES, lacks=("module",))
 both.words("arms_that_fit", arms.arms_that_fit, (*arms.TAKES, "module"), needs=("module",))
@@ -155,40 +156,41 @@ both.words("arms_that_fit", arms.arms_that_fit, (*arms.TAKES, "module"), needs=(
 def _loaded(number: str) -> Steps:
     """Force and pressure of a roller."""
     steps = Steps()
-    steps.value(f"carried_moment_{number}", f"M_c{number}", "N*m", f"Moment about O₃ that cam {number} gives",
+    steps.value(f"carried_moment_{number}", f"M_c{number}", "N*m", f"Moment of cam {number} about O₃",
                 bind(loads.carried_moment, arm_direction=f"arm_{number}_direction"), source="statics", output=False)
     steps.value(f"roller_force_{number}", f"F_{number}", "N", f"Force of cam {number} on its roller",
                 bind(loads.roller_force, carried_moment=f"carried_moment_{number}", pressure_angle=f"cam_{number}_pressure_angle"), source="statics")
     steps.value(f"effective_radius_{number}", f"R_e{number}", "mm", f"Effective radius of roller and profile {number}",
                 bind(cam.effective_radius, curvature=f"cam_{number}_curvature"), source="Hertz", output=False, needs=("roller_width",))
-    steps.value(f"bearing_radius_{number}", f"R_b{number}", "mm", f"The same, at least a thousandth of the roller's radius (profile {number})",
+    steps.value(f"bearing_radius_{number}", f"R_b{number}", "mm", "Effective radius, at least a thousandth of the roller's radius (profile "
+                                                                  f"{number})",
                 bind(loads.bearing_radius, effective_radius=f"effective_radius_{number}"), source="Hertz", output=False, needs=("roller_width",))
     steps.value(f"contact_pressure_{number}", f"p_H{number}", "MPa", f"Contact pressure of roller and cam {number}",
                 bind(contact.contact_pressure, force=f"roller_force_{number}", effective_radius=f"bearing_radius_{number}",
                 length="roller_width"), source="Hertz", needs=("roller_width",))
-    steps.reduction(f"cam_{number}_roller_force_peak", f"F_max,{number}", "N", f"Greatest force on roller {number}", "max",
+    steps.reduction(f"cam_{number}_roller_force_peak", f"F_max,{number}", "N", f"Maximum force on roller {number}", "max",
                     of=f"roller_force_{number}", source="statics")
-    steps.reduction(f"cam_{number}_contact_pressure_max", f"p_H{number},max", "MPa", f"Greatest contact pressure of roller and cam {number}", "max",
+    steps.reduction(f"cam_{number}_contact_pressure_max", f"p_H{number},max", "MPa", f"Maximum contact pressure of roller and cam {number}", "max",
                     of=f"contact_pressure_{number}", needs=("roller_width",), source="Hertz")
     return steps
 
 
 loads_chapter = Chapter("Forces on the rollers",
-                        text="About O₃ the rocker is in balance between the teeth's reaction, the sector's inertia and one roller: a cam can only "
-                             "push, outwards, so the cam of the left arm turns the sector clockwise and that of the right arm counter-clockwise. "
-                             "The force stands square to the profile, at the pressure angle from the roller's motion. A preload of the rollers is "
-                             "not included.", needs=(*CAMS, *TORQUE),
+                        text="About O₃ the rocker is in equilibrium under the reaction of the teeth, the sector's inertia and one roller: a cam "
+                             "can only push outwards, so the cam of the left arm turns the sector clockwise and that of the right arm "
+                             "counter-clockwise. The force acts normal to the profile, at the pressure angle from the roller's direction of "
+                             "motion. A preload of the rollers is not included.", needs=(*CAMS, *TORQUE),
                         absent="not calculated: {missing} not given")
-loads_chapter.value("rocker_moment", "M_3", "N*m", "Moment about O₃ that the cams give the rocker", loads.rocker_moment, source="statics",
+loads_chapter.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃", loads.rocker_moment, source="statics",
                     output=False)
-loads_chapter.value("effective_modulus", "E*", "GPa", "Modulus of the contact", contact.effective_modulus_alike, source="Hertz",
+loads_chapter.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz",
                     needs=("roller_width",))
 loads_chapter.add(_loaded("1"))
 loads_chapter.add(_loaded("2"))
-loads_chapter.value("roller_force_peak", "F_max", "N", "Greatest force on a roller",
+loads_chapter.value("roller_force_peak", "F_max", "N", "Maximum force on a roller",
                     lambda cam_1_roller_force_peak, cam_2_roller_force_peak: np.maximum(cam_1_roller_force_peak, cam_2_roller_force_peak),
                     source="statics")
-loads_chapter.value("contact_pressure", "p_H,max", "MPa", "Greatest contact pressure of a roller",
+loads_chapter.value("contact_pressure", "p_H,max", "MPa", "Maximum contact pressure of a roller",
                     lambda cam_1_contact_pressure_max, cam_2_contact_pressure_max: np.maximum(cam_1_contact_pressure_max, cam_2_contact_pressure_max),
                     source="Hertz", needs=("roller_width",))
 

@@ -42,9 +42,9 @@ def ratio_over_dwell(view: View) -> list[Shape]:
     limits = (("dwell_angle_recommended", "return too short"), ("dwell_angle_limit", "no return"))
     return [
         chart_panel(
-            "Radius of the gear to that of the pin",
+            "Ratio of gear radius to pin radius",
             "1",
-            "Share of the dwell",
+            "Dwell fraction of the cycle",
             "T_2",
             "1",
             lines=[line(shares, ratios, "R₁/R₂")],
@@ -85,7 +85,7 @@ def laws_compared(view: View) -> list[Shape]:
         )
     across = ("Disc angle from the start of the dwell", "φ", "deg")
     return [
-        chart_panel("Speed of the gear to that of the disc", "1", *across, lines=speeds),
+        chart_panel("Ratio of the gear's speed to that of the disc", "1", *across, lines=speeds),
         chart_panel("Acceleration of the gear", "rad/s**2", *across, lines=accelerations),
     ]
 
@@ -107,29 +107,29 @@ def _panel(
 
 FIGURES = (
     Drawing(id="rolling", title="Gear and sector", build=rolling, moving=rolling_at, over="disc_angle",
-            caption="Pitch circles to scale: the sector at the start of the dwell (dark) and at its end (light). The arc A₁A₂ of the gear is "
-            "that of the sector which rolls off on it, so the gear stands (figure 3 of 003)."),
+            caption="Pitch circles to scale: the sector at the start of the dwell (dark) and at its end (light). The arc A₁A₂ of the gear equals "
+                    "the arc of the sector that rolls off on it, so the gear stands still (figure 3 of 003)."),
     Plot(id="phase_diagram", title="Phase diagram of the sector", abscissa="disc_angle",
          caption="Angle of the sector relative to the disc over a turn of the disc (figure 4 of 003). " + BETWEEN,
          panels=(_panel("Angle of the sector", "deg", ("sector_angle", "γ"), named=True),)),
     Chart(id="radius_ratio", title="Radius of the gear over the dwell", build=ratio_over_dwell,
-          caption="The longer the dwell, the smaller the gear (figure 5 of 003), for this sweep of the sector. Beyond the first line the return is "
-          "shorter than accepted, beyond the second one dwell, stop and start would take the whole turn."),
+          caption="The longer the dwell, the smaller the gear (figure 5 of 003), for this sweep of the sector. Beyond the first line the return "
+                  "is shorter than the accepted minimum, beyond the second one dwell, stop and start would take the whole revolution."),
     Plot(id="sector_speed", title="Speed of the sector by phase", abscissa="disc_angle",
-         caption="Speed and acceleration of the sector relative to the disc, speed per turn of the disc (figure 6 of 003). " + SHADED,
+         caption="Speed and acceleration of the sector relative to the disc, speed per revolution of the disc (figure 6 of 003). " + SHADED,
          panels=(_panel("Speed", "rad", ("sector_speed", "ω₃")), _panel("Acceleration", "rad/s**2", ("sector_acceleration", "ε₃"), named=True))),
     Plot(id="gear_motion", title="Motion of the gear over a turn", abscissa="disc_angle",
-         caption="Angle, speed (per turn of the disc, figure 7 of 003) and acceleration of the gear, which drives the conveyor. " + SHADED,
+         caption="Angle, speed (per revolution of the disc, figure 7 of 003) and acceleration of the gear, which drives the conveyor. " + SHADED,
          panels=(_panel("Angle", "deg", ("gear_angle", "φ₁")),
-                 _panel("Speed", "rad", ("gear_speed", "ω₁"), marks=(Mark(x="gear_speed_peak_at", y="gear_speed_peak", label="greatest"),)),
+                 _panel("Speed", "rad", ("gear_speed", "ω₁"), marks=(Mark(x="gear_speed_peak_at", y="gear_speed_peak", label="maximum"),)),
                  _panel("Acceleration", "rad/s**2", ("gear_acceleration", "ε₁"), named=True))),
     Plot(id="sheet", title="Motion of the sheet", abscissa="disc_angle", needs=SHEET,
          caption="Position, velocity and acceleration of the sheet over a cycle. " + SHADED,
          panels=(_panel("Position", "mm", ("sheet_position", "x")), _panel("Velocity", "m/s", ("sheet_velocity", "V")),
                  _panel("Acceleration", "m/s**2", ("sheet_acceleration", "a_s"), named=True))),
     Chart(id="laws", title="Motion laws for the same dwell", build=laws_compared,
-          caption="Speed and acceleration of the gear by each law of motion, each with its greatest value, for the same dwell and the same "
-          "sweeps of the sector. A law with a lower peak velocity stops the sector sooner and leaves its return more time."),
+          caption="Speed and acceleration of the gear by each law of motion, each with its maximum value, for the same dwell and the same sweeps "
+                  "of the sector. A law with a lower peak velocity stops the sector sooner and leaves its return more time."),
     Plot(id="torque", title="Torque", abscissa="disc_angle", needs=TORQUE,
          caption="Torque at the shafts of disc and gear, without losses; negative where the conveyor drives back. " + SHADED,
          panels=(_panel("Torque", "N*m", ("drive_torque", "disc"), ("gear_torque", "gear"), named=True),)),
@@ -139,14 +139,14 @@ FIGURES = (
               "from the right.")
       for number, build, moving in (("1", cam_1, cam_1_at), ("2", cam_2, cam_2_at))),
     Plot(id="cam_angles", title="Pressure angle and curvature of the cams", abscissa="disc_angle", needs=CAMS,
-         caption="Pressure angle, and curvature of the pitch curves: convex above zero, hollow below. " + SHADED,
+         caption="Pressure angle, and curvature of the pitch curves: positive where convex, negative where concave. " + SHADED,
          panels=(_panel("Pressure angle", "deg", ("cam_1_pressure_angle", "cam 1"), ("cam_2_pressure_angle", "cam 2"),
                         levels=(Level(value="max_pressure_angle", label="accepted"),)),
                  _panel("Curvature", "1/m", ("cam_1_curvature", "cam 1"), ("cam_2_curvature", "cam 2"), named=True))),
     Plot(id="roller_forces", title="Forces on the rollers", abscissa="disc_angle", needs=(*CAMS, *TORQUE),
-         caption="Force of each cam on its roller: one pushes the sector one way, the other one back. " + SHADED,
+         caption="Force of each cam on its roller: one pushes the sector one way, the other pushes it back. " + SHADED,
          panels=(_panel("Force", "N", ("roller_force_1", "roller 1"), ("roller_force_2", "roller 2")),)),
     Plot(id="contact", title="Contact pressure of the rollers", abscissa="disc_angle", needs=(*CAMS, *LOADED),
-         caption="Greatest pressure in the line contact of roller and cam. " + SHADED,
+         caption="Maximum pressure in the line contact of roller and cam. " + SHADED,
          panels=(_panel("Pressure", "MPa", ("contact_pressure_1", "cam 1"), ("contact_pressure_2", "cam 2")),)),
 )  # fmt: skip

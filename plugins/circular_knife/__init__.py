@@ -13,10 +13,10 @@ MECHANISM = Mechanism(
     kind="circular_knife",
     version="1.0",
     title="Circular knife: scissor-like cutting",
-    summary="A knife whose edge is an arc about a point beside its shaft turns against a straight counter-knife on which the board lies, and cuts "
-    "it like scissors, from its front edge along the counter-knife. From the geometry follow the range of the cut, the shear angle, the speed and "
-    "sliding of the edge, force, torque and work. The formulas are this project's own: only the first page of the source survives, with the "
-    "geometry alone.",
+    summary="A knife whose edge is an arc about a point beside its shaft turns against a straight counter-knife on which the board lies, and "
+            "cuts it like scissors, from its front edge along the counter-knife. From the geometry follow the range of the cut, the shear angle, "
+            "the speed and sliding of the edge, force, torque and work. The formulas are derived in this project: only the first page of the "
+            "source survives, and it gives the geometry alone.",
     inputs=CircularKnife,
     example=EXAMPLE,
     chapters=(geometry.reach, geometry.shear_range, geometry.edge, cutting.motion, cutting.forces, cutting.guillotine),
@@ -25,15 +25,15 @@ MECHANISM = Mechanism(
     checks=CHECKS,
     figures=FIGURES,
     assumptions=(
-        "The formulas are derived here from the geometry of the source's surviving page and are not compared with measurements.",
+        "The formulas are derived here from the geometry on the source's surviving page and have not been compared with measurements.",
         "The default shear resistance of 10 N/mm² is assumed and has no source; force, torque and work are proportional to it. The press of 000 "
         "cuts board of 0.6 mm with 25 N/mm of straight rule, which is 42 N/mm² of the thickness: give the resistance of your board.",
         "The knife turns at constant speed; knife, counter-knife and shaft are rigid, and the edges meet without clearance.",
-        "The board does not move or bend; the force of spreading its cut sides apart is not included.",
-        "The sharpening angle has no influence on force and torque; it gives the effective angle alone.",
-        "Force, torque and work are taken from φ_1 on, where the cutting point is at the board's front edge. Before, from φ_e on, the edge enters "
-        "the board: F_v and the friction are smaller there, and the work of entering is not in W; the torque of cutting alone, and F_w, may be "
-        "greater there than at φ_1, which raises the greatest torque only where the friction is below about 0.1.",
+        "The board does not move or bend; the force that spreads the cut sides apart is not included.",
+        "The sharpening angle does not affect force and torque; only the effective angle follows from it.",
+        "Force, torque and work are taken from φ_1 on, where the cutting point is at the board's front edge. Before, from φ_e on, the edge "
+        "enters the board: F_v and the friction are smaller there, and the work of entering is not in W; the torque of cutting alone, and F_w, "
+        "may be greater there than at φ_1, which raises the maximum torque only where the friction is below about 0.1.",
     ),
     sources=(
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "

@@ -36,12 +36,12 @@ def place_of(view: View, name: str) -> float:
 
 def greatest(view: View, name: str) -> list[Shape]:
     """The mark of an extreme."""
-    return [mark(place_of(view, name), view[name], "greatest")]
+    return [mark(place_of(view, name), view[name], "maximum")]
 
 
 def usual(view: View) -> list[Shape]:
     """The limits of the shear angle that are usual."""
-    return [level(view["shear_angle_upper"], "greatest usual"), level(view["shear_angle_lower"], "least usual")]
+    return [level(view["shear_angle_upper"], "usual maximum"), level(view["shear_angle_lower"], "usual minimum")]
 
 
 def motion(view: View) -> list[Shape]:
@@ -63,7 +63,7 @@ def load(view: View) -> list[Shape]:
         ("useful_torque", phrase("cutting")),
     )
     return [
-        panel(view, "Force down on the board", "N", *forces, marks=greatest(view, "force_max")),
+        panel(view, "Downward force on the board", "N", *forces, marks=greatest(view, "force_max")),
         panel(view, "Torque at the knife's shaft", "N*m", *torques, marks=greatest(view, "torque_max")),
     ]
 
@@ -83,9 +83,9 @@ def placement(view: View) -> list[Shape]:
     ]
     return [
         chart_panel("Shear angle", "deg", *across, lines=slopes, levels=usual(view), verticals=here),
-        chart_panel("Greatest force as a share of a guillotine's", "1", *across,
+        chart_panel("Ratio of the maximum force to that of a guillotine", "1", *across,
                     lines=[line(distances, found["guillotine_force_ratio"], "F_max/F_g")], verticals=here),
-        chart_panel("Greatest torque", "N*m", *across, lines=[line(distances, found["torque_max"], "M_max")], verticals=here),
+        chart_panel("Maximum torque", "N*m", *across, lines=[line(distances, found["torque_max"], "M_max")], verticals=here),
     ]  # fmt: skip
 
 
@@ -93,9 +93,9 @@ FIGURES = (
     Drawing(
         id="positions",
         title="Knife, board and counter-knife",
-        caption="To scale at start, middle and end of the cut; the knife turns clockwise about its shaft, the edge's centre O₁ runs on the light "
-        "circle. The cross marks the cutting point; thick: the board on the counter-knife (hatched). Of the edge that part is drawn which cuts, "
-        "6° more at both ends.",
+        caption="To scale at start, middle and end of the cut; the knife turns clockwise about its shaft, the edge's centre O₁ moves on the "
+        "light circle. The cross marks the cutting point; thick: the board on the counter-knife (hatched). Only the part of the edge "
+        "that cuts is drawn, with 6° more at both ends.",
         build=positions,
         moving=turning,
         over="knife_angle",
@@ -103,8 +103,8 @@ FIGURES = (
     Drawing(
         id="front",
         title="Working front",
-        caption="Board, edge and counter-knife in the middle of the cut, to scale. At the cross the board is cut through; along a the edge is "
-        "in the board; it advances to the right. Dashed: the upper face where the board is cut.",
+        caption="Board, edge and counter-knife in the middle of the cut, to scale. At the cross the board is cut through; along a the edge is in "
+        "the board; the cut advances to the right. Dashed: the upper face where the board is cut.",
         build=front,
     ),
     Chart(
@@ -117,14 +117,14 @@ FIGURES = (
     Chart(
         id="load",
         title="Force and torque over the cut",
-        caption="Force down on the board F_v, beside it the smaller one by virtual work, F_w; torque at the knife's shaft with its shares.",
+        caption="Downward force F_v on the board, with the smaller one by virtual work, F_w; torque at the knife's shaft with its components.",
         build=load,
     ),
     Chart(
         id="placement",
         title="Position of the board",
-        caption="Shear angle, force and torque if the board's front edge is at another distance from the axis, all else as it is: further away "
-        "the edge stands steeper and the force is smaller.",
+        caption="Shear angle, force and torque for other distances of the board's front edge from the axis, all else unchanged: further away the "
+        "edge is steeper and the force smaller.",
         build=placement,
     ),
 )

@@ -8,7 +8,9 @@ from diecut_report.api import POINTS, Annotated, Inputs, Quantity
 class CircularKnife(Inputs):
     """Keys of ``circular_knife``."""
 
-    eccentricity: Annotated[float, Quantity("r", "mm", "Distance of the edge's centre from the shaft's axis", gt=0)]
+    eccentricity: Annotated[
+        float, Quantity("r", "mm", "Eccentricity: distance of the edge's centre from the shaft's axis", gt=0)
+    ]
     edge_radius: Annotated[
         float, Quantity("R", "mm", "Radius of the edge about its centre (above the eccentricity)", gt=0)
     ]
@@ -20,27 +22,35 @@ class CircularKnife(Inputs):
         Quantity("b", "mm", "Distance of the board's front edge from the shaft's axis, along the counter-knife", ge=0),
     ]
     thickness: Annotated[float, Quantity("h", "mm", "Thickness of the board (below the depth)", gt=0)]
-    cut_length: Annotated[float, Quantity("L", "mm", "Length of the cut from the board's front edge", gt=0)]
+    cut_length: Annotated[float, Quantity("L", "mm", "Length of the cut, measured from the board's front edge", gt=0)]
     sharpening_angle: Annotated[float, Quantity("δ", "deg", "Sharpening angle of the edge", gt=0, lt=90)]
-    speed: Annotated[float, Quantity("ω", "rpm", "Speed of the knife's shaft; one cut a turn", gt=0)]
+    speed: Annotated[float, Quantity("ω", "rpm", "Speed of the knife's shaft; one cut per revolution", gt=0)]
     shear_resistance: Annotated[
         float,
         Quantity(
             "σ",
             "N/mm**2",
-            "Shear stress on the full thickness where the edge enters, falling to zero as it goes through",
+            "Shear resistance: shear stress on the full thickness where the edge enters, falling to zero where it "
+            "has cut through",
             gt=0,
         ),
     ] = 10
     rule_force: Annotated[
         float | None,
-        Quantity("q_a", "N/mm", "Force per length with which a straight rule cuts this board, to hold σ against", gt=0),
+        Quantity(
+            "q_a",
+            "N/mm",
+            "Force per unit length with which a straight rule cuts this board, for comparison with σ",
+            gt=0,
+        ),
     ] = None
-    friction: Annotated[float, Quantity("f", "1", "Friction of the board on edge and counter-knife", ge=0)] = 0.3
-    allowable_force: Annotated[float | None, Quantity("[F]", "N", "Force that knife and counter-knife bear", gt=0)] = (
-        None
-    )
-    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the knife's shaft", gt=0)] = (
+    friction: Annotated[
+        float, Quantity("f", "1", "Coefficient of friction of the board on edge and counter-knife", ge=0)
+    ] = 0.3
+    allowable_force: Annotated[
+        float | None, Quantity("[F]", "N", "Allowable force on knife and counter-knife", gt=0)
+    ] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowable torque at the knife's shaft", gt=0)] = (
         None
     )
     n_points: Annotated[int, POINTS] = 720

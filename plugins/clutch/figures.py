@@ -142,7 +142,7 @@ def force_over_angle(view: View) -> list[Shape]:
             "Engagement force", "kN", "Wedge angle", "α", "deg",
             lines=lines,
             marks=[mark(chosen, view["engagement_force"], "chosen")],
-            verticals=[vertical(view["friction_angle"], Phrase("locks itself up to {friction_angle}", friction_angle=view.text("friction_angle")))]
+            verticals=[vertical(view["friction_angle"], Phrase("self-locking up to {friction_angle}", friction_angle=view.text("friction_angle")))]
             if friction
             else [],
         )
@@ -160,24 +160,24 @@ FIGURES = (
     Drawing(
         id="section",
         title="Section through the wedge",
-        caption="Half section above the axis, engaged: the cone, driven in by P_1, lifts the shoe and presses it against the drum with P. "
-        "The shoe's width and the wedge angle are to scale, the other sizes are free.",
+        caption="Half section above the axis, engaged: the cone, driven in by P_1, lifts the shoe and presses it against the drum with P. The "
+        "shoe's width and the wedge angle are to scale, the other dimensions are not.",
         build=section,
     ),
     Drawing(
         id="force_triangle",
         title="Force triangle of the wedge",
-        caption="Forces on the ring of shoes, to scale, head to tail: N_2 and its friction from the cone, P from the drum, P_1 from "
-        "the stop that keeps the shoes in place along the axis. Light: the force between cone and shoes once P_1 is taken away and friction "
-        "has turned round; right of the vertical the shoes push the cone out, left of it they hold it.",
+        caption="Forces on the ring of shoes, to scale, head to tail: N_2 and its friction from the cone, P from the drum, P_1 from the stop "
+        "that locates the shoes axially. Light: the force between cone and shoes once P_1 is removed and friction has reversed; right of "
+        "the vertical the shoes push the cone out, left of it they hold it.",
         build=force_triangle,
         unit="kN",
     ),
     Chart(
         id="engagement_force",
-        title="Engagement force over the wedge angle",
-        caption="Axial force for the same torque over the wedge angle, for several values of the friction between cone and shoes. Left of "
-        "the self-locking limit the cone has to be pulled out.",
+        title="Engagement force versus wedge angle",
+        caption="Axial force for the same torque versus wedge angle, for several coefficients of friction between cone and shoes. Left of the "
+        "self-locking limit the cone has to be pulled out.",
         build=force_over_angle,
     ),
 )

@@ -11,17 +11,17 @@ from diecut_report.plugins.cyclogram.inputs import Cyclogram
 NOT_COVERED = (
     "Not checked: when grippers open and close.",
     "Not checked: feeder and delivery, and the stripping of the waste.",
-    "Not checked: whether the flat sweeps over parts that are no carriages.",
+    "Not checked: whether the flat sweeps over parts other than the carriages.",
 )
 
 MECHANISM = Mechanism(
     kind="cyclogram",
     version="1.0",
     title="Cyclogram of the press",
-    summary="The main shaft drives all mechanisms; one turn of it is a sheet. Each mechanism's phases are laid over the common period, "
-    "and interlocks say what must lie within what, so that the sheet rests while it is cut and the carriages pass while the cylinder "
-    "leaves them room. The offset of one line may be found, the one with the greatest margins. The torques of all lines are added at "
-    "the main shaft, where they all follow the press.",
+    summary="The main shaft drives all mechanisms; one revolution of it is one sheet. The phases of all mechanisms are plotted over the common "
+            "period, and interlocks define what must lie within what, so that the sheet rests while it is cut and the carriages pass while the "
+            "cylinder leaves clearance. The offset of one line may be solved for the largest margins. The torques of all lines are added at the "
+            "main shaft, where they all run in step with the press.",
     inputs=Cyclogram,
     example=EXAMPLE,
     chapters=(steps.shaft, steps.interlocks, steps.station, steps.motions, steps.energies, steps.torques),
@@ -30,7 +30,7 @@ MECHANISM = Mechanism(
     checks=(
         Check(id="interlock", named_by="interlocks.name", check_class="function", title="Interlock",
               demand="length_demand", limit="length_available", unit="deg", tolerance=1e-9,
-              demand_label="needed with its margins", limit_label="available", source="timing",
+              demand_label="required with margins", limit_label="available", source="timing",
               consequence="{interlock_verdict}"),
         Check(id="equal_rates", check_class="function", title="Equal rates of press and lines",
               demand="rate_error", limit=steps.LARGEST_RATE_ERROR, unit="1", demand_label="relative difference",
@@ -38,19 +38,20 @@ MECHANISM = Mechanism(
               consequence="{line_name} runs at another rate than the press; let its speed follow press.productivity, as it does by default."),
         Check(id="carriage_height", check_class="function", title="Clearance height for the carriages",
               demand="carriage_clearance", limit="clearance_least",
-              unit="mm", demand_label="needed", limit_label="least over the period", source="geometry", asks_for=("station",),
+              unit="mm", demand_label="required", limit_label="minimum over the period", source="geometry", asks_for=("station",),
               consequence="a carriage is hit; let the carriages stop elsewhere, lower them, or turn the transport by its offset."),
     ),
     figures=FIGURES,
     exports=(CurveTable(id="main_shaft", title="Curves over the main shaft", columns=("main_angle",), needs=("rates_agree",)),),
     assumptions=(
-        "The main shaft turns at constant speed: angles hold, times vary by its fluctuation. The lines are rigid and without backlash between them.",
-        "Only the interlocks that are given are judged.",
+        "The main shaft rotates at constant speed: angles hold, times vary with its fluctuation. The lines are rigid and without backlash "
+        "between them.",
+        "Only the given interlocks are checked.",
         *NOT_COVERED,
-        "Torques of lines that have none are not in the sum, nor is friction that is not given. A mechanism that is no line counts neither "
-        "with its phases nor with its torque.",
-        "The sum of the torques is that at the offsets that are taken. Where an interlock fails there, it is that of a timing with which the "
-        "press cannot run, and so is all that is sized by it.",
+        "Torques of lines that have none are not in the sum, nor is friction that is not given. A mechanism that is not a line contributes "
+        "neither phases nor torque.",
+        "The sum of the torques applies to the adopted offsets. If an interlock fails there, it belongs to a timing with which the press cannot "
+        "run, and so does everything sized from it.",
     ),
     sources=(Source("timing", "Intervals of the phases on the main shaft over the common period; tents of the slack over the offset."),),
 )  # fmt: skip

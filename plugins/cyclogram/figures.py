@@ -35,7 +35,7 @@ INNER, RING, LAYER = 0.8, 0.8, 0.22  # of the rings: the innermost radius, a lin
 LAYERS = {"working": "link", "rest": "outline", "window": "hidden"}
 TURN = 2 * pi
 POINTS = 721
-AXIS = (phrase("Angle of the main shaft"), "Φ", "deg")
+AXIS = (phrase("Main-shaft angle"), "Φ", "deg")
 
 
 def _pieces(intervals: Intervals, period: float) -> Iterator[tuple[float, float]]:
@@ -183,8 +183,8 @@ def clearing(view: View) -> list[Shape]:
     """The room over the carriages."""
     main = _angles(view.prepared("timing"))
     room = view.prepared("clearance").over(main[None], main[None], None)[0]
-    needed = line(main, np.full_like(main, view["carriage_clearance"]), "needed")
-    return [chart_panel("Height over the carriages", "mm", *AXIS, lines=[line(main, room, "least"), needed])]
+    needed = line(main, np.full_like(main, view["carriage_clearance"]), "required")
+    return [chart_panel("Height over the carriages", "mm", *AXIS, lines=[line(main, room, "minimum"), needed])]
 
 
 def _angles(timing: Timing) -> Any:
@@ -207,7 +207,7 @@ def _slack(timing: Timing) -> list[Shape]:
     feasible = [end for low, high in best.feasible for end in _room(low, high)]
     marks = [mark(best.shift, best.slack, "best")] if np.isfinite(best.slack) else []
     lines = [
-        line(offsets, np.where(np.isfinite(heights), heights, np.nan), "least slack"),
+        line(offsets, np.where(np.isfinite(heights), heights, np.nan), "minimum slack"),
         line(offsets, 0 * offsets, "no slack"),
     ]
     return [chart_panel("Slack", "deg", "Offset", "Φ_0", "deg", lines=lines, marks=marks, verticals=feasible)]
@@ -217,8 +217,8 @@ FIGURES = (
     Drawing(
         id="cyclogram",
         title="Cyclogram",
-        caption="When each mechanism does what, over the common period of the main shaft; below, for each interlock, what must be held "
-        "(brackets) within what holds it (light), with the least margins at the start and at the end. Shaded: dwell.",
+        caption="Operating phases of each mechanism over the common period of the main shaft; below, for each interlock, what must be contained "
+        "(brackets) within what contains it (light), with the smallest margins at the start and at the end. Shaded: dwell.",
         build=rows,
         moving=at_angle,
         over="main_angle",
@@ -226,38 +226,39 @@ FIGURES = (
     ),
     Drawing(
         id="rings",
-        title="Cyclogram, once round",
-        caption="The common period once round, clockwise from the top, a ring for each line. From inside to outside: working (heavy), at rest "
-        "(full), leaving room for others (dashed).",
+        title="Circular cyclogram",
+        caption="One common period, clockwise from the top, a ring for each line. From inside to outside: working (heavy), at rest (full), "
+        "leaving room for others (dashed).",
         build=rings,
         schematic=True,
     ),
     Chart(
         id="ways",
         title="Displacements and slack",
-        caption="Ways of the lines over the common period of the main shaft; a transport goes on with each step. Where an offset "
-        "is found: the least slack of all interlocks over it; between the upright lines all interlocks hold.",
+        caption="Displacements of the lines over the common period of the main shaft; a transport advances with each step. Where an offset is "
+        "solved: the minimum slack of all interlocks versus the offset; between the vertical lines all interlocks hold.",
         needs=("rates_agree",),
         build=moving,
     ),
     Chart(
         id="clearance",
-        title="Room of the carriages",
-        caption="The least height that the cylinder leaves all carriages; where none is below it, its radius stands.",
+        title="Clearance over the carriages",
+        caption="The minimum height that the cylinder leaves over all carriages; where none is below it, its radius "
+        "is shown.",
         needs=("rates_agree", "station"),
         build=clearing,
     ),
     Chart(
         id="torques",
         title="Torques at the main shaft",
-        caption="The torques of the lines at the main shaft with their sum; negative where a line gives back.",
+        caption="The torques of the lines at the main shaft and their sum; negative where a line drives the shaft.",
         needs=("rates_agree", "takes_torque"),
         build=taking,
     ),
     Chart(
         id="energies",
         title="Kinetic energies",
-        caption="The kinetic energies of the lines with their sum: what one line gives back while another takes it needs no flywheel.",
+        caption="The kinetic energies of the lines and their sum: energy released by one line while another absorbs it needs no flywheel.",
         needs=("rates_agree", "energy_known"),
         build=swinging,
     ),

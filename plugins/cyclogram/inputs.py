@@ -10,7 +10,7 @@ PHASE = "the phase of a line, as mechanism.phase, or mechanism.phase.k for its k
 
 
 def _turns(symbol: str, of: str) -> Text:
-    return Text(f"Turns of the shaft of {of} for each sheet, a number or a ratio such as 1/2", symbol=symbol)
+    return Text(f"Revolutions of the shaft of {of} per sheet, a number or a ratio such as 1/2", symbol=symbol)
 
 
 class Passage(Block):
@@ -21,19 +21,19 @@ class Passage(Block):
         float, Quantity("s_1", "mm", "Displacement from the dwell at which it begins", ge=0)
     ]
     to: Annotated[float, Quantity("s_2", "mm", "Displacement from the dwell at which it ends", gt=0)]
-    every: Annotated[int, Quantity("k", "1", "Of so many steps one passes", ge=1, le=12, integer=True)] = 1
+    every: Annotated[int, Quantity("k", "1", "One of this number of steps passes", ge=1, le=12, integer=True)] = 1
     first: Annotated[int, Quantity("k_0", "1", "Number of the first step that passes", ge=0, le=11, integer=True)] = 0
 
 
 class LineKeys(Block):
     """A mechanism that the main shaft drives."""
 
-    mechanism: Annotated[Any, MechanismInput("Mechanism of the line")]
+    mechanism: Annotated[Any, MechanismInput("Mechanism that is a line")]
     turns_per_sheet: Annotated[str, _turns("i", "the line")] = "1"
     offset: Annotated[
         float,
         Quantity(
-            "Φ_0", "deg", "Main-shaft angle at which the line's own zero comes; auto: the one with the greatest margins",
+            "Φ_0", "deg", "Main-shaft angle of the line's own zero; auto: the one with the largest margins",
             ge=-3600, le=3600, plausible=("1e-6 deg", "3600 deg"), words=("auto",),
         ),
     ] = 0  # fmt: skip
@@ -41,7 +41,7 @@ class LineKeys(Block):
         float, Quantity("η", "1", "Efficiency from the main shaft to the shaft of the line's torque", gt=0, le=1)
     ] = 1
     torque_curve: Annotated[
-        str, Text("Name of a curve of the line, such as `torque`, where its torque is not the one of its kind")
+        str, Text("Name of a torque curve of the line, such as `torque`, if not the default of its kind")
     ] = ""
     passing: Annotated[list[Passage], Text("Stations that the sheet passes")] = []  # noqa: RUF012
 
@@ -50,13 +50,13 @@ class InterlockKeys(Block):
     """What must lie within, or apart from, what."""
 
     name: Annotated[str, Text("Name of the interlock")]
-    phase: Annotated[str, Text(f"What must be held: {PHASE}")]
+    phase: Annotated[str, Text(f"What must be contained: {PHASE}")]
     within: Annotated[str, Text(f"What it must lie within: {PHASE}")] = ""
     apart_from: Annotated[str, Text(f"What it must lie apart from: {PHASE}")] = ""
     margin: Annotated[
         float,
         Quantity(
-            "m", "deg", "Margin at both ends, of the main shaft or in time", ge=0, le=360, or_unit="ms",
+            "m", "deg", "Required margin at both ends, as a main-shaft angle or a time", ge=0, le=360, or_unit="ms",
             plausible=("1e-6 deg", "360 deg"),
         ),
     ] = 0  # fmt: skip
@@ -68,10 +68,12 @@ class StationKeys(Block):
     cylinder: Annotated[Any, MechanismInput("Drive of the cylinder, one of the lines")]
     transport: Annotated[Any, MechanismInput("Sheet transport, one of the lines")]
     carriage_stop: Annotated[
-        float, Quantity("x_s", "mm", "Where the middle of a carriage stands, along the feed from the die's middle")
+        float, Quantity("x_s", "mm", "Position of the middle of a carriage along the feed, from the middle of the die")
     ]
     carriage_width: Annotated[float, Quantity("w_c", "mm", "Length of a carriage along the feed", ge=0)]
-    forward_direction: Annotated[Literal["with", "against"], Text("Whether the forward stroke runs with the feed")]
+    forward_direction: Annotated[
+        Literal["with", "against"], Text("Direction of the forward stroke relative to the feed")
+    ]
 
 
 class FrictionKeys(Block):
@@ -79,7 +81,7 @@ class FrictionKeys(Block):
 
     one_of: ClassVar[tuple[OneOf, ...]] = (OneOf(("torque",), ("power",)),)
 
-    name: Annotated[str, Text("What takes it")]
+    name: Annotated[str, Text("Name of the consumer")]
     torque: Annotated[float | None, Quantity("M_f", "N*m", "Torque at its own shaft", ge=0)] = None
     power: Annotated[float | None, Quantity("P_f", "kW", "Power", ge=0)] = None
     turns_per_sheet: Annotated[str, _turns("i_f", "the consumer")] = "1"
@@ -93,10 +95,12 @@ class Cyclogram(Inputs):
 
     productivity: Annotated[
         float | None,
-        Quantity("n", "1/h", "Sheets an hour", gt=0, press=FromPress("press.productivity")),
+        Quantity("n", "1/h", "Sheets per hour", gt=0, press=FromPress("press.productivity")),
     ] = None
     lines: Annotated[list[LineKeys], Text("Mechanisms that the main shaft drives")]
-    interlocks: Annotated[list[InterlockKeys], Text("What must lie within, or apart from, what")]
-    station: Annotated[StationKeys | None, Text("Where the carriages stand; with it the exact clearance")] = None
-    friction: Annotated[list[FrictionKeys], Text("Consumers of a constant torque")] = []  # noqa: RUF012
+    interlocks: Annotated[list[InterlockKeys], Text("Interlocks: what must lie within, or apart from, what")]
+    station: Annotated[
+        StationKeys | None, Text("Position of the carriages when they stand; required for the exact clearance")
+    ] = None
+    friction: Annotated[list[FrictionKeys], Text("Consumers of constant torque")] = []  # noqa: RUF012
     n_points: Annotated[int, POINTS] = 720

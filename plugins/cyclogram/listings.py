@@ -29,12 +29,12 @@ OFFSETS = (
     ListedColumn("start", "from", "Φ_a", "deg"),
     ListedColumn("end", "to", "Φ_b", "deg"),
 )
-LACKING = (ListedColumn("what", "What"), ListedColumn("because", "Because"))
+LACKING = (ListedColumn("what", "Missing"), ListedColumn("because", "Reason"))
 ROLES = {
     "working": phrase("working"),
     "rest": phrase("at rest"),
     "moving": phrase("moving"),
-    "window": phrase("room for another part"),
+    "window": phrase("clearance for another part"),
 }
 
 
@@ -83,14 +83,14 @@ def lacking(given: Mapping[str, Any]) -> Rows:
         if line.mechanism.curve(torque_name(line.mechanism, line.torque_curve)) is None:
             yield (
                 Phrase("torque of {name}", name=line.name),
-                Phrase("{name} has none; the sum is too small by it", name=line.name),
+                Phrase("{name} has none; the sum is too small by this amount", name=line.name),
             )
         if line.mechanism.kind in ENERGIES and energy_parts(line.mechanism) is None:
             numbers = [key for key in ENERGIES[line.mechanism.kind].numbers if line.mechanism.number(key) is None]
             yield (
                 Phrase("kinetic energy of {name}", name=line.name),
                 Phrase(
-                    "{numbers} of {name} is not given; it lends nothing",
+                    "{numbers} of {name} is not given; it contributes nothing",
                     numbers=joined(numbers, " and "),
                     name=line.name,
                 ),

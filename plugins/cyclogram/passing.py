@@ -45,7 +45,8 @@ class Stretch:
             raise Refusal(
                 key,
                 Phrase(
-                    "tells what the sheet passes, but the way of the sheet is not known in {name}", name=mechanism.name
+                    "tells what the sheet passes, but the travel of the sheet is not known in {name}",
+                    name=mechanism.name,
                 ),
             )
         if not self.start < self.end <= step * LONGER:

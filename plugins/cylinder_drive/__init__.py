@@ -14,9 +14,10 @@ MECHANISM = Mechanism(
     kind="cylinder_drive",
     version="1.0",
     title="Impression cylinder drive: crank-rocker, sector and pinion",
-    summary="A crank-rocker swings a toothed sector; the sector turns a pinion on a shaft that stands, and a chain moves the carriages "
-    "in which the cylinder rolls over the die, there and back. One turn of the crank gives two working strokes with a pause at each end, so "
-    "two sheets. Calculated are the motion of the cylinder, the moments on it, and torque, power and forces over a turn of the crank.",
+    summary="A crank-rocker swings a toothed sector; the sector turns a pinion on a fixed shaft, and a chain moves the carriages in which the "
+            "cylinder rolls over the die and back. One revolution of the crank gives two working strokes with a pause at each end, hence two "
+            "sheets. The calculation gives the motion of the cylinder, the moments on it, and torque, power and forces over a revolution of the "
+            "crank.",
     inputs=CylinderDrive,
     example=EXAMPLE,
     chapters=(linkage.linkage_chapter, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
@@ -34,8 +35,9 @@ MECHANISM = Mechanism(
               unit="deg", demand_label="required", limit_label="worst position", source="practice",
               consequence="the coupler pushes the rocker's joint more than it turns the rocker.",
               advise=(Vary("rocker_ratio", "up"), Vary("frame_ratio", "up"))),
-        Check(id="stroke", check_class="function", title="Full turn of the cylinder over the stroke", demand="stroke_error", limit=0.5, unit="deg",
-              demand_label="rotation off a full turn", limit_label="accepted", source="000, Fig. 1",
+        Check(id="stroke", check_class="function", title="Full revolution of the cylinder over the stroke", demand="stroke_error", limit=0.5,
+              unit="deg",
+              demand_label="deviation from one revolution", limit_label="accepted", source="000, Fig. 1",
               consequence="the flat stands tilted at an end of the stroke, unless the sector ratio is 2π/δ_max.", advise=("sector_ratio",)),
         Check(
             id="unbalance",
@@ -51,20 +53,20 @@ MECHANISM = Mechanism(
             consequence="no body has its centre of mass outside itself like that; look at static_unbalance and cylinder_mass.",
         ),
         Check(id="crank_torque", check_class="strength", title="Torque at the crank", demand="crank_torque_peak", limit="allowable_torque",
-              unit="N*m", demand_label="greatest torque", limit_label="allowed", source="input",
+              unit="N*m", demand_label="maximum torque", limit_label="allowed", source="input",
               consequence="the crank's shaft and what drives it are overloaded; a lighter cylinder lowers it.",
               advise=(Vary("crank_speed", "down"),)),
         Check(id="acceleration", check_class="function", title="Acceleration of the cylinder", demand="acceleration_max",
-              limit="allowable_acceleration", unit="m/s**2", demand_label="greatest acceleration", limit_label="allowed", source="input",
+              limit="allowable_acceleration", unit="m/s**2", demand_label="maximum acceleration", limit_label="allowed", source="input",
               consequence="the cylinder slips on the board or its drive knocks.", advise=(Vary("crank_speed", "down"),)),
         Check(id="tooth_force", check_class="strength", title="Force of the sector's teeth", demand="tooth_force_max",
-              limit="allowable_tooth_force", unit="kN", tolerance=ROUNDING, demand_label="greatest tangential force",
+              limit="allowable_tooth_force", unit="kN", tolerance=ROUNDING, demand_label="maximum tangential force",
               limit_label="allowed", source="input",
               consequence="the teeth wear and break.", advise=(Vary("pinion_radius", "up"),)),
         Check(id="joint_force", check_class="strength", title="Force in the joints", demand="joint_force_max", limit="allowable_joint_force",
-              unit="kN", tolerance=ROUNDING, demand_label="greatest force", limit_label="allowed", source="input",
+              unit="kN", tolerance=ROUNDING, demand_label="maximum force", limit_label="allowed", source="input",
               consequence="pins and bearings are overloaded.", advise=(Vary("crank_length", "up"),)),
-        Check(id="energy_balance", check_class="numerical", title="Energy balance over a turn", demand="energy_residual", limit=1e-6, unit="1",
+        Check(id="energy_balance", check_class="numerical", title="Energy balance over a revolution", demand="energy_residual", limit=1e-6, unit="1",
               demand_label="relative difference", limit_label="accepted", source="conservation of energy",
               consequence="the calculation contradicts itself; do not use it."),
     ),
@@ -73,8 +75,8 @@ MECHANISM = Mechanism(
         "The crank turns at constant speed; links, joints and teeth are rigid and without clearance; the cylinder rolls without slip.",
         "The technological moment is constant over the cutting part of the stroke, counted in rolled length, and resists the motion "
         "on both strokes.",
-        "One efficiency for each transmission, the same in both directions of power.",
-        "Mass and inertia of the links, the sector and the pinion are not included: their share of torque and forces comes on top.",
+        "One efficiency per transmission, the same in both directions of power.",
+        "Mass and inertia of the links, the sector and the pinion are not included: their contribution to torque and forces is additional.",
     ),
     sources=(
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "

@@ -135,9 +135,9 @@ FIGURES = (
     Drawing(
         id="linkage",
         title="Linkage",
-        caption="The linkage to scale at the crank angle of the greatest torque, light: in its dead centres. With a crank length and "
-        "a pinion also sector, pinion and cylinder (dashed, light: at the ends of its travel). The pinion's shaft stands, and a chain moves "
-        "the carriages of the cylinder; the places of the pinion around the sector and of the travel are free and chosen here.",
+        caption="The linkage to scale at the crank angle of the maximum torque, light: in its dead centres. With a crank length and a pinion "
+        "also sector, pinion and cylinder (dashed, light: at the ends of its travel). The pinion's shaft is fixed, and a chain moves the "
+        "carriages of the cylinder; the positions of the pinion around the sector and of the travel are arbitrary.",
         build=linkage,
         moving=moving,
         over="crank_angle",
@@ -181,8 +181,8 @@ FIGURES = (
     Plot(
         id="torque",
         title="Torque at the crank",
-        caption="Torque over a turn of the crank with its extremes, mean and root mean square (figure 3 of 000); "
-        "negative: the cylinder drives back.",
+        caption="Torque over a revolution of the crank with its extremes, mean and root mean square (figure 3 of "
+        "000); negative: the cylinder drives.",
         abscissa="crank_angle",
         panels=(
             Panel(
@@ -191,8 +191,8 @@ FIGURES = (
                 series=(Series(curve="crank_torque", label="torque"),),
                 levels=(Level(value="crank_torque_mean", label="mean"), Level(value="crank_torque_rms", label="rms")),
                 marks=(
-                    Mark(x="crank_torque_max_at", y="crank_torque_max", label="greatest driving"),
-                    Mark(x="crank_torque_min_at", y="crank_torque_min", label="greatest braking"),
+                    Mark(x="crank_torque_max_at", y="crank_torque_max", label="maximum driving"),
+                    Mark(x="crank_torque_min_at", y="crank_torque_min", label="maximum braking"),
                 ),
                 spans=STROKES,
             ),
@@ -201,7 +201,7 @@ FIGURES = (
     Polar(
         id="torque_polar",
         title="Torque over the crank circle",
-        caption="Size of the torque as distance from the centre over the crank angle; dashed where the cylinder drives back.",
+        caption="Absolute torque as distance from the centre over the crank angle; dashed where the cylinder drives.",
         abscissa="crank_angle",
         unit="N*m",
         series=(Series(curve="crank_torque", label="torque"),),
@@ -219,9 +219,9 @@ FIGURES = (
                 series=(
                     Series(curve="coupler_force", label="coupler"),
                     Series(curve="crank_bearing_force_x", label="crank's bearing, along the frame"),
-                    Series(curve="crank_bearing_force_y", label="crank's bearing, square to it"),
+                    Series(curve="crank_bearing_force_y", label="crank's bearing, normal to it"),
                 ),
-                marks=(Mark(x="coupler_tension_max_at", y="coupler_tension_max", label="greatest tension"),),
+                marks=(Mark(x="coupler_tension_max_at", y="coupler_tension_max", label="maximum tension"),),
                 spans=STROKES,
             ),
         ),

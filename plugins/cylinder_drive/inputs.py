@@ -22,15 +22,15 @@ def _efficiency(index: str, of: str) -> Quantity:
 class CylinderDrive(Inputs):
     """Keys of ``cylinder_drive``."""
 
-    frame_ratio: Annotated[float, Quantity("λ_1", "1", "Frame to crank, d/a", gt=0)] = 5.0
-    coupler_ratio: Annotated[float, Quantity("λ_2", "1", "Coupler to crank, b/a", gt=0)] = 5.0
-    rocker_ratio: Annotated[float, Quantity("λ_3", "1", "Rocker to crank, c/a", gt=0)] = 2.05
+    frame_ratio: Annotated[float, Quantity("λ_1", "1", "Frame-to-crank ratio, d/a", gt=0)] = 5.0
+    coupler_ratio: Annotated[float, Quantity("λ_2", "1", "Coupler-to-crank ratio, b/a", gt=0)] = 5.0
+    rocker_ratio: Annotated[float, Quantity("λ_3", "1", "Rocker-to-crank ratio, c/a", gt=0)] = 2.05
     crank_speed: Annotated[
         float | None,
         Quantity(
             "ω_1",
             "rpm",
-            "Speed of the crank; two sheets a turn",
+            "Speed of the crank; two sheets per revolution",
             gt=0,
             press=FromPress("press.productivity", two_sheets_a_turn),
         ),
@@ -40,7 +40,7 @@ class CylinderDrive(Inputs):
         Quantity(
             "u",
             "1",
-            "Ratio of sector to pinion; default: the full swing turns the cylinder once",
+            "Ratio of sector to pinion; default: the full swing turns the cylinder by one revolution",
             gt=0,
             plausible=("0.01", "500"),
         ),
@@ -52,10 +52,10 @@ class CylinderDrive(Inputs):
         float, Quantity("I", "kg*m**2", "Moment of inertia of the cylinder about its axis", gt=0)
     ]
     cutting_force_per_length: Annotated[
-        float, Quantity("q_a", "N/mm", "Cutting force for each length of the rules", ge=0)
+        float, Quantity("q_a", "N/mm", "Cutting force per unit length of the rules", ge=0)
     ] = 25
     ejection_force_per_length: Annotated[
-        float, Quantity("q_e", "N/mm", "Force of the ejection material for each length", ge=0)
+        float, Quantity("q_e", "N/mm", "Force of the ejection material per unit length", ge=0)
     ] = 5
     material_thickness: Annotated[
         float | None,
@@ -63,10 +63,12 @@ class CylinderDrive(Inputs):
             "Δ", "mm", "Thickness of the board (below the radius)", gt=0, press=FromPress("press.sheet.thickness")
         ),
     ] = None
-    rolling_coefficient: Annotated[float, Quantity("k_0", "1", "Rolling arm to cutting length", gt=0)] = 0.3
+    rolling_coefficient: Annotated[
+        float, Quantity("k_0", "1", "Ratio of rolling-resistance arm to cutting length", gt=0)
+    ] = 0.3
     cutting_arc_fraction: Annotated[
         float,
-        Quantity("κ", "1", "Share of the stroke, of the rolled length, in whose middle the board is cut", gt=0, le=1),
+        Quantity("κ", "1", "Fraction of the stroke, in rolled length, over whose middle the board is cut", gt=0, le=1),
     ] = 1.0
     static_unbalance: Annotated[float, Quantity("me", "kg*m", "Static unbalance of the cylinder", ge=0)] = 0
     efficiency_sector: Annotated[float, _efficiency("sector", "sector and pinion")] = 0.96
@@ -78,34 +80,42 @@ class CylinderDrive(Inputs):
     efficiency_chain: Annotated[float, _efficiency("chain", "chain")] = 0.95
     n_points: Annotated[int, POINTS] = 720
     min_transmission_angle: Annotated[
-        float, Quantity("μ_min", "deg", "Least transmission angle that is accepted", gt=0, le=90)
+        float, Quantity("μ_min", "deg", "Minimum acceptable transmission angle", gt=0, le=90)
     ] = 40
     segment_height: Annotated[
-        float | None, Quantity("h", "mm", "Height of the cylinder's segment; with it the window of the carriages", gt=0)
+        float | None, Quantity("h", "mm", "Height of the cylinder's segment; required for the carriage window", gt=0)
     ] = None
     carriage_clearance: Annotated[
-        float | None, Quantity("c_r", "mm", "Clearance that the carriages need under the cylinder", gt=0)
+        float | None, Quantity("c_r", "mm", "Clearance required by the carriages under the cylinder", gt=0)
     ] = None
     standstill_rotation: Annotated[
-        float, Quantity("θ_s", "deg", "Rotation of the cylinder from an end that counts as standstill", gt=0, le=90)
+        float,
+        Quantity(
+            "θ_s",
+            "deg",
+            "Rotation of the cylinder from an end position within which it counts as standing still",
+            gt=0,
+            le=90,
+        ),
     ] = 2
     crank_length: Annotated[
-        float | None, Quantity("a", "mm", "Length of the crank; with it the forces in the joints", gt=0)
+        float | None, Quantity("a", "mm", "Length of the crank; required for the forces in the joints", gt=0)
     ] = None
     pinion_radius: Annotated[
-        float | None, Quantity("r_p", "mm", "Pitch radius of the pinion; with it the tooth force of the sector", gt=0)
+        float | None,
+        Quantity("r_p", "mm", "Pitch radius of the pinion; required for the tooth force of the sector", gt=0),
     ] = None
-    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the crank's shaft", gt=0)] = (
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowable torque at the crank's shaft", gt=0)] = (
         None
     )
     allowable_acceleration: Annotated[
-        float | None, Quantity("[a_c]", "m/s**2", "Allowed acceleration of the cylinder", gt=0)
+        float | None, Quantity("[a_c]", "m/s**2", "Allowable acceleration of the cylinder", gt=0)
     ] = None
     allowable_tooth_force: Annotated[
-        float | None, Quantity("[F_t]", "kN", "Allowed tangential force between the teeth of sector and pinion", gt=0)
+        float | None, Quantity("[F_t]", "kN", "Allowable tangential force between the teeth of sector and pinion", gt=0)
     ] = None
     allowable_joint_force: Annotated[
         float | None,
-        Quantity("[F_j]", "kN", "Allowed force in the joints of the coupler and the crank's bearing", gt=0),
+        Quantity("[F_j]", "kN", "Allowable force in the joints of the coupler and the crank's bearing", gt=0),
     ] = None
     pressure_angle: Annotated[float, Quantity("α_w", "deg", "Pressure angle of the teeth", gt=0, lt=45)] = 20

@@ -26,10 +26,10 @@ def _cutting_edge(name: str, symbol: str, description: str, dead_center: Bound, 
 
 linkage_chapter = Chapter("Linkage and its dead centres",
                           text="Lengths are relative to the crank. The crank angle is counted from the frame line O₁O₃, counter-clockwise.")
-linkage_chapter.value("grashof_demand", "Σ_1", "1", "Shortest and longest link together, in crank lengths",
+linkage_chapter.value("grashof_demand", "Σ_1", "1", "Sum of the shortest and longest links, in crank lengths",
                       lambda frame_ratio, coupler_ratio, rocker_ratio: 1 + np.maximum(frame_ratio, np.maximum(coupler_ratio, rocker_ratio)),
                       output=False)
-linkage_chapter.value("grashof_limit", "Σ_2", "1", "The other two links together, in crank lengths",
+linkage_chapter.value("grashof_limit", "Σ_2", "1", "Sum of the other two links, in crank lengths",
                       lambda frame_ratio, coupler_ratio, rocker_ratio:
                           frame_ratio + coupler_ratio + rocker_ratio - np.maximum(frame_ratio, np.maximum(coupler_ratio, rocker_ratio)), output=False)
 linkage_chapter.require("crank_rocker", four_bar.is_crank_rocker, key="rocker_ratio",
@@ -43,24 +43,24 @@ linkage_chapter.value("dead_center_outer", "φ_out", "deg", "Crank angle of the 
                       digits=6)
 linkage_chapter.value("dead_center_inner", "φ_in", "deg", "Crank angle of the inner dead centre", four_bar.inner_dead_center, source="closed form",
                       digits=6)
-linkage_chapter.value("time_ratio", "k_t", "1", "Time of the forward to that of the return stroke",
+linkage_chapter.value("time_ratio", "k_t", "1", "Time ratio of the forward to the return stroke",
                       lambda dead_center_outer, dead_center_inner:
                           (dead_center_inner - dead_center_outer) / (2 * np.pi - (dead_center_inner - dead_center_outer)))
-linkage_chapter.value("transmission_angle_min", "μ_1", "deg", "Least transmission angle, at φ = 0", four_bar.least_transmission_angle,
+linkage_chapter.value("transmission_angle_min", "μ_1", "deg", "Minimum transmission angle, at φ = 0", four_bar.least_transmission_angle,
                       source="000 eq. 4")
-linkage_chapter.value("transmission_angle_max", "μ_2", "deg", "Greatest transmission angle, at φ = 180°", four_bar.greatest_transmission_angle,
+linkage_chapter.value("transmission_angle_max", "μ_2", "deg", "Maximum transmission angle, at φ = 180°", four_bar.greatest_transmission_angle,
                       source="000 eq. 4")
-linkage_chapter.value("transmission_angle_worst", "μ_w", "deg", "Worst transmission angle, an obtuse one counted by its supplement",
+linkage_chapter.value("transmission_angle_worst", "μ_w", "deg", "Worst transmission angle; for an obtuse angle its supplement",
                       lambda transmission_angle_min, transmission_angle_max: np.minimum(transmission_angle_min, np.pi - transmission_angle_max),
                       output=False)
 
 stroke = Chapter("Sector ratio and stroke")
 stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: as given",
              bind(lambda sector_ratio: sector_ratio, sector_ratio="inputs.sector_ratio"), source="input", needs=("sector_ratio",), digits=6)
-stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: the full swing turns the cylinder once",
+stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: the full swing turns the cylinder by one revolution",
              lambda swing_angle: 2 * np.pi / swing_angle, lacks=("sector_ratio",), digits=6)
 stroke.value("stroke", "S_max", "mm", "Stroke of the cylinder's axis", bind(motion.rolled, angle="swing_angle"), source="000 eq. 8")
-stroke.value("stroke_error", "Δθ", "deg", "Rotation over the stroke off a full turn",
+stroke.value("stroke_error", "Δθ", "deg", "Deviation of the rotation over the stroke from one revolution",
              lambda sector_ratio, swing_angle: abs(sector_ratio * swing_angle - 2 * np.pi), output=False)
 
 cutting = Chapter("Cutting")
@@ -95,7 +95,7 @@ cutting.add(_cutting_edge("cut_begin_return", "φ_3", "Crank angle where cutting
 cutting.add(_cutting_edge("cut_end_return", "φ_4", "Crank angle where cutting ends, return stroke (counted on)",
                           bind(motion.turn_later, angle="dead_center_outer"), four_bar.crank_angle_return, "begin"))
 
-kinematics = Chapter("Kinematics over a turn of the crank")
+kinematics = Chapter("Kinematics over a revolution of the crank")
 kinematics.abscissa("crank_angle", "φ", "deg", "Crank angle from the frame line", 2 * np.pi, shown_at="crank_torque_peak_at", intervals=32,
                     speed="crank_speed")
 kinematics.breakpoints("strokes", "crank_angle", "dead_center_outer", "dead_center_inner", "cut_begin_forward", "cut_end_forward", "cut_begin_return",
@@ -111,11 +111,12 @@ kinematics.value("coupler_direction", "γ", "deg", "Direction of the coupler", f
 kinematics.value("rocker_direction", "β", "deg", "Direction of the rocker", four_bar.rocker_direction, source="000, after eq. 6", output=False)
 kinematics.value("rocker_angle", "δ", "deg", "Rocker angle from its outer dead centre",
                  lambda rocker_direction, outer_direction: rocker_direction - outer_direction, source="000 eq. 1")
-kinematics.value("rocker_speed_ratio", "ω_3i", "1", "Angular speed of the rocker to the crank's", four_bar.rocker_speed_ratio, source="000 eq. 6",
+kinematics.value("rocker_speed_ratio", "ω_3i", "1", "Ratio of the rocker's angular speed to the crank's", four_bar.rocker_speed_ratio,
+                 source="000 eq. 6",
                  output=False)
-kinematics.value("coupler_speed_ratio", "ω_2i", "1", "Angular speed of the coupler to the crank's", four_bar.coupler_speed_ratio,
+kinematics.value("coupler_speed_ratio", "ω_2i", "1", "Ratio of the coupler's angular speed to the crank's", four_bar.coupler_speed_ratio,
                  source="000, after eq. 7", output=False)
-kinematics.value("rocker_acceleration_ratio", "ε_3i", "1", "Angular acceleration of the rocker to the crank's speed squared",
+kinematics.value("rocker_acceleration_ratio", "ε_3i", "1", "Ratio of the rocker's angular acceleration to the square of the crank's speed",
                  four_bar.rocker_acceleration_ratio, source="000 eq. 7", output=False)
 kinematics.value("displacement", "S", "mm", "Displacement of the cylinder", bind(motion.rolled, angle="rocker_angle"), source="000 eq. 8")
 kinematics.value("velocity", "V", "m/s", "Velocity of the cylinder",
@@ -133,8 +134,8 @@ kinematics.value("cylinder_speed", "ω_c", "rad/s", "Angular speed of the cylind
 kinematics.value("cylinder_acceleration", "ε_c", "rad/s**2", "Angular acceleration of the cylinder",
                  lambda rocker_acceleration_ratio, crank_speed, sector_ratio: as_angle(rocker_acceleration_ratio * crank_speed ** 2) * sector_ratio,
                  source="000, after eq. 12", output=False)
-kinematics.reduction("velocity_max", "V_max", "m/s", "Greatest speed of the cylinder", "abs_max", of="velocity")
-kinematics.reduction("acceleration_max", "a_c,max", "m/s**2", "Greatest acceleration of the cylinder", "abs_max", of="acceleration")
+kinematics.reduction("velocity_max", "V_max", "m/s", "Maximum speed of the cylinder", "abs_max", of="velocity")
+kinematics.reduction("acceleration_max", "a_c,max", "m/s**2", "Maximum acceleration of the cylinder", "abs_max", of="acceleration")
 
 TECHNOLOGICAL = Steps()
 TECHNOLOGICAL.choice("technological_moment", "M_t", "N*m", "Moment of the technological load at this crank angle",

@@ -34,15 +34,16 @@ contact.require("flat_below_radius", lambda segment_height, cylinder_radius: seg
                 message="is {segment_height}, but the segment must be lower than the radius {cylinder_radius}")
 contact.value("flat_half_angle", "α", "deg", "Half the central angle of the flat",
               bind(circular_segment.half_angle, radius="cylinder_radius", height="segment_height"), output=False)
-contact.value("contact_rotation", "θ_z", "deg", "Rotation of the cylinder at which it touches the board",
+contact.value("contact_rotation", "θ_z", "deg", "Rotation of the cylinder where contact with the board begins",
               bind(loads.clear_rotation, half_angle="flat_half_angle", carriage_clearance="material_thickness"))
-contact.value("contact_swing", "δ_z", "deg", "Rocker angle at which it touches the board",
+contact.value("contact_swing", "δ_z", "deg", "Rocker angle where contact with the board begins",
               lambda contact_rotation, sector_ratio: contact_rotation / sector_ratio, output=False)
-contact.value("contact_swing_far", "δ_z′", "deg", "Rocker angle at which it leaves the board, or the whole swing",
+contact.value("contact_swing_far", "δ_z′", "deg", "Rocker angle where contact with the board ends, or the whole swing",
               lambda contact_rotation, sector_ratio, swing_angle: loads.far_swing(contact_rotation, sector_ratio, swing_angle), output=False)
-contact.add(_at_swing("contact", "z", "it touches the board", "contact_swing"))
-contact.add(_at_swing("contact_far", "z′", "it leaves the board", "contact_swing_far"))
-INNER_END = case(bind(common.same, quantity="dead_center_inner"), "the board is touched up to the inner end of the stroke", loads.never_leaves)
+contact.add(_at_swing("contact", "z", "contact with the board begins", "contact_swing"))
+contact.add(_at_swing("contact_far", "z′", "contact with the board ends", "contact_swing_far"))
+INNER_END = case(bind(common.same, quantity="dead_center_inner"), "the cylinder touches the board up to the inner end of the stroke",
+                 loads.never_leaves)
 contact.value("contact_begin_forward", "φ_z1", "deg", "Crank angle at which the contact begins, forward stroke", _forward("contact"),
               exists=loads.touches_board)
 contact.choice("contact_end_forward", "φ_z2", "deg", "Crank angle at which the contact ends, forward stroke", INNER_END,

@@ -12,9 +12,9 @@ MECHANISM = Mechanism(
     kind="cylinder_sizing",
     version="1.0",
     title="Impression cylinder: size, mass and inertia",
-    summary="The hollow cylinder rolls over the flat die; a circular segment is cut away from it, so that the gripper carriages of "
-    "the sheet conveyor pass under the flat while the cylinder dwells. From the sheet and the segment follow the radius, the "
-    "mass, the inertia and the unbalance; the wall that is left at the flat is checked.",
+    summary="The hollow cylinder rolls over the flat die; a circular segment is cut away from it, so that the gripper carriages of the sheet "
+            "conveyor pass under the flat while the cylinder dwells. From the sheet and the segment follow the radius, the mass, the inertia and "
+            "the unbalance; the remaining wall at the flat is checked.",
     inputs=CylinderSizing,
     example=EXAMPLE,
     chapters=CHAPTERS,
@@ -37,7 +37,7 @@ MECHANISM = Mechanism(
         Check(
             id="radius",
             check_class="function",
-            title="Radius against the exact one",
+            title="Radius compared with the exact one",
             demand="radius_exact",
             limit="radius",
             unit="mm",
@@ -52,7 +52,7 @@ MECHANISM = Mechanism(
         Check(
             id="closed_form_error",
             check_class="practice",
-            title="Error of the closed form",
+            title="Error of the closed-form approximation",
             demand="closed_form_error_size",
             limit=0.5,
             unit="%",
@@ -80,7 +80,7 @@ MECHANISM = Mechanism(
         Check(
             id="closed_section",
             check_class="strength",
-            title="Section closed, as the bending presumes",
+            title="Closed section, as assumed for bending",
             demand="bore_radius",
             limit="flat_distance",
             unit="mm",
@@ -97,10 +97,10 @@ MECHANISM = Mechanism(
     figures=FIGURES,
     assumptions=(
         "The cylinder rolls without slip; the unrolled circumference beside the flat is the working length.",
-        "The body is homogeneous and of one section along the generatrix; journals, keyways and the pinion are not included.",
-        "Where the bore breaks through the flat, the overlap of bore and segment is subtracted once only.",
-        "Bending: a simply supported beam with the line load over the generatrix in the middle of the span, about the weakest axis "
-        "of the section, which is closed; shear deformation is left out.",
+        "The body is homogeneous and has a constant section along the generatrix; journals, keyways and the pinion are not included.",
+        "Where the bore breaks through the flat, the overlap of bore and segment is subtracted only once.",
+        "Bending: a simply supported beam with the line load over the generatrix in the middle of the span, about the weakest axis of the "
+        "section, which is closed; shear deformation is neglected.",
     ),
     sources=(
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "

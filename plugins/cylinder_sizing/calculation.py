@@ -14,8 +14,8 @@ from diecut_report.plugins.cylinder_sizing import beam
 # fmt: off
 
 size = Chapter("Radius",
-               text="The unrolled circumference is the working length and the arc of the segment: 2πR = l_1 + l_2 (002 eq. 1). "
-               "The closed form takes Huygens' arc; the adopted radius is judged by the exact one.")
+               text="The unrolled circumference is the working length plus the arc of the segment: 2πR = l_1 + l_2 (002 eq. 1). The closed-form "
+                    "approximation uses Huygens' arc; the adopted radius is checked against the exact one.")
 
 
 @formula
@@ -30,7 +30,7 @@ size.value("segment_height_limit", "h_lim", "mm", "Segment height from which no 
 size.require("radius_exists", lambda segment_height, segment_height_limit: segment_height < segment_height_limit, key="segment_height",
              message="is {segment_height}, but no cylinder with a working length of {working_length} has a segment that high: "
              "h < l_1/π = {segment_height_limit} is needed; make the segment lower or the working length greater")
-size.value("radius_closed_form", "R_cf", "mm", "Radius by the closed form", radius_by_huygens, source="002 eq. 6", digits=6)
+size.value("radius_closed_form", "R_cf", "mm", "Radius by the closed-form approximation", radius_by_huygens, source="002 eq. 6", digits=6)
 size.root("radius_exact", "R_ex", "mm", "Exact radius",
           lambda radius_exact, working_length, segment_height:
               radius_exact * (1 - np.cos(np.pi - as_angle(working_length / (2 * radius_exact)))) - segment_height,
@@ -39,9 +39,9 @@ size.root("radius_exact", "R_ex", "mm", "Exact radius",
           left=lambda radius_exact, working_length: 2 * np.pi * radius_exact - working_length,
           right=lambda radius_exact, segment_height: 2 * radius_exact * arccos((radius_exact - segment_height) / radius_exact),
           source="002 eq. 1", digits=6)
-size.value("radius_closed_form_error", "e_cf", "%", "Error of the closed form against the exact radius",
+size.value("radius_closed_form_error", "e_cf", "%", "Error of the closed-form approximation against the exact radius",
            lambda radius_closed_form, radius_exact: radius_closed_form / radius_exact - 1)
-size.value("closed_form_error_size", "|e_cf|", "%", "Size of that error", lambda radius_closed_form_error: abs(radius_closed_form_error),
+size.value("closed_form_error_size", "|e_cf|", "%", "Absolute value of this error", lambda radius_closed_form_error: abs(radius_closed_form_error),
            output=False)
 size.value("radius", "R", "mm", "Adopted radius: as given", bind(common.same, quantity="inputs.radius"), needs=("radius",), source="input")
 size.value("radius", "R", "mm", "Adopted radius: the exact one rounded up to the step",
@@ -66,16 +66,16 @@ flat.value("flat_distance", "d", "mm", "Distance of the flat from the axis", lam
            output=False)
 flat.value("wall_at_flat", "w", "mm", "Wall between bore and flat",
            lambda radius, segment_height, bore_radius: radius - segment_height - bore_radius)
-flat.choice("wall_verdict", "w", "1", "What the wall is",
+flat.choice("wall_verdict", "w", "1", "Condition of the wall",
             case("the bore breaks through the flat", "the bore reaches the flat", lambda flat_distance, bore_radius: flat_distance <= bore_radius),
             case("the wall is closed, but thinner than required", "the wall is less than the required one",
                  lambda wall_at_flat, min_wall: wall_at_flat < min_wall),
             case("the wall is thick enough", "the wall is at least the required one"), output=False)
-flat.value("cutting_arc_fraction", "κ", "1", "Share of the circumference that is not flat", lambda half_angle: 1 - half_angle / np.pi)
+flat.value("cutting_arc_fraction", "κ", "1", "Fraction of the circumference that is not flat", lambda half_angle: 1 - half_angle / np.pi)
 
 overlap = Chapter("Overlap of bore and segment",
-                  text="Where the bore reaches beyond the flat, bore and segment share a smaller segment of the bore's circle; "
-                  "it is taken away once only.")
+                  text="Where the bore reaches beyond the flat, bore and segment share a smaller segment of the bore's circle; it is subtracted "
+                       "only once.")
 overlap.choice("overlap_half_angle", "α_b", "deg", "Half the angle of the bore beyond the flat",
                case(lambda flat_distance, bore_radius: arccos(flat_distance / bore_radius), "the bore breaks through the flat",
                     lambda flat_distance, bore_radius: flat_distance < bore_radius),
@@ -90,7 +90,7 @@ masses.value("solid_mass", "m′", "kg", "Mass of the full cylinder",
              lambda radius, generatrix_length, density: as_number(np.pi) * radius**2 * generatrix_length * density, source="000 eq. 13, 17")
 masses.value("segment_mass", "m_1", "kg", "Mass of the segment",
              lambda segment_area, generatrix_length, density: segment_area * generatrix_length * density, source="000 eq. 14")
-masses.value("bore_mass", "m_2", "kg", "Mass that the bore takes away",
+masses.value("bore_mass", "m_2", "kg", "Mass removed by the bore",
              lambda bore_radius, generatrix_length, density: as_number(np.pi) * bore_radius**2 * generatrix_length * density,
              source="000, after eq. 16")
 masses.value("overlap_mass", "m_12", "kg", "Mass of the overlap",
@@ -100,14 +100,14 @@ masses.value("mass", "m", "kg", "Mass of the cylinder",
              source="000 eq. 13, overlap once only")
 
 inertia = Chapter("Moment of inertia and unbalance",
-                  text="The moment of inertia about the cylinder's axis is exact; the source's formula stands beside it for comparison.")
+                  text="The moment of inertia about the cylinder's axis is exact; the result of the source's formula is given for comparison.")
 inertia.value("inertia_solid", "I_s", "kg*m**2", "Inertia of the full cylinder",
               lambda density, generatrix_length, radius: density * generatrix_length * np.pi * radius**4 / 2, output=False)
 inertia.value("segment_polar", "J_1", "cm**4", "Polar second moment of the segment about the axis",
               bind(segment.polar_second_moment, distance="flat_distance"), output=False)
 inertia.value("inertia_segment", "I_1", "kg*m**2", "Inertia of the segment",
               lambda density, generatrix_length, segment_polar: density * generatrix_length * segment_polar, output=False)
-inertia.value("inertia_bore", "I_2", "kg*m**2", "Inertia that the bore takes away",
+inertia.value("inertia_bore", "I_2", "kg*m**2", "Inertia removed by the bore",
               lambda density, generatrix_length, bore_radius: density * generatrix_length * np.pi * bore_radius**4 / 2, output=False)
 inertia.value("overlap_distance", "d_b", "mm", "Distance of the overlap's chord from the axis",
               lambda bore_radius, overlap_half_angle: bore_radius * np.cos(overlap_half_angle), output=False)
@@ -139,29 +139,29 @@ def second_moment_about_axis(radius: Any, bore_radius: Any, segment: Any, overla
 
 
 bending = Chapter("Bending under the line load", needs=("bearing_span",), absent="not calculated: bearing_span is not given",
-                  text="The section is weakest about one of its two principal axes, which lie parallel and square to the flat.")
+                  text="The section is weakest about one of its two principal axes, which are parallel and normal to the flat.")
 bending.require("span_over_generatrix", lambda generatrix_length, bearing_span: generatrix_length <= bearing_span, key="bearing_span",
                 message="is {bearing_span}, but the bearings stand outside the generatrix: at least {generatrix_length} is needed")
 bending.value("segment_second_moment", "I_x1", "cm**4", "Second moment of the segment about the diameter parallel to the flat",
               segment.second_moment_along_chord, output=False)
-bending.value("overlap_second_moment", "I_x12", "cm**4", "The same of the overlap",
+bending.value("overlap_second_moment", "I_x12", "cm**4", "Second moment of the overlap about the same diameter",
               bind(segment.second_moment_along_chord, radius="bore_radius", half_angle="overlap_half_angle"), output=False)
 bending.value("second_moment_parallel", "I_x", "cm**4", "Second moment about the centroid's axis parallel to the flat",
               lambda radius, bore_radius, segment_second_moment, overlap_second_moment, mass, density, generatrix_length,
                   center_of_mass_offset:
                   second_moment_about_axis(radius, bore_radius, segment_second_moment, overlap_second_moment)
                   - mass / (density * generatrix_length) * center_of_mass_offset**2, output=False)
-bending.value("second_moment_square", "I_y", "cm**4", "Second moment about the axis of symmetry, square to the flat",
+bending.value("second_moment_square", "I_y", "cm**4", "Second moment about the axis of symmetry, normal to the flat",
               lambda inertia, density, generatrix_length, radius, bore_radius, segment_second_moment, overlap_second_moment:
                   inertia / (density * generatrix_length)
                   - second_moment_about_axis(radius, bore_radius, segment_second_moment, overlap_second_moment), output=False)
-bending.value("second_moment_min", "I_min", "cm**4", "Least second moment of the section",
+bending.value("second_moment_min", "I_min", "cm**4", "Minimum second moment of the section",
               lambda second_moment_parallel, second_moment_square: np.minimum(second_moment_parallel, second_moment_square))
 bending.value("bearing_load", "F_b", "kN", "Load on each bearing from the line load",
               lambda line_load, generatrix_length: line_load * generatrix_length / 2)
-bending.value("bending_moment", "M_b", "N*m", "Greatest bending moment",
+bending.value("bending_moment", "M_b", "N*m", "Maximum bending moment",
               lambda line_load, generatrix_length, bearing_span:
                   line_load * generatrix_length * (2 * bearing_span - generatrix_length) / 8)
-bending.value("deflection", "f", "mm", "Bending deflection in the middle, of a closed section", beam.deflection)
+bending.value("deflection", "f", "mm", "Bending deflection at mid-span, of a closed section", beam.deflection)
 
 CHAPTERS = (size, flat, overlap, masses, inertia, bending)

@@ -60,14 +60,14 @@ FIGURES = (
     Drawing(
         id="cross_section",
         title="Cross-section",
-        caption="Section square to the axis, to scale, with the flat over the die as in the dwell; dashed: the segment that is "
-        "cut away. The cross marks the centre of mass.",
+        caption="Section normal to the axis, to scale, with the flat over the die as in the dwell; dashed: the segment that is cut away. The "
+        "cross marks the centre of mass.",
         build=cross_section,
     ),
     Bars(
         id="breakdown",
         title="Mass and inertia",
-        caption="What the full cylinder, segment, bore and their overlap contribute.",
+        caption="Contributions of the full cylinder, segment, bore and their overlap.",
         groups=(
             BarGroup(
                 label="Mass",

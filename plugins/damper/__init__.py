@@ -22,17 +22,17 @@ CHECKS = (
           demand="strain", limit="max_strain", unit="1", tolerance=ROUNDING,
           demand_label="strain", limit_label="linear up to", source="002 eq. 19",
           consequence="the rubber is stiffer then than calculated, and the force greater.", advise=ADVISE),
-    Check(id="stress", check_class="strength", title="Compression stress",
+    Check(id="stress", check_class="strength", title="Compressive stress",
           demand="stress", limit="allowable_stress", unit="MPa", tolerance=ROUNDING,
           sized_unless=("adopted_length",), demand_label="stress", limit_label="allowed", source="002 eq. 22",
           consequence="the block is too short to take up the energy.", advise=ADVISE),
     Check(id="dynamic_stiffness", check_class="strength", title="Stiffness of the rubber at the impact",
           demand="dynamic_stiffness_factor", limit="stiffness_borne", unit="1", tolerance=ROUNDING, sized_unless=("adopted_length",),
-          demand_label="dynamic to static stiffness", limit_label="ratio at which the stress is the allowed one", source="002 eq. 22",
+          demand_label="ratio of dynamic to static stiffness", limit_label="limit for the allowable stress", source="002 eq. 22",
           consequence="at the speed of the impact the rubber is too stiff for the block's length.", advise=ADVISE),
     Check(id="slenderness", check_class="strength", title="Buckling of the block",
           demand="slenderness", limit=SLENDEREST, unit="1", tolerance=ROUNDING,
-          demand_label="length over the smaller side", limit_label="straight up to", source="block with clamped ends",
+          demand_label="ratio of length to smaller side", limit_label="straight up to", source="block with clamped ends",
           consequence="the block buckles before it has taken up the energy.", advise=ADVISE),
     Check(id="driven_stress", check_class="strength", title="Stress with the drive still pushing",
           demand="driven_stress", limit="allowable_stress", unit="MPa",
@@ -45,20 +45,20 @@ CHECKS = (
           consequence="the work of the drive presses the rubber beyond its linear law; it does not where it is let go before the stop.",
           advise=ADVISE),
     Check(id="force", check_class="strength", title="Force of a damper", demand="peak_force", limit="allowable_force", unit="N",
-          demand_label="greatest force", limit_label="allowed", source="input",
+          demand_label="maximum force", limit_label="allowed", source="input",
           consequence="carriage or frame yields.", advise=LONGER),
     Check(id="deceleration", check_class="function", title="Deceleration of the stop", demand="peak_deceleration",
-          limit="allowable_deceleration", unit="m/s**2", demand_label="greatest deceleration", limit_label="allowed", source="input",
+          limit="allowable_deceleration", unit="m/s**2", demand_label="maximum deceleration", limit_label="allowed", source="input",
           consequence="the stop shakes the machine.", advise=SOFTER),
     Check(id="heat_power", check_class="strength", title="Heat of the dampers", demand="heat_power", limit="allowable_heat_power", unit="W",
           demand_label="heat of one end", limit_label="allowed", source="input",
           consequence="the rubber softens and ages; dampers that are met later (with a smaller velocity) or a rubber that loses less help."),
     Check(id="driven_force", check_class="strength", title="Force of a damper with the drive",
           demand="driven_peak_force", limit="allowable_force", unit="N",
-          demand_label="greatest force", limit_label="allowed", source="input",
+          demand_label="maximum force", limit_label="allowed", source="input",
           consequence="carriage or frame yields; a drive that is let go makes it less.", advise=LONGER),
     Check(id="driven_deceleration", check_class="function", title="Deceleration with the drive", demand="driven_peak_deceleration",
-          limit="allowable_deceleration", unit="m/s**2", demand_label="greatest deceleration", limit_label="allowed", source="input",
+          limit="allowable_deceleration", unit="m/s**2", demand_label="maximum deceleration", limit_label="allowed", source="input",
           consequence="the stop shakes the machine.", advise=SOFTER),
 )  # fmt: skip
 
@@ -66,9 +66,9 @@ MECHANISM = Mechanism(
     kind="damper",
     version="1.0",
     title="Rubber end-of-stroke damper",
-    summary="Rubber blocks on the guides, at both ends of the travel and on both sides of the cylinder, take what is left of its kinetic "
-    "energy. From energy, rubber and pad follow the length of the blocks, their stress, strain and force, the time and deceleration of "
-    "the stop, the rebound and the heat; the blocks are checked against buckling, and against a drive that still pushes.",
+    summary="Rubber blocks on the guides, at both ends of the travel and on both sides of the cylinder, absorb its remaining kinetic energy. "
+            "From energy, rubber and pad follow the length of the blocks, their stress, strain and force, the time and deceleration of the stop, "
+            "the rebound and the heat; the blocks are checked against buckling, and against a drive that still pushes.",
     inputs=Damper,
     example=EXAMPLE,
     chapters=SECTIONS,
@@ -77,16 +77,16 @@ MECHANISM = Mechanism(
     checks=tuple(replace(check, needs=(*check.needs, *known)) for known in (("kinetic_energy",), STOPPED) for check in CHECKS),
     figures=FIGURES,
     assumptions=(
-        "The rubber is linear in compression, and its ends are free enough to bulge: the modulus is that of the material, whatever "
-        "the shape of the block.",
-        "The dampers that act at once share the energy equally; the whole of it is taken up within one stroke of the damper, and what the "
-        "rubber loses meanwhile does not make the force smaller.",
-        "All that moves stops together: guides, carriage and frame are rigid.",
-        "Of a cylinder whose carriages, unbalance and contact_distance are not given the energy is that of mass, inertia and speed alone, which "
-        "is too little: nothing that follows from it is checked.",
-        "Without dynamic_stiffness_factor the rubber is as stiff as at rest. At an impact it is stiffer, mostly 1.2 to 2 times; stress and force "
-        "grow with the root of that.",
-        "A drive that still pushes does so with a constant force in the direction of travel; without drive what is stopped runs free.",
+        "The rubber is linear in compression, and its ends are free to bulge: the modulus is that of the material, regardless of the shape of "
+        "the block.",
+        "The dampers that act at once share the energy equally; all of it is absorbed within one stroke of the damper, and the loss of energy in "
+        "the rubber does not reduce the force.",
+        "All moving parts stop together: guides, carriage and frame are rigid.",
+        "If the carriages, unbalance and contact_distance of a cylinder are not given, the energy is that of mass, inertia and speed alone, "
+        "which is too low: nothing that follows from it is checked.",
+        "Without dynamic_stiffness_factor the rubber is as stiff as at rest. At an impact it is stiffer, usually by a factor of 1.2 to 2; stress "
+        "and force grow with its square root.",
+        "A drive that still pushes does so with a constant force in the direction of travel; without drive the stopped body moves freely.",
     ),
     sources=(
         Source("002", "Loizyk V. V., Bryndas A. M., Shelonh N. M., Ternytskyi S. V. Analytical studies of drive mechanism parameters of "

@@ -159,7 +159,7 @@ def length(view: View) -> list[dict[str, Any]]:
         verticals.append(vertical(linear, "linear law ends"))
     return [
         chart_panel(
-            "Length", "mm", "Greatest stress", "σ", "MPa",
+            "Length", "mm", "Maximum stress", "σ", "MPa",
             lines=lines,
             marks=[mark(reached, view["adopted_length"], "adopted")],
             levels=[level(view["length_limit"], "buckles above")],
@@ -172,21 +172,21 @@ FIGURES = (
     Drawing(
         id="block",
         title="Damper block",
-        caption="The block to scale, free and at its greatest deflection, and its pad at the right. A pressed block is drawn with its "
-        "volume kept.",
+        caption="The block to scale, free and at its maximum deflection, with its pad on the right. A compressed block is drawn with constant "
+        "volume.",
         build=block,
     ),
     Chart(
         id="force",
-        title="Force over deflection",
-        caption="Force of all dampers together; the area below it is the energy that they take up.",
+        title="Force versus deflection",
+        caption="Total force of the dampers; the area below the line is the energy absorbed.",
         build=force,
     ),
     Chart(
         id="length",
-        title="Length over stress",
-        caption="Length that takes up the energy with a stress, over that stress; marked: the adopted length and the stress that it "
-        "leads to. Above the level the block buckles.",
+        title="Length versus stress",
+        caption="Length that absorbs the energy at a given stress; marked: the adopted length and the resulting stress. Above the level the "
+        "block buckles.",
         build=length,
     ),
 )

@@ -40,21 +40,27 @@ class Damper(Inputs):
 
     kinetic_energy: Annotated[
         float | None,
-        Quantity("W_k", "J", "Kinetic energy at contact of all that is stopped; or what it follows from", gt=0),
+        Quantity(
+            "W_k", "J", "Kinetic energy at contact of everything that is stopped; or the data it follows from", gt=0
+        ),
     ] = None
     mass: Annotated[float | None, Quantity("m", "kg", "Mass of the cylinder", gt=0)] = None
     inertia: Annotated[
-        float | None, Quantity("I", "kg*m**2", "Moment of inertia of what rolls, about its axis", gt=0)
+        float | None, Quantity("I", "kg*m**2", "Moment of inertia of the rolling body about its axis", gt=0)
     ] = None
-    rolling_radius: Annotated[float | None, Quantity("R", "mm", "Radius on which it rolls", gt=0)] = None
+    rolling_radius: Annotated[float | None, Quantity("R", "mm", "Rolling radius", gt=0)] = None
     velocity: Annotated[
         float | None,
         Quantity(
-            "v", "m/s", "Speed at contact, not the drive's greatest; with it stop, deceleration and rebound", gt=0
+            "v",
+            "m/s",
+            "Speed at contact, not the maximum of the drive; required for stop, deceleration and rebound",
+            gt=0,
         ),
     ] = None
     carriage_mass: Annotated[
-        float | None, Quantity("m_c", "kg", "Mass of the carriages and of what else moves with the axis", ge=0)
+        float | None,
+        Quantity("m_c", "kg", "Mass of the carriages and of everything else that moves with the axis", ge=0),
     ] = None
     static_unbalance: Annotated[
         float | None, Quantity("me", "kg*m", "Static unbalance of the cylinder, away from the die at the end", ge=0)
@@ -71,54 +77,50 @@ class Damper(Inputs):
     dynamic_stiffness_factor: Annotated[
         float | None,
         Quantity(
-            "k_d", "1", "Dynamic stiffness of the rubber over its static one, at the speed of the impact", ge=1, le=5
+            "k_d", "1", "Ratio of dynamic to static stiffness of the rubber, at the speed of the impact", ge=1, le=5
         ),
     ] = None
-    allowable_stress: Annotated[float, Quantity("[σ]", "MPa", "Allowed compression stress", gt=0)] = 1.0
+    allowable_stress: Annotated[float, Quantity("[σ]", "MPa", "Allowable compressive stress", gt=0)] = 1.0
     ring_width: Annotated[float, Quantity("l", "mm", "Width of the ring: one side of the pad", gt=0)]
     pad_height: Annotated[float, Quantity("y", "mm", "Height of the pad: its other side", gt=0)]
-    damper_count: Annotated[int, Quantity("n", "1", "Dampers that act at once", ge=1, integer=True)] = 2
+    damper_count: Annotated[int, Quantity("n", "1", "Number of dampers that act at once", ge=1, integer=True)] = 2
     adopted_length: Annotated[
         float | None,
-        Quantity("H_a", "mm", "Length of the damper as it is made; if given, it is checked instead of sized", gt=0),
+        Quantity("H_a", "mm", "Actual length of the damper; if given, it is checked instead of sized", gt=0),
     ] = None
-    length_step: Annotated[
-        float, Quantity("s_H", "mm", "The sized length is rounded up to a multiple of this", gt=0)
-    ] = 5
-    max_strain: Annotated[
-        float, Quantity("ε_max", "1", "Strain up to which the rubber obeys the linear law", gt=0, lt=1)
-    ] = 0.20
+    length_step: Annotated[float, Quantity("s_H", "mm", "Step to which the sized length is rounded up", gt=0)] = 5
+    max_strain: Annotated[float, Quantity("ε_max", "1", "Strain up to which the rubber is linear", gt=0, lt=1)] = 0.20
     loss_fraction: Annotated[
         float | None,
         Quantity(
             "ψ",
             "1",
-            f"Share of the energy that one impact loses; or loss_tangent; {USUAL_LOSS} where neither is given",
+            f"Fraction of the energy lost in one impact; or loss_tangent; {USUAL_LOSS} where neither is given",
             ge=0,
             le=1,
         ),
     ] = None
     loss_tangent: Annotated[
         float | None,
-        Quantity("η", "1", "Loss tangent of the rubber, tan δ; with it the share that is lost", ge=0, le=1),
+        Quantity("η", "1", "Loss tangent of the rubber, tan δ; gives the fraction that is lost", ge=0, le=1),
     ] = None
     impacts_per_hour: Annotated[
         float | None,
         Quantity(
             "z",
             "1/h",
-            "Impacts at one end of the travel, for the heat",
+            "Impacts at one end of the travel per unit time, for the heat",
             gt=0,
             press=FromPress("press.productivity", half_the_sheets, optional=True),
         ),
     ] = None
     allowable_force: Annotated[
-        float | None, Quantity("[P]", "N", "Force that carriage and frame bear at one damper", gt=0)
+        float | None, Quantity("[P]", "N", "Allowable force on carriage and frame at one damper", gt=0)
     ] = None
     allowable_deceleration: Annotated[
-        float | None, Quantity("[a]", "m/s**2", "Allowed deceleration of the stop", gt=0)
+        float | None, Quantity("[a]", "m/s**2", "Allowable deceleration of the stop", gt=0)
     ] = None
     allowable_heat_power: Annotated[
-        float | None, Quantity("[P_h]", "W", "Heat that the dampers of one end may give off", gt=0)
+        float | None, Quantity("[P_h]", "W", "Allowable heat flow from the dampers of one end", gt=0)
     ] = None
     drive: DriveBlock | None = None

@@ -19,9 +19,9 @@ MECHANISM = Mechanism(
     kind="drive_train",
     version="1.0",
     title="Drive train: motor, V-belt, flywheel, gears, toothed belt",
-    summary="The motor drives the flywheel's shaft through a V-belt; pairs of gears drive the output shaft, normally the crank's. "
-    "Calculated are ratios, speeds, torques and powers of all shafts, the belt with a standard length, the motor and its run-up, the "
-    "flywheel from the torque over a turn, and, where there is one, the toothed belt that rolls the cylinder.",
+    summary="The motor drives the flywheel shaft through a V-belt; gear pairs drive the output shaft, normally the crank's. The calculation "
+            "gives ratios, speeds, torques and powers of all shafts, the belt with a standard length, the motor and its run-up, the flywheel "
+            "from the torque over a revolution, and, where there is one, the toothed belt that rolls the cylinder.",
     inputs=DriveTrain,
     example=EXAMPLE,
     chapters=(chain.speeds, vbelt.vbelt_chapter, chain.efficiency, chain.turn, chain.powers, chain.balance, motor.motor_chapter, vbelt.count,
@@ -32,15 +32,16 @@ MECHANISM = Mechanism(
     checks=(*CHECKS, *TOOTHED_BELT_CHECKS),
     figures=FIGURES,
     assumptions=(
-        "Belts do not slip and shafts do not twist; the output's torque over a turn repeats itself.",
-        "One efficiency for each transmission, the same in both directions of power; bearings and fan of the motor are not counted.",
-        "The flywheel is sized as if the motor gave the mean torque throughout. That holds only where the swing of "
-        "the speed is small beside the motor's slip (swing_to_slip much less than 1); else the motor takes a part of the load's swing itself: its "
-        "torque over the turn, the heat in it and the speed that results are judged where the parts of the press are held against each other.",
-        "V-belts are held against the power that the maker states, given as power_per_belt: no table of powers is built in, since only "
-        "one maker's was seen. The service factor and the factors of wrap and length are Optibelt's and those of ISO 5292; the gain of power by the "
-        "ratio is left out, on the safe side.",
-        "While it runs up, the motor's torque is its mean and the load's constant.",
+        "Belts do not slip and shafts do not twist; the torque of the output is periodic.",
+        "One efficiency per transmission, the same in both directions of power; bearings and fan of the motor are not included.",
+        "The flywheel is sized as if the motor delivered the mean torque throughout. This holds only where the swing "
+        "of the speed is small compared with the motor's slip (swing_to_slip much less than 1); otherwise the motor "
+        "takes part of the load's swing itself: its torque over the revolution, its heating and the resulting speed "
+        "are checked in the consistency check of the press.",
+        "V-belts are checked against the power rating of the manufacturer, given as power_per_belt: no table of ratings is built in, since only "
+        "one manufacturer's was available. The service factor and the factors of wrap and length are Optibelt's and those of ISO 5292; the "
+        "increase of power with the ratio is neglected, on the safe side.",
+        "During run-up, the motor's torque is its mean and the load torque is constant.",
         *TOOTHED_BELT_ASSUMPTIONS,
     ),
     sources=(

@@ -10,8 +10,8 @@ from diecut_report.plugins.drive_train.vbelt_figure import VBELT_LAYOUT
 TURN = Plot(
     id="energy",
     title="Torque and energy over a turn",
-    caption="Torque at the flywheel's shaft, negative where the load drives, with its mean, which the motor gives; and the energy that the "
-    "load has taken beyond it since the turn began. The fluctuation ΔE is the height between the dashed lines.",
+    caption="Torque at the flywheel shaft, negative where the load drives, with its mean, which the motor delivers; and the excess energy that "
+    "the load has taken since the start of the revolution. The fluctuation ΔE is the height between the dashed lines.",
     abscissa="output_angle",
     needs=("torque_curve",),
     panels=(

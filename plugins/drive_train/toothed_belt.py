@@ -17,22 +17,22 @@ from diecut_report.plugins.drive_train.toothed_belt_figure import TOOTHED_BELT_F
 class Pulley(Block):
     """A pulley of the toothed belt."""
 
-    x: Annotated[float, Quantity("x", "mm", "Place of the pulley's axis along x")]
+    x: Annotated[float, Quantity("x", "mm", "Position of the pulley's axis along x")]
     y: Annotated[
-        float, Quantity("y", "mm", "Place of the pulley's axis along y, upwards; the die lies below the cylinder")
+        float, Quantity("y", "mm", "Position of the pulley's axis along y, upwards; the die lies below the cylinder")
     ]
     radius: Annotated[float, Quantity("r", "mm", "Radius to the belt's pitch line", gt=0)]
     side: Annotated[
         Literal["inside", "outside"],
         Text(
-            "Side of the belt's loop on which the pulley lies; outside is on the belt's back: there the driving or the cylinder's pulley "
-            "needs a belt toothed on both sides"
+            "Side of the belt loop on which the pulley lies; outside means on the back of the belt: there the driving pulley or the cylinder's "
+            "pulley needs a double-sided toothed belt"
         ),
     ]
     role: Annotated[
         Literal["cylinder", "other"],
         Text(
-            "Whether this is the pulley fixed to the cylinder; marked, it is compared with driven_radius and engagement"
+            "Role of the pulley: marked as cylinder it is fixed to the cylinder, and compared with driven_radius and engagement"
         ),
     ] = "other"
 
@@ -42,7 +42,7 @@ class ToothedBelt(Block):
 
     cylinder_radius: Annotated[float, Quantity("R", "mm", "Radius of the cylinder, which rolls on the die", gt=0)]
     driven_radius: Annotated[
-        float, Quantity("r_d", "mm", "Pitch radius of the pulley that is fixed to the cylinder", gt=0)
+        float, Quantity("r_d", "mm", "Pitch radius of the pulley fixed to the cylinder", gt=0)
     ]
     cylinder_velocity: Annotated[
         float,
@@ -53,11 +53,11 @@ class ToothedBelt(Block):
         Quantity(
             "ω_p",
             "rpm",
-            "Speed of the driving pulley's shaft, taken as given, not as the train's rounding makes it",
+            "Speed of the driving pulley's shaft, used as given, without the rounding of the train",
             gt=0,
         ),
     ]
-    pitch: Annotated[float, Quantity("p", "mm", "Pitch of the belt's teeth", gt=0)]
+    pitch: Annotated[float, Quantity("p", "mm", "Pitch of the toothed belt", gt=0)]
     engagement: Annotated[
         Literal["away", "die"],
         Text(
@@ -68,7 +68,7 @@ class ToothedBelt(Block):
     pulleys: Annotated[
         list[Pulley],
         Text(
-            "Pulleys in the order in which the belt meets them, counter-clockwise, the driving pulley first; with them the belt's length"
+            "Pulleys in the order in which the belt meets them, counter-clockwise, the driving pulley first; required for the length of the belt"
         ),
     ] = []  # noqa: RUF012
 
@@ -123,8 +123,8 @@ RADII = {"radius": "signed_radius", "next_radius": "next_signed_radius"}
 LAYOUT = (f"{PULLEYS}.x", f"{PULLEYS}.y", "signed_radius")
 
 speed = Chapter("Toothed belt: speed and driving pulley",
-                text="The carriage moves at V while the pulley fixed to the rolling cylinder turns with it: the belt runs faster than the carriage "
-                     "by V·r_d/R on the side away from the die, slower by as much on the die's side.", needs=("toothed_belt",),
+                text="The carriage moves at V while the pulley fixed to the rolling cylinder turns with it: the belt is faster than the carriage "
+                     "by V·r_d/R on the side away from the die, and slower by as much on the die side.", needs=("toothed_belt",),
                 absent="not calculated: toothed_belt is not given")
 speed.value("belt_speed", "V_b", "m/s", "Speed of the toothed belt",
             ByText("toothed_belt.engagement", {"away": speed_away, "die": speed_at_die}, **ROLLING), source="002 eq. 7–9")
@@ -142,15 +142,15 @@ speed.value("driving_pulley_pitch_radius", "r_pz", "mm", "Pitch radius of the dr
 speed.require("pulley_has_teeth", lambda driving_pulley_teeth: driving_pulley_teeth >= 1, key="toothed_belt.pitch",
               message="is more than twice the circumference of the driving pulley, whose radius is {driving_pulley_radius}; take a smaller pitch "
                       "or a slower shaft")
-speed.value("driving_pulley_speed_error", "ε_b", "%", "Error of the belt's speed from whole teeth, at the given shaft_speed",
+speed.value("driving_pulley_speed_error", "ε_b", "%", "Error of the belt speed due to whole teeth, at the given shaft_speed",
             bind(lambda driving_pulley_teeth, pitch, shaft_speed, belt_speed:
                      driving_pulley_teeth * pitch * shaft_speed / (2 * np.pi * belt_speed) - 1, pitch="toothed_belt.pitch",
                  shaft_speed="toothed_belt.shaft_speed"), source="this method")
 
 path = Chapter("Toothed belt: path over the pulleys",
-               text="The belt runs counter-clockwise over the pulleys in their order, inside ones on its left (σ = 1), outside ones on its right "
-                    "(σ = −1). Each pulley stands with the straight run behind it; a prime marks the next pulley. The 10⁻⁹ in the wrap keeps a "
-                    "rounding below zero from counting as a full turn.", needs=("toothed_belt", PULLEYS),
+               text="The belt runs counter-clockwise over the pulleys in their order, with inside ones on its left (σ = 1) and outside ones on "
+                    "its right (σ = −1). Each pulley is listed with the span behind it; a prime marks the next pulley. The 10⁻⁹ in the wrap "
+                    "prevents a rounding error below zero from counting as a full turn.", needs=("toothed_belt", PULLEYS),
                absent=f"not calculated: {PULLEYS} is not given")
 path.clash("two_pulleys", alone, (f"{PULLEYS}.x",), key=PULLEYS, message="has one pulley; a belt needs at least two")
 path.lookup("pulley_side", "σ", "1", "Side of the pulley: inside 1, outside −1", {"inside": 1.0, "outside": -1.0}, by=f"{PULLEYS}.side",
@@ -158,8 +158,8 @@ path.lookup("pulley_side", "σ", "1", "Side of the pulley: inside 1, outside −
 path.add(MARKS)
 path.value("signed_radius", "r_σ", "mm", "Radius, negative outside", bind(belt_path.signed, side="pulley_side", size=f"{PULLEYS}.radius"),
            output=False, source="geometry", digits=6)
-path.neighbour("next_pulley_x", "x′", "mm", "The next pulley's place along x", of=f"{PULLEYS}.x", digits=6, output=False)
-path.neighbour("next_pulley_y", "y′", "mm", "The next pulley's place along y", of=f"{PULLEYS}.y", digits=6, output=False)
+path.neighbour("next_pulley_x", "x′", "mm", "Position of the next pulley along x", of=f"{PULLEYS}.x", digits=6, output=False)
+path.neighbour("next_pulley_y", "y′", "mm", "Position of the next pulley along y", of=f"{PULLEYS}.y", digits=6, output=False)
 path.neighbour("next_signed_radius", "r_σ′", "mm", "The next pulley's radius, negative outside", of="signed_radius", digits=6, output=False)
 path.value("pulley_distance", "d", "mm", "Distance to the next pulley", bind(belt_path.center_distance, **PLACES), output=False, source="geometry",
            digits=6)
@@ -171,19 +171,19 @@ path.clash("toothed_pulleys_apart", belt_path.overlapping, LAYOUT, key=PULLEY,
 path.clash("pulleys_counter_clockwise", belt_path.clockwise, LAYOUT, key=PULLEYS,
            message="pulleys {part} to {other} are listed clockwise, so the signed wraps do not sum to 360°; reverse their order, so that the belt "
                    "meets them counter-clockwise")
-path.value("straight_runs", "l", "mm", "Straight run to the next pulley", bind(belt_path.run_length, center_distance="pulley_distance", **RADII),
+path.value("straight_runs", "l", "mm", "Span to the next pulley", bind(belt_path.run_length, center_distance="pulley_distance", **RADII),
            source="geometry", digits=6)
-path.value("run_direction", "θ", "deg", "Direction of the run", bind(belt_path.run_direction, center_distance="pulley_distance", **PLACES, **RADII),
+path.value("run_direction", "θ", "deg", "Direction of the span", bind(belt_path.run_direction, center_distance="pulley_distance", **PLACES, **RADII),
            source="geometry", output=False)
-path.neighbour("direction_before", "θ_before", "deg", "Direction of the run before the pulley", of="run_direction", shift=-1, output=False)
+path.neighbour("direction_before", "θ_before", "deg", "Direction of the span before the pulley", of="run_direction", shift=-1, output=False)
 path.value("wraps", "α", "deg", "Wrap of the pulley", bind(belt_path.wrap, side="pulley_side", direction="run_direction"), source="geometry",
            numbered="wraps.{}", first=0)
 path.value("signed_wraps", "σα", "deg", "Wrap, negative outside", bind(belt_path.signed, side="pulley_side", size="wraps"), source="geometry",
            output=False)
 path.total("signed_wraps_sum", "α_Σ", "deg", "Sum of the signed wraps: one turn", "sum", of="signed_wraps", output=False)
-path.value("belt_turns", "n_b", "1", "Turns of the belt's direction along its path: 1 in a loop",
+path.value("belt_turns", "n_b", "1", "Revolutions of the belt's direction along its path: 1 in a loop",
            bind(belt_path.turns, sum_of_wraps="signed_wraps_sum"), output=False, source="geometry")
-path.total("greatest_wrap", "α_max", "deg", "Greatest wrap", "max", of="wraps", output=False)
+path.total("greatest_wrap", "α_max", "deg", "Maximum wrap", "max", of="wraps", output=False)
 path.require("one_turn", lambda belt_turns, wraps, greatest_wrap: (belt_turns == 1) | (wraps < greatest_wrap), key=PULLEY,
              message="the signed wraps (inside +, outside −) do not sum to 360°, one turn of the belt, but to {belt_turns} turns: it would have to "
                      "run {wraps} around pulley {part}, which it does not touch. Move pulley {part} against the belt or leave it out, change its "
@@ -196,31 +196,33 @@ path.clash("runs_clear", belt_path.pierced, LAYOUT, key=PULLEY,
                    "order in which the belt meets the pulleys")
 
 length = Chapter("Toothed belt: length and teeth in mesh", needs=("toothed_belt", PULLEYS), absent=f"not calculated: {PULLEYS} is not given")
-length.value("belt_arcs", "s", "mm", "Belt on the pulley", bind(belt_path.arc, radius=f"{PULLEYS}.radius", wrap="wraps"), source="geometry",
+length.value("belt_arcs", "s", "mm", "Arc length of the belt on the pulley", bind(belt_path.arc, radius=f"{PULLEYS}.radius", wrap="wraps"),
+             source="geometry",
              output=False, digits=6)
-length.total("straight_length", "Σl", "mm", "All straight runs", "sum", of="straight_runs", digits=6)
-length.total("arc_length", "Σs", "mm", "All arcs", "sum", of="belt_arcs", digits=6)
+length.total("straight_length", "Σl", "mm", "Total length of the spans", "sum", of="straight_runs", digits=6)
+length.total("arc_length", "Σs", "mm", "Total length of the arcs", "sum", of="belt_arcs", digits=6)
 length.value("toothed_belt_length", "L_b", "mm", "Length of the toothed belt's path",
              lambda straight_length, arc_length: straight_length + arc_length, digits=7, source="002 eq. 11, in general")
-length.value("toothed_belt_teeth", "z_b", "1", "Teeth of the belt, the nearest whole number",
+length.value("toothed_belt_teeth", "z_b", "1", "Number of teeth of the belt, the nearest whole number",
              bind(lambda toothed_belt_length, pitch: np.round(toothed_belt_length / pitch), pitch="toothed_belt.pitch"), whole=True,
              source="this method")
-length.value("toothed_belt_take_up", "ΔL", "mm", "Belt longer (+) or shorter (−) than the path: to be tensioned",
+length.value("toothed_belt_take_up", "ΔL", "mm", "Difference of belt and path length: longer (+) or shorter (−); to be tensioned",
              bind(lambda toothed_belt_teeth, pitch, toothed_belt_length: toothed_belt_teeth * pitch - toothed_belt_length,
                   pitch="toothed_belt.pitch"),
              source="this method")
-length.value("teeth_in_mesh", "z_m", "1", "Teeth along the wrap",
+length.value("teeth_in_mesh", "z_m", "1", "Number of teeth in mesh along the wrap",
              bind(teeth_in_mesh, radius=f"{PULLEYS}.radius", wrap="wraps", pitch="toothed_belt.pitch"), source="this method")
-length.total("teeth_in_mesh_min", "z_m,min", "1", "Least teeth in mesh of the toothed pulleys", "min", of="teeth_in_mesh", among="has_teeth")
+length.total("teeth_in_mesh_min", "z_m,min", "1", "Minimum number of teeth in mesh of the toothed pulleys", "min", of="teeth_in_mesh",
+             among="has_teeth")
 
 TOOTHED_BELT = (speed, path, length, listed)
 
 TOOTHED_BELT_CHECKS = LISTED_CHECKS
 
 TOOTHED_BELT_ASSUMPTIONS = (
-    "The toothed belt neither stretches nor sags, all pulleys lie in one plane, and radii are to its pitch line, also at pulleys that the "
-    "belt's back runs over. Outside pulleys are smooth, but for the cylinder's.",
-    "A loaded pulley outside the loop, the driving or the cylinder's, needs a belt that is toothed on both sides.",
+    "The toothed belt neither stretches nor sags, all pulleys lie in one plane, and radii refer to its pitch line, also at pulleys on the back "
+    "of the belt. Outside pulleys are smooth, except the cylinder's.",
+    "A loaded pulley outside the loop, the driving pulley or the cylinder's, needs a double-sided toothed belt.",
 )
 
 TOOTHED_BELT_ERRATA = (

@@ -52,9 +52,9 @@ TOOTHED_BELT_FIGURES = (
     Drawing(
         id="toothed_belt_rolling",
         title="Cylinder on the toothed belt",
-        caption="The cylinder on the die to scale with its pulley (dash-dotted: pitch circle) and the belt; the arrows show how fast the "
-        "carriage and the belt move. The die lies below: the belt runs over the pulley where this engages away from the die, below it where it "
-        "engages on the die's side.",
+        caption="The cylinder on the die to scale with its pulley (dash-dotted: pitch circle) and the belt; the arrows show the velocities of "
+        "carriage and belt. The die lies below: the belt runs over the pulley where this engages away from the die, and below it where "
+        "it engages on the die side.",
         build=cylinder_on_belt,
         needs=("toothed_belt",),
     ),
@@ -62,8 +62,8 @@ TOOTHED_BELT_FIGURES = (
         id="toothed_belt_layout",
         title="Toothed belt",
         caption="The belt's pitch line over its pulleys to scale; at each axis the number of the pulley, in the order in which the belt meets "
-        "it, and its wrap; the first one drives. The arrow beside the longest run points along the order. The die lies below: the cylinder "
-        "(thin circle) is drawn on it where one of the pulleys is fixed to the cylinder.",
+        "it, and its wrap; the first one drives. The arrow beside the longest span points along the order. The die lies below: the "
+        "cylinder (thin circle) is drawn on it where one of the pulleys is fixed to the cylinder.",
         build=belt_layout,
         needs=("toothed_belt", "toothed_belt.pulleys"),
     ),

@@ -34,7 +34,7 @@ def _loads(view: View, a: float) -> list[Shape]:
 VBELT_LAYOUT = Drawing(
     id="vbelt_layout",
     title="V-belt",
-    caption="The belt drive to scale with the wraps: 1 the motor's pulley, 2 the flywheel's. Turning as the arrow beside the belt "
-    "shows, the upper run is the tight one; the arrows at the axes are the load of the belts on the shafts at rest.",
+    caption="The belt drive to scale with the wraps: 1 the motor pulley, 2 the flywheel pulley. With the direction of rotation shown by the "
+    "arrow beside the belt, the upper span is the tight side; the arrows at the axes are the static loads of the belts on the shafts.",
     build=vbelt_layout,
 )

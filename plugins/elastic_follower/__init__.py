@@ -14,9 +14,10 @@ MECHANISM = Mechanism(
     kind="elastic_follower",
     version="1.0",
     title="Driven link on an elastic drive",
-    summary="A link of given inertia follows an input through a drive that is elastic and damped: a shaft, a chain, a long rod. While the input "
-    "moves from rest to rest, the link swings about it. Calculated are its motion, the peaks of its acceleration in the motion and after it, "
-    "related to those of a rigid drive, its overshoot, and the torque of the drive; and which law of motion loads the link least in a single rise.",
+    summary="A link of given inertia follows an input through an elastic and damped drive: a shaft, a chain, a long rod. While the input moves "
+            "from rest to rest, the link oscillates about it. The calculation gives its motion, its peak accelerations during and after the "
+            "motion relative to a rigid drive, its overshoot, and the torque of the drive; and which law of motion loads the link least in a "
+            "single rise.",
     inputs=ElasticFollower,
     example=EXAMPLE,
     chapters=(motion.drive, motion.times, motion.by_law, motion.by_curve, response.response_chapter, response.settling, response.peaks_chapter,
@@ -27,9 +28,10 @@ MECHANISM = Mechanism(
     figures=FIGURES,
     spectra=(SPECTRUM,),
     assumptions=(
-        "Drive and link are one spring, one viscous damper and one inertia; the input moves as its law or curve says, whatever the torque.",
-        "The link rests when the motion begins: what is left of the vibration of the motion before is not included.",
-        "No clearance, no friction, and no load beside the link's own inertia.",
+        "Drive and link are modelled as one spring, one viscous damper and one inertia; the input follows its law or curve regardless of the "
+        "torque.",
+        "The link is at rest when the motion begins: residual vibration of the previous motion is not included.",
+        "No clearance, no friction, and no load other than the link's own inertia.",
     ),
     sources=(
         Source("001", "Naukovi zapysky (Ukrainian Academy of Printing), 1999, no. 1 (in Ukrainian), first paper, of which only the last page is "

@@ -98,8 +98,8 @@ def slid(view: View) -> list[Shape]:
 
 
 CAPTION = (
-    "The link (x) where its acceleration is greatest, its input (y) and the spring between them; light: where a rigid drive would have "
-    "the link. The deflection is drawn as many times greater as is written."
+    "The link (x) at its maximum acceleration, its input (y) and the spring between them; light: the link of a rigid drive. The deflection is "
+    "magnified by the factor shown."
 )
 DRAWINGS = (
     Drawing(id="turning_link", title="Link on its elastic drive", caption=CAPTION, unit="1", build=turned, moving=turning, over="time",

@@ -50,12 +50,12 @@ def laws(view: View) -> list[Shape]:
     found = {name: peaks(law, RATIOS, view["damping_ratio"]) for name, law in LAWS.items()}
     ratio, unit = view["tuning_ratio"], view["rise"] / view["rise_duration"] ** 2
     drawn = {
-        "Peak in the motion, to the rigid one": (
+        "Ratio of peak acceleration during the motion to the rigid-drive value": (
             [found[name].rise for name in LAWS],
             "peak_ratio",
             "allowable_peak_ratio",
         ),
-        "Peak after the motion, to the rigid one": (
+        "Ratio of peak acceleration after the motion to the rigid-drive value": (
             [found[name].residual for name in LAWS],
             "residual_ratio",
             "allowable_residual_ratio",
@@ -70,7 +70,9 @@ def laws(view: View) -> list[Shape]:
     marks = [mark(ratio, view["acceleration_peak"] / unit, "this machine")]
     return [
         *panels,
-        chart_panel("Greatest acceleration, in rise/duration²", "1", *PERIODS, lines=named(greatest), marks=marks),
+        chart_panel(
+            "Maximum acceleration, in units of rise/duration²", "1", *PERIODS, lines=named(greatest), marks=marks
+        ),
     ]
 
 
@@ -108,8 +110,8 @@ def own_dampings(view: View) -> list[Shape]:
     ratios = own_ratios(view, OWN_DAMPED)
     found = [own(view, ratios, damping_ratio=damping) for damping in DAMPINGS]
     titles = {
-        "peak_ratio": "Peak in the motion, to the rigid one",
-        "residual_ratio": "Peak after the motion, to the rigid one",
+        "peak_ratio": "Ratio of peak acceleration during the motion to the rigid-drive value",
+        "residual_ratio": "Ratio of peak acceleration after the motion to the rigid-drive value",
     }
     return [
         chart_panel(title, "1", *PERIODS,
@@ -124,8 +126,8 @@ def motion(body: str, position: str, acceleration: str) -> Plot:
     return Plot(
         id="motion",
         title="Input and driven link",
-        caption="The driven link follows the input through the elastic drive and goes on swinging when the input rests. The rigid acceleration "
-        "is that of the input.",
+        caption="The driven link follows the input through the elastic drive and continues to oscillate when the input rests. The rigid "
+                "acceleration is that of the input.",
         abscissa="time",
         needs=(body,),
         panels=(
@@ -133,15 +135,15 @@ def motion(body: str, position: str, acceleration: str) -> Plot:
             Panel(title="Deflection of the drive", unit=position, series=(Series(curve="deflection", label="z"),)),
             Panel(title="Acceleration", unit=acceleration,
                   series=(Series(curve="rigid_acceleration", label="rigid drive"), Series(curve="acceleration", label="driven link")),
-                  marks=(Mark(x="acceleration_peak_at", y="acceleration_peak", label="greatest"),)),
+                  marks=(Mark(x="acceleration_peak_at", y="acceleration_peak", label="maximum"),)),
         ),
     )  # fmt: skip
 
 
 FIRST_LAWS, OTHER_LAWS = tuple(LAWS)[:4], tuple(LAWS)[4:]
 SPECTRUM_CAPTION = (
-    "The last figure of 001, first paper, for this law: peak acceleration of the driven link in the rise, related to the rigid one, over the "
-    "natural periods within the rise, for five dampings. Drives of equal λ and ζ are dynamically similar."
+    "The last figure of 001, first paper, for this law: peak acceleration of the driven link during the rise, relative to the rigid-drive value, "
+    "over the natural periods within the rise, for five damping ratios. Drives of equal λ and ζ are dynamically similar."
 )
 FIGURES = (
     *DRAWINGS,
@@ -151,12 +153,12 @@ FIGURES = (
         id="laws",
         title="Laws of motion on this drive",
         caption="All laws, as single rises, over the natural periods within the rise, with this machine's damping and its point. The lower part "
-        "tells which law loads the link least: its own peak (A of the law) counts as well as what the drive adds. A motion of several parts, "
-        "given as a curve, asks for more than a single rise of the same height and duration.",
+                "shows which law loads the link least: both the law's own peak (A of the law) and the amplification by the drive count. A motion "
+                "of several parts, given as a curve, requires more than a single rise of the same height and duration.",
         build=laws,
     ),
     Chart(id="own_spectrum", title="Spectrum of this motion", needs=CURVE, build=own_dampings,
-          caption="The motion of the curve on drives of other stiffness, for five dampings, with this machine's point."),
+          caption="The motion of the curve on drives of other stiffness, for five damping ratios, with this machine's point."),
     Chart(id="spectrum_1", title="Spectrum of the laws of motion", caption=SPECTRUM_CAPTION, build=dampings(FIRST_LAWS)),
     Chart(id="spectrum_2", title="Spectrum of the laws of motion, continued", caption=SPECTRUM_CAPTION, build=dampings(OTHER_LAWS)),
 )  # fmt: skip

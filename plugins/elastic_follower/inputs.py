@@ -31,12 +31,15 @@ class ElasticFollower(Inputs):
     inertia: Annotated[
         float | None,
         Quantity(
-            "I", "kg*m**2", "Inertia of the driven link, where it turns; rise and stiffness are in angles then", gt=0
+            "I",
+            "kg*m**2",
+            "Moment of inertia of the driven link, if it rotates; rise and stiffness are then in angles",
+            gt=0,
         ),
     ] = None
     mass: Annotated[
         float | None,
-        Quantity("m", "kg", "Mass of the driven link, where it slides; rise and stiffness are in lengths then", gt=0),
+        Quantity("m", "kg", "Mass of the driven link, if it slides; rise and stiffness are then in lengths", gt=0),
     ] = None
     stiffness: Annotated[
         float,
@@ -45,14 +48,14 @@ class ElasticFollower(Inputs):
         ),
     ]
     damping_ratio: Annotated[
-        float, Quantity("ζ", "1", "Damping of the drive as a share of critical damping", ge=0, lt=1)
+        float, Quantity("ζ", "1", "Damping of the drive as a fraction of critical damping", ge=0, lt=1)
     ] = 0.05
     rest_tolerance: Annotated[
         float | None,
         Quantity(
             "e",
             "deg",
-            "Deflection within which the link counts as resting; with it the settling",
+            "Deflection within which the link counts as at rest; required for the settling",
             gt=0,
             units=(("mass", "mm"),),
         ),
@@ -66,12 +69,12 @@ class ElasticFollower(Inputs):
         Quantity(
             "t_1",
             "s",
-            "Duration of the rise; with cycles_per_hour its share of the cycle",
+            "Duration of the rise; with cycles_per_hour as a fraction of the cycle",
             gt=0,
             units=(("cycles_per_hour", "1"),),
         ),
     ] = None
-    motion_law: Annotated[str, Text("Law of motion of the rise; has no use with motion_curve", options=LAWS)] = (
+    motion_law: Annotated[str, Text("Law of motion of the rise; not used with motion_curve", options=LAWS)] = (
         "cycloidal"
     )
     motion_curve: Annotated[
@@ -87,20 +90,32 @@ class ElasticFollower(Inputs):
     cycles_per_hour: Annotated[
         float | None,
         Quantity(
-            "n", "1/h", "Cycles: one period of motion_curve each; or the cycles of which rise_time is a share", gt=0
+            "n",
+            "1/h",
+            "Cycle rate: one period of motion_curve each; or the cycles of which rise_time is a fraction",
+            gt=0,
         ),
     ] = None
     dwell_cycles: Annotated[
-        float, Quantity("n_f", "1", "Natural periods for which the vibration after the motion is followed", gt=0, le=50)
+        float,
+        Quantity(
+            "n_f", "1", "Number of natural periods for which the vibration after the motion is calculated", gt=0, le=50
+        ),
     ] = 3
     allowable_peak_ratio: Annotated[
-        float, Quantity("[q]", "1", "Allowed ratio of the link's peak acceleration in the rise to the rigid one", gt=0)
+        float,
+        Quantity(
+            "[q]", "1", "Allowable ratio of the link's peak acceleration during the rise to the rigid-drive value", gt=0
+        ),
     ] = 1.1
     allowable_residual_ratio: Annotated[
-        float, Quantity("[q_r]", "1", "Allowed ratio of the peak acceleration after the rise to the rigid one", gt=0)
+        float,
+        Quantity(
+            "[q_r]", "1", "Allowable ratio of the peak acceleration after the rise to the rigid-drive value", gt=0
+        ),
     ] = 0.2
     allowable_torque: Annotated[
         float | None,
-        Quantity("[M]", "N*m", "Allowed torque (or force) of the drive", gt=0, units=(("mass", "N"),)),
+        Quantity("[M]", "N*m", "Allowable torque (or force) of the drive", gt=0, units=(("mass", "N"),)),
     ] = None
     n_points: Annotated[int, POINTS] = 720

@@ -27,10 +27,10 @@ from diecut_report.plugins.elastic_follower.motion import (
 FORCE = (("mass", "N"),)
 
 response_chapter = Chapter("Motion of the driven link",
-                           text="I·ẍ = K·(y − x) + C·(ẏ − ẋ), from rest. The deflection z = x − y follows exactly from two running integrals over "
-                                "the input's acceleration (Duhamel's integral taken apart), which are taken piece by piece.")
+                           text="I·ẍ = K·(y − x) + C·(ẏ − ẋ), from rest. The deflection z = x − y follows exactly from two running integrals "
+                                "over the input's acceleration (Duhamel's integral split into two), which are evaluated piece by piece.")
 response_chapter.breakpoints("natural_periods", "time", every="natural_period")
-response_chapter.value("decay", "E", "1", "Share of a vibration that is left after the time t", followers.decay, source="vibration",
+response_chapter.value("decay", "E", "1", "Remaining fraction of a vibration after the time t", followers.decay, source="vibration",
                        output=False)
 response_chapter.value("phase", "ψ", "deg", "Phase of the damped vibration", followers.phase, source="vibration", output=False)
 response_chapter.value("in_phase_part", "c", "rad/s**2", "Integrand of the first integral",
@@ -43,9 +43,9 @@ response_chapter.accumulated("in_phase", "C_t", "rad/s", "First integral up to t
                              source="Duhamel's integral", output=False)
 response_chapter.accumulated("quadrature", "S_t", "rad/s", "Second integral up to the time t", of="quadrature_part", units=STRAIGHT_SPEED,
                              source="Duhamel's integral", output=False)
-response_chapter.value("deflection", "z", "deg", "Deflection of the drive: link ahead of the input", followers.deflection, units=STRAIGHT,
+response_chapter.value("deflection", "z", "deg", "Deflection of the drive: lead of the link over the input", followers.deflection, units=STRAIGHT,
                        source="Duhamel's integral")
-response_chapter.value("swing_speed", "v_ψ", "rad/s", "Contribution of the phase's growth to the deflection's speed", followers.swing_speed,
+response_chapter.value("swing_speed", "v_ψ", "rad/s", "Contribution of the phase change to the speed of the deflection", followers.swing_speed,
                        units=STRAIGHT_SPEED, source="Duhamel's integral", output=False)
 response_chapter.value("deflection_speed", "v_z", "rad/s", "Speed of the deflection", followers.deflection_velocity, units=STRAIGHT_SPEED,
                        source="Duhamel's integral", output=False)
@@ -69,13 +69,14 @@ def _while(rising: bool, symbol: str, words: str) -> Steps:
 
 settling = Chapter("Settling after the motion", needs=(*RATE, "rest_tolerance"),
                    absent="not calculated: {missing} not given",
-                   text="The link rests once it stays within the tolerance of its input; what is not followed to its end is not told.")
-settling.value("settle_excess", "Π_z", "rad**2", "Square of the deflection above that of the tolerance",
+                   text="The link is at rest once it stays within the tolerance of its input; no result is given if the calculated time is too "
+                        "short.")
+settling.value("settle_excess", "Π_z", "rad**2", "Square of the deflection less that of the tolerance",
                lambda deflection, rest_tolerance: deflection ** 2 - rest_tolerance ** 2, units=(("mass", "m**2"),), output=False)
-settling.crossings("settle_edge", "t_z", "ms", "Time at which the link goes through the tolerance", of="settle_excess")
-settling.computed("settled", "k_z", "1", "Whether the link has come to rest in the time that is followed", rests.comes_to_rest, ("settle_edge",),
+settling.crossings("settle_edge", "t_z", "ms", "Time at which the link crosses the tolerance", of="settle_excess")
+settling.computed("settled", "k_z", "1", "The link comes to rest within the calculated time", rests.comes_to_rest, ("settle_edge",),
                   "the number of these crossings is even", output=False)
-settling.computed("settle_end", "t_s", "ms", "Time from which on the link rests", rests.last_or_end, ("settle_edge", "rise_duration"),
+settling.computed("settle_end", "t_s", "ms", "Time from which the link stays at rest", rests.last_or_end, ("settle_edge", "rise_duration"),
                   "the last of these crossings, no earlier than the end of the motion", exists=lambda settled: settled > 0)
 settling.phase("settling", "moving", "The link settles after the motion", "time", ("rise_duration", "settle_end"), period="cycle_time")
 settling.phase("rest", "rest", "The link rests", "time", ("settle_end", 0), period="cycle_time")
@@ -89,19 +90,21 @@ peaks_chapter.reduction("acceleration_after", "a_2,max", "rad/s**2", "Peak accel
                         of="acceleration_resting", units=STRAIGHT_ACCELERATION)
 peaks_chapter.reduction("acceleration_peak", "a_max", "rad/s**2", "Peak acceleration of the driven link, during or after the motion", "abs_max",
                         of="acceleration", units=STRAIGHT_ACCELERATION)
-peaks_chapter.value("peak_ratio", "q", "1", "Peak acceleration during the motion, to the rigid one",
+peaks_chapter.value("peak_ratio", "q", "1", "Ratio of the peak acceleration during the motion to the rigid-drive value",
                     lambda acceleration_during, acceleration_rigid: acceleration_during / acceleration_rigid, source="001, first paper")
-peaks_chapter.value("residual_ratio", "q_2", "1", "Peak acceleration after the motion, to the rigid one",
+peaks_chapter.value("residual_ratio", "q_2", "1", "Ratio of the peak acceleration after the motion to the rigid-drive value",
                     lambda acceleration_after, acceleration_rigid: acceleration_after / acceleration_rigid, source="001, first paper")
-peaks_chapter.reduction("response_max", "x_max", "deg", "Farthest position of the driven link", "max", of="response", units=STRAIGHT, output=False)
-peaks_chapter.reduction("response_min", "x_min", "deg", "Lowest position of the driven link", "min", of="response", units=STRAIGHT, output=False,
+peaks_chapter.reduction("response_max", "x_max", "deg", "Upper extreme position of the driven link", "max", of="response", units=STRAIGHT,
+                        output=False)
+peaks_chapter.reduction("response_min", "x_min", "deg", "Lower extreme position of the driven link", "min", of="response", units=STRAIGHT,
+                        output=False,
                         needs=CURVE)
-peaks_chapter.value("overshoot", "ε", "1", "Overshoot beyond the rise, relative to the rise", lambda response_max, rise: (response_max - rise) / rise,
+peaks_chapter.value("overshoot", "ε", "1", "Relative overshoot beyond the rise", lambda response_max, rise: (response_max - rise) / rise,
                     needs=LAW)
-peaks_chapter.value("overshoot", "ε", "1", "Overshoot beyond the ends of the motion, relative to its range",
+peaks_chapter.value("overshoot", "ε", "1", "Overshoot beyond the limits of the motion, relative to its range",
                     lambda response_max, response_min, input_max, input_min, rise:
                         np.maximum(response_max - input_max, input_min - response_min) / rise, needs=CURVE)
-peaks_chapter.reduction("torque_peak", "M_max", "N*m", "Greatest torque (or force) of the drive", "abs_max", of="torque", units=FORCE)
+peaks_chapter.reduction("torque_peak", "M_max", "N*m", "Maximum torque (or force) of the drive", "abs_max", of="torque", units=FORCE)
 
 
 def greatest(law: MotionLaw) -> Callable[..., Any]:
@@ -124,7 +127,7 @@ OF_LAWS = {name: f"{name}_acceleration" for name in LAWS}
 
 def _least(name: str, *, is_last: bool = False) -> Case:
     held = None if is_last else bind(common.is_at_most, smaller=OF_LAWS[name], greater="least_acceleration")
-    return case(name, f"{LAWS[name].title} has the least", held)
+    return case(name, f"{LAWS[name].title} has the lowest", held)
 
 
 def recommended(description: str, needs: tuple[str, ...], exists: Binding | None) -> Steps:
@@ -135,20 +138,20 @@ def recommended(description: str, needs: tuple[str, ...], exists: Binding | None
     return steps
 
 
-compared = Chapter("Laws of motion compared",
-                   text="For a single rise of the same height and duration on the same drive: the greatest acceleration of the driven link with "
-                        "each law, during the rise or after it. A motion that is put together of several rises, given as a curve, has "
-                        "other peaks and may rank the laws otherwise: there each law is to be tried in the mechanism that makes the curve.")
+compared = Chapter("Comparison of laws of motion",
+                   text="For a single rise of the same height and duration on the same drive: the maximum acceleration of the driven link with "
+                        "each law, during or after the rise. A motion composed of several rises, given as a curve, has other peaks and may rank "
+                        "the laws differently: there each law is to be tried in the mechanism that generates the curve.")
 for number, (name, law) in enumerate(LAWS.items(), 1):
     compared.computed(OF_LAWS[name], f"a_{number}L", "rad/s**2",
                       f"Peak acceleration of the driven link: {law.title[0].lower()}{law.title[1:]}", greatest(law),
                       takes=("tuning_ratio", "damping_ratio", "rise", "rise_duration"),
                       method="exact propagation of the drive's vibration through the law's smooth pieces",
                       units=STRAIGHT_ACCELERATION, source="this method")
-compared.computed("least_acceleration", "a_L", "rad/s**2", "Least of these", function=least, takes=tuple(OF_LAWS.values()), method="comparison",
+compared.computed("least_acceleration", "a_L", "rad/s**2", "Minimum of these", function=least, takes=tuple(OF_LAWS.values()), method="comparison",
                   units=STRAIGHT_ACCELERATION, source="this method", output=False)
-compared.computed("one_way", "g", "1", "Gain of the motion in a cycle, relative to its range", function=rests.gained, takes=CURVE,
+compared.computed("one_way", "g", "1", "Drift of the motion per cycle, relative to its range", function=rests.gained, takes=CURVE,
                   method="positions at both ends of the cycle", source="this method", output=False, needs=CURVE)
-compared.add(recommended("Law of motion with the least peak acceleration of the driven link", LAW, None))
-compared.add(recommended("Law that is gentlest on the link in a single rise; this motion, of several parts, may ask for another", CURVE,
+compared.add(recommended("Law of motion with the lowest peak acceleration of the driven link", LAW, None))
+compared.add(recommended("Law that loads the link least in a single rise; this motion, of several parts, may need another", CURVE,
                          bind(common.is_at_least, greater="one_way", smaller=0.999)))

@@ -16,9 +16,9 @@ MECHANISM = Mechanism(
     kind="gear_pair",
     version="1.0",
     title="External gear pair",
-    summary="Geometry, forces and safety against pitting and breakage of the tooth roots of an external spur or helical pair, of full wheels or of "
-    "pinion and sector. The K factors are given, not calculated. Where the module is left out, the least preferred one is taken with which flank "
-    "and root of both gears hold.",
+    summary="Geometry, forces and safety against pitting and tooth breakage of an external spur or helical gear pair, of full wheels or of "
+            "pinion and sector. The K factors are given, not calculated. If the module is omitted, the smallest preferred one is selected with "
+            "which flank and root of both gears have the required safety.",
     inputs=ExternalGearPair,
     example=EXAMPLE,
     chapters=(load.cycle, load.load, load.factors, mesh, root_form, module, rating.sizes, rating.forces, rating.pitting, rating.root_stress,
@@ -30,12 +30,13 @@ MECHANISM = Mechanism(
     assumptions=(
         "Edition 2006 of ISO 6336: that of 2019 adds f_ε to Y_F for helical gears and divides Y_β by cos³β; for spur gears with a contact ratio "
         "below 2 both agree.",
-        "Not covered: the calculation of the K factors (ISO 6336-1), scuffing, micropitting, flank breakage, static overload, load spectra, internal "
-        "gears, racks, bevels, protuberance and grinding notches, thin rims (Y_B > 1), deep teeth (Y_DT < 1), virtual contact ratios from 2 on.",
-        "The greatest torque of the cycle acts wherever in the mesh, on every tooth; no losses between pinion and wheel.",
-        "A torque that changes its sign bends each tooth both ways: Y_M = 0.7, safe where the reverse torque is the smaller. A reversing sector "
-        "rattles through its backlash at each change of flank; the application factor must hold that shock.",
-        "The teeth are without backlash in all lengths; both gears are cut by the same basic rack.",
+        "Not covered: the calculation of the K factors (ISO 6336-1), scuffing, micropitting, flank breakage, static overload, load spectra, "
+        "internal gears, racks, bevel gears, protuberance and grinding notches, thin rims (Y_B > 1), deep teeth (Y_DT < 1), virtual contact "
+        "ratios from 2 upwards.",
+        "The maximum torque of the cycle acts at any position in the mesh, on every tooth; no losses between pinion and wheel.",
+        "A torque that changes its sign bends each tooth in both directions: Y_M = 0.7, on the safe side where the reverse torque is smaller. A "
+        "reversing sector hammers through its backlash at each change of flank; the application factor must include that shock.",
+        "All lengths are without backlash; both gears are cut by the same basic rack.",
     ),
     sources=(
         Source("ISO 21771", "ISO 21771:2007, Gears. Cylindrical involute gears and gear pairs. Concepts and geometry."),

@@ -41,7 +41,7 @@ def reserves(view: View) -> list[Shape]:
     lines = [line(values, found[name] / view[required], _told(name)) for name, required in SAFETIES.items()]
     least = min(view[name] / view[required] for name, required in SAFETIES.items())
     return [
-        chart_panel("Safety to the one required", "1", title, symbol, MODULES.unit, lines=lines,
+        chart_panel("Ratio of safety factor to the required one", "1", title, symbol, MODULES.unit, lines=lines,
                     marks=[mark(chosen, least, "chosen")], levels=[level(1.0, "required")])
     ]  # fmt: skip
 
@@ -55,29 +55,29 @@ FIGURES = (
     Drawing(
         id="mesh",
         title="Teeth in mesh",
-        caption="Transverse section to scale, the pinion below: involutes, and roots as the rack's rounded tips cut them. Dash-dotted: the "
-        "working pitch circles and the line of action; dashed: the base circles; light: the tip circles. Contact runs from A to E, here "
-        "it is at the pitch point C.",
+        caption="Transverse section to scale, the pinion below: involutes, and roots as cut by the rounded tips of the rack. Dash-dotted: the "
+                "working pitch circles and the line of action; dashed: the base circles; light: the tip circles. The path of contact runs from A "
+                "to E; here contact is at the pitch point C.",
         build=drawing.mesh,
     ),
     Drawing(
         id="roots",
-        title="Critical sections of the roots",
-        caption="Normal section of the virtual spur gears, to scale. Light: the tangents at 30°, which touch the root at its critical "
-        "section; the load acts at the outer point of single contact, h_Fe is its arm about that section.",
+        title="Critical sections of the tooth roots",
+        caption="Normal section of the virtual spur gears, to scale. Light: the tangents at 30°, which touch the root fillet at its critical "
+                "section; the load acts at the outer point of single pair tooth contact, h_Fe is its moment arm about that section.",
         build=drawing.roots,
     ),
     Bars(
         id="stresses",
-        title="Stresses and safeties",
-        caption="Contact and root stresses of both gears, and their safeties.",
+        title="Stresses and safety factors",
+        caption="Contact and tooth root stresses of both gears, and their safety factors.",
         groups=(
             BarGroup(
                 label="Contact stress",
                 unit="MPa",
                 bars=(("nominal", "nominal_contact_stress"), ("pinion", "contact_stress_1"), ("wheel", "contact_stress_2")),
             ),
-            BarGroup(label="Root stress", unit="MPa", bars=(("pinion", "root_stress_1"), ("wheel", "root_stress_2"))),
+            BarGroup(label="Tooth root stress", unit="MPa", bars=(("pinion", "root_stress_1"), ("wheel", "root_stress_2"))),
             BarGroup(
                 label="Safety",
                 unit="1",
@@ -92,15 +92,16 @@ FIGURES = (
     ),
     Chart(
         id="reserves",
-        title="Safeties and the module",
-        caption="Safeties of flank and root to those required, with other modules of the preferred series and all else as it is; where the "
-        "distance of the axes is given, with other face widths.",
+        title="Safety factors versus module",
+        caption="Ratio of the safety factors of flank and root to the required ones, with other modules of the preferred series and all else "
+                "unchanged; where the centre distance is given, with other face widths.",
         build=reserves,
     ),
     Plot(
         id="force_over_cycle",
         title="Force and contact stress over the cycle",
-        caption="Tangential force at the reference circle, signed as the torque, and the pinion's contact stress.",
+        caption="Tangential force at the reference circle, with the sign of the torque, and the pinion's contact "
+                "stress.",
         abscissa="cycle_angle",
         panels=(
             Panel(title="Tangential force", unit="N", series=(Series(curve="tangential_force_curve", label="F_t"),)),

@@ -14,9 +14,10 @@ MECHANISM = Mechanism(
     kind="geneva_transport",
     version="1.0",
     title="Sheet transport: Geneva drive",
-    summary="A crank on the main shaft carries a roller that enters a slot of the Maltese cross once a turn and turns it by one step; "
-    "a gear, sprocket and chain carry the step to the conveyor. For the rest of the turn the locking disc holds the wheel and the sheet "
-    "dwells. From the number of slots and the centre distance follow the wheel's size, dwell, motion, torque, roller force and locking.",
+    summary="A crank on the main shaft carries a roller that enters a slot of the Maltese cross once per revolution and turns it by one step; a "
+            "gear, sprocket and chain transmit the step to the conveyor. For the rest of the revolution the locking disc holds the wheel and the "
+            "sheet dwells. From the number of slots and the centre distance follow the wheel's size, dwell, motion, torque, roller force and "
+            "locking.",
     inputs=GenevaTransport,
     example=EXAMPLE,
     chapters=(motion.geometry, motion.dwell, motion.motion_chapter, motion.conveyor, motion.rest, motion.grippers, forces.torque,
@@ -28,8 +29,8 @@ MECHANISM = Mechanism(
     comparisons=(COMPARED,),
     assumptions=(
         "The crank turns at constant speed; crank, roller, slots and shafts are rigid; the slots are as wide as the roller.",
-        "Torque and roller force move the driven inertia alone: friction of roller, bearings and conveyor is not included.",
-        "The wheel's acceleration jumps at entry and exit; what the jump excites in shaft, chain and sheet is not included.",
+        "Torque and roller force move only the driven inertia: friction of roller, bearings and conveyor is not included.",
+        "The wheel's acceleration jumps at entry and exit; the vibration that the jump excites in shaft, chain and sheet is not included.",
     ),
     sources=(
         Source("000", "Topolnytskyi P. V., Shustykevych A. I., Kolomiiets A. B., Vatuliak Yu. V. Research of the drive parameters "

@@ -22,8 +22,8 @@ def cycle(view: View) -> list[Shape]:
             _over_cycle(view, "acceleration", "Acceleration of the sheet", "m/s**2", step / time**2),
         ]
     return [
-        _over_cycle(view, "velocity", "Velocity to S/T", "1", 1.0),
-        _over_cycle(view, "acceleration", "Acceleration to S/T²", "1", 1.0),
+        _over_cycle(view, "velocity", "Velocity in units of S/T", "1", 1.0),
+        _over_cycle(view, "acceleration", "Acceleration in units of S/T²", "1", 1.0),
     ]
 
 
@@ -32,7 +32,7 @@ def _over_cycle(view: View, what: str, title: str, unit: str, factor: float) -> 
     return chart_panel(
         title,
         unit,
-        "Share of the cycle",
+        "Fraction of the cycle",
         "",
         "1",
         lines=[line(share, _closed(view, f"{drive}_{what}") * factor, name) for name, drive in DRIVES],
@@ -58,13 +58,13 @@ def same_dwell(view: View) -> list[Shape]:
     returning = related.acceleration_of_return(sweep, dwell, held, hard, back)
     over = ("Sweep of stop and start", "γ_3(3+1)", "deg")
     return [
-        chart_panel("Greatest acceleration to S/T²", "1", *over,
+        chart_panel("Maximum acceleration in units of S/T²", "1", *over,
                     lines=[line(sweep, stopping, "stop and start"), line(sweep, returning, "return")],
-                    marks=[mark(best, view["best_acceleration"], "least")],
+                    marks=[mark(best, view["best_acceleration"], "minimum")],
                     levels=[level(view["geneva_acceleration_peak"], "Geneva")]),
-        chart_panel("Greatest velocity to S/T", "1", *over,
+        chart_panel("Maximum velocity in units of S/T", "1", *over,
                     lines=[line(sweep, related.velocity_of_return(sweep, dwell, held, peak, back), "cam-gear")],
-                    marks=[mark(best, view["best_velocity"], "with the least acceleration")],
+                    marks=[mark(best, view["best_velocity"], "with the lowest acceleration")],
                     levels=[level(view["geneva_velocity_peak"], "Geneva")]),
     ]  # fmt: skip
 
@@ -77,8 +77,8 @@ FIGURES = (
     Bars(
         id="peaks",
         title="Dwell and peaks",
-        caption="Dwell as a share of the cycle, greatest velocity to S/T, greatest acceleration to S/T², and greatest power to m·S²/T³, which "
-        "is also the ratio of the torques.",
+        caption="Dwell as a fraction of the cycle, maximum velocity in units of S/T, maximum acceleration in units of S/T², and maximum power in "
+        "units of m·S²/T³, which is also the ratio of the torques.",
         groups=(
             _both("Dwell", "%", "dwell_share", "geneva_dwell"),
             _both("Velocity", "1", "cam_velocity_peak", "geneva_velocity_peak"),
@@ -95,7 +95,7 @@ FIGURES = (
     Chart(
         id="same_dwell",
         title="Cam-gear with the Geneva drive's dwell",
-        caption="What it asks of the sheet over its sweep of stop and start, up to the sweep that leaves a tenth of the cycle for the return.",
+        caption="Acceleration of the sheet versus the sweep of stop and start, up to the sweep that leaves a tenth of the cycle for the return.",
         build=same_dwell,
     ),
 )

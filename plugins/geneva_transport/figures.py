@@ -10,7 +10,10 @@ from diecut_report.api import Chart, Drawing, Shape, View, chart_panel, level, l
 from diecut_report.plugins.geneva_transport import formulas, loads
 from diecut_report.plugins.geneva_transport.drawing import at_entry, positions, turning
 
-COUNTED = "Angles are counted from the middle of the motion: what the results name as α of more than 180° stands here 360° lower, at the same place."
+COUNTED = (
+    "Angles are measured from the middle of the motion: values of α above 180° in the results are shown here 360° lower, at the same "
+    "position."
+)
 FROM_MIDDLE = (phrase("Crank angle from the middle of the motion"), "α", "deg")
 OVER = "crank_angle"
 Curves = dict[str, Any]
@@ -50,7 +53,7 @@ def motion(view: View) -> list[Shape]:
     """Angle, speed and acceleration of the wheel over a turn of the crank."""
     curves, speed = over_turn(view), view["crank_speed"]
     alpha, peak = curves["alpha"], view["wheel_acceleration_max"]
-    top = [mark(-view["acceleration_peak_angle"], peak, "greatest")]
+    top = [mark(-view["acceleration_peak_angle"], peak, "maximum")]
     return [
         panel("Angle of the wheel", "deg", alpha, curves["angle"], "ψ", view),
         panel("Speed of the wheel", "rad/s", alpha, formulas.rate(curves["speed"], speed), "ω₂", view),
@@ -62,7 +65,7 @@ def sheet(view: View) -> list[Shape]:
     """Position, velocity and acceleration of the sheet over a turn of the crank."""
     curves, speed, radius = over_turn(view), view["crank_speed"], view["travel_radius"]
     alpha, allowed = curves["alpha"], "allowable_sheet_acceleration"
-    top = [mark(-view["acceleration_peak_angle"], view["sheet_acceleration_max"], "greatest")]
+    top = [mark(-view["acceleration_peak_angle"], view["sheet_acceleration_max"], "maximum")]
     bounds = [level(view[allowed], "allowed")] if allowed in view else []
     velocity = formulas.travel_rate(curves["speed"], speed, radius)
     acceleration = formulas.travel_acceleration(curves["acceleration"], speed, radius)
@@ -83,9 +86,9 @@ def engagement(view: View) -> list[Shape]:
     places = {name: view[f"{name}_at"] - 2 * np.pi for name in ("torque_peak", "roller_force_peak")}
     return [
         chart_panel("Torque at the crank", "N*m", *FROM_MIDDLE, lines=[line(alpha, torque, "M")],
-                    marks=[mark(places["torque_peak"], view["torque_peak"], "greatest")], verticals=[vertical(0.0, "middle")], over=OVER),
+                    marks=[mark(places["torque_peak"], view["torque_peak"], "maximum")], verticals=[vertical(0.0, "middle")], over=OVER),
         chart_panel("Roller force", "N", *FROM_MIDDLE, lines=[line(alpha, force, "F")],
-                    marks=[mark(places["roller_force_peak"], view["roller_force_peak"], "greatest")],
+                    marks=[mark(places["roller_force_peak"], view["roller_force_peak"], "maximum")],
                     verticals=[vertical(0.0, "middle: the roller changes flanks")], over=OVER),
     ]  # fmt: skip
 
@@ -94,8 +97,8 @@ FIGURES = (
     Drawing(
         id="entry",
         title="Geneva drive at the roller's entry",
-        caption="Wheel, crank with roller and locking disc to scale at the instant of entry: crank and slot stand square to each other, "
-        "and the disc's edge stands on the line of centres. Light: the roller's path, the roller in the middle of the motion and at its exit.",
+        caption="Wheel, crank with roller and locking disc to scale at the instant of entry: crank and slot are perpendicular to each other, and "
+        "the disc's edge is on the line of centres. Light: the roller's path, the roller in the middle of the motion and at its exit.",
         build=at_entry,
         moving=turning,
         over="crank_angle",
@@ -109,14 +112,14 @@ FIGURES = (
     Chart(
         id="motion",
         title="Motion of the wheel over a turn",
-        caption="Angle, speed and acceleration of the wheel over a turn of the crank, with the motion in the middle. The speed begins and ends "
-        "without a jump, the acceleration jumps at entry and exit. " + COUNTED,
+        caption="Angle, speed and acceleration of the wheel over a revolution of the crank, with the motion in the middle. The speed begins and "
+        "ends without a jump, the acceleration jumps at entry and exit. " + COUNTED,
         build=motion,
     ),
     Chart(
         id="sheet",
         title="Motion of the sheet over a turn",
-        caption="Position, velocity and acceleration of the sheet over a turn of the crank, with the motion in the middle. "
+        caption="Position, velocity and acceleration of the sheet over a revolution of the crank, with the motion in the middle. "
         + COUNTED,
         needs=("sprocket_teeth", "chain_pitch"),
         build=sheet,
@@ -124,8 +127,8 @@ FIGURES = (
     Chart(
         id="engagement",
         title="Torque and roller force over the engagement",
-        caption="Before the middle the roller drives the wheel; after it the wheel drives the crank, and the roller bears on the slot's other flank. "
-        + COUNTED,
+        caption="Before the middle the roller drives the wheel; after it the wheel drives the crank, and the roller bears on the other flank of "
+        "the slot. " + COUNTED,
         needs=("driven_inertia",),
         build=engagement,
     ),

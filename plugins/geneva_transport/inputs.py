@@ -18,33 +18,41 @@ def one_sheet_a_turn(productivity: Any) -> Any:
 class GenevaTransport(Inputs):
     """Keys of ``geneva_transport``."""
 
-    slots: Annotated[int, Quantity("z", "1", "Slots of the wheel", ge=3, le=18, integer=True)] = 6
-    center_distance: Annotated[float, Quantity("C", "mm", "Distance of the axes of crank and wheel", gt=0)]
-    roller_radius: Annotated[float, Quantity("ρ", "mm", "Radius of the crank's roller", gt=0)]
+    slots: Annotated[int, Quantity("z", "1", "Number of slots of the wheel", ge=3, le=18, integer=True)] = 6
+    center_distance: Annotated[float, Quantity("C", "mm", "Centre distance of crank and wheel", gt=0)]
+    roller_radius: Annotated[float, Quantity("ρ", "mm", "Radius of the crank roller", gt=0)]
     crank_speed: Annotated[
         float | None,
         Quantity(
             "ω_1",
             "rpm",
-            "Speed of the crank; one sheet a turn",
+            "Speed of the crank; one sheet per revolution",
             gt=0,
             press=FromPress("press.productivity", one_sheet_a_turn),
         ),
     ] = None
-    gear_ratio: Annotated[float, Quantity("u", "1", "Turns of the sprocket for each turn of the wheel", gt=0)] = 1
+    gear_ratio: Annotated[
+        float, Quantity("u", "1", "Revolutions of the sprocket per revolution of the wheel", gt=0)
+    ] = 1
     sprocket_teeth: Annotated[
         int | None,
         Quantity(
-            "z_s", "1", "Teeth of the conveyor's sprocket; with chain_pitch the sheet's motion", gt=0, integer=True
+            "z_s",
+            "1",
+            "Number of teeth of the conveyor's sprocket; required with chain_pitch for the sheet's motion",
+            gt=0,
+            integer=True,
         ),
     ] = None
     chain_pitch: Annotated[float | None, Quantity("p", "mm", "Pitch of the conveyor's chain", gt=0)] = None
     allowable_sheet_acceleration: Annotated[
-        float | None, Quantity("[a]", "m/s**2", "Allowed acceleration of the sheet", gt=0)
+        float | None, Quantity("[a]", "m/s**2", "Allowable acceleration of the sheet", gt=0)
     ] = None
     grammage: Annotated[
         float | None,
-        Quantity("m_A", "g/m**2", "Mass of the board per area; with gripper_force the hold of the grippers", gt=0),
+        Quantity(
+            "m_A", "g/m**2", "Mass of the board per unit area; required with gripper_force for the grip check", gt=0
+        ),
     ] = None
     sheet_length: Annotated[
         float | None,
@@ -67,12 +75,15 @@ class GenevaTransport(Inputs):
         ),
     ] = None
     gripper_force: Annotated[
-        float | None, Quantity("[F_g]", "N", "Force with which the grippers of a sheet hold it, together", gt=0)
+        float | None, Quantity("[F_g]", "N", "Total force with which the grippers hold a sheet", gt=0)
     ] = None
     rest_tolerance: Annotated[
         float | None,
         Quantity(
-            "e_r", "mm", "Distance from its place within which the sheet counts as resting; with it that phase", gt=0
+            "e_r",
+            "mm",
+            "Tolerance on the sheet's position within which it counts as at rest; required for that phase",
+            gt=0,
         ),
     ] = None
     driven_inertia: Annotated[
@@ -80,21 +91,21 @@ class GenevaTransport(Inputs):
         Quantity(
             "J",
             "kg*m**2",
-            "Moment of inertia of all that the wheel moves, reduced to its shaft (a conveyor of mass m adds "
-            "m·(z_s·p·u/2π)²); with it torque and roller force",
+            "Moment of inertia of everything that the wheel moves, referred to its shaft (a conveyor of mass m adds "
+            "m·(z_s·p·u/2π)²); required for torque and roller force",
             gt=0,
         ),
     ] = None
     roller_width: Annotated[
         float | None,
-        Quantity("b", "mm", "Width of the roller that bears on the slot; with it the contact pressure", gt=0),
+        Quantity("b", "mm", "Contact width of the roller on the slot; required for the contact pressure", gt=0),
     ] = None
     elastic_modulus: Annotated[float, Quantity("E", "GPa", "Elastic modulus of roller and wheel", gt=0)] = 210
     poisson_ratio: Annotated[float, Quantity("ν", "1", "Poisson's ratio of roller and wheel", ge=0, lt=0.5)] = 0.3
     allowable_contact_pressure: Annotated[
-        float | None, Quantity("[p_H]", "MPa", "Allowed contact pressure between roller and slot", gt=0)
+        float | None, Quantity("[p_H]", "MPa", "Allowable contact pressure between roller and slot", gt=0)
     ] = None
-    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the crank", gt=0)] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowable torque at the crank", gt=0)] = None
     locking_radius: Annotated[
         float | None,
         Quantity(
@@ -112,14 +123,14 @@ class GenevaTransport(Inputs):
         Quantity(
             "φ_h",
             "deg",
-            "Least angle of the crank from the wheel's exit, and to its entry, while the sheet must rest; with it the play of the dwell",
+            "Minimum crank angle from the wheel's exit, and to its entry, while the sheet must rest; required for the play during the dwell",
             gt=0,
             lt=180,
         ),
     ] = None
     allowable_sheet_play: Annotated[
         float | None,
-        Quantity("[Δx]", "mm", "Allowed play of the sheet while it must rest: the register's tolerance", gt=0),
+        Quantity("[Δx]", "mm", "Allowable play of the sheet while it must rest: the register tolerance", gt=0),
     ] = None
     n_points: Annotated[int, POINTS] = 720
 

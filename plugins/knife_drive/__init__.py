@@ -13,9 +13,10 @@ MECHANISM = Mechanism(
     kind="knife_drive",
     version="1.0",
     title="Folding knife: planetary, crank-slider and crank-rocker drive",
-    summary="The edge of the folding knife meets a signature that lies on the table, gives it its own speed and pushes it between two folding "
-    "rollers, which carry it off. Up to three drives of the knife are compared at one speed of the machine and one working depth: duration of "
-    "the working stroke, speed at contact, acceleration of the paper by the knife and in the grip of the rollers, time on the table.",
+    summary="The edge of the folding knife meets a signature that lies on the table, accelerates it to its own speed and pushes it between two "
+            "folding rollers, which carry it away. Up to three drives of the knife are compared at one speed of the machine and one working "
+            "depth: duration of the working stroke, speed at contact, acceleration of the paper by the knife and in the grip of the rollers, "
+            "time on the table.",
     inputs=KnifeDrive,
     example=EXAMPLE,
     chapters=(working.speeds, working.of_drive(working.PLANETARY, drives.PLANETARY),
@@ -27,9 +28,9 @@ MECHANISM = Mechanism(
     checks=CHECKS,
     figures=FIGURES,
     assumptions=(
-        "The knife's shaft turns at constant speed; links and joints are rigid and without clearance.",
-        "The signature takes the knife's speed at once as the edge meets it, and follows the edge down to the grip of the rollers. "
-        "That blow has no acceleration that could be calculated: of it only the speed at contact is told and compared, nothing is checked.",
+        "The knife shaft rotates at constant speed; links and joints are rigid and without clearance.",
+        "The signature takes the knife's speed instantly as the edge meets it, and follows the edge down to the grip of the rollers. The "
+        "acceleration of this impact cannot be calculated: only the speed at contact is given and compared, nothing is checked.",
         "The rollers bring the signature to their speed with constant acceleration while the shaft turns by the grip angle, which ends at the "
         "knife's lowest point.",
         "The planetary drive is the straight-line one: its knife arm is as long as the carrier and turns back at the carrier's speed.",

@@ -11,7 +11,7 @@ def of_drive(drive: DriveKind) -> tuple[Check, ...]:
     own, name = drive.key, f"{drive.name[0].upper()}{drive.name[1:]}"
     return (
         Check(id=f"{own}_paper_acceleration", check_class="function", title=f"{name}: acceleration of the paper", demand=f"{own}_acceleration_peak",
-              limit="allowable_paper_acceleration", unit="m/s**2", demand_label="greatest in the working stroke", limit_label="allowed",
+              limit="allowable_paper_acceleration", unit="m/s**2", demand_label="maximum in the working stroke", limit_label="allowed",
               needs=(own,), source="004, after Fig. 3",
               consequence=f"the knife breaks or tears the paper at the fold; a shorter stroke than {{{own}_stroke}} is gentler.",
               advise=(Vary("cylinder_rate", "down"),)),

@@ -29,10 +29,10 @@ COMPARED = (
     ("stroke", "H", "Stroke", "mm"),
     ("working_time", "t_w", "Duration of the working stroke", "ms"),
     ("contact_velocity", "V_t", "Speed at contact", "m/s"),
-    ("acceleration_peak", "a_m", "Greatest acceleration in the working stroke", "m/s**2"),
+    ("acceleration_peak", "a_m", "Maximum acceleration in the working stroke", "m/s**2"),
     ("acceleration_end", "a_0", "Acceleration at the lowest point", "m/s**2"),
     ("end_factor", "k", "Factor of the acceleration at the lowest point", "1"),
-    ("grip_size", "a_s", "Size of the acceleration in the grip", "m/s**2"),
+    ("grip_size", "a_s", "Absolute acceleration in the grip", "m/s**2"),
 )
 # The first with the table at the edge's highest point, the second with rollers as fast as the knife
 MAY_VANISH = ("contact_velocity", "grip_size")
@@ -62,11 +62,11 @@ def _best(drives: Drives) -> Steps:
     """The best of several drives, and its numbers."""
     given: dict[str, Any] = {"needs": keys(drives), "lacks": lacking(drives)}
     *first, last = drives
-    words = {drive: f"the {drive.name} has the least acceleration" for drive in drives}
+    words = {drive: f"the {drive.name} has the lowest acceleration" for drive in drives}
     steps = Steps()
-    steps.value(f"best_{PEAK}", "a_m,best", "m/s**2", "Least of the greatest accelerations in the working stroke", _least(drives), output=False,
+    steps.value(f"best_{PEAK}", "a_m,best", "m/s**2", "Lowest of the maximum accelerations in the working stroke", _least(drives), output=False,
                 **given)
-    steps.choice("best_drive", "→", "1", "Drive that is gentlest on the paper", *(case(d.key, words[d], _is_best(d)) for d in first),
+    steps.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper", *(case(d.key, words[d], _is_best(d)) for d in first),
                  case(last.key, words[last]), **given)
     for name, symbol, title, unit in COMPARED:
         if name != PEAK:
@@ -97,9 +97,9 @@ def _with_another(drive: DriveKind) -> list[tuple[Drives, tuple[str, ...]]]:
 def _verdict(drives: Drives) -> Steps:
     """In words: which drive, and whether the paper stands it."""
     kept = [case(f"the {d.name} is gentlest on the paper, and its acceleration is allowed",
-                 f"the {d.name} has the least acceleration, and it is allowed", _is_best(d, allowed=True)) for d in drives]  # fmt: skip
+                 f"the {d.name} has the lowest acceleration, and it is allowed", _is_best(d, allowed=True)) for d in drives]  # fmt: skip
     broken = [(f"the {d.name} is gentlest on the paper, but its acceleration, too, is above the allowed one",
-               f"the {d.name} has the least acceleration, but it is above the allowed one", d) for d in drives]  # fmt: skip
+               f"the {d.name} has the lowest acceleration, but it is above the allowed one", d) for d in drives]  # fmt: skip
     text, words, _ = broken[-1]
     cases = (*kept, *(case(text, words, _is_best(d)) for text, words, d in broken[:-1]), case(text, words))
     steps = Steps()
@@ -112,7 +112,7 @@ def _alone(drive: DriveKind) -> Steps:
     given: dict[str, Any] = {"needs": (drive.key,), "lacks": lacking((drive,))}
     stands = bind(common.is_at_most, smaller=f"{drive.key}_{PEAK}", greater=ALLOWED)
     steps = Steps()
-    steps.choice("best_drive", "→", "1", "Drive that is gentlest on the paper",
+    steps.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper",
                  case(drive.key, "the only drive that is given, and its acceleration is allowed", stands),
                  case(drive.key, "the only drive that is given, though its acceleration is above the allowed one"), **given)
     steps.choice("verdict", "→", "1", "Verdict",
@@ -123,7 +123,8 @@ def _alone(drive: DriveKind) -> Steps:
 
 SEVERAL = groups(least=2)
 
-best = Chapter("Comparison", text="The best drive is the one with the least greatest acceleration in the working stroke; ratios are to its numbers.")
+best = Chapter("Comparison", text="The best drive is the one with the lowest maximum acceleration in the working stroke; ratios refer to its "
+                                  "values.")
 best.add(SIGNATURE_BEYOND_DEPTH)
 best.add(grips(drive) for drive in ALL)
 best.add(_alone(drive) for drive in ALL)
@@ -131,7 +132,7 @@ best.add(_best(drives) for drives in SEVERAL)
 best.add(_ratios(drive) for drive in ALL)
 best.add(_verdict(drives) for drives in SEVERAL)
 
-OTHERS = (("acceleration_peak", "a_m", "Greatest acceleration in the working stroke", "m/s**2"), ("stroke", "H", "Stroke", "mm"),
+OTHERS = (("acceleration_peak", "a_m", "Maximum acceleration in the working stroke", "m/s**2"), ("stroke", "H", "Stroke", "mm"),
           ("end_factor", "k", "Factor of the acceleration at the lowest point", "1"))
 
 
@@ -162,7 +163,7 @@ def _of_planetary(lacks: tuple[str, ...], *pair: str) -> Steps:
         steps.value(name, symbol, "1", f"{title}: planetary drive to best other drive",
                     bind(common.quotient, quantity=f"{PLANETARY.key}_{of}", by=f"other_{of}"), source="this method", **given)
 
-    ratio("acceleration_ratio_planetary", "q_W", "Greatest acceleration", PEAK)
+    ratio("acceleration_ratio_planetary", "q_W", "Maximum acceleration", PEAK)
     ratio("stroke_ratio_planetary", "q_H", "Stroke", "stroke")
     ratio("factor_ratio_planetary", "q_k", "Factor of the acceleration at the lowest point", "end_factor")
     steps.choice("reason", "→", "1", "Cause of the difference in the planetary drive's acceleration",
@@ -175,9 +176,9 @@ def _of_planetary(lacks: tuple[str, ...], *pair: str) -> Steps:
 
 
 why = Chapter("Why the drives differ",
-              text="At the lowest point the acceleration is a₀ = k·H·ω₁²/2: stroke H times a factor k of the drive, which is 1 for the planetary "
-                   "drive and 1 + r/l for the crank-slider. With usual links the factors are near 1, so at equal stroke the drives differ little; "
-                   "a shorter stroke at the same working depth lowers the acceleration in proportion.", needs=(PLANETARY.key,),
+              text="At the lowest point the acceleration is a₀ = k·H·ω₁²/2: the stroke H times a factor k of the drive, which is 1 for the "
+                   "planetary drive and 1 + r/l for the crank-slider. With usual links the factors are near 1, so for equal strokes the drives "
+                   "differ little; a shorter stroke at the same working depth lowers the acceleration in proportion.", needs=(PLANETARY.key,),
               absent="The planetary drive against the others: there is no block planetary.")
 why.add(_best_other())
 why.add(_of_planetary((), PLANETARY.key, CRANK_SLIDER.key))
@@ -186,7 +187,7 @@ why.add(_of_planetary((CRANK_SLIDER.key,), PLANETARY.key, CRANK_ROCKER.key))
 
 def _grip(drives: Drives) -> Steps:
     steps = Steps()
-    steps.choice("grip_verdict", "→", "1", "Harder on the paper",
+    steps.choice("grip_verdict", "→", "1", "More severe for the paper",
                  case("the grip of the rollers, not the knife", "with the best drive the grip accelerates the signature more than the knife does",
                       bind(common.is_below, smaller=f"best_{PEAK}", greater="best_grip_size")),
                  case("the knife, not the grip of the rollers", "with the best drive the knife accelerates the signature at least as much"),
@@ -195,6 +196,6 @@ def _grip(drives: Drives) -> Steps:
 
 
 grip = Chapter("Knife and rollers",
-               text="No drive spares the signature the jump from the knife's speed, which falls to nothing at the lowest point, to that of the "
+               text="No drive spares the signature the jump from the knife's speed, which falls to zero at the lowest point, to that of the "
                     "rollers.")
 grip.add(_grip(drives) for drives in SEVERAL)

@@ -7,7 +7,10 @@ from math import cos, pi, sin
 from diecut_report.api import Drawing, Point, Shape, View, arc, circle, dimension, label, point, polyline
 
 TURN = 2 * pi
-CAPTION = "To scale, with the knife's edge at its lowest point; light: as it meets the signature on the table, and with the crank half a turn on. "
+CAPTION = (
+    "To scale, with the knife's edge at its lowest point; light: at contact with the signature on the table, and with the crank half a "
+    "revolution later. "
+)
 
 
 def _table(view: View, edge: Point, level: float, side: int = -1) -> list[Shape]:
@@ -156,15 +159,15 @@ def _direction(view: View, phi: float) -> float:
 PLANETARY_DRAWN = Drawing(
     id="planetary_drive", title="Planetary drive", needs=("planetary",), build=planetary, moving=planetary_at,
     over="crank_angle",
-    caption=CAPTION + "The planet (dashed) rolls inside a circle of twice its size (dash-dotted); the edge goes straight up and down.",
+    caption=CAPTION + "The planet (dashed) rolls inside a circle of twice its size (dash-dotted); the edge moves straight up and down.",
 )  # fmt: skip
 CRANK_SLIDER_DRAWN = Drawing(
     id="crank_slider_drive", title="Crank-slider drive", needs=("crank_slider",), build=crank_slider, moving=crank_slider_at,
     over="crank_angle",
-    caption=CAPTION + "The length of the knife below the rod is free and chosen here.",
+    caption=CAPTION + "The length of the knife below the rod is arbitrary.",
 )  # fmt: skip
 CRANK_ROCKER_DRAWN = Drawing(
     id="crank_rocker_drive", title="Crank-rocker drive", needs=("crank_rocker",), build=crank_rocker, moving=crank_rocker_at,
     over="crank_angle",
-    caption=CAPTION + "The angle between rocker and knife arm is free; here the arm lies level at the lowest point.",
+    caption=CAPTION + "The angle between rocker and knife arm is arbitrary; here the arm is level at the lowest point.",
 )  # fmt: skip

@@ -63,11 +63,11 @@ def _slider_at(place: str, symbol: str, when: str, lacks: tuple[str, ...] = ()) 
 def _first_order(name: str, symbol: str, unit: str, word: str, approximate: Formula) -> Steps:
     """A curve to the first order of r/l, as textbooks have it, and how far it is from the exact one."""
     steps = Steps()
-    steps.value(f"{name}_first_order", f"{symbol}_1", unit, f"{word.capitalize()} of the edge to the first order of r/l",
+    steps.value(f"{name}_first_order", f"{symbol}_1", unit, f"{word.capitalize()} of the edge, first-order in r/l",
                 bind(approximate, crank_radius=CRANK), source="004 eq. 2, to the first order")
-    steps.value(f"{name}_error", f"Δ{symbol}_", unit, f"Exact {word} less the first-order one",
+    steps.value(f"{name}_error", f"Δ{symbol}_", unit, f"Difference of exact and first-order {word}",
                 bind(common.difference, quantity=name, less=f"{name}_first_order"), output=False)
-    steps.reduction(f"{name}_difference", f"Δ{symbol}_m", unit, f"Greatest difference of the first-order {word} from the exact one", "abs_max",
+    steps.reduction(f"{name}_difference", f"Δ{symbol}_m", unit, f"Maximum difference of the first-order {word} from the exact one", "abs_max",
                     of=f"{name}_error")
     return steps
 
@@ -76,7 +76,7 @@ CRANK_SLIDER = Steps()
 CRANK_SLIDER.require("rod_longer", bind(common.is_below, smaller=CRANK, greater=ROD), key=ROD,
                      message="is {crank_slider.rod_length}, not longer than the crank_radius of {crank_slider.crank_radius}: the crank cannot turn "
                              "fully; make the rod longer than the crank, usually three to six times")
-CRANK_SLIDER.value("rod_ratio", "λ_", "1", "Rod to crank", bind(common.quotient, quantity=ROD, by=CRANK), source="004 eq. 2", output=False)
+CRANK_SLIDER.value("rod_ratio", "λ_", "1", "Rod-to-crank ratio", bind(common.quotient, quantity=ROD, by=CRANK), source="004 eq. 2", output=False)
 CRANK_SLIDER.value("stroke", "H_", "mm", "Stroke of the edge", bind(common.twice, quantity=CRANK), source="004 eq. 2")
 CRANK_SLIDER.add(working.reaches(working.CRANK_SLIDER))
 CRANK_SLIDER.value("rod_angle", "β_", "deg", "Angle of the rod to the knife's path", bind(slider_crank.coupler_angle), source="004 eq. 2",
@@ -87,7 +87,7 @@ CRANK_SLIDER.value("velocity", "V_", "m/s", "Velocity of the edge", bind(slider_
                    source="004 eq. 2")
 CRANK_SLIDER.value("acceleration", "a_", "m/s**2", "Acceleration of the edge",
                    bind(slider_crank.acceleration, coupler_angle="rod_angle", crank_radius=CRANK), source="004 eq. 2", source_symbol="W_")
-CRANK_SLIDER.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point: a turn after φ = 0", lambda: 2 * np.pi, source="004 eq. 2")
+CRANK_SLIDER.value("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point: one revolution after φ = 0", lambda: 2 * np.pi, source="004 eq. 2")
 CRANK_SLIDER.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke",
                    bind(slider_crank.crank_angle_at, displacement="working_depth", crank_radius=CRANK, rod_length=ROD), source="004 eq. 2, solved")
 CRANK_SLIDER.add(CONTACT)
@@ -100,5 +100,5 @@ CRANK_SLIDER.add(_first_order("displacement", "S", "mm", "height", slider_crank.
 CRANK_SLIDER.add(_first_order("velocity", "V", "m/s", "velocity", slider_crank.velocity_first_order))
 CRANK_SLIDER.add(_first_order("acceleration", "a", "m/s**2", "acceleration", slider_crank.acceleration_first_order))
 CRANK_SLIDER.value("acceleration_difference_share", "δ_W", "1",
-                   "Greatest difference of the first-order acceleration, to the acceleration at the lowest point",
+                   "Maximum difference of the first-order acceleration, relative to the acceleration at the lowest point",
                    lambda acceleration_difference, acceleration_end: acceleration_difference / acceleration_end, source="this method")

@@ -114,7 +114,7 @@ def first_order(view: View) -> list[Shape]:
     lines = [line(phi, exact, "exact"), line(phi, approximate, "first order")]
     return [
         chart_panel("Acceleration of the edge", unit, "Crank angle", "φ", "deg", lines=lines),
-        *(chart_panel(Phrase("Exact {name} less the first-order one", name=PLAIN[name]), unit, "Crank angle", "φ", "deg",
+        *(chart_panel(Phrase("Difference of exact and first-order {name}", name=PLAIN[name]), unit, "Crank angle", "φ", "deg",
                       lines=[line(phi, np.subtract(exact, approximate), f"Δ{symbol}")])
           for name, unit, symbol, exact, approximate in own),
     ]  # fmt: skip
@@ -149,18 +149,18 @@ FIGURES = (
             f"(figure 2{drive.letter} of 004).")
       for drive in ALL),
     Chart(id="from_lowest", title="The drives from their lowest point", build=from_lowest,
-          caption="Speed and acceleration of the edge with the lowest points of all drives in one place, the working strokes shaded; after it the "
-          "rollers lead the signature at their speed (figure 3 of 004)."),
-    Drawing(id="comparison", title="The drives compared", build=table, schematic=True,
-            caption="Numbers of each drive and, in brackets, their ratio to those of the best drive, the one with the least greatest acceleration "
-            "in the working stroke. Factor: acceleration at the end to that of a harmonic motion of the same stroke, so that stroke times "
-            "factor is in proportion to the acceleration at the end."),
-    Chart(id="over_stroke", title="Acceleration over the stroke", build=over_stroke,
-          caption="Acceleration at the lowest point if each drive is made greater or smaller as a whole (the crank-rocker: its knife arm) at this "
-          "speed. It grows with the stroke. The distance of the lines at one stroke is what the kind of drive makes of it."),
+          caption="Speed and acceleration of the edge with the lowest points of all drives aligned, the working strokes shaded; after it the "
+                  "rollers lead the signature at their speed (figure 3 of 004)."),
+    Drawing(id="comparison", title="Comparison of the drives", build=table, schematic=True,
+            caption="Values of each drive and, in brackets, their ratio to those of the best drive, the one with the lowest maximum acceleration "
+                    "in the working stroke. Factor: ratio of the acceleration at the end to that of a harmonic motion of the same stroke, so "
+                    "that stroke times factor is proportional to the acceleration at the end."),
+    Chart(id="over_stroke", title="Acceleration versus stroke", build=over_stroke,
+          caption="Acceleration at the lowest point if each drive is scaled as a whole (for the crank-rocker: its knife arm) at this speed. It "
+                  "increases with the stroke. The distance between the lines at one stroke is due to the type of drive."),
     Chart(id="crank_slider_first_order", title="Crank-slider: exact and first-order form", needs=(CRANK_SLIDER.key,), build=first_order,
-          caption="Acceleration of the edge by both forms, and what the form to the first order of crank to rod, r/l, leaves out of "
-          "displacement, velocity and acceleration. All else is calculated with the exact form."),
+          caption="Acceleration of the edge by both forms, and the difference between the exact form and the form of first order in the ratio of "
+                  "crank to rod, r/l, for displacement, velocity and acceleration. Everything else is calculated with the exact form."),
     PLANETARY_DRAWN,
     CRANK_SLIDER_DRAWN,
     CRANK_ROCKER_DRAWN,

@@ -47,10 +47,14 @@ class CrankRocker(Block):
 class KnifeDrive(Inputs):
     """Keys of ``knife_drive``."""
 
-    cylinder_rate: Annotated[float, Quantity("n", "1/h", "Turns of the plate cylinder an hour", gt=0, le=1e6)] = 25000
+    cylinder_rate: Annotated[
+        float, Quantity("n", "1/h", "Revolutions of the plate cylinder per hour", gt=0, le=1e6)
+    ] = 25000
     drive_ratio: Annotated[
         float,
-        Quantity("i_1", "1", "Turns of the knife's shaft for each turn of the plate cylinder", gt=0, le=MOST_RATIO),
+        Quantity(
+            "i_1", "1", "Revolutions of the knife shaft per revolution of the plate cylinder", gt=0, le=MOST_RATIO
+        ),
     ] = 2
     working_depth: Annotated[
         float, _length("h", "Travel of the knife's edge below the table, down to its lowest point")
@@ -58,12 +62,14 @@ class KnifeDrive(Inputs):
     roller_diameter: Annotated[float, _length("d", "Diameter of the folding rollers")] = 80
     roller_ratio: Annotated[
         float,
-        Quantity("i_r", "1", "Turns of the folding rollers for each turn of the knife's shaft", gt=0, le=MOST_RATIO),
+        Quantity(
+            "i_r", "1", "Revolutions of the folding rollers per revolution of the knife shaft", gt=0, le=MOST_RATIO
+        ),
     ] = 2
     grip_angle: Annotated[
         float,
-        Quantity("φ_g", "deg", "Turn of the knife's shaft in which the rollers bring the signature to their speed; it ends "
-                 "at the knife's lowest point", gt=0, le=180),
+        Quantity("φ_g", "deg", "Rotation of the knife shaft during which the rollers bring the signature to their speed; it ends at the knife's "
+                               "lowest point", gt=0, le=180),
     ] = 5  # fmt: skip
     grip_speed: Annotated[
         float | None,
@@ -73,15 +79,15 @@ class KnifeDrive(Inputs):
     ] = None
     signature_length: Annotated[
         float | None,
-        _length("L", "Length of the signature, half the cut-off; with it its time on the table"),
+        _length("L", "Length of the signature, half the cut-off; required for its time on the table"),
     ] = None
     planetary: Annotated[Planetary | None, Text("Planetary drive")] = None
     crank_slider: Annotated[CrankSlider | None, Text("Crank-slider drive")] = None
     crank_rocker: Annotated[CrankRocker | None, Text("Crank-rocker drive")] = None
     allowable_paper_acceleration: Annotated[
-        float, Quantity("[a]", "m/s**2", "Allowed acceleration of the paper by the knife", gt=0)
+        float, Quantity("[a]", "m/s**2", "Allowable acceleration of the paper by the knife", gt=0)
     ] = 1000
     allowable_grip_acceleration: Annotated[
-        float, Quantity("[a_g]", "m/s**2", "Allowed acceleration of the paper in the grip of the rollers", gt=0)
+        float, Quantity("[a_g]", "m/s**2", "Allowable acceleration of the paper in the grip of the rollers", gt=0)
     ] = 10000
     n_points: Annotated[int, POINTS] = 720

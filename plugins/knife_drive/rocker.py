@@ -26,7 +26,8 @@ def _either(id: str, symbol: str, unit: str, description: str, outer: Bound | Fo
 
 def _ratio(name: str, symbol: str, link: str) -> Steps:
     steps = Steps()
-    steps.value(f"{link}_ratio", symbol, "1", f"{name} to crank", bind(common.quotient, quantity=f"crank_rocker.{link}", by="crank_rocker.crank"),
+    steps.value(f"{link}_ratio", symbol, "1", f"{name}-to-crank ratio", bind(common.quotient, quantity=f"crank_rocker.{link}",
+                                                                             by="crank_rocker.crank"),
                 source="004 eq. 3", output=False)
     return steps
 
@@ -51,7 +52,7 @@ def _speed_ratio(
     steps.value(f"{place}rocker_direction", f"γ_{letter}", "deg", f"Direction of the rocker{when}",
                 bind(four_bar.rocker_direction, coupler_direction=f"{place}coupler_direction",
                 transmission_angle=f"{place}transmission_angle"), source="004 eq. 3", **own)
-    steps.value(f"{place}rocker_speed_ratio", f"ω_3i{letter}", "1", f"Angular speed of the rocker to the crank's{when}",
+    steps.value(f"{place}rocker_speed_ratio", f"ω_3i{letter}", "1", f"Ratio of the rocker's angular speed to the crank's{when}",
                 bind(four_bar.rocker_speed_ratio, crank_angle=at, coupler_direction=f"{place}coupler_direction",
                 rocker_direction=f"{place}rocker_direction"), source="004 eq. 3", **own)
     return steps
@@ -80,14 +81,14 @@ GEOMETRY.value("stroke", "H_", "mm", "Stroke of the edge along its arc", bind(co
 GEOMETRY.add(working.reaches(working.CRANK_ROCKER))
 GEOMETRY.value("dead_center", "φ_d", "deg", "Crank angle of the outer dead centre", four_bar.outer_dead_center, source="law of cosines", output=False,
                needs=OUTER)
-GEOMETRY.add(_either("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point (counted on over the full turn)",
+GEOMETRY.add(_either("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point (may exceed a full turn)",
                      bind(formulas.turn_later, angle="dead_center"), four_bar.inner_dead_center, source="dead centre"))
 
 CURVES = Steps()
 CURVES.add(_speed_ratio("crank_angle"))
-CURVES.value("coupler_speed_ratio", "ω_2i", "1", "Angular speed of the coupler to the crank's", bind(four_bar.coupler_speed_ratio),
+CURVES.value("coupler_speed_ratio", "ω_2i", "1", "Ratio of the coupler's angular speed to the crank's", bind(four_bar.coupler_speed_ratio),
              source="004 eq. 3, corrected", output=False)
-CURVES.value("rocker_acceleration_ratio", "ε_3i", "1", "Angular acceleration of the rocker to the crank's speed squared",
+CURVES.value("rocker_acceleration_ratio", "ε_3i", "1", "Ratio of the rocker's angular acceleration to the square of the crank's speed",
              bind(four_bar.rocker_acceleration_ratio), source="004 eq. 3, corrected", output=False)
 CURVES.add(_either("rocker_angle", "δ_3", "deg", "Angle of the rocker from the dead centre of the lowest point",
                    bind(common.difference, quantity="rocker_direction", less="outer_direction"), formulas.angle_from_inner, source="004 eq. 3",

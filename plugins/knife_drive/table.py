@@ -11,7 +11,7 @@ LINES = (
     (phrase("Working stroke"), "working_angle", "deg"),
     (phrase("Its duration"), "working_time", "ms"),
     (phrase("Speed at contact"), "contact_velocity", "m/s"),
-    (phrase("Greatest acceleration"), "acceleration_peak", "m/s**2"),
+    (phrase("Maximum acceleration"), "acceleration_peak", "m/s**2"),
     (phrase("Acceleration at the end"), "acceleration_end", "m/s**2"),
     (phrase("Stroke"), "stroke", "mm"),
     (phrase("Factor"), "end_factor", "1"),
@@ -50,8 +50,8 @@ def _verdicts(view: View) -> list[str]:
         stroke, factor = view["stroke_ratio_planetary"], view["factor_ratio_planetary"]
         found.append(
             Phrase(
-                "Planetary drive to the best other one at the end: {stroke} = {stroke_2} (stroke) × {factor} "
-                "(factor); {reason}.",
+                "Planetary drive compared with the best other one at the end: {stroke} = {stroke_2} (stroke) × "
+                "{factor} (factor); {reason}.",
                 stroke=f"{stroke * factor:.2f}",
                 stroke_2=f"{stroke:.2f}",
                 factor=f"{factor:.2f}",

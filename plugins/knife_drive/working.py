@@ -50,15 +50,16 @@ def lacking(drives: Drives) -> tuple[str, ...]:
     return tuple(drive.key for drive in ALL if drive not in drives)
 
 
-speeds = Chapter("Knife's shaft and folding rollers",
+speeds = Chapter("Knife shaft and folding rollers",
                  text="The crank angle of each drive has its own origin. Displacement, velocity and acceleration of the knife's edge count upwards.")
 speeds.require("any_drive", lambda: 0 >= 1, key="planetary",
                message="no drive is given; give at least one of the blocks planetary, crank_slider and crank_rocker", lacks=DRIVES)
-speeds.value("crank_speed", "ω_1", "rad/s", "Angular speed of the knife's shaft",
+speeds.value("crank_speed", "ω_1", "rad/s", "Angular speed of the knife shaft",
              lambda cylinder_rate, drive_ratio: 2 * np.pi * cylinder_rate * drive_ratio, source="kinematics")
-speeds.value("cycle_time", "T", "ms", "Time of a turn of the knife's shaft", lambda crank_speed: 2 * np.pi / crank_speed, source="004, after Fig. 3")
-speeds.value("roller_velocity", "V_r", "m/s", "Speed of the rollers' surface", formulas.roller_velocity, source="kinematics")
-speeds.value("grip_time", "t_g", "ms", "Time in which the rollers bring the signature to their speed",
+speeds.value("cycle_time", "T", "ms", "Time of a revolution of the knife shaft", lambda crank_speed: 2 * np.pi / crank_speed,
+             source="004, after Fig. 3")
+speeds.value("roller_velocity", "V_r", "m/s", "Surface speed of the rollers", formulas.roller_velocity, source="kinematics")
+speeds.value("grip_time", "t_g", "ms", "Time for the rollers to bring the signature to their speed",
              bind(formulas.time_of_angle, angle="grip_angle"), source="004, after Fig. 3")
 speeds.value("roller_time", "t_r", "ms", "Time from the knife's lowest point until the trailing edge has left the table",
              lambda signature_length, working_depth, roller_velocity: (signature_length - working_depth) / roller_velocity,
@@ -72,7 +73,7 @@ WORKING.value("working_time", "t_w", "ms", "Duration of the working stroke", bin
 WORKING.value("contact_velocity", "V_t", "m/s", "Speed of the edge as it meets the signature on the table", lambda contact_rate: abs(contact_rate),
               source="kinematics")
 WORKING.breakpoints("working_ends", "crank_angle", "contact_angle", "lowest_angle")
-WORKING.choice("working", "s_", "1", "Whether the knife leads the signature (1) or not (0)",
+WORKING.choice("working", "s_", "1", "Knife leads the signature (1) or not (0)",
                case(lambda: 1, "within the working stroke",
                     lambda crank_angle, lowest_angle, working_angle:
                         np.cos(crank_angle - lowest_angle + working_angle / 2) > np.cos(working_angle / 2)),
@@ -80,8 +81,8 @@ WORKING.choice("working", "s_", "1", "Whether the knife leads the signature (1) 
 WORKING.choice("paper_acceleration", "a_p", "m/s**2", "Acceleration of the signature while the knife leads it",
                case(lambda acceleration: acceleration, "within the working stroke", bind(formulas.holds, flag="working")),
                case(lambda: 0, "outside the working stroke"), output=False)
-WORKING.reduction("acceleration_peak", "a_m", "m/s**2", "Greatest acceleration in the working stroke", "abs_max", of="paper_acceleration")
-WORKING.value("end_factor", "k_", "1", "Acceleration at the lowest point to that of a harmonic motion of the same stroke, H·ω₁²/2",
+WORKING.reduction("acceleration_peak", "a_m", "m/s**2", "Maximum acceleration in the working stroke", "abs_max", of="paper_acceleration")
+WORKING.value("end_factor", "k_", "1", "Ratio of the acceleration at the lowest point to that of a harmonic motion of the same stroke, H·ω₁²/2",
               lambda acceleration_end, stroke, crank_speed: 2 * acceleration_end / (stroke * as_number(crank_speed) ** 2), source="this method")
 WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the signature when gripping begins", lambda grip_speed: grip_speed, source="input",
               needs=("grip_speed",))
@@ -89,7 +90,7 @@ WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the edge when gripping be
               lacks=("grip_speed",))
 WORKING.value("grip_acceleration", "a_g", "m/s**2", "Acceleration of the signature in the grip of the rollers",
               lambda roller_velocity, grip_velocity, grip_time: (roller_velocity - grip_velocity) / grip_time, source="004, after Fig. 3")
-WORKING.value("grip_size", "a_s", "m/s**2", "Size of the acceleration in the grip of the rollers", lambda grip_acceleration: abs(grip_acceleration),
+WORKING.value("grip_size", "a_s", "m/s**2", "Absolute acceleration in the grip of the rollers", lambda grip_acceleration: abs(grip_acceleration),
               output=False)
 WORKING.value("table_time", "t_t", "ms", "Time of the signature on the table, from contact on",
               lambda working_time, roller_time: working_time + roller_time, source="kinematics", needs=("signature_length",))

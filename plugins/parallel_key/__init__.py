@@ -14,8 +14,8 @@ MECHANISM = Mechanism(
     kind="parallel_key",
     version="1.0",
     title="Parallel key",
-    summary="Pressure of the shaft's keyway, the hub's and the key, and shear of the key, under the equivalent and the greatest torque. Where the "
-    "key's length is left out, the least standard one is taken that is enough.",
+    summary="Pressure on the shaft keyway, the hub keyway and the key, and shear of the key, under the equivalent and the maximum torque. If the "
+            "length of the key is omitted, the smallest sufficient standard length is selected.",
     inputs=ParallelKey,
     example=EXAMPLE,
     chapters=(load.cycle, load.load, dimensions, pressures.allowed, pressures.needed, pressures.pressures),
@@ -25,11 +25,11 @@ MECHANISM = Mechanism(
     assumptions=(
         "Method B of DIN 6892 as public implementations of the 2012 edition state it: support factors at their lower ends, hardness factor 1, no "
         "relief by friction. The load distribution factor of 1.2 is known from one source only; the standard's diagrams give 1 to 2.",
-        "The load direction factor follows from the changes of flank; the end of its diagram was not seen, and beyond 10⁷ changes it is "
-        "extrapolated.",
-        "Not covered: the diagrams of load peaks. Nor the notch that the keyway makes in the shaft, sliding hubs, press fits with a key, "
-        "woodruff and taper keys, bursting of the hub.",
-        "A peak of every turn is a regular load: it counts in the equivalent torque, not with the factor of rare peaks.",
+        "The load direction factor follows from the load direction changes; the end of its diagram was not available, and beyond 10⁷ changes it "
+        "is extrapolated.",
+        "Not covered: the diagrams of load peaks; the notch effect of the keyway on the shaft, sliding hubs, press fits with a key, woodruff and "
+        "taper keys, bursting of the hub.",
+        "A peak in every revolution is a regular load: it is included in the equivalent torque, not treated with the factor of rare peaks.",
     ),
     sources=(
         Source("DIN 6892", "DIN 6892, Mitnehmerverbindungen ohne Anzug. Passfedern. Berechnung und Gestaltung (parallel keys, calculation)."),

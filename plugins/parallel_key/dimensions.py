@@ -18,7 +18,7 @@ LENGTHS = standard_series("din_6885_lengths")
 LONGEST = si(LENGTHS.values[-1], LENGTHS.unit)
 GIVEN = ("width",)
 DIMENSIONS = {"width": ("b", "b", "Width of the key"), "height": ("h", "h", "Height of the key"),
-              "depth_shaft": ("t_1", "t1", "Depth of the shaft's keyway"), "depth_hub": ("t_2", "t2", "Depth of the hub's keyway")}
+              "depth_shaft": ("t_1", "t1", "Depth of the shaft keyway"), "depth_hub": ("t_2", "t2", "Depth of the hub keyway")}
 ROUNDING = 1e-9  # relative: a diameter at the end of a row belongs to it
 LEAST_SHAFT = Constant(THINNEST, "d_0", "m")
 GREATEST_SHAFT = Constant(float(SHAFTS[-1]) * (1 + ROUNDING), "d_1", "m")
@@ -46,11 +46,11 @@ for name, (symbol, column, words) in DIMENSIONS.items():
     dimensions.computed(name, symbol, "mm", words, function=of_shaft(column), takes=("shaft_diameter",), lacks=GIVEN, source="DIN 6885-1",
                         method="the row of the table whose range of diameters holds the shaft, its upper end included")
     dimensions.value(name, symbol, "mm", f"{words}: as given", bind(lambda given: given, given=f"inputs.{name}"), needs=GIVEN, source="input")
-dimensions.value("height_shaft", "h_W", "mm", "Height that bears in the shaft", lambda depth_shaft, chamfer: depth_shaft - chamfer, source="geometry",
+dimensions.value("height_shaft", "h_W", "mm", "Bearing height in the shaft", lambda depth_shaft, chamfer: depth_shaft - chamfer, source="geometry",
                  output=False)
-dimensions.value("height_hub", "h_N", "mm", "Height that bears in the hub", lambda height, depth_shaft, chamfer: height - depth_shaft - chamfer,
+dimensions.value("height_hub", "h_N", "mm", "Bearing height in the hub", lambda height, depth_shaft, chamfer: height - depth_shaft - chamfer,
                  source="geometry", output=False)
-dimensions.value("height_key", "h_P", "mm", "Smaller height, where the key itself is pressed most",
+dimensions.value("height_key", "h_P", "mm", "Smaller bearing height, which governs the pressure on the key",
                  lambda height_shaft, height_hub: np.minimum(height_shaft, height_hub), source="geometry", output=False)
 dimensions.require("key_stands_out", lambda height, depth_shaft: depth_shaft < height, key="depth_shaft", needs=GIVEN,
                    message="is {depth_shaft}, in which a key of height {height} sinks whole; take a keyway that is less deep")

@@ -66,18 +66,18 @@ def _bearing(view: View, half: float, bottom: float, crown: float) -> list[Shape
     ]
 
 
-LOADS = ((phrase("regular"), ""), (phrase("greatest"), "_peak"))
+LOADS = ((phrase("regular"), ""), (phrase("maximum"), "_peak"))
 FIGURES = (
     Drawing(
         id="section",
         title="Section through shaft, key and hub",
-        caption="To scale. Marked: the height with which the shaft's keyway bears (left) and that of the hub (right).",
+        caption="To scale. Marked: the bearing height in the shaft keyway (left) and in the hub (right).",
         build=section,
     ),
     Bars(
         id="pressures",
-        title="Pressures and what is allowed",
-        caption="Pressures of shaft, hub and key under the equivalent and the greatest torque, each with what the part may take.",
+        title="Pressures and allowable values",
+        caption="Pressures on shaft, hub and key under the equivalent and the maximum torque, each with its allowable value.",
         groups=tuple(
             BarGroup(
                 label=f"{part.capitalize()}",
@@ -94,7 +94,7 @@ FIGURES = (
     Plot(
         id="torque",
         title="Torque over the cycle",
-        caption="Torque as given, over one turn of the cycle angle.",
+        caption="Torque as given, over one revolution of the cycle angle.",
         abscissa="cycle_angle",
         panels=(Panel(title="Torque", unit="N*m", series=(Series(curve="torque_over_cycle", label="T"),)),),
         needs=("torque_curve",),

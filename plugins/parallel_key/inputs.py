@@ -30,24 +30,24 @@ class ParallelKey(Inputs):
     key: Annotated[str | None, Text("Key: an entry of keys in a table of your own, in place of its dimensions")] = None
     key_length: Annotated[
         float | None,
-        Quantity("l", "mm", "Length of the key; without it the least standard length that holds is taken", gt=0),
+        Quantity("l", "mm", "Length of the key; if omitted, the smallest sufficient standard length is selected", gt=0),
     ] = None
     form: Annotated[Literal["A", "B"], Text("Form of the key's ends: A round, B square")] = "A"
-    key_count: Annotated[int, Quantity("i", "1", "Keys around the shaft", ge=1, le=2, integer=True)] = 1
+    key_count: Annotated[int, Quantity("i", "1", "Number of keys around the shaft", ge=1, le=2, integer=True)] = 1
     torque: Annotated[
         float | None,
-        Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is taken as torque_curve"),
+        Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is used as torque_curve"),
     ] = None
     torque_curve: Annotated[
         Any | None, CurveInput("T_φ", "N*m", "Torque over a cycle, signed, in the place of torque")
     ] = None
     torque_peak: Annotated[
         float | None,
-        Quantity("T_max", "N*m", "Rare peak of the torque; without it the greatest size of the torque", gt=0),
+        Quantity("T_max", "N*m", "Rare peak of the torque; default: the maximum absolute torque", gt=0),
     ] = None
     application_factor: Annotated[
         float | None,
-        Quantity("K_A", "1", "Application factor; 1 without it beside a curve, which holds the dynamics", ge=1),
+        Quantity("K_A", "1", "Application factor; default 1 with a curve, which includes the dynamics", ge=1),
     ] = None
     yield_shaft: Annotated[float, Quantity("R_eW", "MPa", "Yield strength of the shaft", gt=0)]
     yield_hub: Annotated[
@@ -56,17 +56,16 @@ class ParallelKey(Inputs):
     yield_key: Annotated[
         float, Quantity("R_eP", "MPa", "Yield strength of the key (C45+C; set that of your own)", gt=0)
     ] = 335
-    brittle_hub: Annotated[bool, Text("Whether the hub is of grey cast iron")] = False
+    brittle_hub: Annotated[bool, Text("Hub of grey cast iron")] = False
     load_peak_factor: Annotated[
-        float, Quantity("f_L", "1", "Load peak factor: raises what rare peaks may press", ge=1, le=1.5)
+        float, Quantity("f_L", "1", "Load peak factor: increases the allowable pressure for rare peaks", ge=1, le=1.5)
     ] = 1.0
     load_distribution_factor: Annotated[
         float,
         Quantity(
             "K_λ",
             "1",
-            "Load distribution factor: how unevenly the load spreads over the length; 1.2 is of one source only, give that of your joint "
-            "with its basis",
+            "Load distribution factor: unevenness of the load over the length; 1.2 is from one source only, give that of your joint with its basis",
             ge=1,
             le=2,
         ),
@@ -77,31 +76,32 @@ class ParallelKey(Inputs):
     ] = None
     flank_changes: Annotated[
         float | None,
-        Quantity("N_Wg", "1", "Changes of the flank that bears, in the whole life, in place of the life", ge=0),
+        Quantity("N_Wg", "1", "Number of load direction changes in the whole life, instead of the life", ge=0),
     ] = None
     required_life: Annotated[
         float | None,
         Quantity(
             "L_h",
             "h",
-            "Life for which the changes of flank of torque_curve are counted",
+            "Life for which the load direction changes of torque_curve are counted",
             gt=0,
             plausible=("1 s", "1e7 h"),
         ),
     ] = None
     cycle_speed: Annotated[
-        float | None, Quantity("n_c", "rpm", "Cycles of the torque, as a speed: 1 r/min is a cycle a minute", gt=0)
+        float | None,
+        Quantity("n_c", "rpm", "Cycle rate of the torque, as a speed: 1 r/min is one cycle per minute", gt=0),
     ] = None
     chamfer: Annotated[
-        float, Quantity("s", "mm", "Chamfer of the key, taken off the heights that bear in shaft and hub", ge=0)
+        float, Quantity("s", "mm", "Chamfer of the key, subtracted from the bearing heights in shaft and hub", ge=0)
     ] = 0
     hub_length: Annotated[float | None, Quantity("l_H", "mm", "Length of the hub", gt=0)] = None
-    width: Annotated[float | None, Quantity("b", "mm", "Width of the key; the table's without it", gt=0)] = None
-    height: Annotated[float | None, Quantity("h", "mm", "Height of the key; the table's without it", gt=0)] = None
+    width: Annotated[float | None, Quantity("b", "mm", "Width of the key; default: from the table", gt=0)] = None
+    height: Annotated[float | None, Quantity("h", "mm", "Height of the key; default: from the table", gt=0)] = None
     depth_shaft: Annotated[
-        float | None, Quantity("t_1", "mm", "Depth of the shaft's keyway; the table's without it", gt=0)
+        float | None, Quantity("t_1", "mm", "Depth of the shaft keyway; default: from the table", gt=0)
     ] = None
     depth_hub: Annotated[
-        float | None, Quantity("t_2", "mm", "Depth of the hub's keyway; the table's without it", gt=0)
+        float | None, Quantity("t_2", "mm", "Depth of the hub keyway; default: from the table", gt=0)
     ] = None
     n_points: Annotated[int, POINTS] = 360

@@ -19,31 +19,31 @@ JUDGED = ("flank_known",)
 SELDOM = 1024  # changes of flank up to which the formula gives 1
 DIAGRAM = 1e7  # changes of flank up to which the factor is confirmed
 
-cycle = Chapter("Torque over the cycle", needs=CURVE, text="One period of the referred curve is laid over one turn of the cycle angle.")
-cycle.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle, one turn a period of the torque", period=2 * np.pi, shown_at="torque_size_at")
+cycle = Chapter("Torque over the cycle", needs=CURVE, text="One period of the referenced curve is mapped to one revolution of the cycle angle.")
+cycle.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution per period of the torque", period=2 * np.pi, shown_at="torque_size_at")
 cycle.from_curve("torque_over_cycle", "T_φ", "N*m", "Torque as given", given="torque_curve", abscissa="cycle_angle")
-cycle.reduction("torque_size", "T_m", "N*m", "Greatest size of the torque", "abs_max", of="torque_over_cycle", output=False)
-cycle.reduction("torque_greatest", "T_up", "N*m", "Greatest torque", "max", of="torque_over_cycle", output=False)
+cycle.reduction("torque_size", "T_m", "N*m", "Maximum absolute torque", "abs_max", of="torque_over_cycle", output=False)
+cycle.reduction("torque_greatest", "T_up", "N*m", "Maximum torque", "max", of="torque_over_cycle", output=False)
 cycle.crossings("flank_change", "φ_f", "deg", "Cycle angle at which the torque changes its sign", of="torque_over_cycle", output=False)
-cycle.reduction("torque_least", "T_low", "N*m", "Least torque", "min", of="torque_over_cycle", output=False)
+cycle.reduction("torque_least", "T_low", "N*m", "Minimum torque", "min", of="torque_over_cycle", output=False)
 
-load = Chapter("Load", text="A peak of every turn is a regular load and counts in the equivalent torque; torque_peak is a rare one.")
-load.value("torque_size", "T_m", "N*m", "Size of the torque", lambda torque: abs(torque), lacks=CURVE, source="input", output=False)
+load = Chapter("Load", text="A peak in every revolution is a regular load and is included in the equivalent torque; torque_peak is a rare one.")
+load.value("torque_size", "T_m", "N*m", "Absolute torque", lambda torque: abs(torque), lacks=CURVE, source="input", output=False)
 load.require("loaded", lambda torque_size: torque_size > 0, key="torque", message="is 0; give the torque that the key carries", lacks=CURVE)
 load.require("loaded_by_curve", lambda torque_size: torque_size > 0, key="torque_curve", needs=CURVE,
              message="is 0 everywhere; give the torque that the key carries")
 load.value("application_factor", "K_A", "1", "Application factor: as given", bind(lambda given: given, given="inputs.application_factor"),
            needs=("application_factor",), source="input")
-load.value("application_factor", "K_A", "1", "Application factor: the curve holds the dynamics", lambda: 1, lacks=("application_factor",),
+load.value("application_factor", "K_A", "1", "Application factor: the curve includes the dynamics", lambda: 1, lacks=("application_factor",),
            source="this method")
 load.value("torque_equivalent", "T_eq", "N*m", "Equivalent torque", lambda application_factor, torque_size: application_factor * torque_size,
            source=METHOD)
 load.require("peak_is_greatest", bind(lambda peak, torque_size, rounding: peak >= torque_size * (1 - rounding), peak="inputs.torque_peak",
                                       rounding=ROUNDING), key="torque_peak", needs=("torque_peak",),
-             message="is {inputs.torque_peak}, less than the torque of {torque_size} that acts anyway; give the greatest one, or remove the key")
-load.value("torque_peak", "T_max", "N*m", "Greatest torque: as given", bind(lambda given: given, given="inputs.torque_peak"), needs=("torque_peak",),
+             message="is {inputs.torque_peak}, less than the torque of {torque_size} that acts anyway; give the maximum one, or remove the key")
+load.value("torque_peak", "T_max", "N*m", "Maximum torque: as given", bind(lambda given: given, given="inputs.torque_peak"), needs=("torque_peak",),
            source="input")
-load.value("torque_peak", "T_max", "N*m", "Greatest torque: that of the cycle", lambda torque_size: torque_size, lacks=("torque_peak",),
+load.value("torque_peak", "T_max", "N*m", "Maximum torque: that of the cycle", lambda torque_size: torque_size, lacks=("torque_peak",),
            source="this method")
 load.value("reversing", "R_T", "1", "Reversing torque over the cycle",
            bind(lambda torque_greatest, torque_least, torque_size, share:
@@ -51,29 +51,30 @@ load.value("reversing", "R_T", "1", "Reversing torque over the cycle",
            source="this method")
 load.value("reversing", "R_T", "1", "Reversing torque: a single torque does not reverse", lambda torque_size: torque_size < 0, lacks=CURVE,
            source="this method")
-FLANKS = ("changes_of_flank", "N_W", "1", "Changes of the flank that bears, in the life")
+FLANKS = ("changes_of_flank", "N_W", "1", "Number of load direction changes in the life")
 load.value(*FLANKS, bind(lambda reversing, count, speed, life: reversing * count * speed * life / (2 * np.pi), count="flank_change_count",
                          speed="cycle_speed", life="required_life"), needs=(*CURVE, *BY_LIFE), source="this method")
 load.value(*FLANKS, lambda: 0, needs=BY_LIFE, lacks=CURVE, source="this method")
 load.value(*FLANKS, lambda flank_changes: flank_changes, needs=("flank_changes",), source="input")
 FACTOR = ("direction_factor", "f_w", "1", "Load direction factor")
 SELDOM_CHANGED = bind(lambda changes_of_flank, seldom: changes_of_flank <= seldom, seldom=SELDOM)
-COUNTED = case(f.direction_factor, "by the changes of flank in the life", bind(lambda changes_of_flank, end: changes_of_flank <= end, end=DIAGRAM))
+COUNTED = case(f.direction_factor, "from the load direction changes in the life", bind(lambda changes_of_flank, end: changes_of_flank <= end,
+                                                                                       end=DIAGRAM))
 for needs in (BY_LIFE, ("flank_changes",)):
-    load.choice(*FACTOR, case(lambda: 1, "the flank changes so seldom that it does not count", SELDOM_CHANGED),
-                COUNTED, case(f.direction_factor, "by the changes of flank; beyond 10⁷ of them the formula is extrapolated"), source=METHOD,
+    load.choice(*FACTOR, case(lambda: 1, "the load direction changes too rarely to count", SELDOM_CHANGED),
+                COUNTED, case(f.direction_factor, "from the load direction changes; beyond 10⁷ of them the formula is extrapolated"), source=METHOD,
                 needs=needs)
 load.value(*FACTOR, lambda load_direction_factor: load_direction_factor, needs=("load_direction_factor",), source="input")
-load.fact("flank_known", lambda reversing: reversing <= 0, "the torque changes its sign, and it is not known how often in the life",
+load.fact("flank_known", lambda reversing: reversing <= 0, "the torque reverses, and the number of reversals in the life is not known",
           lacks=KNOWN)
 load.choice(*FACTOR, case(lambda: 1, "the torque keeps its sign", lambda reversing: reversing <= 0),
-            case(lambda: 0.2, "as for 10¹⁰ changes of flank, since the torque changes its sign and it is not known how often in the life"),
+            case(lambda: 0.2, "as for 10¹⁰ load direction changes, since the torque reverses and their number in the life is not known"),
             lacks=KNOWN, source="this method")
-load.choice("key_share", "φ_k", "1", "Share of the second key", case(lambda: 1, "one key", lambda key_count: key_count < 2),
-            case(lambda: 0.75, "the second key of two bears less"), source=METHOD, output=False)
-load.choice("key_share_peak", "φ_k,max", "1", "Share of the second key under the greatest load",
+load.choice("key_share", "φ_k", "1", "Load share of the second key", case(lambda: 1, "one key", lambda key_count: key_count < 2),
+            case(lambda: 0.75, "the second key of two carries less"), source=METHOD, output=False)
+load.choice("key_share_peak", "φ_k,max", "1", "Load share of the second key under the maximum load",
             case(lambda: 1, "one key", lambda key_count: key_count < 2),
-            case(lambda: 0.9, "the second key of two bears nearly as much"), source=METHOD, output=False)
+            case(lambda: 0.9, "the second key of two carries nearly as much"), source=METHOD, output=False)
 load.value("key_force", "F", "N", "Force on one key, equivalent", bind(f.key_force, torque="torque_equivalent"), source=METHOD)
-load.value("key_force_peak", "F_max", "N", "Force on one key, greatest", bind(f.key_force, torque="torque_peak", key_share="key_share_peak"),
+load.value("key_force_peak", "F_max", "N", "Force on one key, maximum", bind(f.key_force, torque="torque_peak", key_share="key_share_peak"),
            source=METHOD)

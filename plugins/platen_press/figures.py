@@ -71,7 +71,7 @@ def forces(view: View) -> list[Shape]:
         lines.append(line(angle, curves["force"] + against, "with the friction of the guides"))
     return [
         panel(view, "Force of the rods", "kN", lines),
-        panel(view, "Stretch of the rods", "mm", [line(angle, curves["rod_stretch"], "Δl")]),
+        panel(view, "Elongation of the rods", "mm", [line(angle, curves["rod_stretch"], "Δl")]),
     ]
 
 
@@ -82,7 +82,7 @@ def cutting(view: View) -> list[Shape]:
     angle, found = about_dead_center(view, *names)
     displacement, displacement_true, velocity, velocity_true, torque, useful, friction = (found[name] for name in names)
     is_shown = view["torque_max_angle"] <= MARGIN * view["cutting_start_angle"]
-    peak = [mark(-view["torque_max_angle"], view["torque_max"], "greatest")] if is_shown else []
+    peak = [mark(-view["torque_max_angle"], view["torque_max"], "maximum")] if is_shown else []
     return [
         panel(view, "Displacement", "mm", [line(angle, displacement, "ideal"), line(angle, displacement_true, "true")]),
         panel(view, "Speed", "mm/s", [line(angle, velocity, "ideal"), line(angle, velocity_true, "true")]),
@@ -121,7 +121,7 @@ def thickness(view: View) -> list[Shape]:
     )
     at = ("Thickness of the board", "s", "mm")
     return [
-        chart_panel("Greatest torque", "N*m", *at, lines=[line(boards, found["torque_max"], "corrected"),
+        chart_panel("Maximum torque", "N*m", *at, lines=[line(boards, found["torque_max"], "corrected"),
                     line(boards, found["torque_max_source"], "eq. 14 as printed")], marks=[mark(own, view["torque_max"], "this board")]),
         chart_panel("Work of a cycle", "J", *at, lines=[line(boards, found["work_per_cycle"], "all"),
                     line(boards, found["friction_work"], "friction")], marks=[mark(own, view["work_per_cycle"], "this board")]),
@@ -132,61 +132,62 @@ FIGURES = (
     Drawing(
         id="machine",
         title="Crank, rods and platen",
-        caption="The mechanism to scale a sixth of a turn before the dead centre, with journal, crank pin and platen's pin; light: the platen closed "
-        "and open. Size of the platen and place of the die on it are chosen here.",
+        caption="The mechanism to scale a sixth of a revolution before the dead centre, with journal, crank pin and platen's pin; light: the "
+                "platen closed and open. The size of the platen and the position of the die on it are arbitrary.",
         build=machine,
         moving=turning,
         over="crank_angle",
     ),
     Chart(
         id="cutting",
-        title="Displacement, speed and torque about the dead centre",
-        caption="Figure 3 of 001: before the dead centre the board is cut and the rods stretch, so that the platen is slower than its drive; "
-        "after it the platen stands until the rods have relaxed. Torque of cutting, stretch and inertia, torque of friction, and both "
-        "together; while the rods relax they help the crank.",
+        title="Displacement, speed and torque around the dead centre",
+        caption="Figure 3 of 001: before the dead centre the board is cut and the rods elongate, so that the platen is slower than its drive; "
+                "after it the platen stands until the rods have relaxed. Torque from cutting, elongation and inertia, torque from friction, and "
+                "their sum; while the rods relax they drive the crank.",
         build=cutting,
     ),
     Chart(
         id="forces",
-        title="Force and stretch of the rods about the dead centre",
-        caption="Figure 2 of 001: the force of both rods grows with the stretch up to the dead centre and goes back with it while the platen stands. "
-        "A force or weight beside the axis of the guides adds the guides' friction while the platen moves.",
+        title="Force and elongation of the rods around the dead centre",
+        caption="Figure 2 of 001: the force of both rods increases with the elongation up to the dead centre and decreases with it while the "
+                "platen stands. A force or weight offset from the axis of the guides adds the guides' friction while the platen moves.",
         build=forces,
     ),
     Chart(
         id="source",
-        title="Torque while cutting, beside eq. 14",
+        title="Torque while cutting, compared with eq. 14",
         caption="At the dead centre both give the friction of the joints alone, P_max·X less the share of the inertia force. Before it the force "
-        "has an arm too: that of crank and rods, or, in eq. 14, a shorter one by the platen's slower true speed. Arm and force together make "
-        "the peaks before the dead centre. The 5100 N·m that 001 prints for its machine lie 2 % above P_max·X, friction alone at the dead "
-        "centre, where the force is greatest: both torques pass it before, and the number leaves out the peak of its own equation.",
+                "has an arm too: that of crank and rods, or, in eq. 14, a shorter one by the platen's slower true speed. Arm and force together "
+                "make the peaks before the dead centre. The 5100 N·m that 001 prints for its machine lie 2 % above P_max·X, friction alone at "
+                "the dead centre, where the force is maximum: both torques pass it before, and the number leaves out the peak of its own "
+                "equation.",
         build=beside_source,
     ),
     Chart(
         id="thickness",
         title="Thickness of the board",
-        caption="A thicker board of the same greatest force is met sooner, where the arm is longer: not only the work grows, as 001 concludes, "
-        "but the greatest torque too.",
+        caption="A thicker board with the same maximum force is met sooner, where the arm is longer: not only the work increases, as 001 "
+                "concludes, but also the maximum torque.",
         build=thickness,
     ),
     Drawing(
         id="relaxed",
         title="Relaxed rods and friction",
-        caption="The shaft to scale where the rods have relaxed: as long as the line of the rods passes the shaft at a distance a_d less than the "
-        "arm X of friction, the rods do not drive the crank.",
+        caption="The shaft to scale where the rods have relaxed: as long as the line of the rods passes the shaft at a distance a_d less than "
+                "the friction arm X, the rods do not drive the crank.",
         build=relaxed,
     ),
     Plot(
         id="turn",
-        title="Motion and torque over a turn",
-        caption="Displacement, speed and torque over a turn of the crank from the inner dead centre.",
+        title="Motion and torque over a revolution",
+        caption="Displacement, speed and torque over a revolution of the crank from the inner dead centre.",
         abscissa="crank_angle",
         panels=(
             Panel(title="Displacement", unit="mm", series=(Series(curve="platen_displacement", label="u"),)),
             Panel(title="Speed", unit="m/s", series=(Series(curve="platen_velocity_true", label="true"),
                                                      Series(curve="platen_velocity_first_order", label="ideal, first order"))),
             Panel(title="Torque", unit="N*m", series=(Series(curve="torque", label="M"),),
-                  marks=(Mark(x="torque_max_at", y="torque_max", label="greatest"),)),
+                  marks=(Mark(x="torque_max_at", y="torque_max", label="maximum"),)),
         ),
     ),
 )  # fmt: skip

@@ -38,31 +38,33 @@ class PlatenPress(Inputs):
     spread: ClassVar[Mapping[str, tuple[str, ...]]] = {"friction": JOINTS}
 
     cycles_per_hour: Annotated[
-        float, Quantity("n", "1/h", "Cycles of the platen, one turn of the crank each", gt=0, le=1e6)
+        float, Quantity("n", "1/h", "Cycle rate of the platen, one revolution of the crank per cycle", gt=0, le=1e6)
     ] = 1200
     cutting_force_max: Annotated[
-        float, Quantity("P_max", "kN", "Greatest cutting force, of both rods together", gt=0)
+        float, Quantity("P_max", "kN", "Maximum cutting force, of both rods together", gt=0)
     ] = 500
-    platen_mass: Annotated[float, Quantity("m", "kg", "Mass of the platen with what moves with it", ge=0)] = 306
+    platen_mass: Annotated[float, Quantity("m", "kg", "Mass of the platen and the parts that move with it", ge=0)] = 306
     drive_deformation: Annotated[
         float | None,
         Quantity(
             "Δl_m",
             "mm",
-            "Stretch of the drive at the platen under the greatest cutting force; or rod_area and elastic_modulus",
+            "Elongation of the drive at the platen under the maximum cutting force; or rod_area and elastic_modulus",
             ge=1e-9,
         ),
     ] = 0.45
     rod_area: Annotated[
         float | None,
-        Quantity("A", "mm**2", "Cross-section of one of the two rods; with elastic_modulus their stretch", gt=0),
+        Quantity(
+            "A", "mm**2", "Cross-section of one of the two rods; with elastic_modulus gives their elongation", gt=0
+        ),
     ] = None
     elastic_modulus: Annotated[
-        float | None, Quantity("E", "GPa", "Elastic modulus of the rods; with rod_area their stretch", gt=0)
+        float | None, Quantity("E", "GPa", "Elastic modulus of the rods; with rod_area gives their elongation", gt=0)
     ] = None
     material_thickness: Annotated[float, Quantity("s", "mm", "Thickness of the board", gt=0)] = 0.5
     crank_radius: Annotated[float, Quantity("r", "mm", "Radius of the crank", gt=0)] = 110
-    rod_length: Annotated[float, Quantity("l", "mm", "Length of the rods without load", gt=0)] = 635
+    rod_length: Annotated[float, Quantity("l", "mm", "Unloaded length of the rods", gt=0)] = 635
     journal_radius: Annotated[float, Quantity("r_0", "mm", "Radius of the crankshaft's journals", gt=0)] = 50.25
     crank_pin_radius: Annotated[float, Quantity("r_A", "mm", "Radius of the crank pins", gt=0)] = 47.5
     platen_pin_radius: Annotated[float, Quantity("r_B", "mm", "Radius of the platen's pins", gt=0)] = 60
@@ -76,29 +78,33 @@ class PlatenPress(Inputs):
             le=1,
         ),
     ] = 0.1
-    friction_guide: Annotated[float | None, coefficient("of the guides, where it is not that of all", "f_1")] = None
+    friction_guide: Annotated[float | None, coefficient("of the guides, if different from the common one", "f_1")] = (
+        None
+    )
     friction_platen_pin: Annotated[
-        float | None, coefficient("of the platen's pins, where it is not that of all", "f_2")
+        float | None, coefficient("of the platen's pins, if different from the common one", "f_2")
     ] = None
     friction_crank_pin: Annotated[
-        float | None, coefficient("of the crank pins, where it is not that of all", "f_3")
+        float | None, coefficient("of the crank pins, if different from the common one", "f_3")
     ] = None
-    friction_journal: Annotated[float | None, coefficient("of the journals, where it is not that of all", "f_4")] = None
+    friction_journal: Annotated[
+        float | None, coefficient("of the journals, if different from the common one", "f_4")
+    ] = None
     journal_length: Annotated[
-        float | None, Quantity("b_0", "mm", "Length of one of the two journals; with it their pressure", gt=0)
+        float | None, Quantity("b_0", "mm", "Length of one of the two journals; required for their pressure", gt=0)
     ] = None
     crank_pin_length: Annotated[
-        float | None, Quantity("b_A", "mm", "Length of one of the two crank pins; with it their pressure", gt=0)
+        float | None, Quantity("b_A", "mm", "Length of one of the two crank pins; required for their pressure", gt=0)
     ] = None
     platen_pin_length: Annotated[
-        float | None, Quantity("b_B", "mm", "Length of one of the two platen pins; with it their pressure", gt=0)
+        float | None, Quantity("b_B", "mm", "Length of one of the two platen pins; required for their pressure", gt=0)
     ] = None
     rod_net_area: Annotated[
         float | None,
         Quantity(
             "A_n",
             "mm**2",
-            "Least cross-section of one of the two rods, at its eye or shank; with it their stress",
+            "Minimum cross-section of one of the two rods, at its eye or shank; required for their stress",
             gt=0,
         ),
     ] = None
@@ -107,18 +113,19 @@ class PlatenPress(Inputs):
         float, Quantity("h_2", "mm", "Offset of the platen's weight from the axis of the guides")
     ] = 0
     guide_length: Annotated[
-        float | None, Quantity("b", "mm", "Length of the guides; needed where a force is offset", gt=0)
+        float | None, Quantity("b", "mm", "Length of the guides; required if a force is offset", gt=0)
     ] = None
     carriage_clearance: Annotated[
         float | None,
-        Quantity("c_r", "mm", "Clearance that the carriages need at the platen; with it their window", gt=0),
+        Quantity("c_r", "mm", "Clearance required by the carriages at the platen; required for their window", gt=0),
     ] = None
-    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowed torque at the main shaft", gt=0)] = None
+    allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowable torque at the main shaft", gt=0)] = None
     allowable_pin_pressure: Annotated[
-        float | None, Quantity("[p]", "MPa", "Allowed pressure of journals and pins, on their projected area", gt=0)
+        float | None, Quantity("[p]", "MPa", "Allowable pressure of journals and pins, on their projected area", gt=0)
     ] = None
     allowable_rod_stress: Annotated[
-        float | None, Quantity("[σ]", "MPa", "Allowed pulsating stress of the rods, on their least cross-section", gt=0)
+        float | None,
+        Quantity("[σ]", "MPa", "Allowable pulsating stress of the rods, on their minimum cross-section", gt=0),
     ] = None
     n_points: Annotated[int, POINTS] = 720
 

@@ -26,7 +26,7 @@ def in_phase(number: int) -> Bound:
 def by_phase(relaxing: Bound, free: Bound, cutting: Bound) -> tuple[Case, ...]:
     """A quantity's value in each of the three phases."""
     return (case(relaxing, "the platen stands on the die and the rods relax", in_phase(1)),
-            case(cutting, "the board is cut and the rods stretch", in_phase(3)),
+            case(cutting, "the board is cut and the rods elongate", in_phase(3)),
             case(free, "the platen travels freely"))
 
 
@@ -34,27 +34,27 @@ def _frictions() -> Steps:
     """The coefficient of each place: its own where it is given, else that of all."""
     steps = Steps()
     for name, symbol, place in ADOPTED:
-        steps.value(name, symbol, "1", f"Coefficient of friction of the {place}: its own", bind(common.same, quantity=f"inputs.{name}"),
+        steps.value(name, symbol, "1", f"Coefficient of friction of the {place}: individual value", bind(common.same, quantity=f"inputs.{name}"),
                     needs=(name,), source="input", output=False)
-        steps.value(name, symbol, "1", f"Coefficient of friction of the {place}: that of all", lambda friction: friction,
+        steps.value(name, symbol, "1", f"Coefficient of friction of the {place}: common value", lambda friction: friction,
                     lacks=(name,), source="input", output=False)
     return steps
 
 
 machine = Chapter("Machine",
-                  text="The crank angle φ is counted from the inner dead centre, where crank and rods are folded and the platen stands nearest to "
+                  text="The crank angle φ is measured from the inner dead centre, where crank and rods are folded and the platen is closest to "
                        "the shaft.")
 machine.require("rod_longer", lambda rod_length, crank_radius: rod_length > 1.001 * crank_radius, key="rod_length",
                 message="is {rod_length}, but the rod must be longer than the crank's radius {crank_radius}, by a thousandth of it at least; else "
                         "the crank cannot turn fully")
 machine.value("crank_speed", "ω", "rad/s", "Angular speed of the crank", lambda cycles_per_hour: 2 * np.pi * cycles_per_hour)
 machine.value("stroke", "H", "mm", "Stroke of the platen", lambda crank_radius: 2 * crank_radius)
-machine.value("lambda_ratio", "λ", "1", "Radius of the crank to the length of the rods", lambda crank_radius, rod_length: crank_radius / rod_length,
+machine.value("lambda_ratio", "λ", "1", "Ratio of crank radius to rod length", lambda crank_radius, rod_length: crank_radius / rod_length,
               source="001, after eq. 2")
-machine.value("drive_deformation", "Δl_m", "mm", "Stretch of the drive under the greatest cutting force: as given",
+machine.value("drive_deformation", "Δl_m", "mm", "Elongation of the drive under the maximum cutting force: as given",
               bind(lambda drive_deformation: drive_deformation, drive_deformation="inputs.drive_deformation"), source="input",
               needs=("drive_deformation",))
-machine.value("drive_deformation", "Δl_m", "mm", "Stretch of the two rods under the greatest cutting force",
+machine.value("drive_deformation", "Δl_m", "mm", "Elongation of the two rods under the maximum cutting force",
               lambda cutting_force_max, rod_length, rod_area, elastic_modulus: cutting_force_max * rod_length / (2 * rod_area * elastic_modulus),
               source="Hooke", lacks=("drive_deformation",))
 machine.value("drive_stiffness", "c", "kN/mm", "Stiffness of the drive at the platen",
@@ -76,8 +76,8 @@ machine.require("guides_given", lambda offset_force, offset_weight: (offset_forc
 machine.add(_frictions())
 
 contact = Chapter("Contact, dead centre and dwell",
-                  text="The drive covers the thickness of the board and its own stretch together. After the dead centre the platen stands on the "
-                       "die until the rods have their own length again.")
+                  text="The travel of the drive covers both the thickness of the board and its own elongation. After the dead centre the platen "
+                       "stands on the die until the rods have regained their own length.")
 contact.value("contact_travel", "u_c", "mm", "Travel of the unloaded drive from contact to the dead centre",
               lambda material_thickness, drive_deformation: material_thickness + drive_deformation, source="001, before eq. 12")
 contact.value("cutting_start_angle", "φ_c", "deg", "Crank angle before the dead centre at which cutting begins",
@@ -88,7 +88,7 @@ contact.value("contact_rod_angle", "β_c", "deg", "Angle of the rods to the guid
               bind(slider_crank.inner_coupler_angle, crank_angle="cutting_start_angle", crank_ratio="lambda_ratio"), output=False)
 contact.value("velocity_at_contact", "V_c", "m/s", "Speed of the platen at contact with the board",
               bind(slider_crank.inner_velocity, crank_angle="cutting_start_angle", coupler_angle="contact_rod_angle"), source="loop")
-contact.value("friction_arm", "X", "mm", "Arm of the joints' friction at the dead centre", formulas.friction_arm, source="001 eq. 10, 11")
+contact.value("friction_arm", "X", "mm", "Friction arm of the joints at the dead centre", formulas.friction_arm, source="001 eq. 10, 11")
 contact.value("acceleration_dead_center", "a_0", "m/s**2", "Acceleration of the platen at the dead centre",
               lambda crank_radius, crank_speed, lambda_ratio: crank_radius * crank_speed ** 2 * (1 - lambda_ratio), output=False)
 contact.value("inertia_dead_center", "P_i0", "N", "Inertia force at the dead centre", bind(formulas.inertia, acceleration="acceleration_dead_center"))
@@ -98,15 +98,15 @@ contact.value("torque_dead_center", "M_0", "N*m", "Torque at the dead centre, wi
 contact.value("torque_relaxing", "M_1", "N*m", "Torque just after the dead centre, where the platen stands",
               lambda cutting_force_max, friction_arm: cutting_force_max * friction_arm, source="001 eq. 17")
 
-motion_chapter = Chapter("Motion over a turn of the crank",
-                         text="The ideal displacement is that of a drive which does not stretch. Beside the exact speed stands the first-order "
-                              "form of the source; the calculation uses the exact one.")
+motion_chapter = Chapter("Motion over a revolution of the crank",
+                         text="The ideal displacement is that of an inextensible drive. The first-order form of the source is given beside the "
+                              "exact speed; the calculation uses the exact one.")
 motion_chapter.abscissa("crank_angle", "φ", "deg", "Crank angle from the inner dead centre", 2 * np.pi, shown_at="torque_max_at",
                         speed="crank_speed")
 motion_chapter.value("cutting_begin", "φ_b", "deg", "Crank angle at which cutting begins",
                      lambda cutting_start_angle: 2 * np.pi - cutting_start_angle, output=False)
 motion_chapter.breakpoints("phases", "crank_angle", "dwell_end_angle", "cutting_begin")
-motion_chapter.phase("cutting", "working", "The board is cut and the rods stretch", "crank_angle", ("cutting_begin", 0))
+motion_chapter.phase("cutting", "working", "The board is cut and the rods elongate", "crank_angle", ("cutting_begin", 0))
 motion_chapter.phase("relaxing", "working", "The platen stands on the die and the rods relax", "crank_angle", (0, "dwell_end_angle"))
 motion_chapter.phase("pressing", "working", "Pressing", "crank_angle", union=("cutting", "relaxing"))
 motion_chapter.phase("open", "window", "The platen is off the board", "crank_angle", rest_of=("pressing",))
@@ -115,13 +115,13 @@ motion_chapter.value("rod_angle", "β", "deg", "Angle of the rods to the guides"
                      source="001, after eq. 6", output=False)
 motion_chapter.value("platen_displacement", "u", "mm", "Displacement of the platen from the dead centre, ideal",
                      bind(slider_crank.inner_displacement, coupler_angle="rod_angle"), source="loop")
-motion_chapter.value("travel_rate", "u′", "mm", "Ideal travel of the platen for each radian of the crank, V/ω",
+motion_chapter.value("travel_rate", "u′", "mm", "Ideal travel of the platen per radian of the crank, V/ω",
                      bind(slider_crank.inner_arm, coupler_angle="rod_angle"), source="loop", output=False)
 motion_chapter.value("platen_velocity_ideal", "V", "m/s", "Speed of the platen away from the die, ideal",
                      lambda crank_speed, travel_rate: crank_speed * travel_rate, source="loop")
-motion_chapter.value("platen_velocity_first_order", "V_1", "m/s", "The same to the first order of λ",
+motion_chapter.value("platen_velocity_first_order", "V_1", "m/s", "The same, first-order in λ",
                      bind(slider_crank.inner_velocity_first_order, crank_ratio="lambda_ratio"), source="001 eq. 2")
-motion_chapter.value("first_order_error", "ΔV", "m/s", "Exact speed less the first-order one",
+motion_chapter.value("first_order_error", "ΔV", "m/s", "Difference of exact and first-order speed",
                      lambda platen_velocity_ideal, platen_velocity_first_order: platen_velocity_ideal - platen_velocity_first_order, output=False)
 motion_chapter.value("platen_acceleration", "a_p", "m/s**2", "Acceleration of the platen away from the die, ideal",
                      bind(slider_crank.inner_acceleration, coupler_angle="rod_angle", crank_ratio="lambda_ratio"), source="loop")
@@ -131,8 +131,8 @@ motion_chapter.choice("platen_displacement_true", "u_t", "mm", "Displacement of 
 motion_chapter.choice("platen_velocity_true", "V_t", "m/s", "Speed of the platen, true",
                       *by_phase(bind(common.zero), bind(common.same, quantity="platen_velocity_ideal"), bind(formulas.true_velocity)),
                       source="001 eq. 13")
-motion_chapter.reduction("velocity_max", "V_max", "m/s", "Greatest speed of the platen", "abs_max", of="platen_velocity_ideal")
-motion_chapter.reduction("velocity_difference", "ΔV_max", "m/s", "Greatest difference of the first-order speed", "abs_max", of="first_order_error")
+motion_chapter.reduction("velocity_max", "V_max", "m/s", "Maximum speed of the platen", "abs_max", of="platen_velocity_ideal")
+motion_chapter.reduction("velocity_difference", "ΔV_max", "m/s", "Maximum difference of the first-order speed", "abs_max", of="first_order_error")
 
 window = Chapter("Window of the carriages", needs=("carriage_clearance",), absent="not calculated: carriage_clearance is not given",
                  text="The carriages pass while the platen is at least their clearance away from the die.")
@@ -142,10 +142,10 @@ window.require("clearance_within_stroke",
                key="carriage_clearance",
                message="is {carriage_clearance}, but must be at least the board's thickness {material_thickness}, and less than what the platen "
                        "opens, its stroke {stroke} less the stretch {drive_deformation}")
-window.value("clear_travel", "u_w", "mm", "Travel of the platen from the dead centre at which the clearance is left",
+window.value("clear_travel", "u_w", "mm", "Travel of the platen from the dead centre at which the clearance remains",
              lambda carriage_clearance, drive_deformation: carriage_clearance + drive_deformation, output=False)
 window.value("window_start", "φ_w1", "deg", "Crank angle at which the window opens",
              bind(slider_crank.inner_crank_angle_at, displacement="clear_travel"),
              source="closed form")
 window.value("window_end", "φ_w2", "deg", "Crank angle at which the press closes", lambda window_start: 2 * np.pi - window_start, source="symmetry")
-window.phase("carriage_window", "window", "Room for the carriages", "crank_angle", ("window_start", "window_end"))
+window.phase("carriage_window", "window", "Clearance for the carriages", "crank_angle", ("window_start", "window_end"))

@@ -14,10 +14,10 @@ MECHANISM = Mechanism(
     kind="press_consistency",
     version="1.0",
     title="Consistency of the press",
-    summary="Holds the mechanisms of a press against one another: the sheet against cylinder and step, the rate that the gears give against the "
-    "productivity, the equivalent inertia at the crank against that of the clutch, the speed before the ends of the travel against that of the "
-    "dampers, the conveyor's mass against the wheel's inertia, the motor against a load that its flywheel smooths in part, the plays "
-    "against the register.",
+    summary="Compares the mechanisms of a press with one another: the sheet with cylinder and step, the rate given by the gears with the "
+            "productivity, the equivalent inertia at the crank with that of the clutch, the speed before the ends of the travel with that of the "
+            "dampers, the conveyor's mass with the wheel's inertia, the motor with a load that its flywheel smooths in part, the plays with the "
+            "register.",
     inputs=PressConsistency,
     example=EXAMPLE,
     chapters=(sheet.sides, sheet.rate, drive.inertia, drive.engagement, drive.coupling,
@@ -29,11 +29,11 @@ MECHANISM = Mechanism(
     partners=PARTNERS,
     assumptions=(
         "Not checked: when grippers open and close; feeder, delivery and stripping; elasticity and backlash between the lines; whether the flat "
-        "sweeps over parts that are no carriages; the uneven speed of the main shaft, by which times vary while angles hold.",
-        "What two mechanisms share is judged where both tell it; what only one tells is not checked.",
-        "The clutch slips with a constant torque, and its driving side keeps its speed. Not checked: whether shafts, keys and teeth bear the "
-        "torque at which it slips, which is greater than that of the cycle by the service factor.",
-        "The motor's torque falls in proportion to its speed between the synchronous and the rated one, and goes on so beyond; near its "
-        "breakdown torque, and at less than the rated voltage, a real motor falls behind this line.",
+        "sweeps over parts other than the carriages; the speed fluctuation of the main shaft, with which times vary while angles hold.",
+        "Values that two mechanisms share are compared if both give them; a value given by only one is not checked.",
+        "The clutch slips at constant torque, and its driving side keeps its speed. Not checked: whether shafts, keys and teeth withstand the "
+        "slip torque, which exceeds that of the cycle by the service factor.",
+        "The motor's torque is linear in its speed between the synchronous and the rated one, and extrapolated beyond; near its breakdown "
+        "torque, and below the rated voltage, a real motor falls short of this line.",
     ),
 )  # fmt: skip

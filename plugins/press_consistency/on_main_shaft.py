@@ -8,8 +8,8 @@ from typing import Any
 from diecut_report.api import Cell, GivenMechanism, ListedColumn, Phrase, Refusal, named, phrase
 
 TIMES = (
-    ListedColumn("what", "What"), ListedColumn("time", "At the productivity", "t", "ms"),
-    ListedColumn("actual_time", "At the rate that the gears give", "t_a", "ms"),
+    ListedColumn("what", "Quantity"), ListedColumn("time", "At the productivity", "t", "ms"),
+    ListedColumn("actual_time", "At the rate given by the gears", "t_a", "ms"),
 )  # fmt: skip
 DWELL = ".dwell"  # phase of a transport
 PHASE, MARGIN_START, MARGIN_END, PHASE_TIME = 1, 5, 6, 7  # columns of the cyclogram's tables

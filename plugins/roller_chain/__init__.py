@@ -13,8 +13,8 @@ MECHANISM = Mechanism(
     kind="roller_chain",
     version="1.0",
     title="Roller chain",
-    summary="A chain of ISO 606, series B, that drives a shaft or conveys: loop over two sprockets, unevenness by the polygon, tension of a strand "
-    "over the cycle, safety against breaking, pressure of the joints. Where the chain is left out, the smallest that holds is taken.",
+    summary="A chain of ISO 606, series B, that drives a shaft or conveys: loop over two sprockets, polygon effect, tension of a strand over the "
+            "cycle, safety against breaking, pressure of the joints. If the chain is omitted, the smallest sufficient one is selected.",
     inputs=RollerChain,
     example=EXAMPLE,
     chapters=(loads.cycle, sizing.size, geometry.chain, geometry.loop, loads.motion, loads.useful, loads.tension, strength.safety, strength.rating,
@@ -24,14 +24,14 @@ MECHANISM = Mechanism(
     checks=CHECKS,
     figures=FIGURES,
     assumptions=(
-        "The whole mass that a conveyor moves is taken to hang on one side, which is safe; in a closed loop its weight is balanced. When the drive "
-        "brakes, the other side is tight by the same amount.",
-        "Of a torque or an acceleration the size counts: where it changes its sign, the other strand is the tight one.",
-        "Strands that run side by side share the load evenly.",
-        "The safeties that are required without a key, 7 (static) and 6 (dynamic), are rules of makers; no standard gives them.",
-        "Tensions take the distance of the axes as it is given; where links are given, the one at which they fit.",
-        "Not covered: selection charts and wear life of ISO 10823, attachments and bent lugs, friction of guides in curves, stretch and resonance of "
-        "the strands, elongation by wear. A cranked link is warned of, and bears less: required_safety_dynamic is then 9.",
+        "The whole mass that a conveyor moves is assumed to hang on one side, which is on the safe side; in a closed loop its weight is "
+        "balanced. When the drive brakes, the other side is tight by the same amount.",
+        "The absolute value of a torque or an acceleration is used: where it changes its sign, the other strand is the tight one.",
+        "Parallel strands share the load evenly.",
+        "The default required safety factors, 7 (static) and 6 (dynamic), are manufacturers' rules; no standard gives them.",
+        "Tensions use the given centre distance; where the number of links is given, the distance at which they fit.",
+        "Not covered: selection charts and wear life of ISO 10823, attachments and bent lugs, friction of guides in curves, stretch and "
+        "resonance of the strands, elongation by wear. A cranked link causes a warning, and carries less: required_safety_dynamic is then 9.",
     ),
     sources=(
         Source("ISO 606", "ISO 606, Short-pitch transmission precision roller and bush chains, attachments and associated chain sprockets."),

@@ -97,13 +97,13 @@ def _stacked(view: View, centrifugal: Array, chordal: Array) -> list[Shape]:
     lines = [
         line(angle, quiet, "sag and pretension"),
         line(angle, quiet + centrifugal, "with centrifugal tension"),
-        line(angle, quiet + centrifugal + chordal, "with shocks of the polygon"),
+        line(angle, quiet + centrifugal + chordal, "with polygon shocks"),
         line(angle, view.curve("strand_tension"), "with useful tension"),
     ]
     return [
-        chart_panel("Tension of the tight strand", "N", "Angle of the cycle", "φ", "deg", lines=lines,
+        chart_panel("Tension of the tight strand", "N", "Cycle angle", "φ", "deg", lines=lines,
                     fills=[fill(angle, view.curve("strand_tension"), "whole tension")],
-                    marks=[mark(view["tension_peak_angle"], view["tension_peak"], "greatest")])
+                    marks=[mark(view["tension_peak_angle"], view["tension_peak"], "maximum")])
     ]  # fmt: skip
 
 
@@ -138,8 +138,8 @@ def _axis(least: float, most: float) -> tuple[float | None, float | None]:
 
 
 CYCLE = (
-    "The parts one upon the other: sag and pretension, centrifugal tension, shocks of the polygon, and the useful tension (with the "
-    "application factor) up to the whole."
+    "The components stacked: sag and pretension, centrifugal tension, polygon shocks, and the useful tension (with the application factor) up to "
+    "the total."
 )
 
 FIGURES = (
@@ -160,7 +160,7 @@ FIGURES = (
     Chart(
         id="velocity",
         title="Velocity within two teeth",
-        caption="The driving sprocket turns evenly; where a joint meets it the velocity has a corner and its slope jumps.",
+        caption="The driving sprocket runs at constant speed; where a joint meets it the velocity has a kink and its slope jumps.",
         build=velocity_within_teeth,
     ),
 )

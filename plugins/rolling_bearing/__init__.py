@@ -13,9 +13,9 @@ MECHANISM = Mechanism(
     kind="rolling_bearing",
     version="1.0",
     title="Rolling bearings",
-    summary="Bearings that turn or swing under loads that are constant or vary over a cycle. Calculated are the equivalent load over the "
-    "cycle, the rating life with reliability and lubrication, the static safety, and the life of all together. Where a deep groove ball "
-    "bearing or a cylindrical roller bearing is left out, the smallest of its series that holds is taken.",
+    summary="Bearings that rotate or oscillate under loads that are constant or vary over a cycle. The calculation gives the equivalent load "
+            "over the cycle, the rating life with reliability and lubrication, the static safety, and the life of all bearings together. If a "
+            "deep groove ball bearing or a cylindrical roller bearing is omitted, the smallest sufficient one of its series is selected.",
     inputs=RollingBearing,
     example=EXAMPLE,
     chapters=(loads.ratings, loads.loads, loads.static, life.motion, life.life, life.limits),
@@ -25,14 +25,14 @@ MECHANISM = Mechanism(
     assumptions=(
         "The load acts in one direction on one ring, or turns with it; shaft and housings are stiff, without misalignment and preload, the "
         "clearance is normal.",
-        "The cycle is run through evenly in time: the shaft that drives it turns evenly. Damage adds up linearly.",
-        "a_ISO is as given: lubrication and contamination are not calculated; at low speed the film is thin, and a_ISO is below 1 unless the "
-        "oil is thick. Grease life, heating and the cage at high acceleration are not "
-        "covered; a speed is held against the limiting speed of the maker alone.",
-        "A swing counts by its way alone (Harris' first method, without the factors of Houpert or Rumbarger).",
-        "The life of all bearings takes the Weibull slope 10/9 for rollers, too.",
-        "Ratings of the tables are the lowest of three makers; those of the maker whose bearing is mounted are given in their place. Series NU are "
-        "of the reinforced design; needle, tapered and other bearings stand in no table.",
+        "Time is uniform over the cycle: the shaft that drives it rotates at constant speed. Damage adds up linearly.",
+        "a_ISO is as given: lubrication and contamination are not calculated; at low speed the film is thin, and a_ISO is below 1 unless the oil "
+        "is thick. Grease life, heating and the cage at high acceleration are not covered; the speed is only compared with the manufacturer's "
+        "limiting speed.",
+        "Only the travel of a swing counts (Harris' first method, without the factors of Houpert or Rumbarger).",
+        "The combined life of all bearings uses the Weibull slope 10/9 for roller bearings, too.",
+        "Ratings in the tables are the lowest of three manufacturers; the ratings of the manufacturer actually used may be given instead. Series "
+        "NU are of the reinforced design; needle, tapered and other bearings are not in the tables.",
     ),
     sources=(
         Source("ISO 281", "ISO 281:2007, Rolling bearings: Dynamic load ratings and rating life."),

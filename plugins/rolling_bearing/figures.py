@@ -18,9 +18,9 @@ def loads_over_cycle(view: View) -> list[Shape]:
     for index, name in enumerate(known.names):
         load = known.load(index, share, share, None)[0]
         mean, most = view.row("equivalent_load")[index], view.row("equivalent_load_max")[index]
-        levels = [level(most, "greatest"), *([level(mean, "equivalent")] if np.isfinite(mean) else [])]
+        levels = [level(most, "maximum"), *([level(mean, "equivalent")] if np.isfinite(mean) else [])]
         panels.append(
-            chart_panel(Phrase("Load of {name}", name=name), "kN", "Angle of the cycle", "φ", "deg",
+            chart_panel(Phrase("Load of {name}", name=name), "kN", "Cycle angle", "φ", "deg",
                         lines=[line(2 * np.pi * share[0], load, "equivalent load")], levels=levels, range=(0, None))
         )  # fmt: skip
     return panels
@@ -40,7 +40,7 @@ def lives(view: View) -> list[Shape]:
     stems = np.array([end for place, height, _ in known for end in ((place, 0.0), (place, height), (place, np.nan))])
     return [
         chart_panel(
-            "Life to the required one, as a power of ten", "1", "Number of the bearing", "", "1",
+            "Ratio of life to the required one, as a power of ten", "1", "Number of the bearing", "", "1",
             lines=[
                 line(stems[:, 0], stems[:, 1], "modified rating life"),
                 line([0.5, len(names) + 0.5], [0, 0], "required life"),
@@ -54,13 +54,13 @@ FIGURES = (
     Chart(
         id="loads",
         title="Equivalent load over the cycle",
-        caption="Of each bearing, with its greatest value and the equivalent load of the life.",
+        caption="Values of each bearing, with the maximum and the equivalent load of the life.",
         build=loads_over_cycle,
     ),
     Chart(
         id="lives",
-        title="Life against the required life",
-        caption="0 is the required life, 1 ten times that. A bearing that stands has no life.",
+        title="Life compared with the required life",
+        caption="Logarithmic: 0 is the required life, 1 ten times that. A bearing that stands has no life.",
         build=lives,
     ),
 )

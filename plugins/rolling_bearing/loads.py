@@ -19,7 +19,7 @@ from diecut_report.plugins.rolling_bearing.part import EXPONENTS
 Array = NDArray[Any]
 NAMES = "bearings.name"
 TABLE_3, STATIC = "ISO 281, table 3", "ISO 76"
-SEARCH = "greatest over the cycle, by search; both limits at jumps count"
+SEARCH = "maximum over the cycle, by search; both limits at jumps are considered"
 
 
 def row(chapter: Chapter, id: str, symbol: str, unit: str, description: str, function: Any, method: str, **options: Any) -> None:
@@ -48,9 +48,9 @@ def speed_over(index: int, known: Bearings, angle: Array, middle: Array, rows: A
 
 
 ratings = Chapter("Bearings",
-    text="Where neither ratings nor a designation are given, the smallest bearing of the series is taken that reaches the life "
-                                   "and the static safety.")
-ratings.choice("reliability_factor", "a_1", "1", "Life factor of the reliability",
+    text="If neither ratings nor a designation are given, the smallest bearing of the series that reaches the required life and static safety is "
+         "selected.")
+ratings.choice("reliability_factor", "a_1", "1", "Life modification factor for reliability",
                case(lambda: 1, "90 %", lambda reliability: reliability < 0.925),
                case(lambda: 0.64, "95 %", lambda reliability: reliability < 0.955),
                case(lambda: 0.55, "96 %", lambda reliability: reliability < 0.965),
@@ -59,45 +59,47 @@ ratings.choice("reliability_factor", "a_1", "1", "Life factor of the reliability
                case(lambda: 0.25, "99 %"), source="ISO 281:2007, table 12")
 ratings.prepared("all_bearings", bearings, TAKEN, for_many=True)
 ratings.lookup("exponent", "p", "1", "Life exponent", EXPONENTS, by="bearings.type", source="ISO 281, 5.2", output=False, named_by=NAMES)
-row(ratings, "holds", "s", "1", "Whether a bearing that was sought in the table is found (1)",
-    lambda known: known.row(lambda i: known.taken[i].holds), "life and static safety of each of the series in turn; 1 where none was sought",
+row(ratings, "holds", "s", "1", "Bearing selected from the table is found (1)",
+    lambda known: known.row(lambda i: known.taken[i].holds), "life and static safety of each bearing of the series in turn; 1 where none is "
+                                                             "selected",
     output=False)
 ratings.require("found", lambda holds: holds > 0, key="bearings.{index}.series",
                 message="has no bearing in the table, up to 100 mm bore, that reaches the required life and static safety; take a heavier series, or "
                         "give dynamic_rating and static_rating of a larger bearing")
-ratings.computed("designations", "D", "1", "Bearings that are taken", lambda known: known.designations(), ("all_bearings",),
-                 "as given, or of the table", is_text=True)
-row(ratings, "dynamic_rating", "C", "kN", "Basic dynamic load rating", lambda known: known.rating("dynamic"), "as given, or of the table")
-row(ratings, "static_rating", "C_0", "kN", "Basic static load rating", lambda known: known.rating("static"), "as given, or of the table")
-row(ratings, "axial_base", "f_0", "1", "Factor of the deep groove ball bearing, 0 where it is not needed", lambda known: known.rating("f0"),
-    "as given, or of the table", output=False)
+ratings.computed("designations", "D", "1", "Selected bearings", lambda known: known.designations(), ("all_bearings",),
+                 "as given, or from the table", is_text=True)
+row(ratings, "dynamic_rating", "C", "kN", "Basic dynamic load rating", lambda known: known.rating("dynamic"), "as given, or from the table")
+row(ratings, "static_rating", "C_0", "kN", "Basic static load rating", lambda known: known.rating("static"), "as given, or from the table")
+row(ratings, "axial_base", "f_0", "1", "Factor of the deep groove ball bearing, 0 where it is not required", lambda known: known.rating("f0"),
+    "as given, or from the table", output=False)
 ratings.part_table("ratings_table", "Ratings", "bearings", ("exponent", "dynamic_rating", "static_rating", "axial_base"))
-ratings.listing("choice", "Bearings out of the table, with their neighbours", CHOICE, choice, ("all_bearings",))
+ratings.listing("choice", "Bearings selected from the table, with their neighbours", CHOICE, choice, ("all_bearings",))
 
 loads = Chapter("Equivalent load",
-                text="The forces and their factors stand for the place of the cycle where the equivalent load is greatest; elsewhere it follows in "
-                     "the same way. The mean load P_m is the p-th root of the mean of P to the power p; each place counts by how "
-                     "much the rings turn there: by |n|, or by |dθ/dφ| of a relative angle. The cycle is run through evenly in time.")
-loads.abscissa("cycle_angle", "φ", "deg", "Angle of the cycle: a whole turn of it is one cycle of the loads", 2 * np.pi)
+                text="The forces and their factors are shown for the position of the cycle where the equivalent load is largest; elsewhere it "
+                     "follows in the same way. The mean load P_m is the p-th root of the mean of P to the power p; each position is weighted by "
+                     "the relative motion of the rings: by |n|, or by |dθ/dφ| of a relative angle. Time is uniform over the cycle.")
+loads.abscissa("cycle_angle", "φ", "deg", "Cycle angle: one revolution is one cycle of the loads", 2 * np.pi)
 loads.computed_curve("load", "P_φ", "N", "Equivalent load over the cycle", load_over, "all_bearings", "cycle_angle",
-                     "from the forces at each place", joints=lambda known: known.joints, named_by=NAMES, source="ISO 281, 5.3")
-loads.computed_curve("speed", "n_φ", "rpm", "Speed of the rings against each other over the cycle", speed_over, "all_bearings", "cycle_angle",
-                     "as given, or the derivative of the relative angle times the cycles", named_by=NAMES, source="kinematics")
-row(loads, "axial_greatest", "F_a,max", "N", "Greatest axial force over the cycle", lambda known: known.row(lambda i: known.duties[i].greatest_axial),
+                     "from the forces at each position of the cycle", joints=lambda known: known.joints, named_by=NAMES, source="ISO 281, 5.3")
+loads.computed_curve("speed", "n_φ", "rpm", "Relative speed of the rings over the cycle", speed_over, "all_bearings", "cycle_angle",
+                     "as given, or the derivative of the relative angle times the cycle rate", named_by=NAMES, source="kinematics")
+row(loads, "axial_greatest", "F_a,max", "N", "Maximum axial force over the cycle", lambda known: known.row(lambda i: known.duties[i].greatest_axial),
     SEARCH, output=False)
-row(loads, "factors_given", "x", "1", "Whether the factors of an axial force are known (1)", lambda known: known.flag(known.knows_factors),
-    "by the keys that are given", output=False)
+row(loads, "factors_given", "x", "1", "Factors for axial force are known (1)", lambda known: known.flag(known.knows_factors),
+    "from the given keys", output=False)
 loads.require("factors_known", lambda factors_given, axial_greatest: (factors_given > 0) | (axial_greatest <= 0), key="bearings.{index}.axial_force",
               message="acts, but the factors by which it counts are missing; give f0 of a deep groove ball bearing, x, y, e, x0 and y0 of another "
                       "one, all of the maker's catalogue (cylindrical rollers bear no axial force: let another bearing take it)")
-row(loads, "radial_at_peak", "F_r", "N", "Radial force where the equivalent load is greatest", forces("equivalent", 0), SEARCH, output=False)
-row(loads, "axial_at_peak", "F_a", "N", "Axial force there", forces("equivalent", 1), SEARCH, output=False)
+row(loads, "radial_at_peak", "F_r", "N", "Radial force at the maximum equivalent load", forces("equivalent", 0), SEARCH, output=False)
+row(loads, "axial_at_peak", "F_a", "N", "Axial force at the maximum equivalent load", forces("equivalent", 1), SEARCH, output=False)
 value(loads, "relative_axial", "k", "1", "Relative axial force (deep groove)",
       bind(f.relative_axial, f0="axial_base", axial="axial_at_peak"), source=TABLE_3, output=False)
-value(loads, "held_axial", "k_t", "1", "The same, held at the ends of the table", bind(f.held, relative="relative_axial"), source=TABLE_3,
+value(loads, "held_axial", "k_t", "1", "Relative axial force, limited to the range of the table", bind(f.held, relative="relative_axial"),
+      source=TABLE_3,
       output=False)
 loads.add(between)
-row(loads, "by_table", "b", "1", "Whether X, Y and e are those of the table (1) or given (0)",
+row(loads, "by_table", "b", "1", "X, Y and e from the table (1) or given (0)",
     lambda known: known.flag(each.by_table for each in known.ratings), "of deep groove ball bearings", output=False)
 row(loads, "radial_factor", "X", "1", "Radial factor", lambda known: known.rating("x"), "0.56 of a deep groove ball bearing, else as given",
     output=False)
@@ -107,18 +109,18 @@ value(loads, "axial_factor", "Y", "1", "Axial factor", lambda by_table, table_y,
       output=False)
 value(loads, "axial_limit", "e", "1", "Limit of F_a/F_r", lambda by_table, table_e, given_e: np.where(by_table > 0, table_e, given_e), source=TABLE_3,
       output=False)
-value(loads, "equivalent_load_max", "P_max", "N", "Greatest equivalent load over the cycle",
+value(loads, "equivalent_load_max", "P_max", "N", "Maximum equivalent load over the cycle",
       bind(f.equivalent_load, radial="radial_at_peak", axial="axial_at_peak", x="radial_factor", y="axial_factor", e="axial_limit"),
       source="ISO 281, 5.3")
-row(loads, "turned", "G", "1", "Whether the rings turn against each other (1) or stand (0)",
+row(loads, "turned", "G", "1", "Rings turn relative to each other (1) or stand (0)",
     lambda known: known.row(known.turns), "from the speed or the relative angle", output=False)
-row(loads, "equivalent_load", "P_m", "N", "Equivalent load over the cycle, its mean by the life exponent", lambda known: known.row(known.mean_load),
+row(loads, "equivalent_load", "P_m", "N", "Mean equivalent load over the cycle by the life exponent", lambda known: known.row(known.mean_load),
     "Gauss–Legendre between the breakpoints, reversals and changes of X and Y", exists=lambda turned: turned > 0, source="linear damage")
-row(loads, "arithmetic_load", "P_a", "N", "Arithmetic mean of the equivalent load by the same weights",
+row(loads, "arithmetic_load", "P_a", "N", "Arithmetic mean of the equivalent load with the same weights",
     lambda known: known.row(lambda i: known.mean_load(i, 1.0)), "as P_m, with the exponent 1", exists=lambda turned: turned > 0, output=False)
 value(loads, "load_ratio", "C/P", "1", "Load ratio", lambda dynamic_rating, equivalent_load: dynamic_rating / equivalent_load,
       exists=lambda equivalent_load: equivalent_load > 0, source="ISO 281")
-value(loads, "axial_overload", "k_max", "1", "Greatest relative axial force (deep groove)",
+value(loads, "axial_overload", "k_max", "1", "Maximum relative axial force (deep groove)",
       bind(f.relative_axial, f0="axial_base", axial="axial_greatest"), exists=lambda axial_base, axial_greatest: axial_base * axial_greatest > 0,
       source=TABLE_3, output=False)
 
@@ -127,16 +129,16 @@ loads.part_table("load_table", "Loads of all bearings", "bearings",
                   "equivalent_load", "arithmetic_load", "load_ratio"))
 
 static = Chapter("Static load")
-row(static, "static_radial", "F_r0", "N", "Radial force where the static load is greatest", forces("static_load", 0), SEARCH, output=False)
-row(static, "static_axial", "F_a0", "N", "Axial force there", forces("static_load", 1), SEARCH, output=False)
+row(static, "static_radial", "F_r0", "N", "Radial force at the maximum static load", forces("static_load", 0), SEARCH, output=False)
+row(static, "static_axial", "F_a0", "N", "Axial force at the maximum equivalent load", forces("static_load", 1), SEARCH, output=False)
 row(static, "static_radial_factor", "X_0", "1", "Static radial factor", lambda known: known.rating("x0"),
     "as given; 0.6 of a deep groove ball bearing, 1 where no axial force acts", output=False)
 row(static, "static_axial_factor", "Y_0", "1", "Static axial factor", lambda known: known.rating("y0"),
     "as given; 0.5 of a deep groove ball bearing, 0 where no axial force acts", output=False)
-value(static, "static_load", "P_0", "N", "Greatest static equivalent load over the cycle",
+value(static, "static_load", "P_0", "N", "Maximum static equivalent load over the cycle",
       bind(f.static_load, radial="static_radial", axial="static_axial", x0="static_radial_factor", y0="static_axial_factor"), source=STATIC)
 static.require("loaded", lambda static_load: static_load > 0, key="bearings.{index}.radial_force",
                message="is 0 all over the cycle, and so is the axial force; give the force that the bearing bears, or leave the bearing out")
-value(static, "static_safety", "s_0", "1", "Static safety", lambda static_rating, static_load: static_rating / static_load, source=STATIC)
-static.part_table("static_table", "Static safety of all bearings", "bearings",
+value(static, "static_safety", "s_0", "1", "Static safety factor", lambda static_rating, static_load: static_rating / static_load, source=STATIC)
+static.part_table("static_table", "Static safety factors of all bearings", "bearings",
                   ("static_radial", "static_axial", "static_radial_factor", "static_axial_factor", "static_load", "static_safety"))

@@ -13,9 +13,10 @@ MECHANISM = Mechanism(
     kind="shaft",
     version="1.0",
     title="Stepped shaft on two bearings",
-    summary="A round stepped shaft turns, stands or swings on two bearings under loads that are constant or vary over a cycle. Calculated are "
-    "reactions, bending moment, torque, deflection, slopes, twist, the safety against fatigue and yield at each shoulder, notch, bearing and "
-    "load, and the critical speed. Where a section's diameter is left out, the least preferred one is taken with which the shaft holds.",
+    summary="A round stepped shaft rotates, stands or oscillates on two bearings under loads that are constant or vary over a cycle. The "
+            "calculation gives reactions, bending moment, torque, deflection, slopes, twist, the safety against fatigue and yield at each "
+            "shoulder, notch, bearing and load, and the critical speed. If the diameter of a section is omitted, the smallest sufficient "
+            "preferred one is selected.",
     inputs=Shaft,
     example=EXAMPLE,
     chapters=(
@@ -31,11 +32,11 @@ MECHANISM = Mechanism(
         "deflection and gyroscopic effect. Its own weight does not bend it unless it is given as loads.",
         "Infinite life only. Ranges of bending and torsion are combined as if in phase, the axial stress takes the notch factor of bending, and a "
         "compressive mean stress counts like a tensile one: all on the safe side. The shear stress of the transverse force is neglected.",
-        "The seats of the two bearings and of what brings the loads weaken the shaft like press fits, unless they are given as loose or as none; "
-        "of a seat and a keyseat at one place the greater factor holds.",
-        "Keyseats and press fits have the notch factors of DIN 743-2, which hold for the nominal stress of the full diameter; their size factor is "
-        "in the formulas of two public implementations, one of which refers the keyseat's to 15 mm in place of 40 mm.",
-        "Published fits of stress concentrations differ by up to a tenth; no more of their digits mean anything.",
+        "The seats of the two bearings and of the parts that carry the loads have the notch effect of press fits, unless they are given as loose "
+        "or as none; of a seat and a keyseat at one location the larger factor is used.",
+        "Keyseats and press fits have the notch factors of DIN 743-2, which apply to the nominal stress of the full diameter; their size factor "
+        "is from the formulas of two public implementations, one of which refers the keyseat's to 15 mm instead of 40 mm.",
+        "Published fits of stress concentration factors differ by up to a tenth; further digits are not significant.",
         "Not covered: more than two bearings, finite life, DIN 743, fretting beyond the factor of a press fit, torsional vibration.",
     ),
     sources=(

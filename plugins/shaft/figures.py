@@ -24,24 +24,24 @@ from diecut_report.plugins.shaft.drawing import shaft
 ALONG = Plot(
     id="along",
     title="Moments, torque, stress and deflection along the shaft",
-    caption="The bending moment in both planes at the instant of its greatest value; the greatest bending moment and the greatest size of the "
-    "torque over the cycle at each place; the greatest stress without notches; the deflection at the instant of its greatest value.",
+    caption="The bending moment in both planes at the instant of its maximum; the maximum bending moment and the maximum absolute torque over "
+    "the cycle at each position; the maximum stress without notches; the deflection at the instant of its maximum.",
     abscissa="position",
     panels=(
         Panel(
             title="Bending moment",
             unit="N*m",
             series=(
-                Series(curve="bending_moment", label="greatest over the cycle"),
+                Series(curve="bending_moment", label="maximum over the cycle"),
                 Series(curve="moment_xy", label="in x–y at its instant"),
                 Series(curve="moment_xz", label="in x–z at its instant"),
             ),
         ),
-        Panel(title="Torque", unit="N*m", series=(Series(curve="torque", label="greatest over the cycle"),)),
+        Panel(title="Torque", unit="N*m", series=(Series(curve="torque", label="maximum over the cycle"),)),
         Panel(
-            title="Nominal stress", unit="MPa", series=(Series(curve="stress_along", label="greatest over the cycle"),)
+            title="Nominal stress", unit="MPa", series=(Series(curve="stress_along", label="maximum over the cycle"),)
         ),
-        Panel(title="Deflection", unit="um", series=(Series(curve="deflection", label="at its greatest"),)),
+        Panel(title="Deflection", unit="um", series=(Series(curve="deflection", label="at its maximum"),)),
     ),
 )
 REACTIONS = Plot(
@@ -76,8 +76,8 @@ def _places(view: View) -> list[Shape]:
     stems = np.array([end for place, height, _ in shown for end in ((place, 0.0), (place, height), (place, np.nan))])
     return [
         chart_panel(
-            "Safety against fatigue", "1", "Position", "x", "mm",
-            lines=[line(stems[:, 0], stems[:, 1], "least safety at each place")],
+            "Safety factor against fatigue", "1", "Position", "x", "mm",
+            lines=[line(stems[:, 0], stems[:, 1], "minimum safety factor at each location")],
             marks=[mark(place, height, name) for place, height, name in shown],
             levels=[level(view["required_fatigue_safety"], "required")],
         )
@@ -102,10 +102,10 @@ def _goodman(view: View) -> list[Shape]:
             "Equivalent amplitude", "MPa", "Equivalent mean", "σ_m′", "MPa",
             lines=[
                 line([0, strength], [limit, 0], "Goodman's line"),
-                line([0, strength / required], [limit / required, 0], "with the required safety"),
+                line([0, strength / required], [limit / required, 0], "with the required safety factor"),
                 line([0, mean], [0, alternating], view.words("places")[index]),
             ],
-            marks=[mark(mean, alternating, "stress there")],
+            marks=[mark(mean, alternating, "stress at this location")],
         )
     ]  # fmt: skip
 
@@ -122,7 +122,8 @@ def _amplitudes(view: View) -> list[Shape]:
     return [
         chart_panel(
             "Amplitude of the shear stress, with its notch factor", "MPa", "Amplitude of the normal stress, with its notch factor", "", "MPa",
-            lines=[line(size * np.cos(turn), size * np.sin(turn) / 3**0.5, "endurance limit by the required safety, without mean stress")],
+            lines=[line(size * np.cos(turn), size * np.sin(turn) / 3**0.5, "endurance limit divided by the required safety factor, without mean "
+                                                                           "stress")],
             marks=[mark(x, y, view.words("places")[i] if i == index else "") for i, (x, y) in enumerate(zip(normal, shear, strict=True))],
         )
     ]  # fmt: skip
@@ -139,19 +140,19 @@ FIGURES = (
     REACTIONS,
     Chart(
         id="safety",
-        title="Safety against fatigue at each place",
-        caption="Of places at one position the least; above 20 it is drawn at 20.",
+        title="Safety factor against fatigue at each location",
+        caption="Of several locations at one position the minimum; values above 20 are drawn at 20.",
         build=_places,
     ),
     Chart(
         id="amplitudes",
         title="Stress amplitudes",
-        caption="Each place with its notch factors; the named one has the least safety.",
+        caption="Each location with its notch factors; the named one has the minimum safety factor.",
         build=_amplitudes,
     ),
     Chart(
         id="goodman",
-        title="Goodman diagram of the governing place",
+        title="Goodman diagram of the governing location",
         caption="Equivalent amplitude over equivalent mean stress, both with the notch factors.",
         build=_goodman,
     ),

@@ -17,30 +17,37 @@ class Section(Block):
     length: Annotated[float, Quantity("l", "mm", "Length of the section", gt=0)]
     diameter: Annotated[
         float | None,
-        Quantity("d", "mm", "Diameter of the section; without it the least preferred one that holds is taken", gt=0),
+        Quantity(
+            "d",
+            "mm",
+            "Diameter of the section; if omitted, the smallest sufficient preferred diameter is selected",
+            gt=0,
+        ),
     ] = None
     bore: Annotated[float, Quantity("d_i", "mm", "Diameter of the section's bore", ge=0)] = 0
     fillet_radius: Annotated[
         float | None,
-        Quantity("r", "mm", "Fillet radius of the step at the section's right end; without it the step is sharp", gt=0),
+        Quantity(
+            "r", "mm", "Fillet radius of the step at the right end of the section; if omitted, the step is sharp", gt=0
+        ),
     ] = None
 
 
 class Notch(Block):
     """A notch beside the shoulders: a keyseat, a groove, a press fit, or one with factors of its own."""
 
-    position: Annotated[float, Quantity("x_n", "mm", "Place of the notch, from the shaft's left end", ge=0)]
+    position: Annotated[float, Quantity("x_n", "mm", "Position of the notch, from the shaft's left end", ge=0)]
     type: Annotated[NotchType, Text("Type of the notch")]
     radius: Annotated[
-        float | None, Quantity("r_n", "mm", "Radius of the notch's ground, where not that of its type", gt=0)
+        float | None, Quantity("r_n", "mm", "Radius of the notch root, if different from that of its type", gt=0)
     ] = None
     k_t: Annotated[
         float | None,
-        Quantity("K_t,n", "1", "Stress concentration in bending (custom, keyseat_sled_runner)", ge=1, le=20),
+        Quantity("K_t,n", "1", "Stress concentration factor in bending (custom, keyseat_sled_runner)", ge=1, le=20),
     ] = None
     k_ts: Annotated[
         float | None,
-        Quantity("K_ts,n", "1", "Stress concentration in torsion (custom, keyseat_sled_runner)", ge=1, le=20),
+        Quantity("K_ts,n", "1", "Stress concentration factor in torsion (custom, keyseat_sled_runner)", ge=1, le=20),
     ] = None
     k_f: Annotated[float | None, Quantity("K_f,n", "1", "Fatigue notch factor in bending (custom)", ge=1, le=20)] = None
     k_fs: Annotated[float | None, Quantity("K_fs,n", "1", "Fatigue notch factor in torsion (custom)", ge=1, le=20)] = (
@@ -58,7 +65,7 @@ class Gear(Block):
         Quantity("β", "deg", "Helix angle; its sign is that of the axial force of a positive torque", gt=-60, lt=60),
     ] = 0
     mesh_angle: Annotated[
-        float, Quantity("ζ", "deg", "Where the mating gear stands, from y towards z", ge=-360, le=360)
+        float, Quantity("ζ", "deg", "Direction of the mating gear, from y towards z", ge=-360, le=360)
     ]
 
 
@@ -66,7 +73,7 @@ class Load(Block):
     """A load of the shaft at one place; what is left out is zero."""
 
     name: Annotated[str, Text("Name of the load")]
-    position: Annotated[float, Quantity("x_i", "mm", "Place of the load, from the shaft's left end", ge=0)]
+    position: Annotated[float, Quantity("x_i", "mm", "Position of the load, from the shaft's left end", ge=0)]
     force_y: Annotated[Any, Varying("F_y", "N", "Force in y; a number, or a curve over one cycle")] = 0
     force_z: Annotated[Any, Varying("F_z", "N", "Force in z; a number, or a curve over one cycle")] = 0
     axial_force: Annotated[
@@ -77,22 +84,20 @@ class Load(Block):
         Varying(
             "T",
             "N*m",
-            "Torque about +x, from y to z; a number, a curve over one cycle, {min, max}, or balance: what the others leave",
+            "Torque about +x, from y to z; a number, a curve over one cycle, {min, max}, or balance: the remainder of the others",
             extremes=True,
             words=("balance",),
         ),
     ] = 0
     couple_xy: Annotated[Any, Varying("C_xy", "N*m", "Couple from x to y; a number, or a curve over one cycle")] = 0
     couple_xz: Annotated[Any, Varying("C_xz", "N*m", "Couple from x to z; a number, or a curve over one cycle")] = 0
-    offset: Annotated[
-        float, Quantity("e", "mm", "How far the plane of the forces lies beyond the position, along +x")
-    ] = 0
-    gear: Annotated[Gear | None, Text("Toothing, whose forces follow from the torque")] = None
+    offset: Annotated[float, Quantity("e", "mm", "Offset of the plane of the forces beyond the position, along +x")] = 0
+    gear: Annotated[Gear | None, Text("Gear teeth, whose forces follow from the torque")] = None
     seat: Annotated[
         HubSeat,
         Text(
-            "Seat of the hub or ring that brings the load: tight, which weakens the shaft like a press fit, loose (g6, h6), or none: "
-            "cut on the shaft, or a force alone"
+            "Seat of the hub or ring that carries the load: tight, with the notch effect of a press fit, loose (g6, h6), or none: cut on the "
+            "shaft, or a force alone"
         ),
     ] = "tight"
     mass: Annotated[float, Quantity("m_i", "kg", "Mass that turns there, for the critical speed", ge=0)] = 0
@@ -101,7 +106,7 @@ class Load(Block):
 class Strength(Block):
     """The strengths of a steel up to a diameter, as a maker or a standard states them."""
 
-    diameter: Annotated[float, Quantity("d_R", "mm", "Diameter up to and with which the strengths hold", gt=0)]
+    diameter: Annotated[float, Quantity("d_R", "mm", "Maximum diameter for which the strengths apply", gt=0)]
     tensile_strength: Annotated[float, Quantity("R_m", "MPa", "Tensile strength", ge=340, le=1500)]
     yield_strength: Annotated[float, Quantity("R_e", "MPa", "Yield strength", gt=0)]
     fatigue_strength: Annotated[
@@ -124,16 +129,16 @@ class Shaft(Inputs):
     total_length: Annotated[
         float | None, Quantity("L_0", "mm", "Length of the whole shaft, as drawn; the sections must add up to it", gt=0)
     ] = None
-    notches: Annotated[list[Notch], Text("Notches beside the shoulders")] = []  # noqa: RUF012
-    bearing_a: Annotated[float, Quantity("x_A", "mm", "Place of bearing A, from the shaft's left end", ge=0)]
-    bearing_b: Annotated[float, Quantity("x_B", "mm", "Place of bearing B, from the shaft's left end", ge=0)]
+    notches: Annotated[list[Notch], Text("Notches in addition to the shoulders")] = []  # noqa: RUF012
+    bearing_a: Annotated[float, Quantity("x_A", "mm", "Position of bearing A, from the shaft's left end", ge=0)]
+    bearing_b: Annotated[float, Quantity("x_B", "mm", "Position of bearing B, from the shaft's left end", ge=0)]
     seat_a: Annotated[
-        Seat, Text("Seat of bearing A: tight, which weakens the shaft like a press fit, or loose (g6, h6)")
+        Seat, Text("Seat of bearing A: tight, with the notch effect of a press fit, or loose (g6, h6)")
     ] = "tight"
     seat_b: Annotated[
-        Seat, Text("Seat of bearing B: tight, which weakens the shaft like a press fit, or loose (g6, h6)")
+        Seat, Text("Seat of bearing B: tight, with the notch effect of a press fit, or loose (g6, h6)")
     ] = "tight"
-    locating: Annotated[Literal["a", "b"], Text("Which bearing takes the axial force")] = "a"
+    locating: Annotated[Literal["a", "b"], Text("Bearing that takes the axial force")] = "a"
     loads: Annotated[list[Load], Text("Loads of the shaft")]
     material: Annotated[
         Literal["42CrMo4+QT", "C45E+QT", "C45E+N"] | None,
@@ -149,11 +154,13 @@ class Shaft(Inputs):
         Quantity(
             "σ_D",
             "MPa",
-            "Fatigue strength of the polished specimen under reversed bending; half the tensile strength without it",
+            "Fatigue strength of the polished specimen under reversed bending; default: half the tensile strength",
             gt=0,
         ),
     ] = None
-    surface: Annotated[Literal["ground", "machined", "hot_rolled", "forged"], Text("Surface of the shaft")] = "machined"
+    surface: Annotated[Literal["ground", "machined", "hot_rolled", "forged"], Text("Surface finish of the shaft")] = (
+        "machined"
+    )
     reliability: Annotated[
         float, Quantity("R", "%", "Reliability of the endurance limit", listed=(50, 90, 95, 99, 99.9, 99.99))
     ] = 99
@@ -165,27 +172,27 @@ class Shaft(Inputs):
         Varying(
             "θ",
             "deg",
-            "How the shaft moves beneath its loads: turning, none, or by reference a curve of its angle over the cycle",
+            "Motion of the shaft under its loads: turning, none, or by reference a curve of its angle over the cycle",
             words=("turning", "none"),
         ),
     ] = "turning"
     turns_per_cycle: Annotated[
-        int, Quantity("k_T", "1", "Turns of the shaft in a cycle of its loads", ge=1, le=1000, integer=True)
+        int, Quantity("k_T", "1", "Revolutions of the shaft per cycle of its loads", ge=1, le=1000, integer=True)
     ] = 1
-    speed: Annotated[float | None, Quantity("n", "rpm", "Speed of the shaft, held against the critical one", gt=0)] = (
+    speed: Annotated[float | None, Quantity("n", "rpm", "Speed of the shaft, compared with the critical one", gt=0)] = (
         None
     )
     required_fatigue_safety: Annotated[
-        float, Quantity("[n_f]", "1", "Safety that is required against fatigue", ge=1)
+        float, Quantity("[n_f]", "1", "Required safety factor against fatigue", ge=1)
     ] = 1.5
-    required_yield_safety: Annotated[float, Quantity("[n_y]", "1", "Safety that is required against yield", ge=1)] = 1.5
+    required_yield_safety: Annotated[float, Quantity("[n_y]", "1", "Required safety factor against yield", ge=1)] = 1.5
     allowable_bearing_slope: Annotated[
-        float, Quantity("[v′]", "mrad", "Slope that the bearings accept", gt=0, plausible=("1e-6 rad", "1 rad"))
+        float, Quantity("[v′]", "mrad", "Permissible slope at the bearings", gt=0, plausible=("1e-6 rad", "1 rad"))
     ] = 1.0
     allowable_deflection: Annotated[
-        float | None, Quantity("[v]", "mm", "Deflection that is allowed anywhere on the shaft", gt=0)
+        float | None, Quantity("[v]", "mm", "Allowable deflection anywhere on the shaft", gt=0)
     ] = None
     allowable_twist: Annotated[
-        float | None, Quantity("[ϑ′]", "deg/m", "Twist that is allowed, by length between the torques", gt=0)
+        float | None, Quantity("[ϑ′]", "deg/m", "Allowable twist per unit length between the torques", gt=0)
     ] = None
     n_points: Annotated[int, POINTS] = 360

@@ -152,10 +152,10 @@ def test_an_input_is_found_by_a_search_and_a_fault_stands_beside_what_gave_it(br
     expect(tab.page.locator("#faults")).to_be_hidden(timeout=SECONDS)
     tab.page.get_by_role("button", name="Undo all changes").click()
     expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("20 mm", timeout=SECONDS)
-    tab.page.get_by_role("button", name="Put back again").click()
+    tab.page.get_by_role("button", name="Redo").click()
     expect(tab.input("knife.eccentricity").locator(".typed")).to_have_value("2.1 cm", timeout=SECONDS)
     tab.page.get_by_role("searchbox").fill("no such thing")
-    expect(tab.page.locator("#inputs .rows")).to_contain_text("No input that the file gives")
+    expect(tab.page.locator("#inputs .rows")).to_contain_text("No input in the file")
 
 
 def test_why_a_check_fails_stands_open_and_leads_to_its_mechanism(browser: Browser, live: Live) -> None:
@@ -178,8 +178,8 @@ def test_two_tabs_show_the_same_and_the_end_tells_what_is_not_written(browser: B
     one.type("knife.speed", "55 rpm")
     expect(two.input("knife.speed").locator("input[type=text]")).to_have_value("55 rpm", timeout=SECONDS)
     code, told = live.end()
-    assert code == 0 and "changed on the page and not written: knife.speed: 55 rpm" in told
-    expect(one.page.locator("#told")).to_contain_text("does not answer", timeout=SECONDS)
+    assert code == 0 and "changed on the page but not saved: knife.speed: 55 rpm" in told
+    expect(one.page.locator("#told")).to_contain_text("does not respond", timeout=SECONDS)
     assert "Traceback" not in told
 
 

@@ -115,7 +115,7 @@ def test_what_is_too_much_closed_or_asked_for_twice_is_refused(
     assert main(["calc", "-"]) == 2
     assert capfd.readouterr().err.splitlines() == [
         "<stdin>: Standard input holds more than 5 MB, which is the most that is read.",
-        "<stdin>: Standard input has been read already; give - once, and files beside it.",
+        "<stdin>: Standard input has already been read; give - only once, with files beside it.",
         "<stdin>: Standard input is closed. Name a file.",
     ]
 
@@ -143,4 +143,4 @@ def test_a_dash_as_output_is_standard_output(
     out, err = capfd.readouterr()
     assert out.startswith(begins) and [file.name for file in tmp_path.iterdir()] == ["press.yaml"]
     if command[0] in ("solve", "advise"):
-        assert out == begins and "calculated as a machine of its own" in err
+        assert out == begins and "recalculated as a single machine" in err

@@ -29,7 +29,7 @@ def test_what_cannot_be_and_what_is_wrong_is_told_at_once(tmp_path: Path, capfd:
     assert found[1].startswith(
         "7:126: mechanisms.knife.crank_slider.rod_length: is 20 mm, not longer than the crank_radius"
     )
-    assert found[2].startswith("8:99: mechanisms.clutch.5 mm: is what a decimal comma leaves behind it")
+    assert found[2].startswith("8:99: mechanisms.clutch.5 mm: is the remainder of a number with a decimal comma")
     assert len(found) == 3
 
 

@@ -78,7 +78,7 @@ def test_a_draft_of_any_kinds_is_valid(kinds: list[str]) -> None:
 @given(SUBSETS)
 def test_a_draft_of_any_kinds_is_calculated(kinds: list[str]) -> None:
     results = calculated(draft(kinds, DISCOVERY))
-    assert {mechanism["status"] for mechanism in results["mechanisms"].values()} <= {"pass", "warn", "fail"}
+    assert {mechanism.status for mechanism in results.mechanisms.values()} <= {"pass", "warn", "fail"}
 
 
 @pytest.mark.parametrize("kind", few(KINDS, lambda kind: kind == "damper"))
@@ -136,14 +136,14 @@ def test_each_key_stands_once_with_its_symbol_meaning_and_range() -> None:
     assert radius.split("  # ") == [
         "    shoe_radius: {value: 180 mm, basis: assumed}          ".rstrip()
         + " " * (len(radius.split("  # ")[0]) - 48),
-        "r: Radius of the drum, on which the shoes rub; > 0 mm",
+        "r: Radius of the drum's friction surface; > 0 mm",
     ]
     keys = DISCOVERY.mechanism("clutch").inputs.model_fields
     assert {key: sum(bool(re.match(rf" +(# )?{key}:", line)) for line in lines) for key in keys} == dict.fromkeys(
         keys, 1
     )
     (force,) = [line for line in lines if "allowable_slip_time:" in line]
-    assert force.strip().startswith("# allowable_slip_time: … s") and "without it not checked: Time" in force
+    assert force.strip().startswith("# allowable_slip_time: … s") and "if omitted, not checked: Time" in force
     assert max(map(len, lines)) <= 150
 
 
@@ -191,9 +191,7 @@ def test_an_example_that_needs_a_kind_that_is_not_there_is_a_fault_of_its_plugin
         .replace("damper", "spring")
     )
     (tmp_path / "lift.py").write_text(text.replace('kind="crane"', 'kind="lift"'), "utf-8")
-    with pytest.raises(
-        PluginError, match="its example cannot be without another mechanism: 'spring' is not a known kind"
-    ):
+    with pytest.raises(PluginError, match="its example requires another mechanism: 'spring' is not a known kind"):
         draft(["lift"], Discovery([tmp_path]))
 
 
@@ -233,8 +231,8 @@ def test_a_file_is_written_and_told_with_what_was_added(tmp_path: Path, capfd: C
     out, err = capfd.readouterr()
     assert out == "" and err.splitlines() == [
         f"written: {file}",
-        "added: drive (cylinder_drive), which timing cannot be without",
-        "added: cross (geneva_transport), which timing cannot be without",
+        "added: drive (cylinder_drive), required by timing",
+        "added: cross (geneva_transport), required by timing",
     ]
     assert "#   diecut-report report my_press.yaml -o build" in file.read_text("utf-8").splitlines()
 
@@ -245,7 +243,7 @@ def test_a_file_that_is_there_is_written_over_by_force_alone(tmp_path: Path, cap
     assert main(["new", "damper", "-o", str(file)]) == 2
     assert (
         capfd.readouterr().err
-        == f"{file}: This is there already; it is not written over. Choose another name, or give --force.\n"
+        == f"{file}: This already exists and is not overwritten. Choose another name, or give --force.\n"
     )
     assert file.read_text("utf-8") == "mine\n"
     assert main(["new", "damper", "-o", str(file), "--force", "--quiet"]) == 0
@@ -279,7 +277,7 @@ def test_a_kind_without_an_example_is_written_with_what_is_to_be_given(tmp_path:
     file = tmp_path / "press.yaml"
     code = main(["new", "lever", "-o", str(file), "--plugins", str(GOOD)])
     err = capfd.readouterr().err
-    assert file.exists() and "no example tells these; put in your own: lever." in err
+    assert file.exists() and "no example values exist for these; enter your own: lever." in err
     assert code == main(["validate", str(file), "--plugins", str(GOOD), "--quiet"]) == 0
 
 

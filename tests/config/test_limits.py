@@ -98,7 +98,7 @@ def test_comparisons_beyond_the_cap_are_named_with_the_way_to_them(
     assert len(results.comparisons) == 2
     assert results.comparisons_left_out.names == [f"transport_comparison-c1-g{index}" for index in range(2)]
     told = results.comparisons_left_out.message
-    assert told.startswith("2 comparisons are left out, the first is transport_comparison-c1-g0: at most 2 are made.")
+    assert told.startswith("2 comparisons are omitted, the first is transport_comparison-c1-g0: at most 2 are made.")
 
 
 @pytest.mark.parametrize(

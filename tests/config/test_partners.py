@@ -70,7 +70,10 @@ def test_a_block_of_the_kind_takes_the_place_of_the_one_that_runs_by_itself(tmp_
 def test_what_is_compared_with_the_others_is_not_typed_beside_them(tmp_path: Path, typed: str) -> None:
     text = HEAD + f"  whole: {{kind: press_consistency, cylinder_mass: {typed}}}\n" + DRIVE + CLUTCH
     (found,) = problems(tmp_path, text)
-    assert "mechanisms.whole.cylinder_mass" in found and "is typed here, but ${drive.cylinder_mass} has it" in found
+    assert (
+        "mechanisms.whole.cylinder_mass" in found
+        and ("is given here, but ${drive.cylinder_mass} already provides it") in found
+    )
     own = text.replace(f": {typed}}}", ": '${drive.cylinder_mass}'}")
     assert references(tmp_path, own, "whole")["cylinder_mass"] == "${drive.cylinder_mass}"
 
@@ -80,7 +83,7 @@ def test_a_study_does_not_vary_what_is_compared_with_the_others(tmp_path: Path, 
     config = loaded(tmp_path, HEAD + DRIVE + CLUTCH)
     asked = find_input(config, f"mechanisms.press_consistency.{key}")
     found = [str(each) for each in with_values(config, {asked: 1.0})[1]]
-    assert any(f"is typed here, but ${{drive.{key}}} has it" in each for each in found), found
+    assert any(f"is given here, but ${{drive.{key}}} has it" in each for each in found), found
 
 
 def test_the_resolved_configuration_leaves_out_what_is_taken_again(tmp_path: Path) -> None:
@@ -125,7 +128,7 @@ def test_what_is_not_checked_says_where_it_would_come_from(tmp_path: Path) -> No
     found = {check.id: check for check in results(tmp_path, HEAD + DRIVE + TWO).checks}
     assert found["step"].status == "not_checked"
     assert found["step"].message.endswith(
-        "There is no cam_gear_transport or geneva_transport, or there are several: name one by transport."
+        "There is no cam_gear_transport or geneva_transport, or there are several: select one with transport."
     )
     found = {check.id: check for check in results(tmp_path, HEAD + DRIVE + CLUTCH).checks}
     assert "clutch.speed and clutch.driven_inertia are not there." in found["driven_inertia"].message
@@ -144,7 +147,7 @@ def test_what_a_partner_does_not_have_in_this_machine_is_left_out(
     turning = DRIVE.replace("{kind", "{segment_height: 40 mm, carriage_clearance: 30 mm, sector_ratio: 3, kind")
     inputs = results(tmp_path, HEAD + turning + CLUTCH).inputs
     assert inputs["stroke"].path == "drive.stroke"
-    assert inputs.get("dead_center_inner", {}).get("value") is None
+    assert "dead_center_inner" not in inputs
 
 
 def test_the_example_press_is_held_against_itself(example: Example) -> None:

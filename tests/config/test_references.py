@@ -261,13 +261,13 @@ def run(folder: Path, discovery: Discovery, watched: str, more: str = "") -> Run
 def test_a_phase_of_another_mechanism_is_taken_by_reference(tmp_path: Path, discovery: Discovery) -> None:
     found = run(tmp_path, discovery, "${feeder.phases.dwell}")
     assert found.calculations["eye"]["length"] == pytest.approx(np.radians(160))
-    told = found.results["eye"]["inputs"]["watched"]
-    assert (told["origin"], told["path"], told["value"]) == (
+    told = found.results["eye"].inputs["watched"]
+    assert (told.origin, told.path, told.value) == (
         "reference",
         "feeder.phases.dwell",
         "${feeder.phases.dwell}",
     )
-    assert document(found)["config"]["resolved"]["mechanisms"]["eye"]["watched"] == "${feeder.phases.dwell}"
+    assert document(found).config.resolved["mechanisms"]["eye"]["watched"] == "${feeder.phases.dwell}"
 
 
 def test_a_study_takes_the_phase_of_each_variant(tmp_path: Path, discovery: Discovery) -> None:
@@ -289,7 +289,7 @@ def test_a_study_takes_the_phase_of_each_variant(tmp_path: Path, discovery: Disc
 
 FAULTS: dict[str, Any] = {
     "an unknown phase": ("${feeder.phases.dwel}", "names no phase: feeder has no phase 'dwel' (did you mean 'dwell'?)"),
-    "a phase without its key": ("${feeder.phases.rest}", "is there only if rest_tolerance is given in feeder."),
+    "a phase without its key": ("${feeder.phases.rest}", "exists only if rest_tolerance is given in feeder."),
     "a number": ("${feeder.sheet_step}", "${feeder.sheet_step} is not a phase; a reference to a phase is needed"),
     "a text": ("dwell", "'dwell' is not a phase; a reference to a phase is needed"),
 }

@@ -111,7 +111,9 @@ def judged(folder: Path, **code: str) -> list[str]:
 def test_what_is_asked_beside_the_inputs_is_told(place: str, code: str, tmp_path: Path) -> None:
     (line,) = judged(tmp_path, **{place: code})
     name = {"body": "found", "helper": "helper"}[place]
-    assert f"function {name}: asks {ASKED[code]}, so that equal inputs give unlike results; take it as an input" in line
+    assert (
+        f"function {name}: uses {ASKED[code]}, so that equal inputs give different results; take it as an input" in line
+    )
     assert "asking.py:2" in line
 
 
@@ -125,7 +127,7 @@ def test_what_ends_the_program_is_told(code: str, tmp_path: Path) -> None:
 def test_what_leaves_the_folder_is_told(place: dict[str, str], tmp_path: Path) -> None:
     """The report would be written elsewhere than is said."""
     (line,) = judged(tmp_path, **place)
-    assert "leaves the folder that the program works in (os.chdir), so that reports are written elsewhere" in line
+    assert "leaves the working folder of the program (os.chdir), so that reports are written elsewhere" in line
 
 
 @pytest.mark.parametrize("name", LOOPS)
@@ -153,4 +155,4 @@ def test_what_gives_the_same_each_time_passes(code: str, tmp_path: Path) -> None
 
 def test_a_clock_that_is_asked_when_the_module_is_loaded_is_told(tmp_path: Path) -> None:
     (line,) = judged(tmp_path, module="BEGAN = time.time()")
-    assert "asking.py:16: function the module: asks the clock (time.time)" in line
+    assert "asking.py:16: function the module: uses the clock (time.time)" in line

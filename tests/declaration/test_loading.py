@@ -49,7 +49,7 @@ def test_all_faults_are_told_with_plugin_file_and_line(tmp_path: Path) -> None:
     with pytest.raises(PluginError) as caught:
         Discovery([plugin(tmp_path / "own", "faulty", *WRONG)]).mechanism("faulty")
     head, *lines = str(caught.value).splitlines()
-    assert head == f"plugin 'faulty': {tmp_path / 'own' / 'faulty.py'} declares what cannot be:"
+    assert head == f"plugin 'faulty': {tmp_path / 'own' / 'faulty.py'} has invalid declarations:"
     assert [line.split(":")[0].strip() for line in lines] == ["faulty.py"] * len(lines)
     assert any(
         "step pressure: needs names widht, which is not an input (did you mean 'width'?)" in line for line in lines

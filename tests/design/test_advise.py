@@ -54,8 +54,8 @@ def test_the_smallest_change_is_found_and_typed_shortly(press: Path, capfd: Capt
     assert (tmp_path / "new.yaml").read_text() == TEXT.replace("arm: 100 mm", "arm: 83 mm")
     out, err = capfd.readouterr()
     assert out.splitlines()[:3] == [
-        "2 checks fail today: a.moment, b.moment",
-        "with 1 change none fails, calculated as a machine of its own:",
+        "2 checks fail at present: a.moment, b.moment",
+        "with 1 change no check fails, recalculated as a single machine:",
         "  a.arm  100 mm → 83 mm  (-17 %)",
     ]
     assert err == f"written: {tmp_path / 'new.yaml'}\n"
@@ -89,8 +89,8 @@ def test_what_cannot_be_mended_names_the_checks(press: Path, capfd: Capture, tmp
     text = TEXT.replace('arm: "${a.arm} + 20 mm", allowable_moment: 320 N*m', "arm: 100 mm, allowable_moment: 400 N*m")
     assert advise(saved(tmp_path, text), "--free", "b.arm", "-o", tmp_path / "new.yaml") == 1
     out, err = capfd.readouterr()
-    assert "of the best of them" not in out  # nothing had to be tried
-    assert "proved: a.moment follows from none of the free inputs, and fails with all of their values" in out
+    assert "in the best of them" not in out  # nothing had to be tried
+    assert "proved: a.moment does not depend on any free input and fails for all of their values" in out
     assert err.endswith(f"not written: {tmp_path / 'new.yaml'}\n") and not (tmp_path / "new.yaml").exists()
 
 
@@ -100,9 +100,9 @@ def test_what_cannot_be_mended_names_the_checks(press: Path, capfd: Capture, tmp
         (["--free", "a.arm", "--keep", "a.arm"], "nothing is free to be changed"),
         (["--free", "a.arn"], "did you mean 'arm'?"),
         (["--free", "b.arm"], "b.arm follows from an expression"),
-        (["--free", "a.width"], "a.width has no value today, or is zero"),
+        (["--free", "a.width"], "a.width has no value at present, or is zero"),
         (["--free", "a.remark"], "nothing is free to be changed"),
-        (["--free", "a.n_points"], "a.n_points says how densely curves are listed"),
+        (["--free", "a.n_points"], "a.n_points only sets how densely curves are listed"),
     ],
 )
 def test_bad_input_is_told_and_ends_with_2(press: Path, capfd: Capture, more: list[str], words: str) -> None:

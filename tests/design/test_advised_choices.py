@@ -115,7 +115,7 @@ def test_a_search_ends_with_the_machines_that_it_may_calculate_and_says_so(tmp_p
     command = ["advise", str(file), "--free", "a.arm", "--most", "60", "--plugins", str(GOOD)]
     assert main(command) == 1
     out = capfd.readouterr().out
-    assert "that is as many as the search may calculate: it is not at its end; let it calculate more with --most" in out
-    assert int(out.split("none of the ")[1].split()[0]) <= 60 and "of the best of them" in out
+    assert "the search stopped at its limit and has not converged; increase --most" in out
+    assert int(out.split("none of the ")[1].split()[0]) <= 60 and "in the best of them" in out
     assert main([*command, "--format", "json"]) == 1
     assert json.loads(capfd.readouterr().out)["ended"]

@@ -29,7 +29,7 @@ def test_a_report_says_that_its_advice_gives_a_pass(tmp_path: Path, capfd: pytes
     assert advice is not None and advice.failing == [] and advice.error is None
     assert [each.path for each in advice.changes] == ["clutch.shoe_width"]
     (line,) = followed_line(results, Catalogue("en"))
-    assert line.startswith("Followed together, the advice of the failing checks gives a pass: clutch.shoe_width ")
+    assert line.startswith("Applying the advice of all failing checks together gives a pass: clutch.shoe_width ")
     assert line.rstrip(".") in (tmp_path / "press.html").read_text("utf-8")
     assert main(["verify", str(tmp_path / "press.html"), "--numbers"]) == 0
 
@@ -38,8 +38,8 @@ def test_other_outcomes_are_told_in_words() -> None:
     changes = [{"path": "a.b", "value": "5 mm"}]
     results = filled(ResultsRecord, {"summary": {"advice": {"changes": changes, "failing": ["c.d"], "error": None}}})
     assert list(followed_line(results, Catalogue("en"))) == [
-        "Followed together, the advice of the failing checks (a.b 5 mm) leaves others that fail: c.d."
+        "Applying the advice of all failing checks together (a.b 5 mm) leaves other checks failing: c.d."
     ]
     results = filled(ResultsRecord, {"summary": {"advice": {"changes": changes, "failing": [], "error": "no"}}})
-    assert "gives no machine that can be built" in next(followed_line(results, Catalogue("en")))
+    assert "gives a machine that cannot be built" in next(followed_line(results, Catalogue("en")))
     assert list(followed_line(filled(ResultsRecord, {}), Catalogue("en"))) == []

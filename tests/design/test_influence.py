@@ -40,10 +40,10 @@ def test_each_input_moves_a_product_by_its_share(press: Path, capfd: Capture) ->
     assert influence(press, "--of", "a.moment", "--by", "5", "--tolerance", "a.arm=1 mm", "--count", "10") == 0
     out = capfd.readouterr().out.splitlines()
     assert out[:4] == [
-        "a.moment, today 200 N·m",
+        "a.moment, at present 200 N·m",
         "  a.force  1.9 kN … 2.1 kN: 190 N·m … 210 N·m",
         "  a.arm    99 mm … 101 mm: 198 N·m … 202 N·m",
-        "  5 do not move it",
+        "  5 have no effect",
     ]
 
 
@@ -134,7 +134,7 @@ def test_inputs_at_their_default_are_told_and_changed_on_demand(tmp_path: Path, 
     assert influence(press, "--of", "a.moment", "--by", "5") == 0
     out = capfd.readouterr().out.splitlines()
     assert out[1].startswith("  a.force ") and not any("a.arm" in line for line in out)
-    assert out[-1] == "2 inputs stand at their default and are not changed; --defaults changes them too"
+    assert out[-1] == "2 inputs have their default values and are not varied; --defaults includes them"
     assert influence(press, "--of", "a.moment", "--by", "5", "--defaults") == 0
     out = capfd.readouterr().out.splitlines()
     assert "  a.arm    95 mm … 105 mm: 190 N·m … 210 N·m" in out and "--defaults" not in out[-1]

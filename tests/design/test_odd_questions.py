@@ -55,8 +55,8 @@ def test_no_value_with_which_all_passes_is_an_answer_that_names_what_always_fail
     ]
     assert main(asked) == 1
     out = capfd.readouterr().out
-    assert "no value of a.arm from 33.3333 mm to 300 mm does" in out
-    assert "whatever it is, b.moment fails: change another input first" in out
+    assert "no value of a.arm from 33.3333 mm to 300 mm satisfies it" in out
+    assert "at any value, b.moment fails: change another input first" in out
     assert main([*asked, "--format", "json"]) == 1
     answer = json.loads(capfd.readouterr().out)
     assert answer["always"] == ["b.moment"] and answer["nearest"]["typed"] == "100 mm"
@@ -65,11 +65,17 @@ def test_no_value_with_which_all_passes_is_an_answer_that_names_what_always_fail
 @pytest.mark.parametrize(
     ("command", "words"),
     [
-        (["solve", "--vary", "a.spring.stiffness", "--for", "max a.moment"], "a.spring.stiffness has no value today"),
-        (["solve", "--vary", "a.n_points", "--for", "max a.moment"], "a.n_points says how densely curves are listed"),
-        (["influence", "--of", "a.width"], "a.width has no value today"),
+        (
+            ["solve", "--vary", "a.spring.stiffness", "--for", "max a.moment"],
+            "a.spring.stiffness has no value at present",
+        ),
+        (
+            ["solve", "--vary", "a.n_points", "--for", "max a.moment"],
+            "a.n_points only sets how densely curves are listed",
+        ),
+        (["influence", "--of", "a.width"], "a.width has no value at present"),
         (["influence", "--by", "nan"], "nan is not a number of percent"),
-        (["influence", "--tolerance", "a.width=1 mm"], "a.width is a whole number or has no value today"),
+        (["influence", "--tolerance", "a.width=1 mm"], "a.width is a whole number or has no value at present"),
     ],
 )
 def test_what_has_no_value_is_refused_in_words(tmp_path: Path, capfd: Capture, command: list[str], words: str) -> None:

@@ -64,7 +64,7 @@ def test_without_names_the_governing_checks_are_looked_at(tmp_path: Path) -> Non
     [
         (
             "{tolerances: {a.n_points: 1}}",
-            "press.yaml:3:35: report.influence.tolerances.a.n_points: a.n_points says how densely",
+            "press.yaml:3:35: report.influence.tolerances.a.n_points: a.n_points only sets how densely",
         ),
         ("{of: [a.momemt]}", "press.yaml:3:27: report.influence.of.0: a.momemt is neither a number that a gives"),
         ("{tolerances: {a.arn: 1 mm}}", "report.influence.tolerances.a.arn: a.arn 'arn' is not an input of a"),

@@ -45,9 +45,9 @@ def found(capfd: Capture, code: int) -> dict[str, Any]:
 def test_a_linear_quantity_is_solved_exactly_and_told(press: Path, capfd: Capture) -> None:
     assert solve(press, "a.arm", "a.moment = 240 N*m") == 0
     assert capfd.readouterr().out.splitlines() == [
-        "a.moment = 240 N·m, by a.arm (today 100 mm, a.moment 200 N·m)",
+        "a.moment = 240 N·m, by a.arm (at present 100 mm, a.moment 200 N·m)",
         "  a.arm = 120 mm: a.moment is 240 N·m",
-        "  calculated as a machine of its own: no check fails; governing: a.moment",
+        "  recalculated as a single machine: no check fails; governing: a.moment",
     ]
 
 
@@ -84,8 +84,8 @@ def test_the_greatest_with_which_all_passes(press: Path, capfd: Capture) -> None
 def test_out_of_reach_tells_the_nearest(press: Path, capfd: Capture, tmp_path: Path) -> None:
     assert solve(press, "a.arm", "a.moment = 700 N*m", "-o", tmp_path / "new.yaml") == 1
     out, err = capfd.readouterr()
-    assert "no value of a.arm from 33.3333 mm to 300 mm does" in out
-    assert "nearest: a.arm = 300 mm, where a.moment is 600 N·m, at the end of the range" in out
+    assert "no value of a.arm from 33.3333 mm to 300 mm satisfies it" in out
+    assert "nearest: a.arm = 300 mm, where a.moment is 600 N·m, at the end of the search range" in out
     assert err == f"not written: {tmp_path / 'new.yaml'}\n" and not (tmp_path / "new.yaml").exists()
     assert solve(press, "a.arm", "a.moment = 700 N*m", "--to", "0.4 m") == 0
 
@@ -106,7 +106,7 @@ def test_whole_numbers_are_all_tried(press: Path, capfd: Capture) -> None:
         ("a.arm", "b.moment = 1 N*m", [], "b.moment does not vary with a.arm: it is 200 N·m in the whole range"),
         ("a.arm", "a.moment = 1 N*m", ["--from", "2 m"], "2 m is out of range"),
         ("a.arm", "a.moment = 1 N*m", ["--from", "9 mm", "--to", "8 mm"], "the range from 9 mm to 8 mm is empty"),
-        ("a.width", "a.moment = 1 N*m", [], "a.width has no value today; give the range to search"),
+        ("a.width", "a.moment = 1 N*m", [], "a.width has no value at present; give the range to search"),
         ("a.grade", "a.moment = 1 N*m", [], "a.grade is a text, a choice or a yes/no"),
     ],
 )  # fmt: skip
@@ -156,7 +156,7 @@ def test_the_end_of_a_step_is_typed_so_that_it_answers(tmp_path: Path, capfd: Ca
     beyond = proved(load_config(press, DISCOVERY).tree, {("mechanisms", "damper", "shore_hardness"): longer}, DISCOVERY)
     assert beyond.outputs["damper.adopted_length"] > 0.06
     assert solve(press, "damper.shore_hardness", "damper.adopted_length = 75 mm") == 0
-    assert "holds today already: damper.adopted_length is 75 mm" in capfd.readouterr().out
+    assert "is already satisfied: damper.adopted_length is 75 mm" in capfd.readouterr().out
 
 
 def test_what_does_not_hold_between_two_machines_of_the_search_is_no_range(tmp_path: Path, capfd: Capture) -> None:
@@ -179,7 +179,7 @@ def test_a_text_names_the_nearest_of_many_values(tmp_path: Path, capfd: Capture)
 
 def test_whole_numbers_with_which_it_holds_are_told_from_first_to_last(press: Path, capfd: Capture) -> None:
     assert solve(press, "b.teeth", "b.teeth <= 30") == 0
-    assert "  it holds from 12 (end of the search) to 30" in capfd.readouterr().out.splitlines()
+    assert "  satisfied from 12 (end of the search range) to 30" in capfd.readouterr().out.splitlines()
     answer = found(capfd, solve(press, "b.teeth", "b.teeth >= 25", "--format", "json"))
     assert answer["solutions"][0]["typed"] == "25"
 
@@ -198,8 +198,8 @@ def test_the_numbers_of_a_list_are_all_tried_and_no_others(tmp_path: Path, capfd
     asked = ("bearing.reliability", "bearing.reliability_factor <= 0.5")  # 0.47 at 97 %, by ISO 281 table 12
     assert solve(press, *asked) == 0
     out = capfd.readouterr().out
-    assert "(today 95 %, bearing.reliability_factor 0.64)" in out and "bearing.reliability = 97 %: " in out
-    assert "it holds from 97 % to 99 % (end of the search)" in out
+    assert "(at present 95 %, bearing.reliability_factor 0.64)" in out and "bearing.reliability = 97 %: " in out
+    assert "satisfied from 97 % to 99 % (end of the search range)" in out
     assert solve(press, "bearing.reliability", "bearing.reliability_factor = 0.6") == 1
     assert "nearest: bearing.reliability = 95 %" in capfd.readouterr().out
 

@@ -112,7 +112,7 @@ def test_a_machine_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
     machine = proved(tree, {("mechanisms", "a", "arm"): "0.12 m"}, DISCOVERY)
     write_config(tree, machine, tmp_path / "new" / "made.yaml")
     assert (tmp_path / "new" / "made.yaml").read_text() == TWO.replace("arm: 0.1 m", "arm: 0.12 m")
-    with pytest.raises(UserError, match="would be written over"):
+    with pytest.raises(UserError, match="would be overwritten"):
         write_config(tree, machine, tmp_path / "press.yaml")
     with pytest.raises(UserError, match=r"mechanisms\.a\.arm: 2 m is out of range"):
         proved(tree, {("mechanisms", "a", "arm"): "2 m"}, DISCOVERY)

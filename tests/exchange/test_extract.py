@@ -46,7 +46,7 @@ def test_what_is_there_already_is_not_written_over(small_report: Path, tmp_path:
     own = saved(tmp_path, SMALL.replace("300", "400"), "small.yaml")
     assert run("extract", small_report / "small.html", "-o", tmp_path) == 2
     assert own.read_text("utf-8") == SMALL.replace("300", "400") and not (tmp_path / "small.json").exists()
-    assert "There is another file of this name." in capfd.readouterr().err
+    assert "Another file of this name exists" in capfd.readouterr().err
     saved(tmp_path, SMALL, "small.yaml")
     assert run("extract", small_report / "small.html", "-o", tmp_path) == 0  # the same one may stay
     assert (tmp_path / "small.json").exists()

@@ -46,7 +46,9 @@ def test_no_room_for_the_files_of_fonts_is_told(
              "verify": [small_report / "small.pdf"]}[command]  # fmt: skip
     assert main([command, *map(str, given), "--quiet"]) == UNWRITABLE
     said = capfd.readouterr().err
-    assert "the disk is full. Nothing was written; make room, or name another folder in the variable TMPDIR." in said
+    assert (
+        "the disk is full. Nothing was written; free disk space, or name another folder in the variable TMPDIR." in said
+    )
     assert "Traceback" not in said and not (tmp_path / "out").exists()
 
 
@@ -60,7 +62,7 @@ def test_no_folder_for_temporary_files_is_told(
     with monkeypatch.context() as patch:
         patch.setattr(tempfile, "gettempdir", none)
         assert main([*map(str, command)]) == UNWRITABLE
-    assert "There is no folder for temporary files with room in it." in capfd.readouterr().err
+    assert "No folder for temporary files has enough free space." in capfd.readouterr().err
 
 
 @pytest.mark.parametrize("variable", ["HOME", "XDG_CACHE_HOME", "MPLCONFIGDIR"])

@@ -204,7 +204,7 @@ def test_it_tells_what_is_not_written_when_it_is_ended(tmp_path: Path, ending: s
         server.asked("POST", f"{server.path}change", {"changes": {"knife.depth": "111 mm"}})
         server.process.send_signal(ending)
         _, told = server.process.communicate(timeout=SECONDS)
-    assert (server.process.returncode, told) == (0, "changed on the page and not written: knife.depth: 111 mm\n")
+    assert (server.process.returncode, told) == (0, "changed on the page but not saved: knife.depth: 111 mm\n")
 
 
 def test_a_port_in_use_and_a_file_that_is_none_end_with_words(
@@ -215,10 +215,10 @@ def test_a_port_in_use_and_a_file_that_is_none_end_with_words(
         other.listen()
         port = other.getsockname()[1]
         assert main(["live", str(KNIFE), "--port", str(port), "--no-open"]) == 2
-    assert f"The port {port} of this machine cannot be had: another program has it" in capfd.readouterr().err
+    assert f"The port {port} of this machine is not available: another program is using it" in capfd.readouterr().err
     stored = f"{tmp_path}#17"
     for given, words in ((str(tmp_path), "This is a folder."), (str(tmp_path / "none.yaml"), "There is no such file."),
-                         ("-", "standard input is read once"), (stored, f"diecut-report take {stored} -o my_press.yaml")):  # fmt: skip
+                         ("-", "standard input is read only once"), (stored, f"diecut-report take {stored} -o my_press.yaml")):  # fmt: skip
         assert main(["live", given, "--no-open"]) == 2
         assert words in capfd.readouterr().err
 

@@ -95,7 +95,7 @@ def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
 
 def test_a_report_that_is_never_made_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setattr(reports, "PATIENCE", 0.05)  # an interpreter takes longer to begin
-    with pytest.raises(UserError, match=r"not made within 0\.05 s"):
+    with pytest.raises(UserError, match=r"not finished within 0\.05 s"):
         asyncio.run(asyncio.wait_for(reports.LiveReports((), None).made(filled(ResultsRecord, {}), "html"), 60))
 
 

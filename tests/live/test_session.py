@@ -241,7 +241,7 @@ def test_a_number_out_of_bounds_is_told_with_its_place_and_can_be_taken_back(ses
     line = next(n for n, text in enumerate(session.file.read_text("utf-8").splitlines(), 1) if "eccentricity:" in text)
     assert (fault["path"].removesuffix(".value"), fault["line"]) == ("mechanisms.knife.eccentricity", line)
     assert force(session) == before
-    with pytest.raises(UserError, match="Nothing is written"):
+    with pytest.raises(UserError, match="Nothing is saved"):
         session.write()
     session.take_back(["knife.eccentricity"])
     assert session.faults == [] and session.edits == {}

@@ -96,7 +96,7 @@ def test_a_clash_marks_its_variant_and_leaves_its_neighbours_alone() -> None:
 def test_a_standard_value_comes_from_the_series_that_a_text_names() -> None:
     assert loop()["stock"][0, 0] == 10 and loop(material="chain")["stock"][0, 0] == 16
     item = next(i for s in told().sections for i in s.items if i.operation == "pick")
-    assert "neighbours not taken: 5 m, 20 m" in item.method and item.series == "Rope lengths"
+    assert "adjacent values not chosen: 5 m, 20 m" in item.method and item.series == "Rope lengths"
     assert item.note == "Rope lengths: Table one; Table two"
 
 

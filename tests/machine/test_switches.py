@@ -65,7 +65,7 @@ def wheel(
     chapter.value("inner", "T_i", "N*m", "Inner torque", torque, per_piece=per_piece)
     chapter.value("torque", "T", "N*m", "Torque", last or bind(lambda inner: inner))
     if not checks:
-        chapter.reduction("peak", "T_max", "N*m", "Greatest torque", "max", "torque")
+        chapter.reduction("peak", "T_max", "N*m", "Maximum torque", "max", "torque")
     return Mechanism(kind="wheel", version="1", title="", summary="", inputs=Wheel, chapters=(chapter,), checks=checks)
 
 
@@ -181,7 +181,7 @@ def by_middle(*places: str) -> Mechanism:
     chapter.breakpoints("edges", "angle", *places)
     chapter.value("middle", "φ_m", "deg", "Middle", lambda angle: angle, per_piece=True)
     chapter.value("torque", "T", "N*m", "Torque", lambda middle, start, moment: moment * np.where(middle < start, 1, 3))
-    chapter.reduction("peak", "T_max", "N*m", "Greatest torque", "max", "torque")
+    chapter.reduction("peak", "T_max", "N*m", "Maximum torque", "max", "torque")
     return Mechanism(kind="wheel", version="1", title="", summary="", inputs=Wheel, chapters=(chapter,))
 
 

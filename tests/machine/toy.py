@@ -42,7 +42,7 @@ LONG = Constant(0.5, "a_l", "m")
 
 class Pair(Block):
     driver_teeth: Annotated[int, Quantity("z_1", "1", "Teeth of the driver", ge=12, integer=True)]
-    driven_teeth: Annotated[int, Quantity("z_2", "1", "Teeth of the driven gear", ge=12, integer=True)]
+    driven_teeth: Annotated[int, Quantity("z_2", "1", "Number of teeth of the driven gear", ge=12, integer=True)]
     label: Annotated[str | None, Text("Name of the pair")] = None
 
 
@@ -184,8 +184,8 @@ MECHANISM = Mechanism(
                 Choice(unit="1", id="on", symbol="s", description="Switched", per_piece=True, output=False,
                        cases=(Case(one, "after the step", is_on), Case(zero, "before the step"))),
                 Value(id="torque", symbol="T", unit="N*m", description="Torque", formula=wave),
-                Reduction(id="torque_max", symbol="M_max", unit="N*m", description="Greatest torque", of="torque", operation="max"),
-                Reduction(id="torque_min", symbol="M_min", unit="N*m", description="Least torque", of="torque", operation="min"),
+                Reduction(id="torque_max", symbol="M_max", unit="N*m", description="Maximum torque", of="torque", operation="max"),
+                Reduction(id="torque_min", symbol="M_min", unit="N*m", description="Minimum torque", of="torque", operation="min"),
                 Reduction(id="torque_range", symbol="ΔM", unit="N*m", description="Range", of="torque", operation="range"),
                 Reduction(id="torque_mean", symbol="M_m", unit="N*m", description="Mean", of="torque", operation="mean"),
                 Reduction(id="torque_rms", symbol="M_q", unit="N*m", description="Root mean square", of="torque", operation="rms"),

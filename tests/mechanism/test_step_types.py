@@ -123,7 +123,7 @@ def test_it_is_printed_and_stored() -> None:
     calc = calculate(wave(), {"size": 0.02, "n_points": 36})
     [chapter] = section_items(calc)
     assert {item["id"]: item["result"]["text"] for item in chapter["items"] if item["id"] == "swing"} == {"swing": "20"}
-    assert mechanism_results(calc, {})["outputs"]["swing"]["value"] == pytest.approx(0.02)
+    assert mechanism_results(calc, {}).outputs["swing"].value == pytest.approx(0.02)
 
 
 def test_each_type_has_a_call_of_its_name() -> None:

@@ -203,7 +203,7 @@ shaft.value("scoop_pull", "U_s", "N", "Force of scooping",
                 np.where(is_scooping > 0, scoop_force * 2 * np.pi / (scoop_end - scoop_start), 0 * scoop_force))
 shaft.value("shaft_torque", "M", "N*m", "Torque of the head shaft",
             lambda lift_force, scoop_pull, head_diameter: (lift_force + scoop_pull) * head_diameter / 2)
-shaft.reduction("torque_max", "M_max", "N*m", "Greatest torque", "max", of="shaft_torque")
+shaft.reduction("torque_max", "M_max", "N*m", "Maximum torque", "max", of="shaft_torque")
 shaft.reduction("torque_mean", "M_m", "N*m", "Mean torque", "mean", of="shaft_torque")
 shaft.accumulated("work", "W", "J", "Work since the top", of="shaft_torque")
 
@@ -279,7 +279,7 @@ FIGURES = (
                  Panel(title="Torque", unit="N*m", series=(Series(curve="shaft_torque", label="M"),),
                        levels=(Level(value="torque_mean", label="mean"),)))),
     Drawing(id="head", title="Head drum", caption="The head drum, to scale.", build=head_drawing),
-    Bars(id="pulls", title="Pulls", caption="What the pull consists of.",
+    Bars(id="pulls", title="Pulls", caption="Components of the pull.",
          groups=(BarGroup(label="Pull", unit="N", bars=(("waste", "lift_force"), ("scooping", "scoop_force"), ("all", "circumferential_pull"))),)),
 )
 

@@ -69,7 +69,7 @@ CALLS = (
     load("formula and description exchanged", SPEED,
          '"belt_speed", "v", "m/s", lambda head_speed, head_diameter: head_speed * head_diameter / 2, "Speed of the belt",', "belt_speed",
          "formula"),
-    load("operation and curve exchanged", '"Greatest torque", "max", of="shaft_torque"', '"Greatest torque", "shaft_torque", of="max"',
+    load("operation and curve exchanged", '"Maximum torque", "max", of="shaft_torque"', '"Maximum torque", "shaft_torque", of="max"',
          "torque_max", "max, which nothing gives"),
     load("table and text of a lookup exchanged", '{"bare": 0.2, "rubber": 0.3}, by="lagging"', '"lagging", by={"bare": 0.2, "rubber": 0.3}',
          "head_friction", "table|by"),

@@ -13,6 +13,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.rolling_bearing import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import CheckRecord
 from tests.machines import inputs
 
 Function = Callable[[Array], Array]
@@ -86,6 +87,6 @@ def value(calc: Calculation, name: str, part: int = 0) -> float:
     return float(calc[name][0, part])
 
 
-def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
+def checks(calc: Calculation) -> dict[str, CheckRecord]:
     """The checks by their id."""
     return {check.id: check for check in mechanism_results(calc, {}).checks}

@@ -8,6 +8,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.roller_chain import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import CheckRecord
 from tests.machines import inputs
 
 DRIVE: dict[str, Any] = {
@@ -33,7 +34,7 @@ def chain(keys: dict[str, Any] = DRIVE, **changes: Any) -> Calculation:
     return calculate(MECHANISM, inputs(MECHANISM, keys | changes))
 
 
-def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
+def checks(calc: Calculation) -> dict[str, CheckRecord]:
     """The checks of a chain by their id."""
     return {check.id: check for check in mechanism_results(calc, {}).checks}
 

@@ -8,6 +8,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.clutch import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import CheckRecord
 from tests.machines import inputs
 
 BASE: dict[str, Any] = {"torque": "300 N*m", "service_factor": 1, "shoe_radius": "120 mm", "wedge_angle": "10 deg"}
@@ -28,6 +29,6 @@ def clutch(keys: dict[str, Any] = BASE, **changes: Any) -> Calculation:
     return calculate(MECHANISM, inputs(MECHANISM, keys | changes))
 
 
-def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
+def checks(calc: Calculation) -> dict[str, CheckRecord]:
     """The checks of a clutch by their id."""
     return {check.id: check for check in mechanism_results(calc, {}).checks}

@@ -8,6 +8,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import CheckRecord
 from tests.machines import inputs
 
 
@@ -16,7 +17,7 @@ def calculated(keys: dict[str, Any]) -> Calculation:
     return calculate(MECHANISM, inputs(MECHANISM, keys))
 
 
-def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
+def checks(calc: Calculation) -> dict[str, CheckRecord]:
     """The checks that are made by their ids."""
     found = {check.id: check for check in mechanism_results(calc, {}).checks}
     return {name: check for name, check in found.items() if check.status != "not_checked"}
@@ -24,11 +25,11 @@ def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
 
 def passing(calc: Calculation) -> set[str]:
     """The ids of the checks that pass."""
-    return {name for name, check in checks(calc).items() if check["status"] == "pass"}
+    return {name for name, check in checks(calc).items() if check.status == "pass"}
 
 
 def told(calc: Calculation, check: str) -> str:
     """The message of a check that fails."""
     found = checks(calc)[check]
-    assert found["status"] == "fail"
-    return str(found["message"])
+    assert found.status == "fail"
+    return str(found.message)

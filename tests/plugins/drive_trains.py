@@ -14,6 +14,7 @@ from diecut_report.machine.calculation import Calculation, CurveHandle
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.results.checks import check_results
+from diecut_report.results.model import CheckRecord
 from tests.machines import inputs
 
 RPM = 2 * pi / 60
@@ -77,7 +78,7 @@ def sine_load(**changes: Any) -> CurveHandle:
     return CurveHandle(calculate(LOAD, inputs(LOAD, changes)), "torque")
 
 
-def check(calc: Calculation, name: str) -> dict[str, Any]:
+def check(calc: Calculation, name: str) -> CheckRecord:
     """A check's result."""
     return {c.id: c for c in check_results(calc)}[name]
 

@@ -18,6 +18,7 @@ from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.results.checks import applies, check_results, judged
+from diecut_report.results.model import CheckRecord
 
 SHAFT: dict[str, Any] = {
     "inertia": "0.8 kg*m**2",
@@ -39,7 +40,7 @@ def driven(source: Calculation, curve: str, **changes: Any) -> Calculation:
     return follower(**{"rise": None, "rise_time": None, "motion_curve": CurveHandle(source, curve)} | changes)
 
 
-def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
+def checks(calc: Calculation) -> dict[str, CheckRecord]:
     """The checks of a follower by their id."""
     return {check.id: check for check in check_results(calc)}
 

@@ -8,6 +8,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.gear_pair import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import CheckRecord
 from tests.machines import inputs
 
 STEEL: dict[str, Any] = {"sigma_h_lim_1": 767, "sigma_h_lim_2": 767, "sigma_f_lim_1": 314, "sigma_f_lim_2": 314}
@@ -38,6 +39,6 @@ def pair(keys: dict[str, Any] = SPUR, **changes: Any) -> Calculation:
     return calculate(MECHANISM, inputs(MECHANISM, keys | changes))
 
 
-def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
+def checks(calc: Calculation) -> dict[str, CheckRecord]:
     """The checks of a gear pair by their id."""
     return {check.id: check for check in mechanism_results(calc, {}).checks}

@@ -11,6 +11,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.circular_knife import MECHANISM
 from diecut_report.results.checks import check_results
+from diecut_report.results.model import CheckRecord
 from tests.machines import inputs, number
 from tests.validation.rows_circular_knife import KEYS
 
@@ -34,7 +35,7 @@ def knife(**changes: Any) -> Calculation:
     return calculate(MECHANISM, inputs(MECHANISM, KEYS | changes))
 
 
-def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
+def checks(calc: Calculation) -> dict[str, CheckRecord]:
     """The checks of a knife by their id."""
     return {check.id: check for check in check_results(calc)}
 

@@ -11,6 +11,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cam_gear_transport import MECHANISM
 from diecut_report.results.checks import check_results
+from diecut_report.results.model import CheckRecord
 from tests.machines import inputs
 
 PUBLISHED: dict[str, Any] = {
@@ -39,7 +40,7 @@ def stepper(**changes: Any) -> Calculation:
     return calculate(MECHANISM, inputs(MECHANISM, PUBLISHED | changes))
 
 
-def checks(calc: Calculation) -> dict[str, dict[str, Any]]:
+def checks(calc: Calculation) -> dict[str, CheckRecord]:
     """The checks of a stepper by their id."""
     return {check.id: check for check in check_results(calc)}
 

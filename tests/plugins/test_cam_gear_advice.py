@@ -41,24 +41,22 @@ MACHINES: list[dict[str, Any]] = [
 def test_the_named_arms_pass_all_checks_of_the_cams(changes: dict[str, Any]) -> None:
     machine = CAMS | changes
     failing = [
-        check
-        for check in checks(stepper(**machine)).values()
-        if check["status"] == "fail" and check["id"] in CAM_CHECKS
+        check for check in checks(stepper(**machine)).values() if check.status == "fail" and check.id in CAM_CHECKS
     ]
     assert failing
     for check in failing:
-        advised = told(check["message"])
+        advised = told(check.message)
         assert advised
         again = checks(stepper(**machine | advised))
-        assert {again[name]["status"] for name in CAM_CHECKS} == {"pass"}, advised
+        assert {again[name].status for name in CAM_CHECKS} == {"pass"}, advised
 
 
 @pytest.mark.parametrize("law", few(LAWS, keep=lambda law: law in ("modified_trapezoidal", "parabolic")))
 def test_arms_are_named_for_each_law(law: str) -> None:
     machine = CAMS | {"motion_law": law, "max_pressure_angle": "42 deg", "arm_angle_1": "85 deg"}
-    advised = told(checks(stepper(**machine))["pressure_angle"]["message"])
+    advised = told(checks(stepper(**machine))["pressure_angle"].message)
     again = checks(stepper(**machine | advised))
-    assert {again[name]["status"] for name in CAM_CHECKS} == {"pass"}
+    assert {again[name].status for name in CAM_CHECKS} == {"pass"}
 
 
 @pytest.mark.parametrize(
@@ -88,7 +86,7 @@ def test_arms_that_are_far_too_long_are_judged_without_a_search(monkeypatch: pyt
 
 def test_where_narrower_sweeps_are_advised_no_arms_pass_as_the_sweeps_are() -> None:
     machine = CAMS | {"max_pressure_angle": "38 deg", "n_points": 36}
-    message = checks(stepper(**machine))["pressure_angle"]["message"]
+    message = checks(stepper(**machine))["pressure_angle"].message
     assert "no arms pass with this dwell and these sweeps" in message
     for length in (10, 40, 80, 120):
         for one in range(15, 110, 16):
@@ -97,9 +95,7 @@ def test_where_narrower_sweeps_are_advised_no_arms_pass_as_the_sweeps_are() -> N
 
 
 def test_without_a_return_the_arms_wait_for_it() -> None:
-    assert (
-        "leave the return its time first" in checks(stepper(**CAMS, dwell_angle="212 deg"))["pressure_angle"]["message"]
-    )
+    assert "leave the return its time first" in checks(stepper(**CAMS, dwell_angle="212 deg"))["pressure_angle"].message
 
 
 def test_arms_across_the_line_are_told_where_they_may_stand() -> None:
@@ -108,4 +104,4 @@ def test_arms_across_the_line_are_told_where_they_may_stand() -> None:
     best = re.search(r"take ([\d.]+)° and ([\d.]+)°", refused.value.message)
     assert best is not None
     arms = {"arm_angle_1": float(best[1]), "arm_angle_2": float(best[2])}
-    assert checks(stepper(**CAMS | arms))["pressure_angle"]["status"] == "pass"
+    assert checks(stepper(**CAMS | arms))["pressure_angle"].status == "pass"

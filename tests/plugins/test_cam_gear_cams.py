@@ -71,7 +71,7 @@ def test_the_checks_tell_whether_the_rollers_touch_their_profiles_once(
     calc = stepper(
         arm_length=arm, roller_radius=roller, arm_angle_1=one, arm_angle_2=other, dwell_angle=dwell, n_points=36
     )
-    sharp, turns = (checks(calc)[name]["status"] == "pass" for name in ("curvature", "profile_turns"))
+    sharp, turns = (checks(calc)[name].status == "pass" for name in ("curvature", "profile_turns"))
     if sharp and turns:
         for n in "12":
             assert nearest(calc, n, phi) == pytest.approx(roller / 1000, rel=1e-9)
@@ -85,8 +85,8 @@ def test_an_undercut_cam_fails_and_the_message_tells_the_greatest_roller() -> No
     least = number(stepper(**CAMS), "curvature_min")
     for share, status in ((0.999, "pass"), (1.001, "fail")):
         check = checks(stepper(**CAMS | {"roller_radius": f"{share * least!r} m"}))["curvature"]
-        assert check["status"] == status
-    told = re.search(r"roller_radius to at most ([\d.]+) mm", check["message"])
+        assert check.status == status
+    told = re.search(r"roller_radius to at most ([\d.]+) mm", check.message)
     assert told is not None
     assert 0.999 * least < float(told[1]) / 1000 < least
 
@@ -98,7 +98,7 @@ def test_a_roller_that_runs_back_around_the_shaft_fails() -> None:
     assert np.diff(angle).min() < 0
     assert number(calc, "cam_1_tangent_min") < 0
     check = checks(calc)["profile_turns"]
-    assert (check["status"], check["utilisation"]) == ("fail", None)
+    assert (check.status, check.utilisation) == ("fail", None)
     assert number(stepper(**CAMS), "tangent_distance_min") > 0
     assert np.diff(np.unwrap(np.angle(center(stepper(**CAMS), "1", TURN)))).min() > 0
 
@@ -116,8 +116,8 @@ def test_the_published_arms_have_pressure_angles_of_about_43_and_45_degrees() ->
         assert np.abs(angles - np.degrees(at(calc, f"cam_{n}_pressure_angle", phi))).max() < 1e-5
         assert angles.max() == pytest.approx(degrees, abs=0.5)
         assert np.degrees(number(calc, f"cam_{n}_pressure_angle_max")) == pytest.approx(angles.max(), abs=1e-3)
-    assert checks(calc)["pressure_angle"]["status"] == "pass"
-    assert checks(stepper(**CAMS, max_pressure_angle="44 deg"))["pressure_angle"]["status"] == "fail"
+    assert checks(calc)["pressure_angle"].status == "pass"
+    assert checks(stepper(**CAMS, max_pressure_angle="44 deg"))["pressure_angle"].status == "fail"
 
 
 def test_the_least_radius_of_curvature_is_that_of_three_neighbouring_points() -> None:

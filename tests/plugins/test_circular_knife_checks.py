@@ -70,10 +70,10 @@ def test_a_sound_knife_passes_all_checks() -> None:
         "force",
         "torque",
     ]
-    missing = [found.pop(name)["missing"] for name in ("shear_resistance", "force", "torque")]
+    missing = [found.pop(name).missing for name in ("shear_resistance", "force", "torque")]
     assert missing == [["rule_force"], ["allowable_force"], ["allowable_torque"]]
-    assert {check["status"] for check in found.values()} == {"pass"}
-    assert found["reach"]["utilisation"] == pytest.approx(41 / (120**2 - 112**2) ** 0.5, rel=1e-12)
+    assert {check.status for check in found.values()} == {"pass"}
+    assert found["reach"].utilisation == pytest.approx(41 / (120**2 - 112**2) ** 0.5, rel=1e-12)
 
 
 def test_the_governing_side_of_the_shear_angle_is_shown() -> None:
@@ -81,9 +81,9 @@ def test_the_governing_side_of_the_shear_angle_is_shown() -> None:
         checks(knife())["shear_angle"],
         checks(knife(front_distance="20 mm", cut_length="1 mm"))["shear_angle"],
     )
-    assert upper["demand"] == pytest.approx(number(knife(), "shear_angle_max")) and "20°" in upper["message"]
-    assert "2°" in lower["message"] and lower["utilisation"] == pytest.approx(lower["demand"] / lower["limit"])
-    assert lower["limit"] == number(knife(front_distance="20 mm", cut_length="1 mm"), "shear_angle_min")
+    assert upper.demand == pytest.approx(number(knife(), "shear_angle_max")) and "20°" in upper.message
+    assert "2°" in lower.message and lower.utilisation == pytest.approx(lower.demand / lower.limit)
+    assert lower.limit == number(knife(front_distance="20 mm", cut_length="1 mm"), "shear_angle_min")
 
 
 @pytest.mark.parametrize(
@@ -100,8 +100,8 @@ def test_the_governing_side_of_the_shear_angle_is_shown() -> None:
 )
 def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
     found = checks(knife(**changes))[name]
-    assert found["status"] == "fail"
-    assert words in found["message"]
+    assert found.status == "fail"
+    assert words in found.message
 
 
 @pytest.mark.parametrize(
@@ -121,7 +121,7 @@ def test_a_knife_that_cannot_cut_is_told_of_once(tmp_path: Path, changed: dict[s
 @pytest.mark.parametrize("changed", [{"thickness": "1 mm"}, {"edge_radius": "101 mm"}, {"eccentricity": "21 mm"}])
 def test_what_is_advised_where_no_place_suits_keeps_the_edge_from_running_back(changed: dict[str, Any]) -> None:
     start = {"thickness": "3 mm", "cut_length": "17 mm"}
-    before, after = (checks(knife(**start | change))["monotonic"]["utilisation"] for change in ({}, changed))
+    before, after = (checks(knife(**start | change))["monotonic"].utilisation for change in ({}, changed))
     assert after < before
 
 
@@ -158,10 +158,10 @@ def test_a_resistance_too_small_for_the_force_of_a_rule_is_told() -> None:
     """25 N/mm over 0.6 mm are 41.67 N/mm²: the advised resistance passes, a little less does not."""
     board = {"thickness": "0.6 mm", "rule_force": "25 N/mm"}
     found = checks(knife(**board))["shear_resistance"]
-    assert found["status"] == "warn"
-    assert found["utilisation"] == pytest.approx(25 / (10 * 0.6), rel=1e-12)
-    told = re.search(r"shear_resistance to at least ([\d.]+) N/mm²", found["message"])
+    assert found.status == "warn"
+    assert found.utilisation == pytest.approx(25 / (10 * 0.6), rel=1e-12)
+    told = re.search(r"shear_resistance to at least ([\d.]+) N/mm²", found.message)
     assert told and float(told[1]) == pytest.approx(41.67, rel=1e-3)
     for factor, status in ((1, "pass"), (0.999, "warn")):
         again = board | {"shear_resistance": f"{float(told[1]) * factor} N/mm**2"}
-        assert checks(knife(**again))["shear_resistance"]["status"] == status
+        assert checks(knife(**again))["shear_resistance"].status == status

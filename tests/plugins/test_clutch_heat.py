@@ -45,7 +45,7 @@ def test_mean_power_of_the_lining_is_the_heat_of_an_hour() -> None:
     assert number(calc, "lining_power_density") == pytest.approx(hour / 3600 / area)
     assert number(calc, "pv") == pytest.approx(number(calc, "pressure") * 0.12 * 600 * 2 * np.pi / 60)
     limit = checks(clutch(HEATED, allowable_power_density="0.1 W/cm**2"))["lining_power_density"]
-    assert limit["status"] == "fail"
+    assert limit.status == "fail"
     most = number(clutch(HEATED, allowable_power_density="0.1 W/cm**2"), "engagements_limit")
     again = clutch(HEATED, engagements_per_hour=f"{most!r} 1/s")
     assert number(again, "lining_power_density") == pytest.approx(1000)
@@ -117,7 +117,7 @@ def test_engagements_that_follow_too_fast_fail() -> None:
     late, soon = (
         checks(clutch(HEATED, engagements_per_hour=f"{rate / time!r} 1/s"))["slip_share"] for rate in (0.99, 1.01)
     )
-    assert (late["status"], soon["status"]) == ("pass", "fail")
+    assert (late.status, soon.status) == ("pass", "fail")
 
 
 @pytest.mark.parametrize(
@@ -130,6 +130,6 @@ def test_what_is_allowed_is_checked_when_it_is_given(key: str, quantity: str, un
     name = {"allowable_power_density": "lining_power_density"}.get(key, key.removeprefix("allowable_"))
     for share, status in ((0.999, "fail"), (1.001, "pass")):
         check = checks(clutch(COOLED, **{key: f"{value * share!r} {unit}"}))[name]
-        assert check["status"] == status
-        assert check["utilisation"] == pytest.approx(1 / share)
-    assert checks(clutch(COOLED))[name]["missing"] == [key]
+        assert check.status == status
+        assert check.utilisation == pytest.approx(1 / share)
+    assert checks(clutch(COOLED))[name].missing == [key]

@@ -27,8 +27,8 @@ KEY_RESULT = "speed_verdict"
 
 def recommendation(results: dict[str, Any]) -> tuple[str, str]:
     """The law that is named, and how."""
-    named = results["outputs"]["recommended_law"]
-    return named["value"], named["description"]
+    named = results.outputs["recommended_law"]
+    return named.value, named.description
 
 
 def test_the_law_that_a_curve_is_told_is_said_to_be_that_of_a_single_rise() -> None:
@@ -56,7 +56,7 @@ def test_a_shaft_without_a_speed_of_its_own_has_no_critical_speed_among_its_key_
     changes: dict[str, Any],
 ) -> None:
     outputs = mechanism_results(shaft(CRANKSHAFT, **changes), {}).outputs
-    assert KEY_RESULT not in outputs and "key" not in outputs["critical_speed"]
+    assert KEY_RESULT not in outputs and not outputs["critical_speed"].key
 
 
 def products(tree: Any) -> Iterator[list[Any]]:

@@ -50,16 +50,14 @@ def test_a_line_without_a_known_way_is_reported_without_the_figure_of_ways(tmp_p
     more = ["--plugins", str(tmp_path), "-o", str(tmp_path / "out"), "--format", "html", "--quiet"]
     assert main(["report", str(saved(tmp_path, HEAD + LINES)), *more]) == 0
     page = (tmp_path / "out" / "press.html").read_text("utf-8")
-    assert "Cyclogram, once round" in page and "Displacements and slack" not in page
+    assert "Circular cyclogram" in page and "Displacements and slack" not in page
 
 
 def test_a_line_across_all_rows_follows_the_angle_and_the_bars_that_it_passes_are_filled(tmp_path: Path) -> None:
     """The feeder carries from 30° to 120°; of the period of 360° a twelfth and a third."""
     saved(tmp_path, PLUGIN, "small_feeder.py")
     config = load_config(saved(tmp_path, HEAD + LINES), Discovery([tmp_path]))
-    [figure] = [
-        each for each in document(compute(config, lambda _: None)).mechanisms["cyc"].figures if "moving" in each
-    ]
+    [figure] = [each for each in document(compute(config, lambda _: None)).mechanisms["cyc"].figures if each.moving]
     shapes, places = figure.moving["shapes"], np.array(figure.moving["places"])
     [cursor] = [np.array(shape["moves"]) for shape in shapes if "moves" in shape]
     assert cursor[:, 0] == pytest.approx(places / (2 * np.pi) * 8) and cursor[:, 0] == pytest.approx(cursor[:, 2])
@@ -80,7 +78,7 @@ def test_a_cyclogram_of_lines_at_other_rates_than_the_press_stands_still(tmp_pat
         saved(tmp_path, HEAD + LINES.replace("small_feeder}", "small_feeder, rate: 5000}")), Discovery([tmp_path])
     )
     figures = document(compute(config, lambda _: None)).mechanisms["cyc"].figures
-    assert "cyclogram" in [each.id for each in figures if each.shapes] and not any("moving" in each for each in figures)
+    assert "cyclogram" in [each.id for each in figures if each.shapes] and not any(each.moving for each in figures)
 
 
 def test_a_curve_in_place_of_its_name_is_told(tmp_path: Path) -> None:
@@ -88,6 +86,6 @@ def test_a_curve_in_place_of_its_name_is_told(tmp_path: Path) -> None:
     text = HEAD + LINES.replace("{mechanism: feeder}", "{mechanism: feeder, torque_curve: '${feeder.load}'}")
     [told] = problems(tmp_path, text, Discovery([tmp_path]))
     assert told.endswith(
-        "${feeder.load} is a curve in N; a text (Name of a curve of the line, such as `torque`, "
-        "where its torque is not the one of its kind) is needed here"
+        "${feeder.load} is a curve in N; a text (Name of a torque curve of the line, such as `torque`, if not the "
+        "default of its kind) is needed here"
     )

@@ -55,7 +55,7 @@ def belt(pulleys: list[Pulley], **changes: Any) -> Calculation:
 
 
 def statuses(calc: Calculation) -> dict[str, str]:
-    return {name: check(calc, name)["status"] for name in LISTED_CHECKS}
+    return {name: check(calc, name).status for name in LISTED_CHECKS}
 
 
 def replaced(pulleys: list[Pulley], index: int, radius: float) -> list[Pulley]:
@@ -71,18 +71,18 @@ def test_a_layout_that_fits_the_drive_passes() -> None:
 
 def test_the_belt_on_the_other_side_than_engagement_fails() -> None:
     slow = belt(UNDER, engagement="die", shaft_speed=75)
-    assert check(slow, "belt_engagement")["status"] == "pass"
-    assert check(belt(UNDER), "belt_engagement")["status"] == "fail"
-    assert check(belt(OVER, engagement="die"), "belt_engagement")["status"] == "fail"
-    assert check(belt(UNDER), "belt_engagement")["demand"] == pytest.approx(pi)
+    assert check(slow, "belt_engagement").status == "pass"
+    assert check(belt(UNDER), "belt_engagement").status == "fail"
+    assert check(belt(OVER, engagement="die"), "belt_engagement").status == "fail"
+    assert check(belt(UNDER), "belt_engagement").demand == pytest.approx(pi)
 
 
 def test_mirrored_about_the_cylinder_the_engagement_angle_turns_round() -> None:
     leaning = [*OVER[:2], (1000, 190, 50, "outside", "other"), *OVER[3:]]
     below = belt(leaning, engagement="die")
-    angle = check(belt(leaning), "belt_engagement")["demand"]
+    angle = check(belt(leaning), "belt_engagement").demand
     assert 0.01 < angle < pi / 2
-    assert check(below, "belt_engagement")["demand"] == pytest.approx(pi - angle, rel=1e-12)
+    assert check(below, "belt_engagement").demand == pytest.approx(pi - angle, rel=1e-12)
     # the wrap's middle lies between the normals at which the two runs touch the pulley
     first, second = below["run_direction"][0, 2:4]
     across, up = np.sin(first) + np.sin(second), -np.cos(first) - np.cos(second)
@@ -92,7 +92,7 @@ def test_mirrored_about_the_cylinder_the_engagement_angle_turns_round() -> None:
 def test_a_belt_of_unmarked_pulleys_is_not_compared_with_the_cylinder() -> None:
     calc = belt([(*pulley[:4], "other") for pulley in OVER])
     assert checked(calc).isdisjoint({"belt_engagement", "cylinder_pulley_listed"})
-    assert check(calc, "driving_pulley_listed")["status"] == "pass"
+    assert check(calc, "driving_pulley_listed").status == "pass"
     assert mechanism_results(calc, {}).status != "error"
 
 
@@ -106,49 +106,49 @@ def test_only_one_pulley_is_fixed_to_the_cylinder() -> None:
 def test_a_pulley_without_whole_teeth_is_told_and_the_advised_radius_has_them(index: int, radius: float) -> None:
     told = check(belt(replaced(OVER, index, radius)), "pulley_teeth_whole")
     teeth = 2 * pi * radius / 8
-    assert told["status"] == "fail" and told["demand"] == pytest.approx(abs(teeth - round(teeth)), rel=1e-9)
-    assert f"radius {radius:.0f} mm" in told["message"] and f"have {teeth:.4f} teeth" in told["message"]
-    advised = re.search(r"give it a radius of (\d+\.\d+) mm", told["message"])
+    assert told.status == "fail" and told.demand == pytest.approx(abs(teeth - round(teeth)), rel=1e-9)
+    assert f"radius {radius:.0f} mm" in told.message and f"have {teeth:.4f} teeth" in told.message
+    advised = re.search(r"give it a radius of (\d+\.\d+) mm", told.message)
     assert advised
     fixed = belt(replaced(OVER, index, float(advised[1])))
-    assert check(fixed, "pulley_teeth_whole")["status"] == "pass"
+    assert check(fixed, "pulley_teeth_whole").status == "pass"
 
 
 def test_a_smooth_pulley_on_the_back_needs_no_whole_teeth() -> None:
     for radius in (47.0, 50.0, 52.3):
-        assert check(belt(replaced(OVER, 2, radius)), "pulley_teeth_whole")["status"] == "pass"
+        assert check(belt(replaced(OVER, 2, radius)), "pulley_teeth_whole").status == "pass"
 
 
 def test_another_driving_pulley_in_the_list_is_told_and_the_advised_one_passes() -> None:
     told = check(belt(replaced(OVER, 0, whole(70))), "driving_pulley_listed")
-    assert told["status"] == "fail" and told["demand"] == pytest.approx(9, rel=1e-9)
-    advised = re.search(r"radius of (\d+\.\d+) mm, (\d+) teeth", told["message"])
+    assert told.status == "fail" and told.demand == pytest.approx(9, rel=1e-9)
+    advised = re.search(r"radius of (\d+\.\d+) mm, (\d+) teeth", told.message)
     assert advised and int(advised[2]) == 79
-    assert check(belt(replaced(OVER, 0, float(advised[1]))), "driving_pulley_listed")["status"] == "pass"
+    assert check(belt(replaced(OVER, 0, float(advised[1]))), "driving_pulley_listed").status == "pass"
 
 
 @pytest.mark.parametrize("driven", [60.0, 66.0])
 def test_the_cylinder_s_pulley_in_the_list_is_the_driven_one(driven: float) -> None:
     told = check(belt(OVER, driven_radius=driven), "cylinder_pulley_listed")
-    assert told["status"] == "fail" and told["demand"] == pytest.approx(abs(2 * pi * driven / 8 - 48), rel=1e-9)
-    advised = re.search(r"give both (\d+\.\d+) mm", told["message"])
+    assert told.status == "fail" and told.demand == pytest.approx(abs(2 * pi * driven / 8 - 48), rel=1e-9)
+    advised = re.search(r"give both (\d+\.\d+) mm", told.message)
     assert advised
     fixed = belt(replaced(OVER, 3, float(advised[1])), driven_radius=float(advised[1]))
-    assert {check(fixed, n)["status"] for n in ("cylinder_pulley_listed", "pulley_teeth_whole")} == {"pass"}
+    assert {check(fixed, n).status for n in ("cylinder_pulley_listed", "pulley_teeth_whole")} == {"pass"}
 
 
 def test_a_loaded_pulley_outside_has_teeth_in_mesh_too() -> None:
     pressed = (850, whole(40) + whole(48) - 30, whole(48), "outside", "cylinder")
     calc = belt([*UNDER[:2], pressed], engagement="die", shaft_speed=75)
-    assert check(calc, "teeth_in_mesh")["limit"] == pytest.approx(calc["teeth_in_mesh"][0, 2], rel=1e-12)
+    assert check(calc, "teeth_in_mesh").limit == pytest.approx(calc["teeth_in_mesh"][0, 2], rel=1e-12)
     assert calc["teeth_in_mesh"][0, 2] < 6 < calc["teeth_in_mesh"][0, 0]
 
 
 def test_the_advised_pitch_puts_six_teeth_into_mesh() -> None:
     told = check(belt(OVER, pitch=20), "teeth_in_mesh")
-    advised = re.search(r"toothed_belt.pitch to at most (\d+(?:\.\d+)?) mm", told["message"])
-    assert told["status"] == "fail" and advised
-    assert check(belt(OVER, pitch=float(advised[1])), "teeth_in_mesh")["status"] == "pass"
+    advised = re.search(r"toothed_belt.pitch to at most (\d+(?:\.\d+)?) mm", told.message)
+    assert told.status == "fail" and advised
+    assert check(belt(OVER, pitch=float(advised[1])), "teeth_in_mesh").status == "pass"
 
 
 def test_the_figure_draws_the_cylinder_on_the_die_below() -> None:

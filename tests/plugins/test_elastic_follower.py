@@ -20,6 +20,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import motion_laws
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import CurveRecord
 from tests.examples import few
 from tests.machines import inputs, number
 from tests.mechanics.closed_follower import WAVES, after, response, undamped_cycloidal
@@ -89,10 +90,9 @@ def test_many_machines_are_those_that_scipy_integrates(law: str, seed: int) -> N
 
 
 @cache
-def spectrum() -> dict[str, Any]:
+def spectrum() -> dict[str, CurveRecord]:
     """The curves of the results."""
-    found: dict[str, Any] = mechanism_results(follower(), {}).curves
-    return found
+    return mechanism_results(follower(), {}).curves
 
 
 @pytest.mark.parametrize("part", few(range(3), keep=lambda part: part == 1))
@@ -100,10 +100,10 @@ def spectrum() -> dict[str, Any]:
 def test_the_spectrum_is_what_scipy_integrates(place: int, part: int) -> None:
     """Each law and damping at three places of the spectrum, in CI at one in its middle; a rise of 1 in 1 s."""
     curves, damping = spectrum(), (0, 0.02, 0.05, 0.1, 0.2)[place]
-    ratios = np.array(curves["tuning_ratio"]["values"])
+    ratios = np.array(curves["tuning_ratio"].values)
     assert (ratios[0], ratios[-1]) == (0.5, 10)
     for number_of, (law, known) in enumerate(LAWS.items()):
-        found = curves[f"peak_ratio_{law}_damping_{round(100 * damping):02}"]["values"]
+        found = curves[f"peak_ratio_{law}_damping_{round(100 * damping):02}"].values
         i = (number_of + 3, 20 + 5 * place, -1 - number_of)[part]
         omega = 2 * np.pi * ratios[i]
         parts = integrated(law_stretches(law, 1.0, 1.0), 1e-3, omega, damping, fine=400)
@@ -261,7 +261,7 @@ def test_the_recommended_law_is_that_of_the_least_peak(ratio: float, damping: fl
 def test_ratios_are_held_against_their_limits() -> None:
     calc = follower()
     peak, residual = number(calc, "peak_ratio"), number(calc, "residual_ratio")
-    found = {name: (check["demand"], check["limit"]) for name, check in checks(calc).items()}
+    found = {name: (check.demand, check.limit) for name, check in checks(calc).items()}
     assert (found["peak_ratio"], found["residual"]) == ((peak, 1.1), (residual, 0.2))
     for share, others, status, other_status in ((1.001, 0.999, "pass", "fail"), (0.999, 1.001, "fail", "pass")):
         allowed = {"allowable_peak_ratio": peak * share, "allowable_residual_ratio": residual * others}

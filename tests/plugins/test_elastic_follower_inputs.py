@@ -143,7 +143,7 @@ AT_NIGHT: list[tuple[dict[str, Any], dict[str, Any]]] = [  # other tests calcula
 def test_what_is_possible_is_calculated(tmp_path: Path, keys: dict[str, Any], changes: dict[str, Any]) -> None:
     outcome = pipeline.calc(config(tmp_path, keys, changes), Discovery([]), lambda _: None)[0]
     found = outcome.results.mechanisms["f"]
-    assert "error" not in found
+    assert not found.error
     assert 0.1 <= found.outputs["tuning_ratio"].value <= 50
     assert found.outputs["torque_peak"].unit == ("N" if "mass" in keys | changes else "N*m")
     assert found.curves["response"].unit == ("m" if "mass" in keys | changes else "rad")

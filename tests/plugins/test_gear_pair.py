@@ -115,7 +115,7 @@ def test_a_distance_of_65_asks_for_negative_shifts() -> None:
 def test_seventeen_teeth_are_the_last_that_are_undercut(teeth: int, least: float) -> None:
     calc = pair(teeth_1=teeth)
     assert number(calc, "shift_min_1") == pytest.approx(least, abs=5e-6)
-    assert checks(calc)["undercut"]["status"] == ("warn" if teeth == 17 else "pass")
+    assert checks(calc)["undercut"].status == ("warn" if teeth == 17 else "pass")
 
 
 # --- geometry and contact by other ways ------------------------------------------------------------------------------
@@ -241,12 +241,12 @@ def test_a_curve_counts_with_its_peak_and_bends_both_ways() -> None:
 
 
 def test_assumed_factors_are_named_and_given_ones_are_not() -> None:
-    assert checks(pair(HELICAL))["k_factors"]["status"] == "pass"
+    assert checks(pair(HELICAL))["k_factors"].status == "pass"
     assert number(pair(), "factors_assumed") == 4
     check = checks(pair(dynamic_factor=1.2))["k_factors"]
-    assert check["demand"] == 3
-    assert check["status"] == "warn"
-    assert "application_factor, face_load_factor and transverse_load_factor are assumed" in check["message"]
+    assert check.demand == 3
+    assert check.status == "warn"
+    assert "application_factor, face_load_factor and transverse_load_factor are assumed" in check.message
 
 
 # --- sizing ----------------------------------------------------------------------------------------------------------
@@ -261,14 +261,14 @@ def test_the_module_is_the_least_of_the_series_with_which_all_holds(keys: dict[s
     held = np.all([given_modules[name] >= required for name, required in SAFE.items()], axis=0)[:, 0]
     calc = pair(STEEL | keys)
     assert number(calc, "module") * 1e3 == pytest.approx(values[held].min(), rel=1e-12)
-    assert {checks(calc)[name]["status"] for name in STRENGTH} == {"pass"}
+    assert {checks(calc)[name].status for name in STRENGTH} == {"pass"}
 
 
 def test_the_modules_beside_the_chosen_one_are_shown() -> None:
     results = mechanism_results(pair(SIZED), {})
     found = next(item for section in results.sections for item in section.items if item.id == "module")
     assert number(pair(SIZED), "module") == pytest.approx(0.004)
-    assert "neighbours not taken: 3 mm, 5 mm" in found.method
+    assert "adjacent values not chosen: 3 mm, 5 mm" in found.method
 
 
 # --- bad input -------------------------------------------------------------------------------------------------------

@@ -18,6 +18,7 @@ from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.geneva_transport import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import CheckRecord
 from tests.configs import HEAD, problems, saved
 from tests.machines import inputs, number
 
@@ -223,7 +224,7 @@ def test_an_impossible_drive_is_refused_in_words(changes: dict[str, Any], key: s
     assert words in refused.value.message
 
 
-def checks(**changes: Any) -> dict[str, dict[str, Any]]:
+def checks(**changes: Any) -> dict[str, CheckRecord]:
     """The checks of a drive by their ids."""
     return {check.id: check for check in mechanism_results(geneva(**changes), {}).checks}
 
@@ -245,8 +246,8 @@ def checks(**changes: Any) -> dict[str, dict[str, Any]]:
 )
 def test_a_check_fails_in_words_that_tell_what_to_change(changes: dict[str, Any], name: str, words: str) -> None:
     found = checks(**changes)
-    assert found[name]["status"] == "fail"
-    assert words in found[name]["message"].replace("−", "-")
+    assert found[name].status == "fail"
+    assert words in found[name].message.replace("−", "-")
 
 
 def test_all_checks_pass_where_the_drive_is_sound() -> None:
@@ -269,8 +270,8 @@ def test_all_checks_pass_where_the_drive_is_sound() -> None:
         "sheet_play",
         "energy_balance",
     }
-    assert {name for name, check in found.items() if check["status"] != "pass"} == {"torque", "sheet_play", "grippers"}
-    assert {check["status"] for check in found.values()} == {"pass", "not_checked"}
+    assert {name for name, check in found.items() if check.status != "pass"} == {"torque", "sheet_play", "grippers"}
+    assert {check.status for check in found.values()} == {"pass", "not_checked"}
 
 
 def test_the_figures_are_drawn_even_where_nothing_holds_the_wheel() -> None:

@@ -12,6 +12,7 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.plugins.cam_gear_transport import MECHANISM as STEPPER
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import CheckRecord
 from tests.machines import inputs, number
 
 CHAIN = {"sprocket_teeth": 30, "chain_pitch": "19.05 mm"}
@@ -23,7 +24,7 @@ MACHINES = {
 }  # fmt: skip
 
 
-def gripped(mechanism: Mechanism, keys: dict[str, Any]) -> dict[str, Any]:
+def gripped(mechanism: Mechanism, keys: dict[str, Any]) -> CheckRecord:
     """The check of the grippers."""
     checks = mechanism_results(calculate(mechanism, inputs(mechanism, keys)), {}).checks
     return next(check for check in checks if check.id == "grippers")
@@ -41,9 +42,9 @@ def test_the_grippers_hold_the_sheets_inertia(rate: str) -> None:
 def test_the_rate_that_is_advised_is_the_greatest_that_the_grippers_hold(rate: str) -> None:
     mechanism, keys = MACHINES[rate]
     found = gripped(mechanism, keys | SHEET)
-    assert found["status"] == "fail"
-    told = re.search(rf"{rate} to at most ([\d.]+) (\S+)[,.]", found["message"])
+    assert found.status == "fail"
+    told = re.search(rf"{rate} to at most ([\d.]+) (\S+)[,.]", found.message)
     assert told
     for factor, status in ((1, "pass"), (1.002, "fail")):
         again = {rate: f"{float(told[1]) * factor} {told[2].replace('1/h', '1/h')}"}
-        assert gripped(mechanism, keys | SHEET | again)["status"] == status
+        assert gripped(mechanism, keys | SHEET | again).status == status

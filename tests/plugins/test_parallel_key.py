@@ -89,10 +89,10 @@ def test_two_keys_of_43_mm_press_as_the_public_code_says() -> None:
     keys = {"shaft_diameter": 30, "form": "A", "key_length": 43, "key_count": 2, "torque": 535.93, "application_factor": 1.75,
             "yield_shaft": 900, "yield_hub": 900, "yield_key": 900, "load_distribution_factor": 1}  # fmt: skip
     assert number(key(keys), "pressure_hub") == pytest.approx(396.985e6, rel=1e-6)
-    assert checks(key(keys | {"yield_hub": 264.7}))["pressure_hub"]["status"] == "pass"  # 396.985 MPa / 1.5
-    assert checks(key(keys | {"yield_hub": 264.6}))["pressure_hub"]["status"] == "fail"
-    assert checks(key(keys | {"yield_key": 360.9}))["pressure_key"]["status"] == "pass"  # 396.985 MPa / 1.1
-    assert checks(key(keys | {"yield_key": 360.8}))["pressure_key"]["status"] == "fail"
+    assert checks(key(keys | {"yield_hub": 264.7}))["pressure_hub"].status == "pass"  # 396.985 MPa / 1.5
+    assert checks(key(keys | {"yield_hub": 264.6}))["pressure_hub"].status == "fail"
+    assert checks(key(keys | {"yield_key": 360.9}))["pressure_key"].status == "pass"  # 396.985 MPa / 1.1
+    assert checks(key(keys | {"yield_key": 360.8}))["pressure_key"].status == "fail"
 
 
 # --- changes of flank ------------------------------------------------------------------------------------------------
@@ -111,9 +111,9 @@ def test_the_keys_of_the_press_by_method_b() -> None:
     assert number(crank, "direction_factor") == pytest.approx(0.290, abs=5e-4)
     assert number(crank, "allowed_key") / 1e6 == pytest.approx(107.0, abs=0.05)
     assert number(crank, "allowed_hub") / 1e6 == pytest.approx(161.2, abs=0.1)
-    assert checks(crank)["pressure_key"]["status"] == "fail"
+    assert checks(crank)["pressure_key"].status == "fail"
     gear = key(turning, shaft_diameter=55, key_length=70, **changes)
-    assert checks(gear)["pressure_key"]["status"] == "pass"
+    assert checks(gear)["pressure_key"].status == "pass"
 
 
 @pytest.mark.parametrize(("changed", "factor"), [(0, 1), (1024, 1), (1025, 0.99990), (1e5, 0.63246), (1e10, 0.2)])
@@ -216,8 +216,8 @@ def _holds(keys: dict[str, Any], length: float) -> bool:
 def test_a_curve_counts_with_its_greatest_size_and_no_factor() -> None:
     calc = key(TURNING)
     assert number(calc, "torque_equivalent") == pytest.approx(494.11) and bool(calc["reversing"][0, 0])
-    assert checks(calc)["two_keys"]["status"] == "warn"
-    assert checks(key(TURNING, load_direction_factor=0.9))["reversing"]["status"] == "pass"
+    assert checks(calc)["two_keys"].status == "warn"
+    assert checks(key(TURNING, load_direction_factor=0.9))["reversing"].status == "pass"
     assert "two_keys" not in checks(key(key_count=2))
 
 
@@ -241,15 +241,15 @@ def test_a_key_that_fails_is_told_the_length_that_holds() -> None:
     keys = KEY | {"key_length": 25}
     for name in ("pressure_hub", "pressure_key"):
         check = checks(key(keys, yield_hub=300))[name]
-        assert check["status"] == "fail" and "Set key_length to" in check["message"]
+        assert check.status == "fail" and "Set key_length to" in check.message
     told = number(key(keys, yield_hub=300), "required_key_length") * 1e3
     again = checks(key(keys, yield_hub=300, key_length=told))
-    assert {again[name]["status"] for name in STRENGTH} == {"pass"}
+    assert {again[name].status for name in STRENGTH} == {"pass"}
 
 
 def test_a_key_that_no_standard_length_saves_is_told_so() -> None:
     check = checks(key(torque=9000))["pressure_hub"]
-    assert check["status"] == "fail" and "a thicker shaft" in check["message"]
+    assert check.status == "fail" and "a thicker shaft" in check.message
     assert "required_key_length" not in key(torque=9000).values or np.isnan(
         key(torque=9000)["required_key_length"][0, 0]
     )
@@ -257,9 +257,9 @@ def test_a_key_that_no_standard_length_saves_is_told_so() -> None:
 
 def test_practice_is_watched() -> None:
     found = checks(key(key_length=95, hub_length=80))
-    assert [found[name]["status"] for name in ("length_ratio", "standard_length", "hub_length")] == ["warn"] * 3
-    assert checks(key(SIZED))["standard_length"]["status"] == "pass"
-    assert checks(key())["hub_length"]["status"] == "not_checked"
+    assert [found[name].status for name in ("length_ratio", "standard_length", "hub_length")] == ["warn"] * 3
+    assert checks(key(SIZED))["standard_length"].status == "pass"
+    assert checks(key())["hub_length"].status == "not_checked"
 
 
 @pytest.mark.parametrize(
@@ -297,7 +297,7 @@ def test_keys_out_of_their_range_are_refused(changes: dict[str, Any]) -> None:
 def test_a_reversal_that_nothing_counts_is_told_and_only_that(keys: dict[str, Any], left_out: int) -> None:
     calc = key(keys)
     assert number(calc, "reversal_left_out") == left_out
-    assert checks(calc)["reversing"]["status"] == ("warn" if left_out else "pass")
+    assert checks(calc)["reversing"].status == ("warn" if left_out else "pass")
 
 
 REGULAR = ("pressure_shaft", "pressure_hub", "pressure_key")
@@ -306,12 +306,12 @@ REGULAR = ("pressure_shaft", "pressure_hub", "pressure_key")
 def test_a_reversing_torque_without_a_life_gives_no_verdict_on_the_regular_pressures() -> None:
     """Judged as steady this key passes; so often as a press reverses it fails."""
     found = checks(key(TURNING, key_count=1))
-    assert {found[name]["status"] for name in REGULAR} == {"not_checked"}
-    assert all(found[name]["missing"] == ["required_life", "cycle_speed"] for name in REGULAR)
-    assert found["pressure_peak"]["status"] == found["shear"]["status"] == "pass"  # no factor of reversals is in them
-    assert {checks(key(TURNING | LIFE, key_count=1))[name]["status"] for name in REGULAR} >= {"fail"}
+    assert {found[name].status for name in REGULAR} == {"not_checked"}
+    assert all(found[name].missing == ["required_life", "cycle_speed"] for name in REGULAR)
+    assert found["pressure_peak"].status == found["shear"].status == "pass"  # no factor of reversals is in them
+    assert {checks(key(TURNING | LIFE, key_count=1))[name].status for name in REGULAR} >= {"fail"}
     steady = checks(key(TURNING | {"torque_curve": [494.11, 130, 20, 50]}, key_count=1))
-    assert {steady[name]["status"] for name in REGULAR} == {"pass"}
+    assert {steady[name].status for name in REGULAR} == {"pass"}
 
 
 def test_what_is_printed_of_a_reversing_torque_without_a_life_is_on_the_safe_side() -> None:
@@ -326,4 +326,4 @@ def test_what_is_printed_of_a_reversing_torque_without_a_life_is_on_the_safe_sid
 )
 def test_each_way_to_tell_the_reversals_makes_the_verdict(more: dict[str, Any]) -> None:
     found = checks(key(TURNING | more))
-    assert {found[name]["status"] for name in REGULAR} <= {"pass", "fail"}
+    assert {found[name].status for name in REGULAR} <= {"pass", "fail"}

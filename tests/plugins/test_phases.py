@@ -17,6 +17,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.plugins.knife_drive import MECHANISM as KNIFE_DRIVE
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import AbsentPhaseRecord, ShownIntervalRecord
 from tests.machines import cylinder, drive, inputs, number
 from tests.plugins import steppers
 from tests.plugins.cases import FULL
@@ -215,9 +216,9 @@ def test_a_phase_whose_inputs_are_missing_is_listed_with_the_missing_key() -> No
 
 def test_a_board_as_thick_as_the_segment_is_always_touched_and_has_no_contact_phase() -> None:
     found = mechanism_results(press_drive(material_thickness="40 mm", carriage_clearance=None), {})
-    assert found.phases_absent["contact"] == {
-        "description": "Contact of cylinder and board", "missing": [], "text": "does not apply to this machine",
-    }  # fmt: skip
+    assert found.phases_absent["contact"] == AbsentPhaseRecord(
+        description="Contact of cylinder and board", missing=[], text="does not apply to this machine"
+    )
 
 
 def test_a_stroke_that_cuts_all_the_way_is_one_interval_of_the_whole_turn() -> None:
@@ -234,7 +235,7 @@ def test_the_results_hold_intervals_in_si_and_as_they_are_printed() -> None:
     )
     assert phase.intervals[0] == pytest.approx(np.radians([55.8619, 157.0511]), abs=1e-6)
     told = phase.display.intervals[0]
-    assert told == {"from": "55.86", "to": "157.05", "length": "101.19", "time": "337.3"}
+    assert told == ShownIntervalRecord(begin="55.86", to="157.05", length="101.19", time="337.3")
 
 
 # --- the other kinds -----------------------------------------------------------------------------------------------------
@@ -308,4 +309,4 @@ def test_a_link_that_is_not_followed_until_it_rests_tells_no_rest() -> None:
         follower(cycles_per_hour="1800 1/h", rise_time="0.1", rest_tolerance="0.001 deg", dwell_cycles=2), {}
     )
     assert set(found.phases) == {"moving"}
-    assert mechanism_results(follower(), {}).phases_absent.moving["missing"] == ["cycles_per_hour"]
+    assert mechanism_results(follower(), {}).phases_absent["moving"].missing == ["cycles_per_hour"]

@@ -2,14 +2,13 @@
 
 from __future__ import annotations
 
-from typing import Any
-
 import pytest
 import yaml
 
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.results.document import document
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import compute
 from tests.configs import EXAMPLES, saved
 
@@ -19,49 +18,46 @@ LOADED = ("cylinder", "drive", *PINS)  # the pins, and what their forces come fr
 GIVEN = "diameter: {value: 32 mm, basis: assumed}"
 
 
-def press(tmp_path_factory: pytest.TempPathFactory, diameter: str, *only: str) -> dict[str, Any]:
+def press(tmp_path_factory: pytest.TempPathFactory, diameter: str, *only: str) -> ResultsRecord:
     """The press with pins of one diameter, or some mechanisms of it."""
     assert ELEMENTS.count(GIVEN) == len(PINS)
     data = yaml.safe_load(ELEMENTS.replace(GIVEN, diameter))
     data["mechanisms"] = {name: data["mechanisms"][name] for name in only or data["mechanisms"]}
     file = saved(tmp_path_factory.mktemp("pins"), yaml.safe_dump(data, sort_keys=False))
-    found: dict[str, Any] = document(compute(load_config(file, Discovery([])), lambda _: None))
-    return found
+    return document(compute(load_config(file, Discovery([])), lambda _: None))
 
 
 @pytest.fixture(scope="module")
-def thin(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+def thin(tmp_path_factory: pytest.TempPathFactory) -> ResultsRecord:
     return press(tmp_path_factory, "diameter: 5 mm")
 
 
-def failed(results: dict[str, Any], name: str) -> dict[str, str]:
+def failed(results: ResultsRecord, name: str) -> dict[str, str]:
     """The messages of the checks that fail."""
-    return {
-        check["id"]: check["message"] for check in results["mechanisms"][name]["checks"] if check["status"] == "fail"
-    }
+    return {check.id: check.message for check in results.mechanisms[name].checks if check.status == "fail"}
 
 
-def test_a_press_with_pins_of_five_millimetres_fails_for_its_pins(thin: dict[str, Any]) -> None:
+def test_a_press_with_pins_of_five_millimetres_fails_for_its_pins(thin: ResultsRecord) -> None:
     elements = {
-        name: data["status"]
-        for name, data in thin["mechanisms"].items()
-        if data["kind"] in ("shaft", "gear_pair", "parallel_key")
+        name: data.status
+        for name, data in thin.mechanisms.items()
+        if data.kind in ("shaft", "gear_pair", "parallel_key")
     }
     faults = {name for name, status in elements.items() if status == "fail"}
     assert faults == {*PINS, "crank_key"}  # the published press's own key fails by its reversals
     assert all(set(failed(thin, name)) == {"fatigue", "yield"} for name in PINS)
-    assert thin["status"] == "fail"
+    assert thin.status == "fail"
 
 
 @pytest.mark.parametrize("name", PINS)
-def test_the_stress_of_a_pin_is_that_of_a_beam_in_the_middle(thin: dict[str, Any], name: str) -> None:
+def test_the_stress_of_a_pin_is_that_of_a_beam_in_the_middle(thin: ResultsRecord, name: str) -> None:
     force = 9994.35  # N, the greatest of the coupler, as the method's worked example has it
     expected = force * 60e-3 / 4 * 32 / (3.141592653589793 * 5e-3**3)  # F l/4 over π d³/32
-    assert thin["mechanisms"][name]["outputs"]["von_mises_max"]["value"] == pytest.approx(expected, rel=1e-5)
+    assert thin.mechanisms[name].outputs["von_mises_max"].value == pytest.approx(expected, rel=1e-5)
 
 
 def test_pins_that_have_grown_as_the_report_says_hold(
-    thin: dict[str, Any], tmp_path_factory: pytest.TempPathFactory
+    thin: ResultsRecord, tmp_path_factory: pytest.TempPathFactory
 ) -> None:
     words = [message for name in PINS for message in failed(thin, name).values()]
     growth = max(float(message.split("fillet radii ")[1].split(" times")[0]) for message in words)
@@ -71,5 +67,5 @@ def test_pins_that_have_grown_as_the_report_says_hold(
 
 def test_pins_without_a_diameter_get_the_least_that_holds(tmp_path_factory: pytest.TempPathFactory) -> None:
     sized = press(tmp_path_factory, "bore: 0 mm", *LOADED)
-    sizes = [sized["mechanisms"][name]["outputs"]["section_diameter.0"]["value"] for name in PINS]
+    sizes = [sized.mechanisms[name].outputs["section_diameter.0"].value for name in PINS]
     assert all(not failed(sized, name) for name in PINS) and all(0.015 < size < 0.032 for size in sizes)

@@ -18,6 +18,7 @@ from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.machine.calculation import Calculation
 from diecut_report.results.mechanism import mechanism_results
+from diecut_report.results.model import FigureRecord, ShownRecord
 from tests.configs import EXAMPLES
 from tests.examples import examples
 from tests.machines import number
@@ -121,11 +122,11 @@ def brute_torque(before: float, share: float = 1.0, mass: float = MASS) -> float
 def test_an_inertia_force_above_the_cutting_force_is_told_and_friction_stays_a_resistance() -> None:
     calc = platen(platen_mass=2e6)
     inertia = number(calc, "inertia_dead_center")
-    assert inertia > FORCE and checks(calc)["inertia"]["status"] == "fail"
+    assert inertia > FORCE and checks(calc)["inertia"].status == "fail"
     assert number(calc, "torque_dead_center") == pytest.approx(
         (inertia - FORCE) * number(calc, "friction_arm"), rel=1e-12
     )
-    assert checks(platen())["inertia"]["status"] == "pass"
+    assert checks(platen())["inertia"].status == "pass"
 
 
 def test_a_greatest_torque_at_the_dead_centre_lies_no_turn_before_it() -> None:
@@ -224,7 +225,7 @@ def test_any_machine_keeps_energy_and_its_least_return_arm_is_that_of_the_whole_
     )  # distance of the rods' line from the shaft
     least = (number(calc, "friction_arm") - passes).min()
     assert number(calc, "return_arm_min") == pytest.approx(least, abs=1e-9)
-    found = checks(calc)["torque_sign"]["status"]
+    found = checks(calc)["torque_sign"].status
     assert found == ("pass" if least > 1e-12 else "fail")
 
 
@@ -253,7 +254,7 @@ def test_pins_share_the_force_and_are_checked() -> None:
     assert number(calc, "crank_pin_pressure") == pytest.approx(250e3 / (0.095 * 0.11), rel=1e-12)
     assert number(calc, "journal_pressure") == pytest.approx(250e3 / (0.1005 * 0.12), rel=1e-12)
     assert number(calc, "platen_pin_pressure") == pytest.approx(250e3 / (0.12 * 0.09), rel=1e-12)
-    found = {name: check["status"] for name, check in checks(calc).items() if name.startswith("contact_stress")}
+    found = {name: check.status for name, check in checks(calc).items() if name.startswith("contact_stress")}
     assert found == {
         "contact_stress_journal": "pass",
         "contact_stress_crank_pin": "fail",
@@ -262,20 +263,19 @@ def test_pins_share_the_force_and_are_checked() -> None:
 
 
 def test_the_torque_is_held_against_what_is_allowed() -> None:
-    assert checks(platen(allowable_torque=6500))["torque_max"]["status"] == "pass"
-    assert checks(platen(allowable_torque=6300))["torque_max"]["status"] == "fail"
-    assert checks(platen())["torque_max"]["missing"] == ["allowable_torque"]
+    assert checks(platen(allowable_torque=6500))["torque_max"].status == "pass"
+    assert checks(platen(allowable_torque=6300))["torque_max"].status == "fail"
+    assert checks(platen())["torque_max"].missing == ["allowable_torque"]
 
 
-def figure(calc: Calculation, name: str) -> dict[str, Any]:
+def figure(calc: Calculation, name: str) -> FigureRecord:
     """A figure of the results."""
-    found: dict[str, Any] = next(f for f in mechanism_results(calc, {}).figures if f.id == name)
-    return found
+    return next(f for f in mechanism_results(calc, {}).figures if f.id == name)
 
 
 def test_the_printed_torque_stands_in_the_figure_of_the_sources_machine_alone() -> None:
     levels = [
-        [level["label"] for level in figure(platen(**change), "source")["panels"][0]["levels"]]
+        [level["label"] for level in figure(platen(**change), "source").panels[0]["levels"]]
         for change in ({}, {"platen_mass": 300})
     ]
     assert levels == [["printed"], []]
@@ -283,20 +283,20 @@ def test_the_printed_torque_stands_in_the_figure_of_the_sources_machine_alone() 
 
 def test_the_figure_of_forces_adds_the_friction_of_the_guides_against_the_motion() -> None:
     calc = platen(**GUIDED)
-    lines = figure(calc, "forces")["panels"][0]["lines"]
+    lines = figure(calc, "forces").panels[0]["lines"]
     phi = np.array(lines[0]["x"])
     added = np.array(lines[1]["y"]) - np.array(lines[0]["y"])
     press = 2 * 0.1 * np.abs(at(calc, "force", phi) * 0.005 - MASS * 9.80665 * 0.02) / 0.4
     stands = (phi >= 0) & (phi < number(calc, "dwell_end_angle"))
     keep = np.abs(phi - number(calc, "dwell_end_angle")) > 1e-3
     np.testing.assert_allclose(added[keep], np.where(stands, 0, -np.sign(phi) * press)[keep], atol=1e-6)
-    assert len(figure(platen(), "forces")["panels"][0]["lines"]) == 1
+    assert len(figure(platen(), "forces").panels[0]["lines"]) == 1
 
 
 def test_no_peak_is_marked_where_it_lies_outside_the_cut() -> None:
-    panels = [figure(platen(platen_mass=m), name)["panels"][-1] for m in (306, 2e8) for name in ("source", "cutting")]
+    panels = [figure(platen(platen_mass=m), name).panels[-1] for m in (306, 2e8) for name in ("source", "cutting")]
     assert [[mark["label"] for mark in panel.get("marks", [])] for panel in panels] == [
-        ["corrected", "eq. 14"], ["greatest"], [], []]  # fmt: skip
+        ["corrected", "eq. 14"], ["maximum"], [], []]  # fmt: skip
 
 
 def test_all_figures_are_drawn_for_a_machine_of_other_proportions() -> None:
@@ -306,7 +306,7 @@ def test_all_figures_are_drawn_for_a_machine_of_other_proportions() -> None:
 
 
 def test_the_figure_over_the_thickness_has_the_peaks_of_single_machines() -> None:
-    lines = figure(platen(), "thickness")["panels"][0]["lines"]
+    lines = figure(platen(), "thickness").panels[0]["lines"]
     for i in (0, 40, 92):
         single = platen(material_thickness=lines[0]["x"][i] * 1e3)
         assert lines[0]["y"][i] == pytest.approx(number(single, "torque_max"), rel=1e-9)
@@ -325,14 +325,14 @@ def test_the_example_is_the_sources_machine() -> None:
 
 
 def test_a_number_half_way_between_two_is_rounded_alike_as_a_result_and_within_a_formula() -> None:
-    steps = {item.id: item for part in mechanism_results(platen(), {}).sections for item in part.items if "id" in item}
-    assert steps["standing_distance"].result == {"text": "525.5", "unit": "mm"}
+    steps = {item.id: item for part in mechanism_results(platen(), {}).sections for item in part.items if item.id}
+    assert steps["standing_distance"].outcome.data() == {"text": "525.5", "unit": "mm"}
     assert "'525.4'" not in str(steps["stretched_length"])
 
 
 def test_a_margin_has_no_zeros_behind_what_its_sides_show() -> None:
     journal = checks(platen(journal_length="120 mm", allowable_pin_pressure=30))["contact_stress_journal"]
-    assert journal["margin_display"] == {"text": "9.27", "unit": "MPa"}
+    assert journal.margin_display == ShownRecord(text="9.27", unit="MPa")
 
 
 # --- crank, rods and pins as elements ----------------------------------------------------------------------------------
@@ -358,5 +358,5 @@ def test_rods_are_judged_by_their_least_section() -> None:
     calc = platen(rod_net_area=3000, allowable_rod_stress=80)
     assert number(calc, "rod_stress") == pytest.approx(5e5 / (2 * 3e-3), rel=1e-12)
     failed = checks(calc)["rod_stress"]
-    assert failed["status"] == "fail" and "rod_net_area to at least 3125 mm²" in failed["message"]
-    assert checks(platen(rod_net_area=3125, allowable_rod_stress=80))["rod_stress"]["status"] == "pass"
+    assert failed.status == "fail" and "rod_net_area to at least 3125 mm²" in failed.message
+    assert checks(platen(rod_net_area=3125, allowable_rod_stress=80))["rod_stress"].status == "pass"

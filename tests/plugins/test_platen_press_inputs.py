@@ -47,7 +47,7 @@ def test_a_list_of_frictions_may_hold_references_and_be_referred_to(tmp_path: Pa
     assert [found[name].outputs["friction_arm"].value for name in "acd"] == [expected] * 3
     of_a = found["a"].inputs
     assert (
-        of_a["friction_crank_pin"] | {"origin": "reference", "path": "b.friction", "text": "${b.friction}"}
+        of_a["friction_crank_pin"].with_(origin="reference", path="b.friction", text="${b.friction}")
         == of_a["friction_crank_pin"]
     )
     assert (of_a["friction_guide"].origin, of_a["friction_guide"].text) == ("given", "0.1")

@@ -24,8 +24,8 @@ SET = re.compile(r"[Ss]et (\w+) to (?:at least |between )?(\d+(?:\.\d+)?)")
 def told(keys: dict[str, Any], check: str) -> str:
     """What a check that does not hold says."""
     found = checks(chain(keys))[check]
-    assert found["status"] in ("fail", "warn"), found
-    return str(found["message"])
+    assert found.status in ("fail", "warn"), found
+    return str(found.message)
 
 
 @pytest.mark.parametrize(
@@ -47,12 +47,12 @@ def told(keys: dict[str, Any], check: str) -> str:
     ],
 )
 def test_a_check_says_what_does_not_hold(keys: dict[str, Any], check: str, status: str) -> None:
-    assert checks(chain(keys))[check]["status"] == status
+    assert checks(chain(keys))[check].status == status
 
 
 def test_the_grippers_of_the_method_pass_all_but_the_slack_side() -> None:
     found = checks(chain(GRIPPERS))
-    assert {name for name, check in found.items() if check["status"] not in ("pass", "not_checked")} == {"slack_side"}
+    assert {name for name, check in found.items() if check.status not in ("pass", "not_checked")} == {"slack_side"}
 
 
 @pytest.mark.parametrize(("check", "torque", "safety"), [("safety_static", 285.0, 7), ("safety_dynamic", 285.0, 6)])
@@ -61,8 +61,8 @@ def test_the_safeties_that_are_required_without_a_key_are_those_of_published_gui
 ) -> None:
     """iwis takes a seventh of the breaking load by rule of thumb, Diamond Chain a sixth as the greatest working load."""
     made = checks(chain(DRIVE | {"torque": torque}))[check]
-    assert made["demand"] == safety
-    assert made["source"] in {source.id for source in MECHANISM.sources}
+    assert made.demand == safety
+    assert made.source in {source.id for source in MECHANISM.sources}
 
 
 def test_checks_of_the_other_use_are_left_out() -> None:
@@ -87,7 +87,7 @@ def test_a_key_that_is_set_as_advised_passes(keys: dict[str, Any], check: str) -
     found = SET.search(told(keys, check))
     assert found is not None
     key, value = found.groups()
-    assert checks(chain(keys, **{key: float(value)}))[check]["status"] == "pass"
+    assert checks(chain(keys, **{key: float(value)}))[check].status == "pass"
 
 
 # --- what is refused -------------------------------------------------------------------------------------------------

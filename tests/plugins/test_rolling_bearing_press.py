@@ -75,27 +75,27 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
 )  # fmt: skip
 def test_the_bearings_of_the_press_have_the_numbers_of_the_method(results: Any, name: str, expected: float) -> None:
     """The method samples a turn at 720 places; both limits at the jumps of the drive's forces add up to 0.3 %."""
-    assert results["mechanisms"]["bearings"]["outputs"][name]["value"] == pytest.approx(expected, rel=3e-3)
+    assert results.mechanisms["bearings"].outputs[name].value == pytest.approx(expected, rel=3e-3)
 
 
 def test_only_the_joint_that_swings_is_warned_of(results: Any) -> None:
-    found = {check["id"]: check for check in results["mechanisms"]["bearings"]["checks"]}
-    assert [name for name, check in found.items() if check["status"] not in ("pass", "not_checked")] == [
+    found = {check.id: check for check in results.mechanisms["bearings"].checks}
+    assert [name for name, check in found.items() if check.status not in ("pass", "not_checked")] == [
         "rocker_pin_oscillation"
     ]
-    assert "fretting" in found["rocker_pin_oscillation"]["message"]
+    assert "fretting" in found["rocker_pin_oscillation"].message
     assert {"main_a_life", "main_a_static", "main_a_min_load", "main_a_load_level", "rocker_pin_dwell"} <= set(found)
     assert "main_a_oscillation" not in found
 
 
 def test_each_bearing_has_its_curves(results: Any) -> None:
-    curves = results["mechanisms"]["bearings"]["curves"]
+    curves = results.mechanisms["bearings"].curves
     for name in ("main_a", "main_b", "crank_pin", "rocker_pin"):
         assert {f"{name}_load", f"{name}_speed"} <= set(curves)
-    reaction = results["mechanisms"]["crankshaft"]["curves"]["reaction_b"]
-    np.testing.assert_allclose(curves["main_b_load"]["values"], reaction["values"], rtol=1e-9)
-    swing = np.array(results["mechanisms"]["drive"]["curves"]["transmission_angle"]["values"])
-    turned = np.cumsum(curves["rocker_pin_speed"]["values"]) * 2 * np.pi / 360 / (50 * 2 * np.pi / 60)
+    reaction = results.mechanisms["crankshaft"].curves["reaction_b"]
+    np.testing.assert_allclose(curves["main_b_load"].values, reaction.values, rtol=1e-9)
+    swing = np.array(results.mechanisms["drive"].curves["transmission_angle"].values)
+    turned = np.cumsum(curves["rocker_pin_speed"].values) * 2 * np.pi / 360 / (50 * 2 * np.pi / 60)
     np.testing.assert_allclose(np.ptp(turned), np.ptp(swing), rtol=1e-3)
 
 
@@ -185,10 +185,10 @@ def test_keys_that_do_not_fit_together_are_told(text: str, words: str, tmp_path:
 def test_a_small_swing_is_told_that_a_rating_life_does_not_apply() -> None:
     calc = one(SWINGING, relative_angle=Over(lambda phi: np.radians(9.9) * np.sin(phi)))
     found = checks(calc)
-    assert found["swinging_dwell"]["status"] == found["swinging_oscillation"]["status"] == "warn"
-    assert "does not apply" in found["swinging_dwell"]["message"]
+    assert found["swinging_dwell"].status == found["swinging_oscillation"].status == "warn"
+    assert "does not apply" in found["swinging_dwell"].message
     wide = checks(one(SWINGING, relative_angle=Over(lambda phi: np.radians(40) * np.sin(phi))))
-    assert wide["swinging_dwell"]["status"] == wide["swinging_oscillation"]["status"] == "pass"
+    assert wide["swinging_dwell"].status == wide["swinging_oscillation"].status == "pass"
 
 
 @pytest.mark.parametrize(
@@ -211,26 +211,26 @@ def test_an_angle_that_goes_on_turns_and_does_not_swing() -> None:
 
 def test_a_bearing_that_bears_too_little_or_too_much_is_warned_of() -> None:
     light, heavy = checks(one(ROLLER, radial_force=1500)), checks(one(ROLLER, radial_force=42000))
-    assert light["roller_min_load"]["status"] == "warn" and heavy["roller_min_load"]["status"] == "pass"
-    assert light["roller_load_level"]["status"] == "pass" and heavy["roller_load_level"]["status"] == "warn"
-    assert checks(one(ROLLER, radial_force=52000))["roller_static"]["status"] == "fail"
-    assert checks(one(BALL, axial_force=12000, radial_force=1000))["ball_axial"]["status"] == "warn"
+    assert light["roller_min_load"].status == "warn" and heavy["roller_min_load"].status == "pass"
+    assert light["roller_load_level"].status == "pass" and heavy["roller_load_level"].status == "warn"
+    assert checks(one(ROLLER, radial_force=52000))["roller_static"].status == "fail"
+    assert checks(one(BALL, axial_force=12000, radial_force=1000))["ball_axial"].status == "warn"
 
 
 def test_speeds_are_held_against_the_makers_limit_where_it_is_known() -> None:
     found = checks(bearings(BALL, ANGULAR | {"speed": 9500}, ROLLER))
-    assert {name: found[f"{name}_speed"]["status"] for name in ("ball", "angular", "roller")} == {
+    assert {name: found[f"{name}_speed"].status for name in ("ball", "angular", "roller")} == {
         "ball": "not_checked", "angular": "warn", "roller": "not_checked",
     }  # fmt: skip
 
 
 def test_a_bearing_whose_tilt_is_not_given_is_not_checked_though_others_hold() -> None:
     found = checks(bearings(BALL | {"tilt": 0.5}, ROLLER, ANGULAR | {"tilt": 0.6}))
-    assert {name: found[f"{name}_tilt"]["status"] for name in ("ball", "roller", "angular")} == {
+    assert {name: found[f"{name}_tilt"].status for name in ("ball", "roller", "angular")} == {
         "ball": "pass", "roller": "not_checked", "angular": "warn",
     }  # fmt: skip
     unknown = found["roller_tilt"]
-    assert unknown["missing"] == ["bearings.tilt"] and "0.29 mrad" in str(unknown["message"])
+    assert unknown.missing == ["bearings.tilt"] and "0.29 mrad" in str(unknown.message)
 
 
 @pytest.mark.parametrize(
@@ -242,5 +242,5 @@ def test_of_rollers_those_are_allowed_the_tilt_of_cylindrical_ones_that_are_know
 ) -> None:
     """By the makers: 3′ of N and NU, 2′ of NUP, 1′ of needles; what it is is known by the designation alone."""
     found = checks(one(ROLLER | ({"designation": designation} if designation else {}), tilt=0.28))["roller_tilt"]
-    assert found["limit"] * 1e3 == pytest.approx(permitted) and found["status"] == "pass"
-    assert checks(one(ROLLER, tilt=0.59))["roller_tilt"]["status"] == "fail"  # beyond twice what is permitted
+    assert found.limit * 1e3 == pytest.approx(permitted) and found.status == "pass"
+    assert checks(one(ROLLER, tilt=0.59))["roller_tilt"].status == "fail"  # beyond twice what is permitted

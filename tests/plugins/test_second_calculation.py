@@ -9,6 +9,7 @@ import pytest
 
 from diecut_report.formulas import Array
 from diecut_report.results.document import document
+from diecut_report.results.model import MechanismRecord
 from diecut_report.results.press_run import compute
 from tests.configs import loaded
 
@@ -86,21 +87,20 @@ TURN = 2 * np.pi
 
 
 @pytest.fixture(scope="module")
-def press(tmp_path_factory: pytest.TempPathFactory) -> dict[str, Any]:
+def press(tmp_path_factory: pytest.TempPathFactory) -> dict[str, MechanismRecord]:
     results = document(compute(loaded(tmp_path_factory.mktemp("another"), PRESS), lambda _: None))
     assert all(each.status != "error" for each in results.mechanisms.values()), results
-    mechanisms: dict[str, Any] = results.mechanisms
-    return mechanisms
+    return results.mechanisms
 
 
-def out(press: dict[str, Any], name: str) -> float:
+def out(press: dict[str, MechanismRecord], name: str) -> float:
     home, _, own = name.partition(".")
-    return float(press[home]["outputs"][own]["value"])
+    return float(press[home].outputs[own].value)
 
 
-def given(press: dict[str, Any], name: str) -> float:
+def given(press: dict[str, MechanismRecord], name: str) -> float:
     home, _, own = name.partition(".")
-    return float(press[home]["inputs"][own]["value"])
+    return float(press[home].inputs[own].value)
 
 
 # --- the linkage, from nothing but its lengths --------------------------------------------------------------------------------
@@ -175,7 +175,7 @@ def best_slack(inner: list[tuple[float, float]], moving: Any, shifts: Array, mov
     return np.asarray(least)
 
 
-def test_the_automatic_offset_and_its_slack_are_those_of_trying_all(press: dict[str, Any]) -> None:
+def test_the_automatic_offset_and_its_slack_are_those_of_trying_all(press: dict[str, MechanismRecord]) -> None:
     radius = out(press, "cylinder.radius")
     half = np.pi / 2 - np.pi / SLOTS
     shifts = np.linspace(0, TURN, 72_001)
@@ -193,7 +193,7 @@ def test_the_automatic_offset_and_its_slack_are_those_of_trying_all(press: dict[
     assert out(press, "timing.line_offset.1") == pytest.approx(shifts[best], abs=3e-4)
 
 
-def passing(press: dict[str, Any]) -> tuple[float, float]:
+def passing(press: dict[str, MechanismRecord]) -> tuple[float, float]:
     """Crank angles of the cross between which the sheet goes from 150 to 370 mm of its step, by the cross's closed form."""
     phi = np.linspace(-(np.pi / 2 - np.pi / SLOTS), np.pi / 2 - np.pi / SLOTS, 400_001)
     ratio = np.sin(np.pi / SLOTS)
@@ -204,7 +204,7 @@ def passing(press: dict[str, Any]) -> tuple[float, float]:
     return float(np.interp(0.150, way, phi)), float(np.interp(0.370, way, phi))
 
 
-def test_the_torques_add_up_on_the_main_shaft(press: dict[str, Any]) -> None:
+def test_the_torques_add_up_on_the_main_shaft(press: dict[str, MechanismRecord]) -> None:
     """Of each line's own curve, with the losses of its way by the sense of the power."""
     grid = (np.arange(20_000) + 0.5) / 20_000 * 2 * TURN
     total = np.zeros_like(grid)
@@ -212,7 +212,7 @@ def test_the_torques_add_up_on_the_main_shaft(press: dict[str, Any]) -> None:
         ("drive", "crank_torque", 0.5, 0.96, 0.0),
         ("cross", "torque", 1.0, 0.94, out(press, "timing.line_offset.1")),
     ):
-        angle, torque = (np.array(press[name]["curves"][key]["values"]) for key in ("crank_angle", curve))
+        angle, torque = (np.array(press[name].curves[key].values) for key in ("crank_angle", curve))
         own = np.interp(np.mod((grid - offset) * turns - angle[0], TURN) + angle[0], angle, torque)
         total += turns * own * efficiency ** -np.sign(own)
     assert out(press, "timing.torque_mean") == pytest.approx(total.mean(), rel=5e-3)
@@ -221,7 +221,7 @@ def test_the_torques_add_up_on_the_main_shaft(press: dict[str, Any]) -> None:
     assert out(press, "timing.energy_fluctuation") == pytest.approx(np.ptp(excess), rel=5e-3)
 
 
-def test_the_inertia_of_equal_heat_is_that_of_stepping_through_the_slip(press: dict[str, Any]) -> None:
+def test_the_inertia_of_equal_heat_is_that_of_stepping_through_the_slip(press: dict[str, MechanismRecord]) -> None:
     phi = np.linspace(0, 2 * TURN, 80_001)
     theta = rotation(phi)
     mass, inertia, unbalance = (out(press, f"cylinder.{name}") for name in ("mass", "inertia", "static_unbalance"))
@@ -249,10 +249,10 @@ def heat(phi: Array, reduced: Array, start: int, torque: float, speed: float) ->
     return torque * (speed * time - float(way[end]))
 
 
-def test_the_motor_is_loaded_as_its_harmonics_are_damped(press: dict[str, Any]) -> None:
-    curve = press["train"]["curves"]["flywheel_torque"]
-    angle = np.array(press["train"]["curves"]["output_angle"]["values"])
-    load = np.array(curve["values"])
+def test_the_motor_is_loaded_as_its_harmonics_are_damped(press: dict[str, MechanismRecord]) -> None:
+    curve = press["train"].curves["flywheel_torque"]
+    angle = np.array(press["train"].curves["output_angle"].values)
+    load = np.array(curve.values)
     even = np.arange(8192) / 8192 * (angle[-1] - angle[0]) + angle[0]
     spectrum = np.fft.rfft(np.interp(even, angle, load))
     k = given(press, "press_consistency.motor_rated_torque") / (
@@ -267,11 +267,11 @@ def test_the_motor_is_loaded_as_its_harmonics_are_damped(press: dict[str, Any]) 
     assert out(press, "press_consistency.motor_torque_max") == pytest.approx(motor.max(), rel=5e-3)
 
 
-def test_the_lives_of_both_pins_are_those_of_dense_sums(press: dict[str, Any]) -> None:
+def test_the_lives_of_both_pins_are_those_of_dense_sums(press: dict[str, MechanismRecord]) -> None:
     """Dynamic rating 48.9 kN, exponent 10/3; the rocker's pin counts by the way of its angle."""
-    curves = press["drive"]["curves"]
+    curves = press["drive"].curves
     phi, force, angle = (
-        np.array(curves[name]["values"]) for name in ("crank_angle", "coupler_force", "transmission_angle")
+        np.array(curves[name].values) for name in ("crank_angle", "coupler_force", "transmission_angle")
     )
     middle = np.abs(force[1:] + force[:-1]) / 2
     for name, weight, turns in (

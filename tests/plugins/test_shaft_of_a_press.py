@@ -10,6 +10,7 @@ import pytest
 
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.results.document import document
+from diecut_report.results.model import ShownRecord
 from diecut_report.results.press_run import compute
 from tests.configs import HEAD, loaded, problems
 
@@ -71,8 +72,8 @@ def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
 
 def value(results: Any, name: str) -> float:
     """A number of the crankshaft."""
-    own = results["mechanisms"]["crankshaft"]
-    return float((own["outputs"] | own["values"])[name]["value"])
+    own = results.mechanisms["crankshaft"]
+    return float((own.outputs | own.values)[name].value)
 
 
 @pytest.mark.parametrize(
@@ -98,30 +99,28 @@ def test_the_crankshaft_of_the_press_has_the_numbers_of_the_method(results: Any,
 
 
 def test_the_shoulder_beside_the_crank_governs(results: Any) -> None:
-    own = results["mechanisms"]["crankshaft"]
-    assert own["outputs"]["fatigue_place"]["value"] == "shoulder 3"
-    fatigue = next(check for check in own["checks"] if check["id"] == "fatigue")
-    assert "at shoulder 3" in fatigue["message"]
-    assert fatigue["part_name"] == "shoulder 3"
-    assert [part["name"] for part in fatigue["parts"]][:2] == ["shoulder 1", "shoulder 2"]
+    own = results.mechanisms["crankshaft"]
+    assert own.outputs["fatigue_place"].value == "shoulder 3"
+    fatigue = next(check for check in own.checks if check.id == "fatigue")
+    assert "at shoulder 3" in fatigue.message
+    assert fatigue.part_name == "shoulder 3"
+    assert [part.name for part in fatigue.parts][:2] == ["shoulder 1", "shoulder 2"]
 
 
 def test_reactions_are_curves_that_others_may_refer_to(results: Any) -> None:
-    curve = results["mechanisms"]["crankshaft"]["curves"]["reaction_b"]
-    assert curve["abscissa"] == "cycle_angle"
-    assert len(curve["values"]) == 360
-    assert max([*curve["values"], *curve["left"], *curve["right"]]) == pytest.approx(
-        value(results, "reaction_b_max"), rel=1e-3
-    )
+    curve = results.mechanisms["crankshaft"].curves["reaction_b"]
+    assert curve.abscissa == "cycle_angle"
+    assert len(curve.values) == 360
+    assert max([*curve.values, *curve.left, *curve.right]) == pytest.approx(value(results, "reaction_b_max"), rel=1e-3)
 
 
 def test_what_varies_is_told_among_the_inputs_and_kept_in_the_resolved_config(results: Any) -> None:
-    own = results["mechanisms"]["crankshaft"]["inputs"]
-    assert own["loads.0.torque"]["value"] == "a curve"
-    assert own["loads.1.torque"]["value"] == "balance"
-    assert own["loads.1.force_y"]["path"] == "drive.crank_bearing_force_x"
+    own = results.mechanisms["crankshaft"].inputs
+    assert own["loads.0.torque"].value == "a curve"
+    assert own["loads.1.torque"].value == "balance"
+    assert own["loads.1.force_y"].path == "drive.crank_bearing_force_x"
     assert "sections.3.fillet_radius" not in own
-    loads = results["config"]["resolved"]["mechanisms"]["crankshaft"]["loads"]
+    loads = results.config.resolved["mechanisms"]["crankshaft"]["loads"]
     assert loads[0]["torque"] == "${drive.crank_torque}"
     assert loads[1]["torque"] == "balance"
 
@@ -134,13 +133,13 @@ def test_extremes_are_read_in_units_and_kept(tmp_path: Path) -> None:
         '"${drive.crank_bearing_force_y}"', "0"
     )
     found: Any = document(compute(loaded(tmp_path, text.replace("${drive.crank_speed}", "50 rpm")), lambda _: None))
-    own = found["mechanisms"]["crankshaft"]
-    assert own["inputs"]["loads.0.torque"]["display"] == {"text": "-300 … 494", "unit": "N*m"}
-    assert found["config"]["resolved"]["mechanisms"]["crankshaft"]["loads"][0]["torque"] == {
+    own = found.mechanisms["crankshaft"]
+    assert own.inputs["loads.0.torque"].display == ShownRecord(text="-300 … 494", unit="N*m")
+    assert found.config.resolved["mechanisms"]["crankshaft"]["loads"][0]["torque"] == {
         "min": "-300.0 N*m",
         "max": "494.0 N*m",
     }
-    assert own["outputs"]["torque_min"]["value"] == -300
+    assert own.outputs["torque_min"].value == -300
 
 
 @pytest.mark.parametrize(

@@ -95,7 +95,7 @@ def test_a_steel_is_taken_at_the_size_that_is_found() -> None:
 
 def test_the_neighbours_in_the_series_are_shown() -> None:
     found = shaft(CRANKSHAFT, sections=without(2, of=PLAIN), required_fatigue_safety=1)
-    rows = mechanism.results(found)["listings"]["size_neighbours"]["rows"]
+    rows = mechanism.results(found)["size_neighbours"]["rows"]
     size = diameters(found)[2]
     place = [round(float(each) * 1e3, 6) for each in SERIES].index(size)
     assert [row[1] for row in rows] == pytest.approx(SERIES[place - 1 : place + 2])
@@ -107,7 +107,7 @@ def test_the_neighbours_in_the_series_are_shown() -> None:
 def test_diameters_that_are_given_are_not_sought() -> None:
     found = shaft(CRANKSHAFT)
     assert diameters(found) == [45, 55, 60, 50]
-    assert mechanism.results(found)["listings"]["size_neighbours"]["rows"] == []
+    assert mechanism.results(found)["size_neighbours"]["rows"] == []
 
 
 @pytest.mark.parametrize(

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
 from pathlib import Path
 from typing import Any
 
@@ -19,6 +18,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
+from diecut_report.results.model import MechanismRecord, ResultsRecord
 from diecut_report.results.press_run import compared, found
 from tests.configs import HEAD, saved
 from tests.examples import examples, few
@@ -40,7 +40,7 @@ def geneva(**changes: Any) -> Calculation:
     return calculate(GENEVA, inputs(GENEVA, CROSS | changes))
 
 
-def results(stepper: Calculation, cross: Calculation) -> dict[str, Any]:
+def results(stepper: Calculation, cross: Calculation) -> MechanismRecord:
     """The results of the comparison of two drives."""
     (case,) = found({"stepper": stepper, "cross": cross})
     return compared(case, {"stepper": stepper, "cross": cross})
@@ -48,12 +48,12 @@ def results(stepper: Calculation, cross: Calculation) -> dict[str, Any]:
 
 def outputs(stepper: Calculation, cross: Calculation) -> dict[str, Any]:
     """The outputs of the comparison as plain values."""
-    return {name: output["value"] for name, output in results(stepper, cross)["outputs"].items()}
+    return {name: output.value for name, output in results(stepper, cross).outputs.items()}
 
 
-def curves(data: Mapping[str, Any], *names: str) -> list[Array]:
+def curves(data: MechanismRecord, *names: str) -> list[Array]:
     """Curves of the results."""
-    return [np.array(data["curves"][name]["values"]) for name in names]
+    return [np.array(data.curves[name].values) for name in names]
 
 
 def test_on_the_same_step_and_cycle_each_drive_has_its_own_results() -> None:
@@ -162,9 +162,9 @@ def test_no_other_sweep_asks_for_less_acceleration_at_the_geneva_drives_dwell(la
 def test_the_chart_of_all_sweeps_is_what_machines_with_them_do() -> None:
     """Stop and start ask for most where the sweep is narrow, the return where it is wide."""
     data = results(cam(dwell_angle="150 deg"), geneva())
-    (chart,) = (figure for figure in data["figures"] if figure["id"] == "same_dwell")
-    stopping, returning = chart["panels"][0]["lines"]
-    (speed,) = chart["panels"][1]["lines"]
+    (chart,) = (figure for figure in data.figures if figure.id == "same_dwell")
+    stopping, returning = chart.panels[0]["lines"]
+    (speed,) = chart.panels[1]["lines"]
     for place, governing in ((0, stopping), (20, stopping), (120, returning), (180, returning)):
         built = dwelling(sector_stop_sweep=f"{governing['x'][place]!r} rad", n_points=36)
         peak = number(built, "gear_acceleration_peak") * 0.6**2 / (2 * np.pi)
@@ -249,12 +249,12 @@ def test_a_press_with_both_drives_is_compared_and_one_with_a_single_drive_is_not
     stepper = "  s: {kind: cam_gear_transport, dwell_angle: 160, center_distance: 300}\n"
     cross = "  g: {kind: geneva_transport, center_distance: 200, roller_radius: 10}\n"
 
-    def calculated(text: str) -> dict[str, Any]:
+    def calculated(text: str) -> ResultsRecord:
         return pipeline.calc(saved(tmp_path, HEAD + text), Discovery([]), lambda _: None)[0].results
 
-    both = calculated(cross + stepper)["comparisons"]
+    both = calculated(cross + stepper).comparisons
     (data,) = both.values()
-    assert data["kind"] == "transport_comparison"
-    assert [figure["id"] for figure in data["figures"]] == ["peaks", "cycle", "same_dwell"]
-    assert data["outputs"]["cycle_basis"]["value"] == "both drives have it"
-    assert "comparisons" not in calculated(cross)
+    assert data.kind == "transport_comparison"
+    assert [figure.id for figure in data.figures] == ["peaks", "cycle", "same_dwell"]
+    assert data.outputs["cycle_basis"].value == "both drives have it"
+    assert not calculated(cross).comparisons

@@ -68,7 +68,7 @@ def wedge() -> FigureRecord:
     marks = [{"x": math.radians(10), "y": 2009.192, "label": "chosen"}]
     verticals = [{"x": math.atan(0.1), "label": "self-locking below this angle"}]
     levels = [{"value": 4500.0, "label": "greatest force of the cylinder"}]
-    return chart("wedge", "Engagement force over the wedge angle",
+    return chart("wedge", "Engagement force versus wedge angle",
                  [panel("Engagement force", "kN", over, lines=lines, marks=marks, verticals=verticals, levels=levels)])  # fmt: skip
 
 

@@ -7,6 +7,7 @@ import math
 from pathlib import Path
 from typing import Any
 
+from diecut_report.results.conclusion import summary
 from diecut_report.results.model import ResultsRecord
 from tests.records import filled
 from tests.report.made_figures import all_figures
@@ -114,7 +115,7 @@ def item(kind: str, symbol: str, description: str, result: str, source: str = ""
 def looked_up() -> list[Data]:
     """Numbers from tables and a standard series."""
     chosen = {"by": "Section of the V-belt", "key": "SPA", "table": "Least diameters by section"}
-    method = "the next standard value at or above 0.93 kW; neighbours not taken: 0.75 kW, 1.5 kW"
+    method = "the next standard value at or above 0.93 kW; adjacent values not chosen: 0.75 kW, 1.5 kW"
     return [
         item("lookup", "d_min", "Least diameter", "90 mm", SOURCE, **chosen),
         item("lookup", "ρ", "Density", "7850 kg/m**3", "material", by="Material", key="steel", table=""),
@@ -216,7 +217,9 @@ def comparison() -> Data:
 
 def typed(data: Data) -> ResultsRecord:
     """Return the results of a document that lacks what tests do not care for."""
-    return filled(ResultsRecord, data | {"report": {"detail": "standard"} | data.get("report", {})})
+    found = filled(ResultsRecord, data | {"report": {"detail": "standard"} | data.get("report", {})})
+    checks = {name: each.checks for name, each in found.calculated.items()}
+    return found if "summary" in data else found.with_(summary=summary(checks, []))
 
 
 def sample() -> Data:

@@ -124,7 +124,7 @@ def test_number_from_a_table_without_a_title_tells_what_chose_it(chapters: dict[
 def test_pick_names_its_series(chapters: dict[str, PrintedChapter]) -> None:
     item = _items(chapters)["Rating"]
     assert item.notes[0] == "Series: Ratings of motors"
-    assert "neighbours not taken: 0.75 kW, 1.5 kW" in item.notes[1]
+    assert "adjacent values not chosen: 0.75 kW, 1.5 kW" in item.notes[1]
 
 
 def test_series_is_named_once_where_a_note_tells_its_sources(plain: Data) -> None:
@@ -205,7 +205,7 @@ def test_files_beside_the_report_are_named(chapters: dict[str, PrintedChapter], 
     drawing, table = files
     assert all(layer in drawing.content for layer in (PROFILE, PITCH_CURVE, CENTER)) and "72 points" in drawing.content
     assert table.content == "Cam 1 as a table of 72 rows: disc_angle, cam_1_x, cam_1_y, cam_1_pitch_x, cam_1_pitch_y"
-    assert "Files beside this report" in html and "press.train.cam_1.dxf" in html
+    assert "Accompanying files" in html and "press.train.cam_1.dxf" in html
 
 
 def test_profile_without_a_pitch_curve_names_no_layer_of_it(plain: Data) -> None:

@@ -94,7 +94,7 @@ def test_every_output_is_in_the_text(pages: dict[str, str], plain: Data, detail:
 
 @pytest.mark.parametrize("detail", ["standard", "full"])
 def test_a_value_of_a_series_says_why_it_was_taken(pages: dict[str, str], detail: str) -> None:
-    assert "the next standard value at or above 0.93 kW; neighbours not taken" in _shown(_words(pages[detail]))
+    assert "the next standard value at or above 0.93 kW; adjacent values not chosen" in _shown(_words(pages[detail]))
 
 
 def test_a_size_that_was_sought_says_how_what_else_is_computed_says_so_in_full_alone(pages: dict[str, str]) -> None:

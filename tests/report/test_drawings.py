@@ -111,7 +111,7 @@ def test_way_out_of_a_box(start: Any, end: Any, left: Any) -> None:
 )
 def test_text_fits_its_box_and_can_be_read(figure: FigureRecord) -> None:
     sheet = _sheet(figure)
-    boxes = [shape for shape in figure["shapes"] if shape["shape"] == "box"]
+    boxes = [shape for shape in figure.shapes if shape["shape"] == "box"]
     for shape in boxes:
         lines, size = filled(shape, sheet.scale)
         assert (content(lines, sheet.scale.text) + PAD <= size + 1e-9).all()

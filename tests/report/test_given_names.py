@@ -16,10 +16,10 @@ from tests.report.made_results import typed
 Data = dict[str, Any]
 
 
-def named(value: str, quantity: str = "name", **more: Any) -> QuantityRecord:
+def named(text: str, quantity: str = "name", **more: Any) -> QuantityRecord:
     """An input of a part of a list."""
     part = {"family": "loads", "index": 0, "quantity": quantity}
-    given = {"value": value, "display": {"text": value, "unit": "1"}, "origin": "given", "text": value, "part": part}
+    given = {"value": text, "display": {"text": text, "unit": "1"}, "origin": "given", "text": text, "part": part}
     return filled(QuantityRecord, given | more)
 
 
@@ -40,7 +40,7 @@ def test_a_result_that_is_the_name_of_a_part_is_printed_as_it_is_typed() -> None
     found = filled(QuantityRecord, {"value": "main_b", "display": {"text": "main_b", "unit": "1"}})
     assert value_in_words(found, {"main_b"}) == "main_b" and value_in_words(found) == "main b"
     result = ShownRecord(text="main_b", unit="1")
-    item = ItemRecord(type="lookup", description="Bearing of the least life", symbol="B_L", result=result)
+    item = ItemRecord(type="lookup", description="Bearing with the shortest life", symbol="B_L", result=result)
     assert value_row(item, "F.21", None, "", ".", {"main_b"}).value == "main_b"
 
 

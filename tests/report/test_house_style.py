@@ -274,9 +274,10 @@ def test_what_lies_in_the_page_and_links_are_not_fetched() -> None:
 
 def test_a_fault_of_the_program_itself_stays_one(brief: Data, tmp_path: Path) -> None:
     house = house_style(written(tmp_path, report__html__j2=closing("x")))
-    del brief["mechanisms"]["cylinder"]["outputs"]
-    with pytest.raises(KeyError):
-        page(Material(typed(brief), house=house))
+    results = typed(brief)
+    broken = results.mechanisms["cylinder"].with_(outputs=None)
+    with pytest.raises(AttributeError, match="NoneType"):
+        page(Material(results.with_(mechanisms={"cylinder": broken}), house=house))
 
 
 def test_the_command_refuses_before_it_calculates(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
@@ -300,11 +301,10 @@ def test_pages_set_with_the_same_templates_are_verified(tmp_path: Path, capfd: p
 
 
 def test_pages_set_with_other_templates_are_not_compared() -> None:
-    carried: Any = SimpleNamespace(results={"report": {"template_sha256": "ab" * 32}})
+    carried: Any = SimpleNamespace(results=typed({"report": {"template_sha256": "ab" * 32}}))
     own = ("not compared, since they are set with templates of their own (SHA-256 abababababab); "
            "--template DIR names the templates")  # fmt: skip
     assert other_templates(carried, HouseStyle("other")) == other_templates(carried, None) == own
-    for strange in ({}, {"report": []}):
-        carried.results = strange
-        assert "the program's templates alone" in other_templates(carried, HouseStyle("other"))
-        assert other_templates(carried, None) == ""
+    carried.results = typed({})
+    assert "the program's templates alone" in other_templates(carried, HouseStyle("other"))
+    assert other_templates(carried, None) == ""

@@ -81,7 +81,7 @@ def test_a_press_with_nothing_but_a_name_has_no_empty_table(plain: dict[str, Any
     plain["press"]["fields"] = []
     page = render_html(typed(plain))
     assert 'press-data"' not in page and '<h2 id="press">' in page
-    assert "The configuration gives no data of the press but its name." in page
+    assert "The configuration gives only the name of the press." in page
 
 
 def test_inputs_show_where_they_come_from(html: str) -> None:

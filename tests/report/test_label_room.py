@@ -229,14 +229,14 @@ def test_a_name_that_has_no_room_beside_the_lines_stands_in_the_legend_and_cover
 def test_the_legend_names_such_marks_and_levels_by_their_signs() -> None:
     x = np.linspace(0.0, 2 * np.pi, 200)
     wave = {"x": list(x), "y": list(100 * np.sin(7 * x)), "label": "torque"}
-    mark = {"x": 1.57, "y": 99.0, "label": "greatest driving torque of the turn"}
+    mark = {"x": 1.57, "y": 99.0, "label": "maximum driving torque of the turn"}
     panel = {
         "title": "Torque", "unit": "N*m", "x": {"title": "Angle", "symbol": "φ", "unit": "deg"}, "fills": [], "marks": [mark],
         "lines": [wave], "levels": [{"value": 30.0, "label": "mean of the whole turn"}], "verticals": [],
     }  # fmt: skip
     figure = chart("narrow", "Narrow", [panel])
     boxes = {box.text: box for box in _boxes(figure, {}, SizesSize.HALF)[0]}
-    names = [box for text, box in boxes.items() if text.startswith(("greatest driving", "mean of"))]
+    names = [box for text, box in boxes.items() if text.startswith(("maximum driving", "mean of"))]
     assert len(names) == 2 and all(box.bottom > boxes["Torque, N·m"].top - 20 for box in names)
     assert list(_faults(figure, {}, SizesSize.HALF)) == []
 
@@ -273,6 +273,6 @@ def test_the_name_of_an_area_covers_no_line_within_it() -> None:
 
 
 def test_a_symbol_does_not_stand_alone_on_the_last_line_of_a_title() -> None:
-    title = "Angle of the cycle, one turn a period of the torque $φ$, °"
+    title = "Cycle angle, one revolution per period of the torque $φ$, °"
     wide = text_size(title.removesuffix(" $φ$, °"))[0] + 2
     assert wrapped(title, wide).split("\n")[-1] == "torque $φ$, °"

@@ -11,7 +11,7 @@ def _note(name: str, said: str = "does not apply to this machine.") -> ItemRecor
 
 
 def test_what_does_not_apply_stands_in_one_sentence() -> None:
-    formula = ItemRecord(type="formula", description="Root of it")
+    formula = ItemRecord(type="formula", description="Its square root")
     found = gathered_notes([_note("Step"), _note("Root"), formula, _note("Share")])
     assert found[0] == ItemRecord(type="note", text="Does not apply to this machine: Step; Root.")
     assert found[1:] == [None, formula, _note("Share")]  # each step keeps its place, by which figures stand

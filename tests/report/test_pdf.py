@@ -35,7 +35,7 @@ import sys
 from functools import cache
 from hashlib import sha256
 from pathlib import Path
-from diecut_report.report import Rendering
+from diecut_report.report.rendering import Rendering
 from diecut_report.results.model import ResultsRecord
 report = Rendering(ResultsRecord.model_validate_json(Path(sys.argv[1]).read_bytes()))
 contents = [report.html().encode(), *([report.pdf()] if sys.argv[2] == "pdf" else [])]

@@ -16,7 +16,7 @@ import json, sys
 {bounded.PEAK}
 from io import BytesIO
 import pikepdf
-from diecut_report.report import Rendering
+from diecut_report.report.rendering import Rendering
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.config.plugins import Discovery

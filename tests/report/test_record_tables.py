@@ -12,9 +12,9 @@ from diecut_report.results.model import QuantityRecord
 from tests.records import filled
 
 
-def given(index: int, quantity: str, text: str, **more: Any) -> QuantityRecord:
+def given(index: int, quantity: str, value: str, **more: Any) -> QuantityRecord:
     """An input of the part of a list."""
-    found = {"value": text, "description": quantity, "unit": "1", "display": {"text": text, "unit": "1"}, "origin": "given",
+    found = {"value": value, "description": quantity, "unit": "1", "display": {"text": value, "unit": "1"}, "origin": "given",
              "part": {"family": "loads", "index": index, "quantity": quantity}} | more  # fmt: skip
     return filled(QuantityRecord, found)
 

@@ -56,7 +56,7 @@ def test_the_arrow_before_a_choice_in_words_is_no_symbol() -> None:
 
 
 def test_a_lone_symbol_stands_in_the_first_column() -> None:
-    row = SymbolRow(Markup("φ"), "Angle of the cycle", "°", Markup(""))
+    row = SymbolRow(Markup("φ"), "Cycle angle", "°", Markup(""))
     assert in_blocks([row]) == [[[row]]]
 
 

@@ -28,6 +28,7 @@ from diecut_report.report.pages.html import (
 )
 from diecut_report.report.pages.pdf import Paper
 from diecut_report.report.text import Catalogue
+from diecut_report.results.model import Record
 from tests.report.made_results import typed
 
 Data = dict[str, Any]
@@ -49,7 +50,7 @@ def reached(value: Any, path: str, seen: set[int]) -> Iterator[tuple[str, Any]]:
     if isinstance(value, Mapping):
         for key, each in value.items():
             yield from reached(each, f"{path}[{key!r}]", seen)
-    elif is_dataclass(value) or hasattr(type(value), "_fields"):
+    elif is_dataclass(value) or isinstance(value, Record) or hasattr(type(value), "_fields"):
         for name in names_of(value):
             yield from reached(getattr(value, name), f"{path}.{name}", seen)
     if isinstance(value, (list, tuple, set, frozenset)):
@@ -58,15 +59,23 @@ def reached(value: Any, path: str, seen: set[int]) -> Iterator[tuple[str, Any]]:
 
 
 def names_of(value: Any) -> list[str]:
-    """The public fields and properties of a data class."""
+    """The public fields and properties of a data class, or of a part of the results."""
+    if isinstance(value, Record):
+        return [*type(value).model_fields, *(name for name in dir(type(value)) if _is_own(type(value), name))]
     declared = [each.name for each in fields(value)] if is_dataclass(value) else list(value._fields)
     made = [name for name in dir(type(value)) if isinstance(getattr(type(value), name), property | cached_property)]
     return [name for name in {*declared, *made} if not name.startswith("_")]
 
 
+def _is_own(kind: type[Record], name: str) -> bool:
+    """Whether a part of the results declares a name, and what makes such parts does not."""
+    is_made = isinstance(getattr(kind, name, None), property | cached_property)
+    return not name.startswith("_") and not hasattr(Record, name) and is_made
+
+
 def is_plain(value: Any) -> bool:
-    """Whether a value is data: a text, a number, a container, a data class; the report's words are a mapping of texts."""
-    is_record = is_dataclass(value) and not isinstance(value, type)
+    """Whether a value is data: a text, a number, a container, a data class, a part of the results; the report's words are a mapping of texts."""
+    is_record = (is_dataclass(value) or isinstance(value, Record)) and not isinstance(value, type)
     return is_record or isinstance(value, (*PLAIN, list, tuple, set, frozenset, Mapping, Catalogue))
 
 
@@ -111,6 +120,14 @@ WAYS_OUT = [
     "{{ doc.words._said('x') }}",
     "{{ doc.__dataclass_fields__ }}",
     "{{ doc['__class__'] }}",
+    # what pydantic puts into each part of the results
+    "{{ doc.press.model_dump() }}",
+    "{{ doc.press.model_config }}",
+    "{{ doc.press.model_fields_set }}",
+    "{{ doc.press.model_extra }}",
+    "{{ doc.press.model_construct }}",
+    "{{ doc.press['with_'] }}",
+    "{{ doc.press|attr('data') }}",
     # Jinja's own
     "{{ cycler.__init__.__globals__.os.popen('id').read() }}",
     "{{ cycler('a').__init__.__globals__ }}",
@@ -185,8 +202,8 @@ ENDLESS = [
     ("{{ [1]|batch(10 ** 12, 0)|list }}", "MemoryError"),
     ("{% set n = namespace(x='aaaa') %}{% for i in range(60) %}{% set n.x = n.x ~ n.x %}{% endfor %}", "MemoryError"),
     # loops
-    ("{% for i in range(99999) %}{% for j in range(99999) %}{% endfor %}{% endfor %}", "was not made within 5 s, and was given up"),
-    ("{% include 'report.html.j2' %}", "was not made within 5 s, and was given up|maximum recursion"),
+    ("{% for i in range(99999) %}{% for j in range(99999) %}{% endfor %}{% endfor %}", "was not finished within 5 s and was aborted"),
+    ("{% include 'report.html.j2' %}", "was not finished within 5 s and was aborted|maximum recursion"),
     ("{% macro m() %}{{ m() }}{% endmacro %}{{ m() }}", "maximum recursion"),
     ("{{ self.closing() }}", "maximum recursion"),
     # a formula of the template's own, nested so deep that the library would overrun its stack

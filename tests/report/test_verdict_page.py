@@ -65,7 +65,7 @@ def test_checks_that_fail_in_spite_of_the_advice_are_called_as_in_the_lines_abov
     found = page(judged("wall", 1.5, "fail"))
     advice = {"changes": [{"path": "train.x", "value": "5 mm"}], "failing": ["train.wall", "gone.check"], "error": None}
     (line,) = followed_line(filled(ResultsRecord, {"summary": {"advice": advice}}), Catalogue("en"), found.checks)
-    assert line.endswith(f"leaves others that fail: A · {found.checks[0].title}, gone.check.")
+    assert line.endswith(f"leaves other checks failing: A · {found.checks[0].title}, gone.check.")
 
 
 def test_what_the_calculation_presumes_is_sorted_behind_what_has_a_reserve() -> None:

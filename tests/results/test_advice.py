@@ -13,6 +13,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.results.checks import check_results, checks_of, holds, is_of_machine
+from diecut_report.results.model import KeyChangeRecord
 from tests.plugins.cases import OF_KINDS, Case, case, example, names
 
 Inputs = Mapping[str, Any]
@@ -42,22 +43,22 @@ def _is_number(value: Any) -> bool:
     return all(isinstance(part, float | int) and not isinstance(part, bool) for part in parts)
 
 
-def typed(mechanism: Mechanism, inputs: Inputs, change: Mapping[str, Any]) -> Iterator[Inputs]:
+def typed(mechanism: Mechanism, inputs: Inputs, change: KeyChangeRecord) -> Iterator[Inputs]:
     """The inputs with each value of an advice typed in."""
-    parts = change["key"].split(".")
+    parts = change.key.split(".")
     key = ".".join(part for part in parts if not part.isdigit())
     meta = Calculation(mechanism, inputs, 1).meta[key]
-    for value in change["value"] if isinstance(change["value"], list) else [change["value"]]:
+    for value in change.value if isinstance(change.value, list) else [change.value]:
         number = value
         if isinstance(meta, Quantity):
-            number = meta.validate(value if change["unit"] == "1" else f"{value!r} {change['unit']}")
+            number = meta.validate(value if change.unit == "1" else f"{value!r} {change.unit}")
         for part in filter(str.isdigit, parts):
             row = inputs[key]
             number = (*row[: int(part)], number, *row[int(part) + 1 :])
         yield {**inputs, key: number}
 
 
-def all_typed(mechanism: Mechanism, inputs: Inputs, way: list[dict[str, Any]]) -> list[Inputs]:
+def all_typed(mechanism: Mechanism, inputs: Inputs, way: list[KeyChangeRecord]) -> list[Inputs]:
     """The inputs with the changes of a way."""
     found = [inputs]
     for change in way:
@@ -78,13 +79,13 @@ def require_advice_holds(mechanism: Mechanism, inputs: Inputs) -> int:
     """Follow all advice of a machine, each value by itself; return how many ways there were."""
     before = calculate(mechanism, inputs)
     passing = [name for name, is_held in verdicts(before).items() if is_held]
-    ways = [(check, way) for check in check_results(before) for way in check.get("advice", ())]
+    ways = [(check, way) for check in check_results(before) for way in check.advice]
     for check, way in ways:
         for changed in all_typed(mechanism, inputs, way):
             after = verdicts(calculate(mechanism, changed))
-            assert after[check["id"]], (check["message"], way, inputs)
+            assert after[check.id], (check.message, way, inputs)
             broken = [name for name in passing if not after.get(name, True)]
-            assert not broken or BROKEN in check["message"], (check["message"], way, broken, inputs)
+            assert not broken or BROKEN in check.message, (check.message, way, broken, inputs)
     return len(ways)
 
 

@@ -39,7 +39,7 @@ def test_an_erratum_stands_where_the_machine_has_a_quantity_that_it_touches() ->
 def test_an_erratum_whose_quantities_are_all_absent_is_left_out() -> None:
     found = errata()
     assert found.keys() == {erratum.text for erratum in ERRATA} - LEFT_OUT
-    assert found["in part with a drive"] == ["Greatest strain"]
+    assert found["in part with a drive"] == ["Maximum strain"]
 
 
 @pytest.mark.parametrize("force", [2900, 3100])

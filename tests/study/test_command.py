@@ -15,7 +15,7 @@ import pyarrow.parquet as pq
 import pytest
 
 from diecut_report.cli.main import main
-from diecut_report.config.yaml import HIDDEN_IN_KEY
+from diecut_report.config.yaml import FORBIDDEN_IN_KEY
 from diecut_report.study.execution import dask_cluster, variant_reports
 from diecut_report.study.execution.variant_reports import best
 from tests.configs import GOOD, saved
@@ -102,7 +102,7 @@ def test_constraints_that_drop_all_variants_are_told_before_anything_is_written(
     text = varied("[1 kN, 2 kN]", rest="constraints: [\"mechanisms.a.force > '5 kN'\"]\n")
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
     assert (
-        "constraints: the constraints drop all 2 variants of the sample. Loosen one of them" in capfd.readouterr().err
+        "constraints: the constraints exclude all 2 variants of the sample. Relax one of them" in capfd.readouterr().err
     )
     assert not (tmp_path / "out").exists()
 
@@ -116,7 +116,7 @@ def test_variants_for_which_a_constraint_has_no_value_are_dropped_and_counted(tm
     out = tmp_path / "out"
     text = varied("[1 kN, 2 kN, 3 kN, 4 kN]", rest=UNDEFINED.format(limit="3.5 kN"))
     assert run("batch", files(tmp_path, text), "-o", out) == 0
-    assert f"; the constraints drop 2 more of the sample, {NO_VALUE}." in capfd.readouterr().err
+    assert f"; the constraints exclude 2 more of the sample, {NO_VALUE}." in capfd.readouterr().err
     assert [row["variant"] for row in rows(out)] == [0, 2]
     page = re.sub(r"<[^>]+>", " ", (out / "summary.html").read_text("utf-8"))
     assert len(re.findall(rf"2\s+variants, {re.escape(NO_VALUE)}", page)) == 2
@@ -135,7 +135,7 @@ def test_variants_that_another_constraint_drops_anyway_are_not_counted_again(tmp
 def test_constraints_without_any_value_say_so(tmp_path: Path, capfd: Capture) -> None:
     text = varied("[2 kN, 4 kN]", rest=UNDEFINED.format(limit="3.5 kN"))
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
-    assert f"drop all 2 variants of the sample, {NO_VALUE}. Loosen one of them" in capfd.readouterr().err
+    assert f"drop all 2 variants of the sample, {NO_VALUE}. Relax one of them" in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("without_summary")
@@ -163,7 +163,7 @@ def test_a_variant_in_error_keeps_its_reason_whatever_a_constraint_asks_of_outpu
 def test_a_study_of_which_the_outputs_leave_nothing_still_tells_so(tmp_path: Path, capfd: Capture) -> None:
     text = varied("[1 kN, 2 kN]", rest="constraints: [\"a.moment > '5 kN*m'\"]\n")
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 0
-    assert "0 variants: none; the constraints drop 2 more of the sample." in capfd.readouterr().err
+    assert "0 variants: none; the constraints exclude 2 more of the sample." in capfd.readouterr().err
     assert "No variant" in (tmp_path / "out" / "summary.html").read_text("utf-8")
 
 
@@ -196,7 +196,7 @@ def test_reports_of_some_variants_are_the_same_from_several_processes(
     assert sorted(made[0]) == ["0.html", "0.json"]
     assert sorted(made[1]) == [f"{variant}.{ending}" for variant in (0, 1) for ending in ("html", "json", "pdf")]
     assert made[0].items() <= made[1].items()
-    assert "variant 3 gets no full report: a constraint drops it." in capfd.readouterr().err
+    assert "variant 3 gets no full report: a constraint excludes it." in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("without_summary")
@@ -207,7 +207,7 @@ def test_some_variants_get_reports_and_one_that_is_dropped_is_told(
     text = varied("[1 kN, 2 kN, 4 kN]", rest="reports: [0, 2]\nconstraints: [\"mechanisms.a.force < '3.5 kN'\"]\n")
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 0
     assert [path.name for path in (tmp_path / "out" / "reports").iterdir()] == ["0.json"]
-    assert "variant 2 gets no full report: a constraint drops it." in capfd.readouterr().err
+    assert "variant 2 gets no full report: a constraint excludes it." in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("without_summary")
@@ -283,7 +283,7 @@ def test_rounding_makes_no_variant_better(tmp_path: Path) -> None:
     ("arguments", "words"),
     [
         (["batch"], "Name a study file, or a folder to continue with --resume DIR."),
-        (["batch", "s.yaml", "--resume", "x", "-o", "y"], "--resume names the folder; leave -o out."),
+        (["batch", "s.yaml", "--resume", "x", "-o", "y"], "--resume names the folder; omit -o."),
         (["batch", "s.yaml", "--format", "cvs"], "'cvs' is not a format (did you mean 'csv'?); known: csv, xlsx."),
         (["batch", "absent.yaml"], "absent.yaml"),
         (["batch", "--resume", "absent"], "There are no results of a study here"),
@@ -333,7 +333,7 @@ def test_the_name_of_a_study_acts_on_no_terminal_and_turns_no_letters_round(tmp_
     out = tmp_path / "\x1b[2Jout"
     assert run("batch", saved(tmp_path, STUDY, NAME), "-o", out, "--jobs", 1, "--quiet") in (0, 1)
     page = (out / "summary.html").read_text("utf-8")
-    assert "�[31mred�.yaml" in page and not HIDDEN_IN_KEY.search(page.translate({9: None, 10: None}))
+    assert "�[31mred�.yaml" in page and not FORBIDDEN_IN_KEY.search(page.translate({9: None, 10: None}))
 
 
 def test_a_variant_of_such_a_study_has_a_report(tmp_path: Path) -> None:

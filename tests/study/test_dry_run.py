@@ -88,7 +88,7 @@ def test_people_are_told_it_line_by_line_and_nothing_is_written(tmp_path: Path, 
     lines = out.splitlines()
     assert err == f"{file}: valid\n" and lines[0] == f"{file}: 3 variants"
     assert "  mechanisms.a.force  1.5 … 3.5 kN  variant 0: 1.5 kN" in lines
-    assert "calculated 3 to measure: " in out and " in 1 process, without summary" in out and "disk: about " in out
+    assert "calculated 3 to measure: " in out and " in 1 process, excluding summary" in out and "disk: about " in out
     assert sorted(tmp_path.iterdir()) == before
     assert main(["validate", str(file), "--dry-run", "--language", "uk", "--plugins", str(GOOD)]) == 0
     assert "1,5 … 3,5 kN" in capfd.readouterr().out
@@ -110,10 +110,10 @@ def test_of_a_search_it_tells_how_many_machines_are_tried(tmp_path: Path, capfd:
     assert (found["rows"], found["optimise"]) == (40, {"evaluations": 400, "population": 40} | goals)
     assert main(["validate", str(tmp_path / "study.yaml"), "--dry-run", "--plugins", str(GOOD)]) == 0
     lines = capfd.readouterr().out.splitlines()
-    assert lines[0].endswith("study.yaml: a search through 400 machines, 40 in a generation")
-    assert lines[1:3] == ["  searched for: least a.moment", "  allowed are machines of which no check fails"]
+    assert lines[0].endswith("study.yaml: a search over 400 machines, 40 per generation")
+    assert lines[1:3] == ["  searched for: minimum a.moment", "  feasible: machines with no failing check"]
     assert "  mechanisms.a.force  1 … 5 kN" in lines  # the whole range, and not what the first generation takes of it
-    assert lines[-1].startswith("  time: ") and lines[-1].endswith(" on one processor, without page and reports")
+    assert lines[-1].startswith("  time: ") and lines[-1].endswith(" on one processor, excluding page and reports")
 
 
 def test_of_a_study_with_a_search_beside_its_sample_both_are_told(tmp_path: Path, capfd: Capture) -> None:
@@ -135,7 +135,7 @@ def test_all_faults_are_told_at_once_and_nothing_is_calculated(tmp_path: Path, c
 
 def test_a_study_without_a_variant_is_refused(tmp_path: Path, capfd: Capture) -> None:
     found = validated(tmp_path, FORCES + "constraints: [mechanisms.a.force > '9 kN']\n", capfd, "--dry-run", code=2)
-    assert "the constraints drop all 10 variants" in found["problems"][0]["message"]
+    assert "the constraints exclude all 10 variants" in found["problems"][0]["message"]
 
 
 def test_files_are_judged_as_json_without_being_tried(tmp_path: Path, capfd: Capture) -> None:

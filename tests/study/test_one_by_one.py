@@ -47,7 +47,9 @@ def test_each_machine_is_calculated_and_the_kind_is_named(tmp_path: Path) -> Non
 def test_the_command_and_its_summary_tell_it(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
     study(tmp_path, STUDY, BASE, Discovery([FOLDER]))
     assert main(["batch", str(tmp_path / "study.yaml"), "-o", str(tmp_path / "out"), "--plugins", str(FOLDER)]) == 1
-    assert "ladder cannot take arrays and was calculated variant by variant, which is slow" in capfd.readouterr().err
+    assert (
+        "ladder does not support arrays and was calculated variant by variant, which is slow" in capfd.readouterr().err
+    )
     assert list(json.loads((tmp_path / "out" / "study.json").read_text())["slow"]) == ["ladder"]
     assert "ladder" in (tmp_path / "out" / "summary.html").read_text()
 

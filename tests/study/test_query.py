@@ -154,7 +154,7 @@ def test_the_table_is_in_the_units_that_people_read(folder: Path) -> None:
     row = next(line for line in text.splitlines() if line.split()[:1] == ["3"])
     assert [row.split()[index] for index in (0, 1, -2, -1)] == ["3", "pass", "40", "65"]
     assert " r/min" in text and " mm" in text
-    assert "Fulfilling the condition: 1 of 10 variants." in text
+    assert "Matching the condition: 1 of 10 variants." in text
 
 
 def test_a_long_table_says_what_it_leaves_out(tmp_path: Path) -> None:
@@ -183,7 +183,7 @@ def test_variants_stand_side_by_side(folder: Path, capfd: pytest.CaptureFixture[
     assert main([*compared, "--format", "csv"]) == 0
     rows = {name: values for name, *values in csv.reader(io.StringIO(capfd.readouterr().out))}
     same = [name for name, (_, one, other) in rows.items() if one == other]
-    assert rows[BORE] == ["m", "0.055", "0.065"] and f"{len(same)} quantities that are the same for all" in text
+    assert rows[BORE] == ["m", "0.055", "0.065"] and f"{len(same)} quantities that are equal in all" in text
     assert not any(line.split()[:1] == [name] for name in same for line in lines)
 
 
@@ -199,7 +199,7 @@ def test_a_workbook_holds_the_chosen_columns(folder: Path, tmp_path: Path) -> No
 @pytest.mark.parametrize(
     ("options", "words"),
     [(["--pick", "3,33"], "no variant 33 here"), (["--pick", "3,x"], "'x' is not the number"),
-     (["--units", "si"], "--units says nothing for table"), (["--format", "xlsx"], "-o FILE"),
+     (["--units", "si"], "--units does not apply to table"), (["--format", "xlsx"], "-o FILE"),
      (["--format", "csv", "--decimal", "comma"], "--separator semicolon"),
      (["--format", "json", "--transpose"], "no rows to transpose"), (["--columns", "cylinder.mas"], "cylinder.mass")],
 )  # fmt: skip

@@ -172,7 +172,7 @@ def test_what_governs_those_that_pass_and_the_most_margin_are_those_of_the_rows(
         assert (row.variants, row.least, row.greatest) == (len(mine), min(mine), max(mine))
     assert (
         f"variant {good[int(np.argmin(worst))]['variant']}: utilisation {utilised(min(worst))} at most"
-        in dict(large_summary.facts)["Most margin"]
+        in dict(large_summary.facts)["Largest margin"]
     )
 
 
@@ -188,12 +188,12 @@ def test_the_utilisation_beside_a_name_is_that_of_the_check_itself(tmp_path: Pat
     assert [(row.check, row.least, row.greatest) for row in found.governing] == [
         ("drive.checks.play", pytest.approx(used.min()), pytest.approx(used.max()))
     ]
-    assert f"utilisation {used.min():.4f}"[:14] in dict(found.facts)["Most margin"]
+    assert f"utilisation {used.min():.4f}"[:14] in dict(found.facts)["Largest margin"]
 
 
 def test_variants_with_the_same_margin_are_counted(tmp_path: Path) -> None:
     found = summary_of(made(tmp_path / "out", [3.0, 3.0, 3.0, 4.0], [0.06, 0.06, 0.06, 0.06]))
-    assert dict(found.facts)["Most margin"].startswith("variant 0, and 2 other variants with the same: utilisation")
+    assert dict(found.facts)["Largest margin"].startswith("variant 0, and 2 other variants with the same: utilisation")
 
 
 def test_a_check_that_fails_everywhere_is_told(tmp_path: Path) -> None:
@@ -207,7 +207,7 @@ def test_a_check_that_fails_everywhere_is_told(tmp_path: Path) -> None:
 def test_a_governing_check_that_nothing_moves_is_told_as_that(tmp_path: Path) -> None:
     found = summary_of(made(tmp_path / "out", [3.0] * 4, [0.06] * 4))
     assert [(row.check, row.varies) for row in found.governing] == [("drive.checks.play", False)]
-    assert "the same in all variants: nothing that is varied here moves it" in page(found)
+    assert "equal in all variants: no varied input affects it" in page(found)
     moved = summary_of(made(tmp_path / "other", [3.0, 3.1, 3.2, 3.3], [0.055, 0.06, 0.065, 0.07]))
     assert [(row.check, row.varies) for row in moved.governing] == [("drive.checks.play", True)]
 
@@ -216,7 +216,7 @@ def test_outputs_that_a_study_asks_for_are_among_its_influences(tmp_path: Path) 
     text = STUDY + "outputs: [drive.idle_ratio, cylinder.radius]\n"  # the radius is the same in all variants
     found = summary_of(many(tmp_path / "out", 300, text=text))
     names = [column.name for column in found.choices]
-    assert names.index("drive.idle_ratio") == names.index("greatest utilisation") + 1
+    assert names.index("drive.idle_ratio") == names.index("maximum utilisation") + 1
     assert found.ranked is not None and any("Idle" in title or "idle_ratio" in title for title in found.ranked.targets)
 
 
@@ -243,10 +243,10 @@ def test_what_was_studied_stands_there_as_it_is_written(tmp_path: Path) -> None:
     assert found.asked.constraints == [("Radius of the bore (cylinder) R_b", typed)]
     facts = dict(found.asked.facts)
     assert (facts["Sample"], facts["Count"], facts["Seed"]) == ("Latin hypercube", "13", "4")
-    assert facts["Dropped by the constraints"] == "3 variants"
+    assert facts["Excluded by the constraints"] == "3 variants"
     (folder / "study.yaml").write_text("changed", "utf-8")
     changed = summary_of(folder)
-    assert changed.asked is None and "is gone or has changed" in page(changed)
+    assert changed.asked is None and "is missing or has changed" in page(changed)
 
 
 def test_a_table_is_told_by_its_file() -> None:
@@ -503,7 +503,7 @@ def test_the_pages_are_written_and_say_the_counts(small: Path) -> None:
     text = re.sub(r"<[^>]+>", "", (small / "summary.html").read_text("utf-8"))
     assert "3 of 10 variants pass all checks, 6 fail, 1 cannot exist." in text
     assert "The run is not complete." in text
-    assert re.search(r"Left out by constraints\s*3 variants", text)
+    assert re.search(r"Excluded by constraints\s*3 variants", text)
     assert "bore_radius 0.104 m leaves no wall" in text
     document = PdfReader(small / "summary.pdf")
     assert "/StructTreeRoot" in document.trailer["/Root"]
@@ -562,7 +562,7 @@ def test_a_large_study_is_aggregated_and_says_so(large_summary: contents.Summary
 
 def test_objectives_and_failing_checks_come_before_other_outputs(small_summary: contents.Summary) -> None:
     names = [column.name for column in small_summary.choices]
-    assert names[2:6] == ["drive.power_peak", "cylinder.mass", "greatest utilisation", "drive.checks.play.utilisation"]
+    assert names[2:6] == ["drive.power_peak", "cylinder.mass", "maximum utilisation", "drive.checks.play.utilisation"]
     assert {"drive.crank_torque_peak", "drive.idle_ratio"} <= set(names[6:])
 
 
@@ -577,7 +577,9 @@ def test_what_people_read_are_titles_and_units_not_names(small_page: str) -> Non
 
 
 def test_titles_are_unlike_each_other() -> None:
-    gear = [ResultColumn(f"mechanisms.train.gears.{i}.teeth", description="Teeth of the gear") for i in range(2)]
+    gear = [
+        ResultColumn(f"mechanisms.train.gears.{i}.teeth", description="Number of teeth of the gear") for i in range(2)
+    ]
     force = [ResultColumn(f"{name}.force", description=f"Force ({end})") for name, end in (("a", "up"), ("b", "up"))]
     both = [ResultColumn(f"a.force_{end}", description=f"Force ({end})") for end in ("mean", "peak")]
     assert list(titles(gear[:1]).values()) == [
@@ -648,8 +650,8 @@ def test_what_passes_is_told_to_pass_what_is_made_where_checks_are_not(tmp_path:
     values["cylinder.checks.wall.status"] = np.array(["not_checked"] * 2, object)
     found = summary_of(written(tmp_path / "out", (*INPUTS, *RESULTS), values, varied=[SPEED, BORE]))
     text = re.sub(r"<[^>]+>", "", page(found))
-    assert found.status == "incomplete" and "2 of 2 variants pass all checks that are made." in text
-    assert "1 check is not made, in all variants or in some, as a limit or another key is not given." in text
+    assert found.status == "incomplete" and "2 of 2 variants pass all performed checks." in text
+    assert "1 check is not performed in some or all variants because a limit or another key is not given." in text
 
 
 def test_a_study_of_errors_alone_has_a_summary(tmp_path: Path) -> None:

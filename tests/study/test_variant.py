@@ -333,7 +333,7 @@ def test_what_the_study_was_made_of_is_not_written_over(
     base = tmp_path / "my_press.yaml"
     base.write_bytes((folder / "base.yaml").read_bytes())
     assert main(["take", f"{folder}#4", "-o", str(base)]) == 2
-    assert "of which the study was made; it would be written over" in capfd.readouterr().err
+    assert "of which the study was made, and would be overwritten" in capfd.readouterr().err
     assert base.read_bytes() == (folder / "base.yaml").read_bytes()
 
 

@@ -18,7 +18,7 @@ from diecut_report.text.translation import know_all_plugins, know_plugins, speak
 from tests.configs import GOOD, LEVER, saved
 
 COLUMNS = (
-    ResultColumn("mechanisms.knife.eccentricity", "float", "m", "mm", "e", "Distance of the edge's centre from the shaft's axis"),
+    ResultColumn("mechanisms.knife.eccentricity", "float", "m", "mm", "e", "Eccentricity: distance of the edge's centre from the shaft's axis"),
     ResultColumn("knife.cut_time", "float", "s", "ms", "t", "Time of the cut"),
     ResultColumn("knife.place.2", "float", "s", "ms", "t", "Time of the cut: no. 3"),
     ResultColumn("knife.place_count", "int", description="Time of the cut: how many in a turn"),

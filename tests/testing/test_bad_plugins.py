@@ -44,7 +44,7 @@ COMPUTED = 'chapter.computed("b", "b", "mm", "B", code, ("x",), "by code")'
 BAD = {  # what stands where in the plugin, and what is told of it
     "missing library": ({"head": "import no_such_library"}, "ModuleNotFoundError: No module named 'no_such_library' (faulty.py:25)"),
     "newer contract": ({"head": "CONTRACT = 7"}, "it is written for contract 7, this program (1.0.0) has contract 1; install a newer version"),
-    "older contract": ({"head": "CONTRACT = 0"}, "has contract 1; take a newer version of the plugin"),
+    "older contract": ({"head": "CONTRACT = 0"}, "has contract 1; use a newer version of the plugin"),
     "name of another version": (
         {"head": "from diecut_report.api import Wormhole"},
         "diecut_report.api of this version (1.0.0) has no 'Wormhole'; the plugin is written for another version (faulty.py:25)",

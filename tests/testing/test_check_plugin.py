@@ -96,7 +96,7 @@ MISTAKES = {
     "dimensions": (("wire**4 / (8", "wire**3 / (8"), ("toggle.py:59: spring_rate: ", "gives Pa, declared is N/m")),
     "inputs": (
         ("    # A limit", '    spare: Annotated[float, Quantity("z", "mm", "Spare")] = 1\n    # A limit'),
-        ("toggle.py:", "input spare: nothing takes it"),
+        ("toggle.py:", "input spare: nothing uses it"),
     ),
     "figures": (('view["travel"], 25', 'view["trvel"], 25'), ("toggle.py:", "characteristic: ", "there is no number 'trvel'")),
 }  # fmt: skip
@@ -221,7 +221,7 @@ def test_catalogues_of_the_program_are_not_written(capfd: Capture) -> None:
 def test_a_plugin_that_cannot_take_arrays_is_noted(tmp_path: Path) -> None:
     test = contract(tmp_path, *odd("return travel.item() * 1e5"))
     assert test.tried_alone("alone").status == "note" and test.tried_alone("speed").status == "pass"
-    words = "cannot take arrays, so that a study calculates it variant by variant: ValueError"
+    words = "does not support arrays, so that a study calculates it variant by variant: ValueError"
     assert words in test.tried_alone("alone").faults[0]
 
 
@@ -255,7 +255,7 @@ def test_an_untranslated_text_is_noted(tmp_path: Path) -> None:
     assert tried.status == "note"
     assert list(tried.faults) == [
         "uk: “Springs that eject” (mechanism) is not translated",
-        "uk: “Springs of an ejector” is in the catalogue, and nothing says it any more; --write-po marks it as obsolete",
+        "uk: “Springs of an ejector” is in the catalogue but no longer used; --write-po marks it as obsolete",
     ]
 
 
@@ -315,7 +315,7 @@ def test_what_came_of_extreme_values_is_told_in_words(tmp_path: Path, monkeypatc
     monkeypatch.setattr("diecut_report.testing.extreme_inputs.EXTREMES", 12)
     told = test.tried_alone("hostile").summary
     assert re.fullmatch(
-        r"an extreme value in the place of one input at a time: \d+ gave numbers, \d+ were refused in words; they are a sample of 142",
+        r"one input at a time set to an extreme value: \d+ gave numbers, \d+ were refused with a message; they are a sample of 142",
         told,
     )
     numbers, refused = (int(each) for each in re.findall(r"\d+", told)[:2])
@@ -359,9 +359,10 @@ def test_a_broken_rule_ends_with_1_and_without_a_machine_the_rest_is_not_tried(t
     out = capfd.readouterr().out
     assert "  fails  Dimensions of formulas\n      toggle.py:59: spring_rate: " in out
     assert (
-        "note  Example machine\n      there is no machine of this kind to try the rest on; give a configuration" in out
+        "note  Example machine\n      no machine of this kind is available to test the rest; give a configuration"
+        in out
     )
-    assert "not tried  Extreme inputs: not tried before what is above holds" in out
+    assert "not tried  Extreme inputs: not run until the rules above are satisfied" in out
 
 
 @pytest.mark.parametrize(

@@ -146,5 +146,5 @@ def test_other_numbers_are_not_noted() -> None:
 
 def test_a_chapter_that_nothing_depends_on_is_noted() -> None:
     (note,) = doubts(made(lambda rate: 2 * rate))
-    assert "chapter 'Other': no check, key result, figure or other chapter takes what it gives" in note
+    assert "chapter 'Other': no check, key result, figure or other chapter uses its results" in note
     assert list(doubts(replace(made(lambda rate: 2 * rate), key_results=()))) == []  # nothing is asked of it at all

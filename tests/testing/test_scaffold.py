@@ -180,7 +180,7 @@ def test_what_is_there_is_not_written_over(tmp_path: Path, monkeypatch: pytest.M
     monkeypatch.chdir(tmp_path)
     (tmp_path / "toggle").mkdir()
     assert main(["new-plugin", "toggle"]) == 2
-    assert "toggle: There is something of this name already, and it is not written over." in capfd.readouterr().err
+    assert "toggle: This name already exists and is not overwritten." in capfd.readouterr().err
     assert not list((tmp_path / "toggle").iterdir())
 
 

@@ -49,9 +49,9 @@ ROWS = (
     row("angle_end", "knife angle at the end of the cut φ₂", "55.6950", "°"),
     row("cut_time", "time of the cut", "46.8013", "ms"),
     row("shear_angle_min", "least shear angle", "5.9830", "°"),
-    row("shear_angle_max", "greatest shear angle", "17.2943", "°"),
+    row("shear_angle_max", "maximum shear angle", "17.2943", "°"),
     row("force_max", "greatest force down on the board", "10.5276", "N"),
-    row("torque_max", "greatest torque", "0.493709", "N·m"),
+    row("torque_max", "maximum torque", "0.493709", "N·m"),
     row("work", "work of a cut", "0.0761905", "J"),
     row("guillotine_force_ratio", "greatest force to a guillotine's", "0.140368"),
 )

@@ -63,7 +63,7 @@ def page(mechanism: Mechanism, shown: Shown | None, figure: Sketch | None) -> It
     yield from section("Phases", _phases(mechanism))
     yield from section("Assumptions", bullets(map(plain, mechanism.assumptions)))
     yield from section(
-        "Errata of the sources", bullets(f"{plain(e.source)}: {plain(e.text)}" for e in mechanism.errata)
+        "Errata in the sources", bullets(f"{plain(e.source)}: {plain(e.text)}" for e in mechanism.errata)
     )
     yield from section("Sources", bullets(f"{plain(s.id)}: {plain(s.citation)}" for s in mechanism.sources))
 

@@ -108,8 +108,8 @@ def _pair(axes: Axes, found: FoundFront, there: TriedMachines, behind: Cloud, pa
     scale = np.array([factor(column) for column in columns])
     points = found.values[:, [x, y]] * scale
     for is_allowed, colour, words in (
-        (False, "#dcc3c3", say("is not allowed")),
-        (True, COLOURS["pass"], say("is allowed")),
+        (False, "#dcc3c3", say("is not feasible")),
+        (True, COLOURS["pass"], say("is feasible")),
     ):
         some = behind.values[behind.allowed == is_allowed][:, [x, y]] * scale
         axes.scatter(some[:, 0], some[:, 1], s=size / 3, c=colour, linewidths=0, alpha=0.7, label=words)
@@ -151,7 +151,7 @@ def _charts_progress(found: SearchProgress, goals: Sequence[StoredObjective]) ->
         reached = reached * (1.0 if goals[0].is_less else -1.0) * factor(goals[0].column)
         title = titled(goals[0].column)
     else:
-        reached, title = 100 * reached, say("Volume that the front dominates, % of that at the end")
+        reached, title = 100 * reached, say("Volume dominated by the front, % of the final volume")
     axes.plot(found.tried, reached, color=ACCENT, marker="o", markersize=2.4)
     axes.set_title(wrapped(title, wide, 7.5, 1), pad=3, size=7.5)
     axes.set_xlabel(say("machines tried"), labelpad=1.5, size=7.5)
@@ -286,9 +286,9 @@ def _figures(found: OptimisationResult) -> dict[str, SummaryFigure]:
     if len(goals) > 1:
         parts["front"] = lambda: _front(found)
     if listed:
-        told = "; ".join(_held(found)) or say("No point stands at an end of a range.")
+        told = "; ".join(_held(found)) or say("No point lies at a limit of its range.")
         caption = say(
-            "Where the points of the front lie between the ends of what was searched; a red bar is an end that holds some."
+            "Position of the front points within the search ranges; a red bar marks a limit that is active for some."
         )
         parts["bounds"] = lambda: SummaryFigure(bounds(listed, told), caption, told)
     return {key: make() for key, make in parts.items()}
@@ -296,10 +296,11 @@ def _figures(found: OptimisationResult) -> dict[str, SummaryFigure]:
 
 def _front(found: OptimisationResult) -> SummaryFigure:
     goals = " / ".join(named(goal.column) for goal in found.front.objectives)
-    words = "The front over each pair of objectives: {goals}; {n} machines on it."
+    words = "Pareto front for each pair of objectives: {goals}; {n} machines on it."
     told = say(words, goals=goals, n=len(found.front.variants))
     caption = say(
-        "What was tried and the front: a machine on it is bettered by no other. Machines far from it lie outside."
+        "Machines tried and the Pareto front: no other machine is better than one on the front in all objectives. "
+        "Machines far from it lie outside."
     )
     return SummaryFigure(front(found.front, found.known, told), caption, told)
 
@@ -307,10 +308,12 @@ def _front(found: OptimisationResult) -> SummaryFigure:
 def _progress(found: OptimisationResult) -> SummaryFigure:
     gained, tried = found.progress.last_gain, found.tried
     told = say(
-        "The last thousandth was gained after {n} of {all} machines.", n=number(str(gained)), all=number(str(tried))
+        "The last thousandth of the gain was reached after {n} of {all} machines.",
+        n=number(str(gained)),
+        all=number(str(tried)),
     )
     if gained > 0.9 * tried and not found.is_all:
-        told += " " + say("The search was still gaining: more evaluations may find more.")
+        told += " " + say("The search was still improving: more evaluations may find better machines.")
     return SummaryFigure(progress(found.progress, found.front.objectives, told), told, told)
 
 

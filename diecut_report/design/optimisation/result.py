@@ -138,9 +138,9 @@ def _outstanding(costs: Array) -> tuple[int | None, str]:
     sums = shares(costs).sum(axis=1)
     place = int(np.argmin(sums))
     if costs.shape[1] > 2:
-        return place, phrase("least sum of the objectives, each as a share of its range on the front")
+        return place, phrase("minimum sum of the objectives, each normalised by its range on the front")
     if 1.0 - sums[place] < BULGE:
-        return None, phrase("no point is suggested: the front is straight, or bulges to the other side")
+        return None, phrase("no point is suggested: the front is straight, or curves the other way")
     return place, phrase("knee: furthest from the straight line between the ends of the front")
 
 

@@ -201,7 +201,7 @@ class SomeMachines:
     variants: tuple[int, ...]
 
     def __str__(self) -> str:
-        return Phrase("machines {variants} by themselves", variants=", ".join(map(str, self.variants)))
+        return Phrase("machines {variants} individually", variants=", ".join(map(str, self.variants)))
 
 
 @dataclass(frozen=True)
@@ -473,8 +473,8 @@ class _Run:
             if not len(there) or np.ptp(there) <= STILL * there.max():
                 words = "has no value" if not len(there) else "is the same"
                 what = Phrase(
-                    "{name} {words} in all {n} machines that were tried first: it does not follow from what varies. Name "
-                    "another objective, or vary what it follows from.",
+                    "{name} {words} in all of the first {n} machines tried: it does not depend on the varied inputs. Name another objective, or "
+                    "vary inputs that affect it.",
                     name=objective.output, words=phrase(words), n=len(values),
                 )  # fmt: skip
                 raise UserError(_of_objective(self.study, index, what))
@@ -498,7 +498,7 @@ def _is_same(known: Mapping[str, Array], values: Mapping[str, Values], numbers: 
 def _other_machines(store: Store) -> Problem:
     used = "; ".join(f"{name} {', '.join(store.state['libraries'].get(name, ['?']))}" for name in ("numpy", PYMOO))
     words = (
-        "These results hold other machines than the search asks for now, so that it cannot go on where it ended. They were begun "
-        "with {used}: continue with those versions, or begin anew in another folder with -o."
+        "These results belong to another search, so it cannot be resumed. They were started with {used}: continue with those versions, or start "
+        "again in another folder with -o."
     )
     return Problem(Phrase(words, used=used), str(store.directory))

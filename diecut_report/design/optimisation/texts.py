@@ -50,7 +50,7 @@ def lines(found: OptimisationResult) -> Iterator[str]:
 def goals(found: OptimisationResult) -> str:
     """Return what was searched for."""
     told = [
-        Phrase("least {quantity}" if goal.is_less else "greatest {quantity}", quantity=called(goal.column))
+        Phrase("minimum {quantity}" if goal.is_less else "maximum {quantity}", quantity=called(goal.column))
         for goal in found.front.objectives
     ]
     return Phrase("searched for: {goals}", goals=joined(told, ", "))
@@ -59,15 +59,15 @@ def goals(found: OptimisationResult) -> str:
 def counts(found: OptimisationResult) -> str:
     """Return how many machines were tried, and what became of them."""
     tried = Counted(found.tried, "{n} machine tried", "{n} machines tried")
-    whole = tried + phrase(", all there are") if found.is_all else tried
+    whole = tried + phrase(", all that exist") if found.is_all else tried
     parts: list[str] = [
         whole,
-        Counted(found.front.allowed, "{n} of them allowed", "{n} of them allowed"),
+        Counted(found.front.allowed, "{n} of them feasible", "{n} of them feasible"),
     ]
     if found.errors:
         parts.append(Counted(found.errors, "{n} cannot exist", "{n} cannot exist"))
     if found.dropped:
-        words = "{n} breaks a constraint between inputs", "{n} break a constraint between inputs"
+        words = "{n} violates a constraint between inputs", "{n} violate a constraint between inputs"
         parts.append(Counted(found.dropped, *words))
     return joined(parts, "; ")
 
@@ -77,7 +77,7 @@ def head(found: OptimisationResult) -> str:
     if found.front.is_single:
         return phrase("the best of them:")
     size, listed = len(found.front.variants), len(found.front.listed)
-    words = "front of {n} machine that no other betters", "front of {n} machines that no other betters"
+    words = "Pareto front: {n} machine", "Pareto front: {n} machines"
     of_all = Phrase(", {listed} of them listed", listed=listed) if listed < size else ""
     return Counted(size, *words) + of_all + ":"
 
@@ -130,8 +130,10 @@ def today(found: OptimisationResult, name: Callable[[StoredColumn], str] = calle
         )
         for goal, value in goals_
     ]
-    verdict = phrase("it is allowed") if found.known.violations[0] == 0 else phrase("it is not allowed")
-    return Phrase("today's machine is {number} ({verdict}): {told}", number=0, verdict=verdict, told=joined(told, ", "))
+    verdict = phrase("it is feasible") if found.known.violations[0] == 0 else phrase("it is not feasible")
+    return Phrase(
+        "the present machine is {number} ({verdict}): {told}", number=0, verdict=verdict, told=joined(told, ", ")
+    )
 
 
 def held(each: InputPlace, is_single: bool) -> str:
@@ -153,16 +155,16 @@ def _end(each: InputPlace, count: int, value: float, may_go: bool, is_single: bo
     end = phrase("lower") if is_low else phrase("upper")
     told = quantity(value, each.column)
     if is_single:
-        place = Phrase("stands at the {end} end of its range, {value}", end=end, value=told)
+        place = Phrase("is at the {end} limit of its range, {value}", end=end, value=told)
     else:
         words = (
-            "{n} of {all} stands at the {end} end of its range, {value}",
-            "{n} of {all} stand at the {end} end of its range, {value}",
+            "{n} of {all} is at the {end} limit of its range, {value}",
+            "{n} of {all} are at the {end} limit of its range, {value}",
         )
         place = Counted(count, *words, all=each.count, end=end, value=told)
     if not may_go:
         return place + phrase(", and the input allows no more")
-    return place + phrase(": the bound holds it; widen the range to look further")
+    return place + phrase(": the limit is active; widen the range to search further")
 
 
 def recheck_lines(found: OptimisationResult) -> Iterator[str]:
@@ -170,11 +172,11 @@ def recheck_lines(found: OptimisationResult) -> Iterator[str]:
     count, differing = len(found.rechecks), found.differing
     if not differing:
         most = max((each.share for each in found.rechecks), default=0.0)
-        agreed = "calculated again by itself: {n} agrees{most}", "calculated again one by one: all {n} agree{most}"
+        agreed = "recalculated individually: {n} agrees{most}", "recalculated individually: all {n} agree{most}"
         share = Phrase(" (numbers differ by {share} at most)", share=f"{most:.1g}") if most else ""
         yield Counted(count, *agreed, most=share)
         return
-    words = "calculated again one by one: {n} of {all} differs", "calculated again one by one: {n} of {all} differ"
+    words = "recalculated individually: {n} of {all} differs", "recalculated individually: {n} of {all} differ"
     yield Counted(len(differing), *words, all=count)
     yield from ("  " + phrase(difference(each)) for each in differing[:TOLD])
 
@@ -184,23 +186,23 @@ def difference(each: Recheck) -> str:
     if each.fault:
         return Phrase("{number}: {fault}", number=each.variant, fault=phrase(each.fault))
     if each.status != each.alone:
-        words = "{number}: {status} among many, {alone} by itself"
+        words = "{number}: {status} in the batch, {alone} on its own"
         return Phrase(words, number=each.variant, status=phrase(each.status), alone=phrase(each.alone))
-    words = "{number}: {name} differs by {share} of its size"
+    words = "{number}: {name} differs by {share} of its value"
     return Phrase(words, number=each.variant, name=each.name, share=f"{each.share:.2g}")
 
 
 def conflict_lines(found: OptimisationResult, why: Conflict) -> Iterator[str]:
     """Yield why no machine is allowed, and which one comes nearest."""
     if why.nearest is None:
-        reason = phrase(why.reason) if why.reason else phrase("the constraints between inputs drop them all")
+        reason = phrase(why.reason) if why.reason else phrase("the constraints between inputs exclude them all")
         yield Phrase("none of them can be calculated: {reason}", reason=reason)
         return
     if len(why.together) == 1:
-        yield Phrase("none of them holds this: {name}", name=why.together[0])
+        yield Phrase("none of them satisfies this: {name}", name=why.together[0])
     elif why.together:
-        yield Phrase("none of them holds these together: {names}", names=", ".join(why.together))
-    yield Phrase("nearest is {number}, which breaks {names}", number=why.nearest, names=", ".join(_broken(why)))
+        yield Phrase("none of them satisfies all of these: {names}", names=", ".join(why.together))
+    yield Phrase("the nearest is {number}, which violates {names}", number=why.nearest, names=", ".join(_broken(why)))
 
 
 def _broken(why: Conflict) -> Sequence[str]:

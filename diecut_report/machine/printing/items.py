@@ -13,7 +13,7 @@ from diecut_report.mechanism.steps import Step
 from diecut_report.mechanism.steps.rooms import Item
 from diecut_report.text.phrases import Phrase, phrase
 
-TO_ROUNDING = "0 up to the rounding of the computer"
+TO_ROUNDING = "0 to machine precision"
 
 
 def section_items(calc: Calculation) -> list[Item]:

@@ -38,7 +38,7 @@ from diecut_report.quantities.formatting import (
 from diecut_report.text.phrases import NAMING, Phrase, joined, phrase
 
 FIRST = np.zeros(1, dtype=int)  # the variant that is printed
-EQUAL_TERMS = "the terms are equal up to the rounding of the computer, or so nearly that printed numbers do not show it"
+EQUAL_TERMS = "the terms are equal to machine precision, or to within the printed digits"
 OPPOSITE = {"<": ">=", "<=": ">", ">": "<=", ">=": "<", "==": "!=", "!=": "=="}
 
 
@@ -133,7 +133,7 @@ class Page:
         if not elsewhere:
             return False, {"at": place}
         told = f"{place['symbol']} = {with_unit(place['text'], place['unit'])}"
-        words = "Taken at {place}, in the middle of its smooth piece; it is the same in all of it."
+        words = "Shown at {place}, in the middle of its smooth piece, over which it is constant."
         return True, {"at": place, "note": Phrase(words, place=told)}
 
     def _is_elsewhere(self, step: FormulaStep, axis: str) -> bool:

@@ -35,9 +35,9 @@ from diecut_report.text.phrases import Phrase, phrase
 
 SAME = 1e-12  # relative difference within which a quantity is the standard value
 SERIES_WORDS = {
-    "above": "the next standard value at or above {value}; neighbours not taken: {beside}",
-    "below": "the next standard value at or below {value}; neighbours not taken: {beside}",
-    "nearest": "the nearest standard value to {value}; neighbours not taken: {beside}",
+    "above": "the next standard value at or above {value}; adjacent values not chosen: {beside}",
+    "below": "the next standard value at or below {value}; adjacent values not chosen: {beside}",
+    "nearest": "the nearest standard value to {value}; adjacent values not chosen: {beside}",
 }
 
 

@@ -18,7 +18,7 @@ from diecut_report.text.phrases import Phrase
 Operation = Literal["max", "min", "abs_max", "range", "mean", "rms", "integral"]
 SIGNS = {"max": (1.0,), "min": (-1.0,), "abs_max": (1.0, -1.0), "range": (1.0, -1.0)}
 SEARCHED = "bounded search on the curve within each smooth piece, one-sided limits at the breakpoints included"
-INTEGRATED = "Gauss–Legendre between the breakpoints, repeated with the doubled order"
+INTEGRATED = "Gauss–Legendre quadrature between the breakpoints, repeated at twice the order"
 
 
 @dataclass(frozen=True, eq=False)

@@ -16,7 +16,7 @@ from diecut_report.mechanism.steps.rooms import ANY, NUMBER, Item, Kinds, Names,
 from diecut_report.quantities.formatting import told
 from diecut_report.text.phrases import Phrase
 
-METHOD = "bracketed root search, proved by the relation shown, which was not used to find it"
+METHOD = "bracketed root search, verified by the relation shown, which is independent of the search"
 
 
 @dataclass(frozen=True, eq=False)

@@ -60,7 +60,9 @@ class Accumulated(SeriesStep):
     """Declare a curve: the running integral of the curve ``of`` over its abscissa, from the abscissa's start."""
 
     OPERATION: ClassVar[str] = "accumulated"
-    METHOD: ClassVar[str] = "Chebyshev series between the breakpoints, integrated; its end compared with Gauss–Legendre"
+    METHOD: ClassVar[str] = (
+        "Chebyshev series between the breakpoints, integrated; its final value is compared with Gauss–Legendre quadrature"
+    )
 
     def dimensions(self, of: Callable[[str], Kind], axis: Callable[[str], str]) -> Iterator[tuple[str, Any, Any]]:
         yield Phrase("the integral of {curve}", curve=self.of), times(of(self.of), of(axis(self.of))), of(self.id)
@@ -75,7 +77,7 @@ class Derivative(SeriesStep):
 
     OPERATION: ClassVar[str] = "derivative"
     METHOD: ClassVar[str] = (
-        "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other places"
+        "Chebyshev series between the breakpoints, differentiated; the series is compared with the curve at other points"
     )
 
     def dimensions(self, of: Callable[[str], Kind], axis: Callable[[str], str]) -> Iterator[tuple[str, Any, Any]]:

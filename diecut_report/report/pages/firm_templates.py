@@ -157,7 +157,7 @@ class TemplateSandbox(ImmutableSandboxedEnvironment):
         if isinstance(obj, (TemplateModule, Namespace)):
             return True  # what the templates themselves define
         of_class = getattr(type(obj), attr, None)
-        if attr in _names(obj) or of_class in self.functions:
+        if attr in _names(obj) or (callable(of_class) and of_class in self.functions):
             return True
         is_own = isinstance(of_class, property | cached_property) and not hasattr(BaseModel, attr)
         return _is_record(obj) and (attr in _field_names(obj) or is_own)
@@ -367,8 +367,8 @@ def bounded(house: HouseStyle | None) -> Iterator[None]:
             yield
     except Overran:
         words = Phrase(
-            "With these templates the report was not made within {seconds} s, and was given up. "
-            "Look for a loop without an end, and for a style or a picture that the page engine cannot cope with.",
+            "With these templates the report was not finished within {seconds} s and was aborted. Look for an "
+            "endless loop, and for a style or a picture that the page engine cannot handle.",
             seconds=f"{SECONDS:g}",
         )
         raise UserError(Problem(words, house.folder if house else "")) from None

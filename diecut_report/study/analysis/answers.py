@@ -69,7 +69,7 @@ class Notation:
                 words = "{given} is not known here; allowed: {allowed}."
                 raise UserError(Problem(Phrase(words, given=repr(given), allowed=", ".join(allowed))))
         if self.separator == self.decimal == "comma":
-            words = "A comma cannot part both values and decimals; add --separator semicolon, or tab."
+            words = "A comma cannot separate both values and decimals; add --separator semicolon, or tab."
             raise UserError(Problem(phrase(words)))
 
     def unit_of(self, column: StoredColumn) -> str:
@@ -158,7 +158,7 @@ def unfinished(directory: Path) -> Iterator[str]:
     """Yield a warning where a study is not calculated to its end: its best variant may still come."""
     state = read_state(directory)
     if state.get("state") != "complete":
-        words = "This study is not finished: {parts} of {all} parts are calculated. Go on with: {continued}"
+        words = "This study is not finished: {parts} of {all} parts are calculated. Continue with: {continued}"
         parts = {
             "parts": len(list((directory / "variants").glob("part-*.parquet"))),
             "all": -(-state["rows"] // state["chunk"]),
@@ -241,7 +241,7 @@ def _table(stored: Stored, asked: Question, width: int | None) -> Iterator[str]:
     counts = {"found": number(str(found), decimal_sign()), "n": number(str(total), decimal_sign())}
     words: Phrase = Counted(total, "{found} of {n} variant", "{found} of {n} variants", counts)
     if asked.condition.sql != "true":
-        words = Phrase("Fulfilling the condition: {count}", count=words)
+        words = Phrase("Matching the condition: {count}", count=words)
     some = Phrase("{words}; {given} are shown (--top, --format csv).", words=words, given=len(rows))
     yield f"{table}\n{said(some if len(rows) < found else Phrase('{words}.', words=words))}\n"
     if without:
@@ -256,8 +256,8 @@ def _compared(stored: Stored, asked: Question, width: int | None, *, keep_equal:
     if equal:
         words += say_counted(
             equal,
-            "; {n} quantity that is the same for all is left out (--columns, --format csv)",
-            "; {n} quantities that are the same for all are left out (--columns, --format csv)",
+            "; {n} quantity that is equal in all is omitted (--columns, --format csv)",
+            "; {n} quantities that are equal in all are omitted (--columns, --format csv)",
         )
     return f"{table}\n{words}.\n"
 

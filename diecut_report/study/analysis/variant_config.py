@@ -117,8 +117,8 @@ def _variant(stored: Stored, variant: int, discovery: Discovery, *, in_error: bo
 def _missing(stored: Stored, variant: int) -> Phrase:
     first, last = stored.rows("SELECT min(variant), max(variant) FROM v")[0]
     words = "There is no variant {variant} here. The stored ones are within {first} … {last}; a number in between that is missing {why}"
-    dropped = "was dropped by a constraint."
-    unfinished = "was dropped by a constraint or is not calculated yet."
+    dropped = "was excluded by a constraint."
+    unfinished = "was excluded by a constraint or is not calculated yet."
     why = phrase(dropped if stored.study.get("state") == "complete" else unfinished)
     return Phrase(words, variant=variant, first=first, last=last, why=why)
 

@@ -155,9 +155,7 @@ def opened(folder: Path) -> Iterator[Stored]:
             raise KeyboardInterrupt from error
         except duckdb.Error as error:
             # the parts are as they were written: what is asked gives no answer, or there is no room
-            words = (
-                "The stored variants give no answer to this ({first}). Ask for something else, or for less at a time."
-            )
+            words = "The query on the stored variants failed ({first}). Ask for something else, or for less at a time."
             message = Phrase(words, first=str(error).splitlines()[0])
             raise UserError(Problem(message, str(folder))) from error
 

@@ -220,7 +220,9 @@ class Sobol(_Varied):
         below = 2 ** (self.points.bit_length() - 1)
         if below == self.points:
             return None
-        words = "Sobol points are balanced where their count is a power of two: {below} or {above} serve better than {points}."
+        words = (
+            "Sobol samples are balanced when their size is a power of two: {below} or {above} are better than {points}."
+        )
         return Phrase(words, below=below, above=2 * below, points=self.points)
 
     def _rows(self, start: int, stop: int) -> dict[str, Values]:

@@ -241,7 +241,10 @@ class _StudyReader:
         objectives = results.objectives(named, ("optimise",)) if named else own
         before = len(self.problems)
         if not named and not self.data.get("objectives"):
-            words = "is missing; name what is to be small or great, such as objectives: [{minimise: cylinder.mass}]."
+            words = (
+                "is missing; name what is to be minimised or maximised, such as objectives: "
+                "[{minimise: cylinder.mass}]."
+            )
             self.problems.append(self.place.absent(("optimise", "objectives"), phrase(words)))
         if sampled.variables is None:
             if self.data.get("sample", {}).get("method") == "table":
@@ -260,9 +263,7 @@ class _StudyReader:
         """Require ranges and lists, one of which has several values, and no more machines in a generation than in all."""
         scattered = [each.path for each in sampled.variables or () if not isinstance(each, Free)]
         for path in scattered:
-            words = (
-                "is a distribution, which scatters; an optimisation searches within a range {from: …, to: …} or a list."
-            )
+            words = "is a distribution; an optimisation searches within a range {from: …, to: …} or a list."
             self.problems.append(self.place.problem(("vary", path), phrase(words)))
         if not scattered and all(count_of(each) == 1 for each in free):
             words = "leaves nothing free: each path has a single value. Give one a range or more values."

@@ -73,7 +73,7 @@ class ResultReader:
             key: KeyPath = (*home, "objectives", index)
             made = self._objective(key, entry)
             if made and made.output in found:
-                words = "{name} is an objective already; name each number once, to be small or to be great."
+                words = "{name} is an objective already; name each number once, to be minimised or maximised."
                 self._report(key, Phrase(words, name=made.output))
             elif made:
                 found[made.output] = made
@@ -130,7 +130,7 @@ class ResultReader:
         if name in numbers:
             return True
         if name in self.inputs:
-            words = "{name} is a text, a choice or a yes/no, which is neither small nor great; name a number."
+            words = "{name} is a text, a choice or a yes/no, which cannot be minimised or maximised; name a number."
             self._report(key, Phrase(words, name=name))
             return False
         words = "{name} is not varied, so it is the same in all variants{near}; an output is named as NAME.OUTPUT. Varied numbers: {known}."
@@ -140,7 +140,7 @@ class ResultReader:
     def _is_number(self, key: KeyPath, name: str) -> bool:
         sort = self._sort(key, name)
         if sort == "other":
-            words = "{name} is a text or a yes/no, which is neither small nor great; name a number."
+            words = "{name} is a text or a yes/no, which cannot be minimised or maximised; name a number."
             self._report(key, Phrase(words, name=name))
         elif sort not in ("number", "utilisation", None):
             self._report_no_output(key, name)

@@ -150,7 +150,7 @@ def _first(study: Study) -> int:
         if found.holds.any():
             return start + int(np.argmax(found.holds))
         start += len(found.holds)
-    raise ValueError(phrase("the constraints leave no variant"))
+    raise ValueError(phrase("no variant satisfies the constraints"))
 
 
 def _measured(study: Study, known: Description, first: int) -> Measured:
@@ -217,8 +217,8 @@ def _study_lines(found: DryRun) -> Iterator[str]:
     if found.variants == found.rows and found.is_exact:
         yield say_counted(found.rows, "{n} variant", "{n} variants")
     else:
-        exact = "{rows} variants, of which the constraints leave {n}"
-        about = "{rows} variants, of which the constraints leave about {n}"
+        exact = "{rows} variants, {n} of which satisfy the constraints"
+        about = "{rows} variants, about {n} of which satisfy the constraints"
         yield say(exact if found.is_exact else about, rows=found.rows, n=found.variants)
     yield from _dropped(found)
     yield from _varied(found, say("variant {number}: ", number=found.first))
@@ -227,8 +227,8 @@ def _study_lines(found: DryRun) -> Iterator[str]:
         words, quantities=found.quantities, checks=found.checks, curves=len(found.study.curves), parts=found.parts
     )
     yield _calculated(found.measured)
-    one = "time: {each} a variant, about {whole} in {n} process, without summary and reports"
-    many = "time: {each} a variant, about {whole} in {n} processes, without summary and reports"
+    one = "time: {each} per variant, about {whole} in {n} process, excluding summary and reports"
+    many = "time: {each} per variant, about {whole} in {n} processes, excluding summary and reports"
     each, whole = _scaled(found.measured.seconds, DURATIONS), _scaled(found.seconds, DURATIONS)
     yield say_counted(found.processes, one, many, each=each, whole=whole)
     yield say("disk: about {size}", size=_scaled(found.bytes_, SIZES))
@@ -241,22 +241,22 @@ def _study_lines(found: DryRun) -> Iterator[str]:
 
 
 def _search_lines(found: DryRun, asked: Optimise) -> Iterator[str]:
-    words = "a search through {n} machines, {population} in a generation"
+    words = "a search over {n} machines, {population} per generation"
     yield say(words, n=asked.evaluations, population=asked.population)
     goals = [
-        say("least {quantity}" if each.minimise else "greatest {quantity}", quantity=each.output)
+        say("minimum {quantity}" if each.minimise else "maximum {quantity}", quantity=each.output)
         for each in asked.objectives
     ]
     yield say("searched for: {goals}", goals=", ".join(goals))
-    passing = "allowed are machines of which no check fails"
-    failing = "allowed are also machines of which checks fail"
+    passing = "feasible: machines with no failing check"
+    failing = "feasible: also machines with failing checks"
     yield say(passing if asked.is_passing else failing)
     yield from _dropped(found)
     yield from _varied(found, "")
     words = "of each machine: {quantities} quantities, {checks} checks, {curves} curves"
     yield say(words, quantities=found.quantities, checks=found.checks, curves=len(found.study.curves))
     yield _calculated(found.measured)
-    words = "time: {each} a machine, about {whole} on one processor, without page and reports"
+    words = "time: {each} per machine, about {whole} on one processor, excluding page and reports"
     seconds = found.measured.seconds
     yield say(words, each=_scaled(seconds, DURATIONS), whole=_scaled(asked.evaluations * seconds, DURATIONS))
 
@@ -265,10 +265,10 @@ def _dropped(found: DryRun) -> Iterator[str]:
     """Yield how much each constraint drops by itself; one on results is judged when variants are calculated."""
     for constraint in found.study.constraints:
         if constraint.outputs:
-            yield say("{constraint}: judged by the results", constraint=constraint.text)
+            yield say("{constraint}: evaluated on the results", constraint=constraint.text)
         else:
             share = localised(f"{100 * found.dropped_by[constraint.text] / max(found.looked_at, 1):.3g}")
-            yield say("{constraint}: alone drops {share} %", constraint=constraint.text, share=share)
+            yield say("{constraint}: excludes {share} % on its own", constraint=constraint.text, share=share)
 
 
 def _varied(found: DryRun, head: str) -> Iterator[str]:
@@ -286,7 +286,7 @@ def _varied(found: DryRun, head: str) -> Iterator[str]:
 def _calculated(measured: Measured) -> str:
     counts = [say(words, n=count) for status, words in VERDICTS.items() if (count := measured.statuses.get(status))]
     if measured.dropped:
-        counts.append(say("{n} dropped by their results", n=measured.dropped))
+        counts.append(say("{n} excluded by their results", n=measured.dropped))
     return say("calculated {n} to measure: {counts}", n=measured.variants, counts=", ".join(counts))
 
 

@@ -119,7 +119,7 @@ def refuse_empty(study: Study) -> None:
     """Require that the constraints leave at least one variant."""
     if not study.constraints or any(found.holds.any() for found in judged_rows(study)):
         return
-    words = "the constraints drop all {count} variants of the sample{why}. Loosen one of them, or vary other values."
+    words = "the constraints exclude all {count} variants of the sample{why}. Relax one of them, or vary other values."
     why = why_dropped({"without_value": without_value(study)})
     message = Phrase(words, count=f"{study.sample.count:,}", why=why)
     raise UserError(Problem(message, str(study.file), path="constraints"))

@@ -118,7 +118,7 @@ def _refused(ids: Sequence[int], possible: set[int], stored: Array) -> Iterator[
     known = set(stored.tolist())
     for number in sorted(set(ids) - possible):
         impossible = "it cannot exist; its reason stands in the column error"
-        why = phrase(impossible if number in known else "a constraint drops it")
+        why = phrase(impossible if number in known else "a constraint excludes it")
         yield Phrase("variant {number} gets no full report: {why}.", number=number, why=why)
 
 

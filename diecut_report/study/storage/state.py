@@ -343,7 +343,7 @@ def refuse_sources(folder: Path, target: Path) -> None:
     for source in (description.study, description.base, *description.tables):
         if source.content is not None and source.content == target.read_bytes():
             words = (
-                "This is {file}, of which the study was made; it would be written over. Choose another place with -o."
+                "This is {file}, of which the study was made, and would be overwritten. Choose another place with -o."
             )
             raise UserError(Problem(Phrase(words, file=source.file), str(target)))
 

@@ -45,7 +45,7 @@ class StoredObjective:
     @property
     def label(self) -> str:
         """Return the objective in words."""
-        return say("least {quantity}" if self.is_less else "greatest {quantity}", quantity=named(self.column))
+        return say("minimum {quantity}" if self.is_less else "maximum {quantity}", quantity=named(self.column))
 
 
 @dataclass(frozen=True)
@@ -410,8 +410,8 @@ def chosen(stored: Stored, total: int, best: Sequence[int]) -> list[tuple[str, l
     groups = [_cut(first, best, BEST)]
     if total <= ALL:
         passing, failing = (
-            say("Others that pass, with most margin first"),
-            say("Failing variants, the least overloaded first"),
+            say("Other passing variants, largest margin first"),
+            say("Failing variants, least overloaded first"),
         )
         groups += [
             (passing, _numbers(stored, SOUND, "NULLS LAST, variant")),

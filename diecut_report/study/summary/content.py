@@ -26,7 +26,7 @@ from diecut_report.text.translation import localised, said, say, say_counted
 
 
 METHODS = {
-    "grid": phrase("grid: each value with each"),
+    "grid": phrase("grid: all combinations of the values"),
     "zip": phrase("zip: the first values together, the second together, and so on"),
     "latin_hypercube": phrase("Latin hypercube"),
     "sobol": phrase("Sobol sequence"),
@@ -96,7 +96,7 @@ def _asked_facts(stored: Stored, tree: yaml.Tree) -> Iterator[tuple[str, str]]:
     if "sample" in counts and counts["sample"] != sample.get("count"):
         yield say("Variants of the sample"), variants(int(counts["sample"]))
     if tree.data.get("constraints"):
-        yield say("Dropped by the constraints"), _dropped(counts)
+        yield say("Excluded by the constraints"), _dropped(counts)
 
 
 def _dropped(counts: Mapping[str, Any]) -> str:
@@ -105,7 +105,7 @@ def _dropped(counts: Mapping[str, Any]) -> str:
 
 def _objective(column: StoredColumn | None, way: str, name: str) -> AskedText:
     typed = f"{way}: {name}"
-    words = "least {quantity}" if way == "minimise" else "greatest {quantity}"
+    words = "minimum {quantity}" if way == "minimise" else "maximum {quantity}"
     return AskedText(say(words, quantity=named(column)), typed) if column else AskedText(typed, "")
 
 
@@ -322,7 +322,7 @@ def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
     yield say("Variants calculated"), variants(total)
     yield say("Varied"), say_counted(len(stored.varied), "{n} input", "{n} inputs")
     if counts.get("dropped"):
-        yield say("Left out by constraints"), _dropped(counts)
+        yield say("Excluded by constraints"), _dropped(counts)
     found = data.margin(stored) if stored.checks else None
     if found is not None:
         others = found.shared - 1
@@ -330,7 +330,7 @@ def _facts(stored: Stored, total: int) -> Iterator[tuple[str, str]]:
         more = say_counted(others, *words, n=number(str(others))) if others else ""
         check, used = said(stored.check_label(found.check)), utilised(found.utilisation)
         told = "variant {n}{more}: utilisation {used} at most, by “{check}”"
-        yield say("Most margin"), say(told, n=found.variant, more=more, used=used, check=check)
+        yield say("Largest margin"), say(told, n=found.variant, more=more, used=used, check=check)
     seconds = float(stored.study.get("seconds") or 0)
     if seconds > 0:
         yield say("Calculated in"), localised(f"{seconds:.3g} s")

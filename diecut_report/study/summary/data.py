@@ -28,7 +28,7 @@ from diecut_report.text.translation import decimal_sign, localised, said, say, s
 
 DIGITS = 4
 WORST = StoredColumn(
-    "greatest utilisation", "float", title=phrase("Utilisation of the check that governs (where it has one)")
+    "maximum utilisation", "float", title=phrase("Utilisation of the governing check (where it has one)")
 )
 WORDS = {"pass": phrase("pass"), "warn": phrase("warning"), "fail": phrase("fail"), "error": phrase("error")}
 

@@ -32,7 +32,7 @@ from diecut_report.text.translation import localised, said, say, say_counted
 DENSE = 5_000  # variants from which a chart counts them in cells
 MAX_AXES, MAX_FAILURES, MAX_POINTS = 8, 15, 400  # upright axes, bars of failing checks, points of each small chart
 PALE = "#e0a3a1"  # of failures that another check governs
-FAR = phrase("Values that lie far above the others stand at the edge.")
+FAR = phrase("Values far above the others are drawn at the edge.")
 
 
 class SummaryFigure(NamedTuple):
@@ -91,7 +91,9 @@ class Figures:
             "overloaded more (pale red); those with a warning (yellow)."
         )
         if (left := len(failures) - MAX_FAILURES) > 0:
-            caption += " " + say_counted(left, "{n} rarer check is left out.", "{n} rarer checks are left out.")
+            caption += " " + say_counted(
+                left, "{n} less frequent check is omitted.", "{n} less frequent checks are omitted."
+            )
         colours = [charts.COLOURS["fail"], PALE, charts.COLOURS["warn"]]
         parts = [(row.governing, row.failing - row.governing, row.warning) for row, _ in rows]
         bars = [charts.Bar(name, part, _behind(row)) for (row, name), part in zip(rows, parts, strict=True)]
@@ -101,8 +103,8 @@ class Figures:
         found = [data.histogram(self.stored, spread) for spread in spreads]
         told = "; ".join(map(_distributed, spreads))
         caption = say(
-            "Distributions over all variants: pass (blue), warning (yellow), fail (red), each on top of the other; "
-            "heights count variants, the number is that of the highest bar."
+            "Distributions over all variants: pass (blue), warning (yellow), fail (red), stacked; bar heights are "
+            "numbers of variants, the number shown is that of the highest bar."
         )
         if any(each.is_open for each in found):
             caption += " " + say("Where a few variants lie far above the others (≥), the last bar holds them all.")
@@ -121,11 +123,11 @@ class Figures:
             "{variants} as lines over {names}", variants=variants(sound + failing), names=", ".join(map(named, columns))
         )
         caption = say(
-            "Each line is a variant, from input to result: dark those that pass, in front; dashed those with a warning; pale "
-            "those that fail. The darker a field of an axis, the larger the share of the variants there that pass. "
-            "The ends of the axes are those of all variants."
+            "Each line is a variant, from input to result: passing variants are dark and in front, those with a warning dashed, failing ones "
+            "pale. The darker a field of an axis, the larger the percentage of the variants there that pass. The ends of the axes are those of "
+            "all variants."
         )
-        rule = "Of {variants} so many are drawn, evenly taken from the sample: {sound} of those that pass, {failing} of those that fail."
+        rule = "Of {variants}, evenly selected from the sample, these are drawn: {sound} of those that pass, {failing} of those that fail."
         is_whole = lines.is_whole and self.total == len(self.sample.status)
         all_ = say("All variants are drawn.")
         drawn = all_ if is_whole else say(rule, variants=variants(self.total), sound=sound, failing=failing)
@@ -159,7 +161,7 @@ class Figures:
         caption = say("{y} over {x}, with the Pareto front." if front else "{y} over {x}.", y=named(y), x=named(x))
         if self.total > DENSE and {x.name, y.name} <= self.spreads.keys():
             found = data.density(self.stored, self.spreads[x.name], self.spreads[y.name])
-            words = "Counted in cells are {variants}: the larger a square, the more variants; its colour is the share that does not fail."
+            words = "{variants} are counted in cells: the larger a square, the more variants; its colour shows the percentage that does not fail."
             counted = say(words, variants=variants(int(found.counts.sum())))
             svg = charts.cells(say("Density of {told}.", told=told), "pair", found, front)
         else:
@@ -179,7 +181,7 @@ class Figures:
         some = self.sample.thinned(MAX_POINTS)
         told = "; ".join(self._over(x, y) for x, y in pairs)
         drawn = self._drawn(some, [column for pair in pairs for column in pair])
-        caption = f"{say('Each quantity over the inputs that move it most.')} {drawn}"
+        caption = f"{say('Each quantity over its most influential inputs.')} {drawn}"
         return SummaryFigure(charts.scatter(say("Scatter: {told}.", told=told), "grid", some, pairs), caption, told)
 
     def _over(self, x: StoredColumn, y: StoredColumn) -> str:
@@ -209,14 +211,16 @@ def influence_figure(found: Influence) -> SummaryFigure:
     """Return the influence of the inputs on a quantity."""
     target = named(found.target)
     if found.is_sobol:
-        words = "Influence on {target}. Dark: first index; pale: total index; lines: 95 % intervals."
-        each = "{quantity}: first {first}, total {total}"
+        words = "Influence on {target}. Dark: first-order index; light: total index; lines: 95 % confidence intervals."
+        each = "{quantity}: first-order {first}, total {total}"
         numbers = [(named(share.column), f"{share.first:.2f}", f"{share.total or 0:.2f}") for share in found.telling]
         told = "; ".join(
             say(each, quantity=name, first=localised(one), total=localised(all_)) for name, one, all_ in numbers
         )
     else:
-        words = "Influence on {target}: partial rank correlation; to the right, a greater input gives a greater result."
+        words = (
+            "Influence on {target}: partial rank correlation; bars to the right: the result increases with the input."
+        )
         told = "; ".join(localised(f"{named(share.column)}: {share.first:+.2f}") for share in found.telling)
     told = say("Influence on {target}: {told}", target=target, told=told)
     key = Phrase("influence of {name}", name=found.target.name)

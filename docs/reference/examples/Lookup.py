@@ -42,7 +42,7 @@ except StandardFault as fault:
 class Drive(Inputs):
     bearing: Annotated[Literal["6204", "6205"], Text("Bearing")]
     chain: Annotated[Literal["08B", "10B"], Text("Chain")]
-    teeth: Annotated[float, Quantity("z", "1", "Teeth of the pinion", gt=0)]
+    teeth: Annotated[float, Quantity("z", "1", "Number of teeth of the pinion", gt=0)]
     load: Annotated[float, Quantity("C_n", "kN", "Rating that the second bearing needs", gt=0)]
 
 

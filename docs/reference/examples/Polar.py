@@ -16,7 +16,7 @@ class Rotor(Inputs):
 torque = Chapter("Torque")
 torque.abscissa("angle", "φ", "deg", "Angle", 2 * np.pi)
 torque.value("torque", "M", "N*m", "Torque", lambda mean, ripple, angle: mean + ripple * np.cos(2 * angle))
-torque.reduction("torque_max", "M_max", "N*m", "Greatest torque", operation="max", of="torque")
+torque.reduction("torque_max", "M_max", "N*m", "Maximum torque", operation="max", of="torque")
 
 MECHANISM = Mechanism(
     kind="rotor", version="1.0", title="Rotor", summary="Torque of a rotor.", inputs=Rotor, chapters=(torque,),

@@ -24,16 +24,17 @@ REFUSED = [  # the block, what is varied, what is told
     ("{objectives: [{minimise: a.size}]}", VARY, "optimise.objectives.0.minimise: a.size is a text or a yes/no"),
     ("{objectives: [{maximise: press.productivity}]}", VARY, "press.productivity is not varied, so it is the same in all variants"),
     ("{objectives: [{maximise: mechanisms.a.grade}]}", VARY + "  mechanisms.a.grade: [fine, coarse]\n",
-     "mechanisms.a.grade is a text, a choice or a yes/no, which is neither small nor great"),
+     "mechanisms.a.grade is a text, a choice or a yes/no, which cannot be minimised or maximised"),
     ("{objectives: [{}]}", VARY, "optimise.objectives.0: names no outputs; give minimise or maximise"),
     ("{objectives: [{minimise: a.moment}, {maximise: a.moment}]}", VARY, "optimise.objectives.1: a.moment is an objective already"),
-    ("{}", VARY, "optimise.objectives: is missing; name what is to be small or great"),
+    ("{}", VARY, "optimise.objectives: is missing; name what is to be minimised or maximised"),
     (f"{{{GOALS}, evaluations: 0}}", VARY, "optimise.evaluations: 0 is out of range; allowed: ≥ 1"),
     (f"{{{GOALS}, population: 3}}", VARY, "optimise.population: 3 is out of range; allowed: ≥ 4"),
     (f"{{{GOALS}, population: 90, evaluations: 80}}", VARY, "optimise.population: is 90, more than the evaluations, 80"),
     (f"{{{GOALS}, generations: 3}}", VARY, "optimise.generations: is an unknown key"),
     (f"{{{GOALS}}}", f"  {FORCE}: [1 kN]\n", "vary: leaves nothing free: each path has a single value."),
-    (f"{{{GOALS}}}", f"  {FORCE}: {{distribution: uniform, low: 1 kN, high: 2 kN}}\n", f"vary.{FORCE}: is a distribution, which scatters"),
+    (f"{{{GOALS}}}", f"  {FORCE}: {{distribution: uniform, low: 1 kN, high: 2 kN}}\n", f"vary.{FORCE}: is a distribution; an optimisation "
+                                                                                       "searches"),
 ]  # fmt: skip
 
 
@@ -76,7 +77,7 @@ def test_an_objective_that_does_not_vary_leaves_nothing_behind(tmp_path: Path, c
     vary = "  mechanisms.a.teeth: {from: 20, to: 90}\n"
     assert optimised(search_file(tmp_path, vary=vary, goals="[{minimise: a.moment}]"), tmp_path / "out") == 2
     told = capfd.readouterr().err
-    assert "a.moment is the same in all 30 machines that were tried first" in told and not (tmp_path / "out").exists()
+    assert "a.moment is the same in all of the first 30 machines tried" in told and not (tmp_path / "out").exists()
     assert re.search(r"search\.yaml:\d+:\d+: optimise\.objectives\.0: ", told)
 
 
@@ -86,7 +87,7 @@ def test_where_no_machine_is_allowed_the_conflict_and_the_nearest_are_told(tmp_p
     study = search_file(tmp_path, base=base, rest="constraints: [\"a.pressure <= '0.7 MPa'\"]\n")
     assert optimised(study, tmp_path / "out", "--quiet") == 1
     text = capfd.readouterr().out
-    assert "none of them holds these together: " in text and "a.pressure <= '0.7 MPa'" in text and "a.checks." in text
+    assert "none of them satisfies all of these: " in text and "a.pressure <= '0.7 MPa'" in text and "a.checks." in text
     assert "nearest is " in text
     found = json.loads((tmp_path / "out" / "front.json").read_text("utf-8"))
     assert found["front"] == [] and len(found["conflict"]["together"]) == 2 and found["conflict"]["nearest"] is not None
@@ -95,7 +96,7 @@ def test_where_no_machine_is_allowed_the_conflict_and_the_nearest_are_told(tmp_p
 def test_where_constraints_drop_all_that_is_told(tmp_path: Path, capfd: Any) -> None:
     study = search_file(tmp_path, rest=f"constraints: [\"{FORCE} >= '5 kN'\"]\n")
     assert optimised(study, tmp_path / "out", "--quiet") == 1
-    assert "the constraints between inputs drop them all" in capfd.readouterr().out
+    assert "the constraints between inputs exclude them all" in capfd.readouterr().out
 
 
 @pytest.mark.nightly

@@ -42,7 +42,7 @@ def test_the_front_of_a_lever_is_the_hyperbola_of_its_least_force(tmp_path: Path
     assert moment.min() < 52 and moment.max() > 195  # from 1 kN × 50 mm to 1 kN × 200 mm
     assert found["today"] == 0 and all(each["same"] for each in found["recheck"]) and len(found["recheck"]) == 4
     text = capfd.readouterr().out
-    assert "a.force: " in text and "lower end of its range, 1 kN: the bound holds it; widen the range" in text
+    assert "a.force: " in text and "lower limit of its range, 1 kN: the limit is active; widen the range" in text
     assert "knee: furthest from the straight line" in text
     # as shares of their ranges the hyperbola is symmetric: its knee lies at the arm √(50 · 200) mm
     (knee,) = [point for point in found["front"] if point["variant"] == found["suggested"]]
@@ -91,7 +91,7 @@ def test_other_machines_than_those_stored_are_refused(
     optimised(study, tmp_path / "out", "--quiet")
     monkeypatch.setattr(run_module, "todays_values", lambda _: {})  # as another version of the library might ask
     assert optimised(None, tmp_path, "--resume", str(tmp_path / "out"), "--quiet") == 2
-    assert "hold other machines than the search asks for now" in capfd.readouterr().err
+    assert "belong to another search" in capfd.readouterr().err
 
 
 @pytest.mark.nightly
@@ -133,7 +133,7 @@ def test_all_machines_of_short_lists_are_tried_once(tmp_path: Path, capfd: Any) 
     assert optimised(search_file(tmp_path, vary=vary), tmp_path / "out", "--quiet") == 0
     found = told(tmp_path / "out")
     assert (found["tried"], found["calculated"], len(found["front"])) == (12, 12, 2)
-    assert "12 machines tried, all there are" in capfd.readouterr().out
+    assert "12 machines tried, all that exist" in capfd.readouterr().out
 
 
 @pytest.mark.nightly

@@ -14,7 +14,14 @@ def test_the_page_tells_front_bounds_and_proof(tmp_path: Path) -> None:
     assert optimised(search_file(tmp_path), tmp_path / "1" / "out", "--quiet") == 0
     assert optimised(search_file(tmp_path), tmp_path / "2" / "out", "--quiet") == 0
     page = (tmp_path / "1" / "out" / "optimisation.html").read_text("utf-8")
-    for words in ("The best machines", "Within the bounds", "widen the range", "all 3 agree", "suggestion", "<svg"):
+    for words in (
+        "The best machines",
+        "Position within the ranges",
+        "widen the range",
+        "all 3 agree",
+        "suggestion",
+        "<svg",
+    ):
         assert words in page
     assert "http://" not in page.split("</style>")[1].replace("http://www.w3.org", "") and "<script" not in page
     for name in ("optimisation.html", "optimisation.pdf"):

@@ -18,19 +18,20 @@ MECHANISM = Mechanism(
     kind="gripper_chain",
     version="1.0",
     title="Gripper chain",
-    summary="Two endless chains over two pairs of equal sprockets carry gripper bars, each with a sheet. From the rate of the sheets follow speed, "
-    "polygon effect, sag, pull and torque; the grip of the sheet, the register at the stations and the chain itself are judged.",
+    summary="Two endless chains on two pairs of equal sprockets carry gripper bars, each with a sheet. Speed, polygon effect, sag, pull and "
+    "torque follow from the sheet rate; the grip on the sheet, the register at the stations and the chain itself are checked.",
     inputs=GripperChain,
     chapters=(chain, bars, polygon, slack, loads, pull, strength, grip, stations, cycle, motor),
     key_results=("chain_speed", "bar_count", "sag", "tension_max", "torque_max", "power", "acceleration_max"),
     checks=CHECKS,
     figures=FIGURES,
     assumptions=(
-        "The axes lie level, both sprockets have the same teeth; the upper strand runs in rails and is straight.",
-        "The driving sprocket turns evenly. The upper strand is rigid and follows its polygon; the idle sprocket runs freely.",
-        "On the sprockets a worn chain still has one pitch for each tooth; its excess length is in the slack strand.",
-        "Each station holds back one sheet at a time; a sheet passes one station at a time.",
-        "The required safety of 7 without a key is a rule of thumb of a maker; no standard gives one.",
+        "The axes are level, both sprockets have the same number of teeth; the upper strand runs in rails and is "
+        "straight.",
+        "The driving sprocket runs at constant speed. The upper strand is rigid and follows its polygon; the idle sprocket runs freely.",
+        "On the sprockets a worn chain still has one pitch per tooth; its excess length is in the slack strand.",
+        "Each station exerts drag on one sheet at a time; a sheet passes one station at a time.",
+        "The required safety factor of 7 used by default is a manufacturer's rule of thumb; no standard gives one.",
     ),
     sources=(
         Source(

@@ -34,7 +34,7 @@ CHECKS = (
     Check(
         id="safety",
         check_class="strength",
-        title="Safety against breaking",
+        title="Safety factor against breaking",
         demand="required_safety",
         limit="safety",
         unit="1",
@@ -73,11 +73,11 @@ CHECKS = (
     Check(
         id="unevenness",
         check_class="practice",
-        title="Even running",
+        title="Smooth running",
         demand="unevenness",
         limit=2,
         unit="%",
-        demand_label="velocity falls within a tooth by",
+        demand_label="drop in velocity within a tooth",
         limit_label="usual",
         source="practice",
         severity="warn",
@@ -86,7 +86,7 @@ CHECKS = (
     Check(
         id="work",
         check_class="numerical",
-        title="Work of the torque",
+        title="Work balance of the torque",
         demand="work_error",
         limit=1e-9,
         unit="1",

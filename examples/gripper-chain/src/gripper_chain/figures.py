@@ -30,7 +30,7 @@ def wear(view: View) -> list[Shape]:
     axis, now = ("Elongation of the chain by wear", "ε", "%"), view["elongation"]
     return [
         chart_panel(
-            "Sag to the distance of the axes",
+            "Ratio of the sag to the centre distance",
             "%",
             *axis,
             lines=[line(elongation, found["sag_share"], "ζ")],
@@ -57,7 +57,7 @@ FIGURES = (
         id="tooth",
         title="Polygon effect over a tooth",
         caption="While the sprocket turns by a tooth the velocity rises and falls; where the next joint comes up, the acceleration jumps from "
-        "its least to its greatest value.",
+        "its minimum to its maximum value.",
         abscissa="sprocket_angle",
         panels=(
             Panel(
@@ -72,14 +72,14 @@ FIGURES = (
                 title="Pull of a chain",
                 unit="N",
                 series=(Series(curve="tension", label="F_θ"),),
-                marks=(Mark(x="tension_max_at", y="tension_max", label="greatest"),),
+                marks=(Mark(x="tension_max_at", y="tension_max", label="maximum"),),
             ),
         ),
     ),
     Bars(
         id="pulls",
-        title="What the pull consists of",
-        caption="Parts of the greatest pull of a chain.",
+        title="Components of the pull",
+        caption="Components of the maximum pull of a chain.",
         groups=(
             BarGroup(
                 label="Pull",

@@ -77,17 +77,19 @@ bars.value(
 
 polygon = Chapter(
     "Polygon effect",
-    text="On the sprocket the chain is a polygon. While the sprocket turns by one tooth, the joint that came up last pulls the upper "
-    "strand: from θ = 0, where it comes up, to θ = τ, where the next one does. The strand moves along, so only the part of the joint's "
-    "velocity along the strand counts.",
+    text="On the sprocket the chain forms a polygon. While the sprocket turns by one tooth, the joint that engaged last pulls the upper strand: "
+    "from θ = 0, where it engages, to θ = τ, where the next one does. The strand moves along its own line, so only that component of the "
+    "joint's velocity counts.",
 )
-polygon.value("half_tooth", "α", "deg", "Half the angle of a tooth", lambda teeth: np.pi / teeth, output=False)
-polygon.value("tooth_angle", "τ", "deg", "Angle of a tooth", lambda teeth: 2 * np.pi / teeth)
+polygon.value(
+    "half_tooth", "α", "deg", "Half the pitch angle of the sprocket", lambda teeth: np.pi / teeth, output=False
+)
+polygon.value("tooth_angle", "τ", "deg", "Pitch angle of the sprocket", lambda teeth: 2 * np.pi / teeth)
 polygon.abscissa(
     "sprocket_angle",
     "θ",
     "deg",
-    "Angle of the sprocket since a joint came up",
+    "Angle of the sprocket since the last joint engaged",
     period="tooth_angle",
     speed="sprocket_speed",
     shown_at="tension_max_at",
@@ -116,7 +118,7 @@ polygon.value(
     "advance",
     "x_θ",
     "mm",
-    "Way of the strand since the joint came up",
+    "Displacement of the strand since the joint engaged",
     lambda pitch_radius, half_tooth, sprocket_angle: (
         pitch_radius * (np.sin(half_tooth) + np.sin(sprocket_angle - half_tooth))
     ),
@@ -126,20 +128,20 @@ polygon.value(
     "ripple",
     "δ_θ",
     "mm",
-    "How far the strand is ahead of its mean motion",
+    "Lead of the strand over its mean motion",
     lambda advance, pitch, sprocket_angle, tooth_angle: advance - pitch * sprocket_angle / tooth_angle,
 )
-polygon.reduction("velocity_max", "v_max", "m/s", "Greatest velocity", "max", of="velocity")
-polygon.reduction("velocity_min", "v_min", "m/s", "Least velocity", "min", of="velocity")
+polygon.reduction("velocity_max", "v_max", "m/s", "Maximum velocity", "max", of="velocity")
+polygon.reduction("velocity_min", "v_min", "m/s", "Minimum velocity", "min", of="velocity")
 polygon.reduction(
-    "acceleration_max", "a_max", "m/s**2", "Greatest acceleration, of either sign", "abs_max", of="acceleration"
+    "acceleration_max", "a_max", "m/s**2", "Maximum acceleration, of either sign", "abs_max", of="acceleration"
 )
-polygon.reduction("ripple_max", "δ_max", "mm", "Greatest deviation from the mean motion", "abs_max", of="ripple")
+polygon.reduction("ripple_max", "δ_max", "mm", "Maximum deviation from the mean motion", "abs_max", of="ripple")
 polygon.value(
     "unevenness",
     "u",
     "%",
-    "Share by which the velocity falls within a tooth",
+    "Relative drop in velocity within a tooth",
     lambda velocity_max, velocity_min: 1 - velocity_min / velocity_max,
     source="Shigley, 17-5",
 )

@@ -24,8 +24,9 @@ def length_by_sag(catenary: Any, centre_distance: Any) -> Any:
 
 slack = Chapter(
     "Slack strand",
-    text="What of the chain is neither on the upper strand nor on the sprockets hangs below, level between the sprockets. Its shape is a "
-    "catenary y = c·cosh(x/c); the parameter c is the horizontal pull divided by the weight per length. Running changes its pull, not its shape.",
+    text="The part of the chain that is neither on the upper strand nor on the sprockets hangs below, level between the sprockets. Its shape is "
+    "a catenary y = c·cosh(x/c); the parameter c is the horizontal pull divided by the weight per unit length. Running changes its pull, "
+    "not its shape.",
 )
 slack.value(
     "line_mass",
@@ -56,7 +57,7 @@ slack.value(
     "links_least",
     "X_min",
     "1",
-    "Least links with which the chain goes round",
+    "Minimum number of links with which the chain goes round",
     lambda links_around, bar_links: bar_links * np.ceil(links_around / bar_links),
     output=False,
     whole=True,
@@ -91,7 +92,7 @@ slack.root(
 )
 slack.value("sag", "f", "mm", "Sag of the slack strand", catenary_sag, source="statics")
 slack.value(
-    "sag_share", "ζ", "%", "Sag to the distance of the axes", lambda sag, centre_distance: sag / centre_distance
+    "sag_share", "ζ", "%", "Ratio of the sag to the centre distance", lambda sag, centre_distance: sag / centre_distance
 )
 slack.value(
     "slack_tension",
@@ -105,7 +106,7 @@ slack.value(
     "parabola_tension",
     "F_p",
     "N",
-    "Its horizontal part by the parabola",
+    "Its horizontal component by the parabola formula",
     lambda line_mass, centre_distance, sag: line_mass * GRAVITY * centre_distance**2 / (8 * sag),
     source="Roloff/Matek",
 )
@@ -113,6 +114,6 @@ slack.value(
     "parabola_error",
     "e_p",
     "%",
-    "What the parabola lacks",
+    "Error of the parabola formula",
     lambda parabola_tension, line_mass, catenary: 1 - parabola_tension / (line_mass * GRAVITY * catenary),
 )

@@ -16,7 +16,7 @@ def out_of_order(position: Any) -> Any:
 
 
 stations = Chapter(
-    "Stations", text="A worn chain is longer: a bar lags the more, the farther it is from the sprocket that pulls it."
+    "Stations", text="A worn chain is longer: a bar lags more, the farther it is from the sprocket that pulls it."
 )
 stations.clash(
     "in_order",
@@ -78,7 +78,7 @@ stations.value(
     "elongation_allowed",
     "ε_lim",
     "%",
-    "Elongation with which the first station is still met",
+    "Elongation at which the first station is still met",
     lambda allowable_shift, ripple_max, first_position: np.maximum((allowable_shift - ripple_max) / first_position, 0),
     needs=("allowable_shift",),
     output=False,
@@ -88,7 +88,7 @@ cycle = Chapter(
     "Cycle of a bar",
     needs=("cam",),
     absent="not calculated: cam is not given",
-    text="A turn of the main shaft is the way of the chain by one spacing of the bars; at φ = 0 a bar is at the pick-up point.",
+    text="One revolution of the main shaft moves the chain by one spacing of the bars; at φ = 0 a bar is at the pick-up point.",
 )
 cycle.require(
     "cam_shorter",
@@ -101,19 +101,17 @@ cycle.value(
     "opening_begins",
     "φ_1",
     "deg",
-    "Main shaft where the grippers begin to open",
+    "Main-shaft angle at which the grippers begin to open",
     bind(lambda before, bar_spacing: 2 * np.pi * (1 - before / bar_spacing), before="cam.before"),
 )
 cycle.value(
     "opening_ends",
     "φ_2",
     "deg",
-    "Main shaft where they are closed again",
+    "Main-shaft angle at which they are closed again",
     bind(lambda after, bar_spacing: 2 * np.pi * after / bar_spacing, after="cam.after"),
 )
-cycle.abscissa(
-    "main_angle", "φ", "deg", "Angle of the main shaft", 2 * np.pi, speed="main_speed", shown_at="opening_begins"
-)
+cycle.abscissa("main_angle", "φ", "deg", "Main-shaft angle", 2 * np.pi, speed="main_speed", shown_at="opening_begins")
 cycle.breakpoints("cam_ends", "main_angle", "opening_begins", "opening_ends")
 cycle.phase(
     "picking", "working", "The grippers are open and take a sheet", "main_angle", ("opening_begins", "opening_ends")
@@ -132,7 +130,7 @@ cycle.value(
     "cam_angle",
     "ψ",
     "deg",
-    "Turn of the main shaft since the grippers began to open",
+    "Rotation of the main shaft since the grippers began to open",
     lambda main_angle, opening_begins: np.where(
         main_angle >= opening_begins, main_angle - opening_begins, main_angle + 2 * np.pi - opening_begins
     ),
@@ -142,7 +140,7 @@ cycle.value(
     "cam_length",
     "ψ_c",
     "deg",
-    "Turn of the main shaft over the whole cam",
+    "Rotation of the main shaft over the whole cam",
     bind(
         lambda before, after, bar_spacing: 2 * np.pi * (before + after) / bar_spacing,
         before="cam.before",

@@ -7,7 +7,7 @@ import numpy as np
 from diecut_report.api import GRAVITY, Chapter, standard_series
 
 loads = Chapter(
-    "Loads", text="Of all that both chains move each carries one half. On the upper strand a sheet hangs at each bar."
+    "Loads", text="Each chain carries half of everything that both move. On the upper strand a sheet hangs at each bar."
 )
 loads.value(
     "sheet_mass",
@@ -25,8 +25,8 @@ loads.value(
         line_mass * centre_distance + sheet_mass * centre_distance / (2 * bar_spacing)
     ),
 )
-loads.total("drag_total", "D", "N", "What the stations hold back, one sheet at each", "sum", of="stations.drag")
-loads.total("drag_greatest", "D_max", "N", "Greatest drag of a station", "max", of="stations.drag")
+loads.total("drag_total", "D", "N", "Total drag of the stations, with a sheet at each", "sum", of="stations.drag")
+loads.total("drag_greatest", "D_max", "N", "Maximum drag of a station", "max", of="stations.drag")
 loads.value(
     "rail_drag",
     "F_r",
@@ -53,7 +53,7 @@ loads.value(
 
 pull = Chapter(
     "Pull and torque over a tooth",
-    text="The upper strand is taken as rigid: it follows the polygon as a whole. The slack strand gives way and follows no polygon.",
+    text="The upper strand is assumed rigid: it follows the polygon as a whole. The slack strand yields and follows no polygon.",
 )
 pull.value(
     "tension",
@@ -65,12 +65,12 @@ pull.value(
     ),
     source="dynamics",
 )
-pull.reduction("tension_max", "F_max", "N", "Greatest pull", "max", of="tension")
+pull.reduction("tension_max", "F_max", "N", "Maximum pull", "max", of="tension")
 pull.value(
     "polygon_tension",
     "F_a",
     "N",
-    "Share of the polygon in it",
+    "Contribution of the polygon effect",
     lambda strand_mass, acceleration_max: strand_mass * acceleration_max,
     output=False,
 )
@@ -84,7 +84,7 @@ pull.value(
     ),
     source="statics",
 )
-pull.reduction("torque_max", "M_max", "N*m", "Greatest torque", "max", of="torque")
+pull.reduction("torque_max", "M_max", "N*m", "Maximum torque", "max", of="torque")
 pull.reduction("torque_work", "W", "J", "Work of the torque over a tooth", "integral", of="torque")
 pull.value(
     "work_needed",
@@ -99,7 +99,7 @@ pull.value(
     "work_error",
     "e_W",
     "1",
-    "Difference of both, to the work of the greatest pull",
+    "Difference of the two, relative to the work of the maximum pull",
     lambda torque_work, work_needed, tension_max, pitch: abs(torque_work - work_needed) / (2 * tension_max * pitch),
     output=False,
 )
@@ -107,13 +107,13 @@ pull.value("power", "P", "W", "Mean power", lambda useful_tension, chain_speed: 
 
 strength = Chapter("Strength of the chain")
 strength.value(
-    "safety", "S", "1", "Safety against breaking", lambda breaking_load, tension_max: breaking_load / tension_max
+    "safety", "S", "1", "Safety factor against breaking", lambda breaking_load, tension_max: breaking_load / tension_max
 )
 strength.value(
     "breaking_load_needed",
     "F_B,min",
     "kN",
-    "Breaking load that the safety needs",
+    "Breaking load required by this safety factor",
     lambda required_safety, tension_max: required_safety * tension_max,
     output=False,
 )
@@ -133,14 +133,14 @@ grip.value(
     "sheet_force",
     "F_b",
     "N",
-    "Force that a bar passes on to its sheet",
+    "Force transmitted from a bar to its sheet",
     lambda sheet_mass, acceleration_max, drag_greatest: sheet_mass * acceleration_max + drag_greatest,
 )
 grip.value(
     "grip_total",
     "F_h",
     "N",
-    "Force that the grippers of a bar hold",
+    "Holding force of the grippers of a bar",
     lambda grip_friction, grippers, grip_force: 2 * grip_friction * grippers * grip_force,
     source="Coulomb",
 )
@@ -148,13 +148,13 @@ grip.value(
     "grip_force_needed",
     "F_g,min",
     "N",
-    "Force of a gripper with which the sheet is held",
+    "Clamping force per gripper required to hold the sheet",
     lambda sheet_force, grip_friction, grippers: sheet_force / (2 * grip_friction * grippers),
     output=False,
 )
 
 
-motor = Chapter("Motor", needs=("efficiency",), absent="not chosen: efficiency is not given")
+motor = Chapter("Motor", needs=("efficiency",), absent="not selected: efficiency is not given")
 motor.value("motor_load", "P_l", "W", "Power at the motor", lambda power, efficiency: power / efficiency)
 motor.pick(
     "motor_power",
