@@ -15,7 +15,7 @@ from diecut_report.config.yaml import Tree
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, nearest
 from diecut_report.results.changes import compare_with
 from diecut_report.results.conclusion import doubtful
-from diecut_report.results.model import FollowedAdviceRecord, MoveRecord, ResultsRecord
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.text.phrases import Phrase, phrase
@@ -28,14 +28,7 @@ FORMATS = ("html", "pdf", "docx", "xlsx", "json")
 DRAWN = FORMATS[:-1]  # of a report that can be made again from its results
 
 Tell = Callable[[str], None]
-Weigh = Callable[[Config, ResultsRecord], list[MoveRecord]]  # which assumed values move a governing check
-Follow = Callable[
-    [Config, ResultsRecord], FollowedAdviceRecord | None
-]  # what comes of the advice of all failing checks together
 Judge = Callable[[Config], list[Problem]]
-Matter = Callable[
-    [Config], dict[str, Any] | None
-]  # what a chapter on the influence of inputs tells, where one is asked for
 Source = Path | Tree  # a configuration: its file, or what was read and changed
 
 NO_PANGO = phrase(
@@ -99,43 +92,51 @@ def validate(config: Source, discovery: Discovery, judge: Judge | None = None) -
     return (*made.broken.values(), *broken)
 
 
-def calc(
-    config: Source, discovery: Discovery, tell: Tell, target: Path | None = None, weigh: Weigh | None = None,
-    find: Find | None = None, follow: Follow | None = None, matter: Matter | None = None,
-) -> tuple[ReportOutcome, str]:  # fmt: skip
-    """The results document and its text; written to ``target`` if there is one.
+@dataclass(frozen=True)
+class Calculated:
+    """A calculated configuration: its results, the plugins that broke, and where figures and exports are declared."""
 
-    ``weigh`` is as for a report; ``find`` says where tables are that the configuration names, where they are not beside it.
+    source: Source
+    config: Config
+    results: ResultsRecord
+    broken: tuple[PluginError, ...]
+    has_broken: bool  # whether mechanisms were not calculated
+    places: Places
+
+
+def calc(
+    config: Source, discovery: Discovery, tell: Tell, target: Path | None = None, find: Find | None = None
+) -> tuple[ReportOutcome, str]:
+    """Return the results document and its text; written to ``target`` if there is one.
+
+    ``find`` says where tables are that the configuration names, where they are not beside it.
     """
-    results, broken, _ = _calculated(config, discovery, tell, weigh=weigh, find=find, follow=follow, matter=matter)
-    text = results_text(results)
+    made = calculated(config, discovery, tell, find=find)
+    text = results_text(made.results)
     if target is not None:
         _write({target: encoded(text)}, config, through=True)
-    return ReportOutcome(results, (target,) if target else (), broken, tuple(doubtful(results, discovery))), text
+    written = (target,) if target else ()
+    return ReportOutcome(made.results, written, made.broken, tuple(doubtful(made.results, discovery))), text
 
 
 def report(
-    config: Source, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
-    weigh: Weigh | None = None, former: ResultsRecord | None = None, follow: Follow | None = None, matter: Matter | None = None,
+    made: Calculated, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
+    former: ResultsRecord | None = None,
 ) -> ReportOutcome:  # fmt: skip
-    """The report in the asked formats, as ``NAME.html``, ``NAME.pdf`` … in the folder, and the exports beside it.
+    """Write the report in the asked formats, as ``NAME.html``, ``NAME.pdf`` … in the folder, and the exports beside it.
 
-    ``weigh`` tells which of the assumed values move a governing check; ``former`` are the results of a former revision, since which
-    changes are told and marked. ``follow`` tells what comes of the advice of all failing checks together, ``matter`` what inputs do.
+    ``former`` are the results of a former revision, since which changes are reported and marked.
     """
-    results, broken, places = _calculated(
-        config, discovery, tell, formats, weigh, only=asked.only, follow=follow, matter=matter
-    )
-    results = asked.noted(results)
+    results = asked.noted(made.results)
     results = compare_with(former, results) if former else results
     catalogues = catalogues_of(results, discovery, formats)
     contents, undrawn = rendered(results, formats, tell, catalogues, asked.house)
     files_beside, unwritten = exported(results, tell)
     contents |= files_beside
-    stem = Path(config.name).stem
+    stem = Path(made.source.name).stem
     files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
-    _write(files, config)
-    faults = (*broken, *(_broken(results, places, lost) for lost in (*undrawn, *unwritten)))
+    _write(files, made.source)
+    faults = (*made.broken, *(_broken(results, made.places, lost) for lost in (*undrawn, *unwritten)))
     return ReportOutcome(
         results, tuple(files), faults, (*untranslated(results, catalogues), *doubtful(results, discovery))
     )
@@ -184,10 +185,10 @@ def _refuse_unknown(config: Config, only: Sequence[str]) -> None:
         raise UserError(problems)
 
 
-def _calculated(
-    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), weigh: Weigh | None = None, *,
-    find: Find | None = None, only: Sequence[str] = (), follow: Follow | None = None, matter: Matter | None = None,
-) -> tuple[ResultsRecord, tuple[PluginError, ...], Places]:  # fmt: skip
+def calculated(
+    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), only: Sequence[str] = (), find: Find | None = None
+) -> Calculated:  # fmt: skip
+    """Calculate a configuration; UserError with all that is wrong, also where the formats or mechanisms of a report are not possible."""
     tell(phrase("reading the configuration"))
     config = load_config(source, discovery, find=find)
     _refuse_unknown(config, only)
@@ -197,16 +198,8 @@ def _calculated(
 
     run = compute(config, lambda name: tell(Phrase("calculating {name}", name=name)))
     results = document(run)
-    if weigh is not None and results.summary.assumed and not run.errors:
-        tell(phrase("evaluating the influence of assumed inputs"))
-        results = results.with_(summary=results.summary.with_(moves=weigh(config, results)))
-    if follow is not None and results.summary.fail and not run.errors:
-        tell(phrase("applying the advice"))
-        results = results.with_(summary=results.summary.with_(advice=follow(config, results)))
-    if matter is not None and config.report.influence and not run.errors:
-        tell(phrase("varying one input at a time"))
-        results = results.with_(influence=matter(config) or {})
-    return results, (*run.errors.values(), *_failed(results)), _places(run)
+    broken = (*run.errors.values(), *_failed(results))
+    return Calculated(source, config, results, broken, bool(run.errors), _places(run))
 
 
 def _places(run: Run) -> Places:

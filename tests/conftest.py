@@ -69,7 +69,13 @@ def small_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     def make(folder: Path) -> None:
         config = saved(tmp_path_factory.getbasetemp(), SMALL, "small.yaml")
-        pipeline.report(config, Discovery([]), lambda _: None, folder, ("html", "pdf", "json"))
+        pipeline.report(
+            pipeline.calculated(config, Discovery([]), lambda _: None, ("html", "pdf", "json")),
+            Discovery([]),
+            lambda _: None,
+            folder,
+            ("html", "pdf", "json"),
+        )
 
     return once(tmp_path_factory, "small_report", make)
 

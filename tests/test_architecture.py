@@ -33,8 +33,8 @@ LAYERS = [
     {"machine"},
     {"results"},
     {"report"},
-    {"pipeline", "exchange", "study", "firm_folder"},
-    {"testing", "design"},
+    {"pipeline", "study", "firm_folder"},
+    {"testing", "design", "exchange"},
     {"scripting", "live"},
     {"cli", "__main__"},
 ]

@@ -215,7 +215,9 @@ def painted(monkeypatch: pytest.MonkeyPatch) -> type[Painted]:
 
 def made(config: Path, folder: Path, formats: tuple[str, ...] = ("html", "pdf", "json")) -> tuple[Path, ...]:
     """The files that a report writes."""
-    return pipeline.report(config, DISCOVERY, silent, folder, formats).written
+    return pipeline.report(
+        pipeline.calculated(config, DISCOVERY, silent, formats), DISCOVERY, silent, folder, formats
+    ).written
 
 
 def below(folder: Path) -> list[str]:
@@ -336,13 +338,17 @@ def test_a_link_is_replaced_and_not_what_it_points_to(tmp_path: Path) -> None:
 
 def test_a_report_of_a_broken_plugin_is_written_all_the_same(tmp_path: Path) -> None:
     text = LEVER + "  broken: {kind: breaks_in_calculation}\n  b: {kind: lever, force: 1, arm: '${broken.result}'}\n"
-    written = pipeline.report(saved(tmp_path, text), ALL, silent, tmp_path, ("html",)).written
+    written = pipeline.report(
+        pipeline.calculated(saved(tmp_path, text), ALL, silent, ("html",)), ALL, silent, tmp_path, ("html",)
+    ).written
     html = written[0].read_text("utf-8")
     assert "the plugin fell over" in html and "It refers to broken" in html
 
 
 def test_a_report_tells_of_a_broken_comparison(tmp_path: Path) -> None:
-    written = pipeline.report(saved(tmp_path, COMPARED), ALL, silent, tmp_path, ("html",)).written
+    written = pipeline.report(
+        pipeline.calculated(saved(tmp_path, COMPARED), ALL, silent, ("html",)), ALL, silent, tmp_path, ("html",)
+    ).written
     html = written[0].read_text("utf-8")
     chapter = html[html.index('<h2 id="m-C">') :]
     assert "This comparison could not be calculated." in chapter and "the comparison fell over" in chapter

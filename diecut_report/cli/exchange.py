@@ -166,18 +166,14 @@ def verified(
     trusted: Path | None = None, *, pages: bool = True,
 ) -> tuple[CarriedResults, Verification]:  # fmt: skip
     """Return what a report carries, and what was found of it."""
-    from diecut_report.design.advised import followed
-    from diecut_report.design.influence import influenced
     from diecut_report.exchange.carried import carried_results
     from diecut_report.exchange.rendering import side
-    from diecut_report.exchange.verification import ReportParts
     from diecut_report.exchange.verification import verify as judged
-    from diecut_report.study.analysis.answers import moves
 
-    carried, parts = carried_results(report), ReportParts(moves, followed, influenced)
+    carried = carried_results(report)
     with Progress(quiet) as progress, without_output():
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
-        found = judged(carried, discovery, progress, parts, pages=pages, trusted=trusted, house=house, previous=former)
+        found = judged(carried, discovery, progress, pages=pages, trusted=trusted, house=house, previous=former)
     return carried, found
 
 

@@ -243,18 +243,15 @@ def report(
 ) -> int:  # fmt: skip
     """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
     from diecut_report import pipeline
-    from diecut_report.design.advised import followed
-    from diecut_report.design.influence import influenced
+    from diecut_report.design.findings import with_findings
     from diecut_report.exchange.rendering import side
-    from diecut_report.study.analysis.answers import moves
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
-        given, asked = source(config, discovery), pipeline.AskedReport(asked_language(), detail, only, house)
-        outcome = pipeline.report(
-            given, discovery, progress, folder, formats, asked, moves, former, followed, influenced
-        )
+        made = pipeline.calculated(source(config, discovery), discovery, progress, formats, only)
+        asked = pipeline.AskedReport(asked_language(), detail, only, house)
+        outcome = pipeline.report(with_findings(made, progress), discovery, progress, folder, formats, asked, former)
     if not quiet:
         tell_written(outcome.written)
     return _verdict(outcome, discovery, quiet, strict)

@@ -17,6 +17,7 @@ from diecut_report.config import yaml
 from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree
+from diecut_report.design.findings import with_findings
 from diecut_report.errors import PluginError, UserError
 from diecut_report.exchange.carried import CarriedResults
 from diecut_report.exchange.rendering import document
@@ -127,14 +128,6 @@ Found = tuple[str, bool]  # what was found, in words, and whether it is as it sh
 SHORT = 12  # of a hash, as in a report
 
 
-class ReportParts(NamedTuple):
-    """What a report tells beyond the results of ``calc``: the weight of what is assumed, the end of all advice, the influence of inputs."""
-
-    weigh: pipeline.Weigh
-    follow: pipeline.Follow
-    matter: pipeline.Matter
-
-
 class Recalculation(NamedTuple):
     """Hold the results document as the program makes it now, the plugins that broke, and what was found of the report's options."""
 
@@ -144,7 +137,7 @@ class Recalculation(NamedTuple):
 
 
 def recalculated(
-    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], parts: ReportParts, previous: ResultsRecord | None
+    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], previous: ResultsRecord | None
 ) -> Recalculation:  # fmt: skip
     """Return the results document that this program makes of the configuration and the options in a report.
 
@@ -152,11 +145,11 @@ def recalculated(
     of it. UserError where the configuration cannot be calculated any more.
     """
     given = carried.results
-    weigh, follow, matter = parts if _is_report(carried) else (None, None, None)
     with _tables(carried.tables) as find:
         tree = _tree(given.config, f"{carried.path} (its configuration)")
-        outcome, _ = pipeline.calc(tree, discovery, tell, weigh=weigh, find=find, follow=follow, matter=matter)
-    results, asked = outcome.results, _asked(given, outcome.results)
+        made = pipeline.calculated(tree, discovery, tell, find=find)
+        made = with_findings(made, tell) if _is_report(carried) else made
+    results, asked = made.results, _asked(given, made.results)
     former, lost = _former(carried, discovery, tell, previous)
     options = _options(given, results, asked)
     again = asked.noted(results)
@@ -166,7 +159,7 @@ def recalculated(
     )  # judged with the pages
     again = again.with_(changes=given.changes, former=given.former) if lost else again
     return Recalculation(
-        again, outcome.broken, (options, *([lost] if lost else ()), *_other_changes(given, again, previous))
+        again, made.broken, (options, *([lost] if lost else ()), *_other_changes(given, again, previous))
     )
 
 
@@ -342,7 +335,7 @@ class Verification:
 
 
 def verify(
-    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], parts: ReportParts, *, pages: bool = True,
+    carried: CarriedResults, discovery: Discovery, tell: Callable[[str], None], *, pages: bool = True,
     trusted: Path | None = None, house: HouseStyle | None = None, previous: ResultsRecord | None = None,
 ) -> Verification:  # fmt: skip
     """Calculate the configuration of a report again and hold the report against that; without ``pages`` its results alone.
@@ -352,7 +345,7 @@ def verify(
     """
     results = carried.results
     signed = signatures(carried.content, trusted) if carried.form == "pdf" else []
-    again = recalculated(carried, discovery, tell, parts, previous)
+    again = recalculated(carried, discovery, tell, previous)
     program = _program(results, again.results)
     plugins = list(_plugins(results, again.results))
     numbers = agreement(_compared(results, again.results, program), _compared(again.results, again.results, program))

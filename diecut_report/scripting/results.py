@@ -355,16 +355,9 @@ class Results(Mapping[str, MechanismResults]):
         """The results with what a report alone tells: what of the assumed values matters, and what comes of the advice."""
         data = self._printable.in_language()
         if self.config is not None and not self.errors:
-            from diecut_report.design.advised import followed
-            from diecut_report.design.influence import influenced
-            from diecut_report.study.analysis.answers import moves
+            from diecut_report.design.findings import findings
 
-            summary = data.summary
-            moving = moves(self.config, data) if summary.assumed else []
-            advice = followed(self.config, data) if summary.fail else None
-            data = data.with_(
-                summary=summary.with_(moves=moving, advice=advice), influence=influenced(self.config) or {}
-            )
+            return findings(self.config, data, lambda _: None)
         return data
 
     # --- shown -------------------------------------------------------------------------------------------------------

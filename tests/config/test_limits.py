@@ -82,7 +82,13 @@ def test_a_pdf_of_many_mechanisms_is_refused_before_it_is_calculated(tmp_path: P
         UserError,
         match=r"61 mechanisms; the PDF of a report has at most 60\. Leave the PDF out with --format html,json",
     ):
-        pipeline.report(path, DISCOVERY, heard.append, tmp_path, ("html", "pdf"))
+        pipeline.report(
+            pipeline.calculated(path, DISCOVERY, heard.append, ("html", "pdf")),
+            DISCOVERY,
+            heard.append,
+            tmp_path,
+            ("html", "pdf"),
+        )
     assert heard == ["reading the configuration"]
 
 

@@ -227,7 +227,14 @@ def test_only_names_that_the_configuration_has(tmp_path: Path, capfd: pytest.Cap
 def test_results_tell_how_the_report_was_asked_for(tmp_path: Path) -> None:
     config = saved(tmp_path, SMALL)
     asked = pipeline.AskedReport(detail="brief", only=("clutch",))
-    pipeline.report(config, Discovery([]), lambda _: None, tmp_path, ("json",), asked)
+    pipeline.report(
+        pipeline.calculated(config, Discovery([]), lambda _: None, ("json",), asked.only),
+        Discovery([]),
+        lambda _: None,
+        tmp_path,
+        ("json",),
+        asked,
+    )
     told = json.loads((tmp_path / "press.json").read_text("utf-8"))["report"]
     assert (told["detail"], told["only"]) == ("brief", ["clutch"])
 
@@ -285,7 +292,14 @@ def test_calculated_figures_tell_what_they_show(small_report: Path) -> None:
 def test_a_machine_that_is_drawn_to_scale_has_a_brief_report_too(tmp_path: Path) -> None:
     knife = next(path for path in EXAMPLES if path.stem == "circular_knife")
     asked = pipeline.AskedReport(detail="brief")
-    pipeline.report(knife, Discovery([]), lambda _: None, tmp_path, ("html",), asked)
+    pipeline.report(
+        pipeline.calculated(knife, Discovery([]), lambda _: None, ("html",), asked.only),
+        Discovery([]),
+        lambda _: None,
+        tmp_path,
+        ("html",),
+        asked,
+    )
     page = (tmp_path / "circular_knife.html").read_text("utf-8")
     assert "Knife, board and counter-knife" in page and "<svg" in page
 
@@ -301,10 +315,11 @@ def press_sheets(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The PDFs of the example press in each detail."""
 
     def make(folder: Path) -> None:
-        pipeline.report(EXAMPLE, Discovery([]), lambda _: None, folder, ("json",))
-        results = json.loads((folder / f"{EXAMPLE.stem}.json").read_text("utf-8"))
+        made = pipeline.calculated(EXAMPLE, Discovery([]), lambda _: None, ("json",))
+        pipeline.report(made, Discovery([]), lambda _: None, folder, ("json",))
+        results = ResultsRecord.model_validate_json((folder / f"{EXAMPLE.stem}.json").read_bytes())
         for detail in DETAILS:
-            asked = ResultsRecord.model_validate(results | {"report": results["report"] | {"detail": detail}})
+            asked = results.with_(report=results.report.with_(detail=detail))
             (folder / f"{detail}.pdf").write_bytes(Rendering(asked).pdf())
 
     return once(tmp_path_factory, "press_sheets", make)
@@ -321,12 +336,12 @@ def test_the_press_is_short_in_brief_and_much_shorter_in_standard_than_in_full(p
 @pytest.mark.nightly
 def test_a_ukrainian_press_has_its_verdict_on_the_first_sheet_and_is_as_short_in_brief(press_sheets: Path) -> None:
     """Its words are longer."""
-    results = json.loads((press_sheets / f"{EXAMPLE.stem}.json").read_text("utf-8"))
-    results["project"]["language"] = "uk"
+    results = ResultsRecord.model_validate_json((press_sheets / f"{EXAMPLE.stem}.json").read_bytes())
+    results = results.with_(project=results.project.with_(language="uk"))
     sheets = {}
     for detail in DETAILS[:2]:
         file = press_sheets / f"{detail}.uk.pdf"
-        asked = ResultsRecord.model_validate(results | {"report": results["report"] | {"detail": detail}})
+        asked = results.with_(report=results.report.with_(detail=detail))
         file.write_bytes(Rendering(asked).pdf())
         sheets[detail] = PdfReader(file).pages
     assert len(sheets["brief"]) <= 4
@@ -335,26 +350,26 @@ def test_a_ukrainian_press_has_its_verdict_on_the_first_sheet_and_is_as_short_in
 
 @pytest.mark.nightly
 def test_every_output_of_the_press_is_on_paper(press_sheets: Path) -> None:
-    results = json.loads((press_sheets / f"{EXAMPLE.stem}.json").read_text("utf-8"))
+    results = ResultsRecord.model_validate_json((press_sheets / f"{EXAMPLE.stem}.json").read_bytes())
     for detail in DETAILS[1:]:
         command = ["pdftotext", "-raw", str(press_sheets / f"{detail}.pdf"), "-"]
         text = subprocess.run(command, capture_output=True, text=True, check=True).stdout
         words = _dense(text)  # formulas set their spaces otherwise
-        for data in results["mechanisms"].values():
+        for data in results.mechanisms.values():
             told = _told(data)
             forms = {name: {_dense(_shown(text)), _dense(text)} for name, text in told.items()}  # main_b is called so
             missing = [name for name, texts in forms.items() if not any(text in words for text in texts)]
             assert missing == [], detail
 
 
-def _told(data: Data) -> dict[str, str]:
+def _told(data: MechanismRecord) -> dict[str, str]:
     """What is printed of each output: its text, or where it is one of several its cell, which has the decimals of its column."""
-    items = [item for section in data["sections"] for item in section["items"]]
-    tables = {item.get("id"): {row[0]: row[1] for row in item["rows"]} for item in items if item["type"] == "table"}
+    items = [item for section in data.sections for item in section.items]
+    tables = {item.id: {row[0]: row[1] for row in item.rows} for item in items if item.type == "table"}
     found = {}
-    for name, row in data["outputs"].items():
-        part, text = row.get("part"), row["display"]["text"]
-        cell = tables.get(part["family"], {}).get(str(part.get("number")), text) if part else text
+    for name, row in data.outputs.items():
+        part, text = row.part, row.display.text
+        cell = tables.get(part.family, {}).get(str(part.number), text) if part else text
         if cell != text:  # but not another number
             assert abs(float(cell) - float(text)) <= 0.5000001 * 10.0 ** -len(text.partition(".")[2])
         found[name] = cell

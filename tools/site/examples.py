@@ -12,14 +12,13 @@ import yaml
 
 from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
-from diecut_report.design.advised import followed
+from diecut_report.design.findings import with_findings
 from diecut_report.report.chapters.steps import placed, sketch
 from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.style import SizesSize, Svg
 from diecut_report.report.scope import letter, parts
 from diecut_report.report.text import Catalogue
 from diecut_report.results.model import MechanismRecord, ResultsRecord
-from diecut_report.study.analysis.answers import moves
 from tools.site.sources import ROOT
 
 CONFIGS = ROOT / "configs"
@@ -81,7 +80,8 @@ def _example(file: Path, *, calculated: bool) -> Example:
     if not calculated:
         return plain
     with tempfile.TemporaryDirectory() as folder:
-        made = pipeline.report(file, Discovery(), _silent, Path(folder), ("html",), weigh=moves, follow=followed)
+        calculated_one = with_findings(pipeline.calculated(file, Discovery(), _silent), _silent)
+        made = pipeline.report(calculated_one, Discovery(), _silent, Path(folder), ("html",))
         return plain._replace(results=made.results, report=(Path(folder) / f"{file.stem}.html").read_bytes())
 
 

@@ -91,7 +91,8 @@ def _write(place: ReportPlace, report: VariantReport) -> dict[str, str]:
     discovery = Discovery([Path(plugin) for plugin in place.plugins])
     config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")
     asked = pipeline.AskedReport(place.language)
-    outcome = pipeline.report(config, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), asked)
+    made = pipeline.calculated(config, discovery, lambda _: None, FORMATS)
+    outcome = pipeline.report(made, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), asked)
     return {error.kind: error.message for error in outcome.broken}
 
 
