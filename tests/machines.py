@@ -11,6 +11,8 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.plugins.cylinder_drive import MECHANISM as DRIVE
 from diecut_report.plugins.cylinder_sizing import MECHANISM as SIZING
+from diecut_report.results.advice import possible_ways
+from diecut_report.results.checks import holds
 
 PUBLISHED_CYLINDER: dict[str, Any] = {
     "working_length": "470.7 mm",
@@ -40,6 +42,11 @@ UNBALANCED: dict[str, Any] = {
 def inputs(mechanism: Mechanism, keys: dict[str, Any]) -> dict[str, Any]:
     """The validated inputs of a mechanism in SI, as the engine takes them."""
     return flatten(in_form(mechanism.inputs, keys).model_validate(keys))
+
+
+def made_possible(mechanism: Mechanism, keys: dict[str, Any], key: str) -> list[str]:
+    """The ways, in words, in which a machine that is refused for a key is made possible."""
+    return [str(way.text) for way in possible_ways(mechanism, inputs(mechanism, keys), key, holds)]
 
 
 def cylinder(**changes: Any) -> Calculation:

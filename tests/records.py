@@ -5,7 +5,7 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
-from diecut_report.results.model import Record
+from diecut_report.results.record import Record
 
 R = TypeVar("R", bound=Record)
 

@@ -18,7 +18,8 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.report import rendering
 from diecut_report.results.conclusion import governing
-from diecut_report.results.model import CheckRecord, ResultsRecord
+from diecut_report.results.mechanism_record import CheckRecord
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import results_text
 from tests.configs import BROKEN, DISCOVERY, EXAMPLE, EXAMPLES, GOOD, HEAD, LEVER, saved
 from tests.processes import Example
@@ -290,7 +291,9 @@ def test_a_full_disk_leaves_what_was_there(tmp_path: Path, monkeypatch: pytest.M
         Path, "write_bytes", lambda path, content: (whole if content == b"%PDF" else half)(path, content)
     )
     saved(tmp_path, LEVER.replace("2 kN", "3 kN"))
-    with pytest.raises(UserError, match=r"cannot be written: the disk is full\. Nothing was written; make room"):
+    with pytest.raises(
+        UserError, match=r"cannot be written: the disk is full\. Nothing was written; free disk space and try again\."
+    ):
         made(config, out, ("pdf", "html", "json"))
     assert {path.name: path.read_bytes() for path in out.iterdir()} == before
 

@@ -6,7 +6,8 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from diecut_report.results.model import FORM_VERSION, results_schema
+from diecut_report.results.model import results_schema
+from diecut_report.results.record import FORM_VERSION
 
 PAGE = Path(__file__).parents[1] / "docs" / "results-file.md"
 ADDED = {  # by the version of the form; a test holds them against its hashes

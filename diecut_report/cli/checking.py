@@ -46,7 +46,8 @@ from diecut_report.config.loader import SHOWN as STANDARD_INPUT
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import MAX_SHOWN, PluginError, Problem, UserError, refusal
 from diecut_report.results.conclusion import conclusion, doubtful_kinds, is_open
-from diecut_report.results.model import CheckRecord, ResultsRecord
+from diecut_report.results.mechanism_record import CheckRecord
+from diecut_report.results.model import ResultsRecord
 from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Counted, Phrase, cell, phrase
 from diecut_report.text.translation import localised, said, say, say_counted, speaking, spoken_language

@@ -116,9 +116,7 @@ def _outcome_lines(outcome: StudyOutcome, target: Path) -> Iterator[Line]:
     count = counts.get("variants", 0)
     yield (Counted(count, "{n} variant: ", "{n} variants: "), *(named or [phrase("none")]), dropped, ".")
     if outcome.has_none:
-        yield phrase(
-            "No variant is feasible; the summary gives the reasons. Vary other inputs, or within other limits."
-        )
+        yield phrase("No variant can exist; the summary gives the reasons. Vary other inputs, or within other limits.")
     is_broken = outcome.broken if outcome.is_broken else {}
     yield from told_plugins({kind: why for kind, why in outcome.slow.items() if kind not in is_broken}, {}, {}, {})
     yield from outcome.notes

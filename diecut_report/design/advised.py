@@ -23,13 +23,8 @@ from diecut_report.errors import PluginError, UserError
 from diecut_report.formulas import Array
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.quantities.formatting import with_unit
-from diecut_report.results.model import (
-    AdvisedChangeRecord,
-    CheckRecord,
-    FollowedAdviceRecord,
-    KeyChangeRecord,
-    ResultsRecord,
-)
+from diecut_report.results.mechanism_record import CheckRecord, KeyChangeRecord
+from diecut_report.results.model import AdvisedChangeRecord, FollowedAdviceRecord, ResultsRecord
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input, UnknownPath, find_input
 from diecut_report.text.phrases import Phrase
 

@@ -313,7 +313,7 @@ def _left_out(found: Sequence[Tornado], option: str) -> Iterator[Phrase]:
 
 
 def _value(found: Tornado, value: float) -> str:
-    return phrase("not feasible") if math.isnan(value) else localised(found.asked.told(value, 4))
+    return phrase("cannot exist") if math.isnan(value) else localised(found.asked.told(value, 4))
 
 
 def _tolerances(found: Tolerances) -> Iterator[Phrase]:
@@ -408,7 +408,7 @@ def page(found: Sequence[Tornado], tolerances: Tolerances | None, name: str) -> 
             if bars
             else ""
         )
-        words = "In {unit}; blue: input increased; brown: input decreased; ×: not feasible; line: present value."
+        words = "In {unit}; blue: input increased; brown: input decreased; ×: cannot exist; line: present value."
         caption = say(words, unit=pretty(each.asked.unit) or phrase("a fraction"))
         below = f"<p>{html.escape(caption)}</p>\n<pre>{html.escape(text)}</pre>"
         parts.append(f"<h2>{html.escape(each.asked.name)}</h2>\n{figure}\n{below}")

@@ -27,7 +27,7 @@ from diecut_report.mechanism.inputs import Quantity
 from diecut_report.results.checks import check_results, checks_of, is_of_machine, is_sized, judged
 from diecut_report.results.conclusion import failed_self_tests, governing
 from diecut_report.results.mechanism import SelfTestFailed
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.results.press_run import Run, Tell
 from diecut_report.study.definition.base_inputs import Input
 from diecut_report.study.execution.press_batch import CalculatedVariants, untold

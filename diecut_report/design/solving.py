@@ -333,7 +333,7 @@ def _proved(answer: Answer, config: Config, discovery: Discovery) -> Answer:
             found=(replace(first, reached=reached, failing=failing), *answer.found[index + 1 :]),
             machine=machine,
         )
-    words = "{input} = {typed} satisfies it, but the rest of the machine is then not feasible: {reason}"
+    words = "{input} = {typed} satisfies it, but the machine then cannot exist: {reason}"
     what = {"input": answer.design.name, "typed": answer.found[0].typed, "reason": faults[0].problems[0].message}
     raise UserError(Problem(Phrase(words, what), config.tree.file))
 

@@ -5,7 +5,8 @@ from __future__ import annotations
 from collections.abc import Mapping
 from typing import Any
 
-from diecut_report.results.model import WORDINGS, ResultsRecord
+from diecut_report.results.model import ResultsRecord
+from diecut_report.results.record import WORDINGS
 from diecut_report.text.phrases import Phrase, message_of
 
 FIRST = "1.0"

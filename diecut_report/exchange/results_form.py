@@ -17,13 +17,15 @@ from diecut_report.config.yaml import CONTROL
 from diecut_report.errors import MAX_SHOWN, MAX_TEXT, Problem, UserError
 from diecut_report.exchange import form_1
 from diecut_report.pictures import MAX_BYTES as MOST_OF_PICTURE
-from diecut_report.pictures import media_type
-from diecut_report.results.model import FORM_VERSION, SCHEMA_VERSION, ConfigRecord, LogoRecord, ResultsRecord
+from diecut_report.pictures import PictureFault, media_type
+from diecut_report.results.model import ConfigRecord, LogoRecord, ResultsRecord
+from diecut_report.results.record import FORM_VERSION, SCHEMA_VERSION
 from diecut_report.text.phrases import Phrase, phrase
 
 # Results of another form than the program writes: which they are of, and what is told where they cannot be used.
 
 
+MOST_LETTERS = 4 * MOST_OF_PICTURE // 3 + 4  # of a logo in base64
 TOLD_SINCE = "1.3"  # the first form that tells itself
 SHAPE = re.compile(r"\d{1,4}\.\d{1,4}")
 PROGRAM = re.compile(r"\d[\w.+-]{0,40}", re.ASCII)
@@ -98,24 +100,21 @@ def _refuse_files(config: ConfigRecord, file: str) -> None:
     """Refuse files in the results that a configuration could not name."""
     if len(config.materials) > MOST_TABLES or len(config.file) > MAX_TEXT:
         raise UserError(Problem(Phrase("is not what stands there in results. {ask}", ask=ASK), file, path="config"))
-    if config.logo and not _is_drawn(config.logo):
-        words = Phrase("the logo is not {media_type}", media_type=config.logo.media_type)
-        raise UserError(
-            Problem(
-                Phrase("is not what stands there in results: {told}. {ask}", told=words, ask=ASK),
-                file,
-                path="config.logo",
-            )
-        )
+    if config.logo:
+        _refuse_logo(config.logo, file)
 
 
-def _is_drawn(logo: LogoRecord) -> bool:
-    if len(logo.base64) > 4 * MOST_OF_PICTURE // 3 + 4:
-        return False
+def _refuse_logo(logo: LogoRecord, file: str) -> None:
+    told: object = Phrase("the logo is not {media_type}", media_type=logo.media_type)
     try:
-        return media_type(b64decode(logo.base64, validate=True)) == logo.media_type
-    except ValueError:  # binascii's error is one
-        return False
+        if len(logo.base64) <= MOST_LETTERS and media_type(b64decode(logo.base64, validate=True)) == logo.media_type:
+            return
+    except PictureFault as fault:
+        told = Phrase("the logo {fault}", fault=fault)
+    except ValueError:  # an error of base64
+        pass  # what is no picture is not of this type either
+    words = Phrase("is not what stands there in results: {told}. {ask}", told=told, ask=ASK)
+    raise UserError(Problem(words, file, path="config.logo"))
 
 
 def _words(fault: ErrorDetails) -> Phrase:

@@ -23,7 +23,7 @@ from diecut_report.report.pages.html import filled_page, folder
 from diecut_report.report.reader_data import figure_readings
 from diecut_report.report.text import Catalogue, figure_translated, quantity, tidy
 from diecut_report.results.checks import NOT_CHECKED
-from diecut_report.results.model import CheckRecord, CurveRecord, FigureRecord, QuantityRecord
+from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, FigureRecord, QuantityRecord
 from diecut_report.results.press_run import Tell
 from diecut_report.study.execution.press_batch import untold
 from diecut_report.text.phrases import phrase

@@ -11,7 +11,7 @@ import mathra
 from math_core import LatexToMathML
 
 from diecut_report.report.mathematics import Latex, Linear, Tree, escaped, factors, terms, with_units
-from diecut_report.results.model import ItemRecord, PlaceRecord, ShownRecord
+from diecut_report.results.mechanism_record import ItemRecord, PlaceRecord, ShownRecord
 
 Measure = Callable[[str], float]  # the width of LaTeX in em
 

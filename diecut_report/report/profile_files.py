@@ -12,7 +12,8 @@ from typing import TYPE_CHECKING
 from diecut_report.quantities.units import unit
 from diecut_report.report.chapters.tables import period_of
 from diecut_report.report.scope import suffixes
-from diecut_report.results.model import CurveRecord, ExportRecord, MechanismRecord, ResultsRecord
+from diecut_report.results.mechanism_record import CurveRecord, ExportRecord, MechanismRecord
+from diecut_report.results.model import ResultsRecord
 
 if TYPE_CHECKING:
     from ezdxf.document import Drawing

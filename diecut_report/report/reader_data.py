@@ -16,7 +16,7 @@ from diecut_report.report.chapters.tables import period_of
 from diecut_report.report.context import Material
 from diecut_report.report.scope import parts
 from diecut_report.report.text import Catalogue, displayed, joined, tidy
-from diecut_report.results.model import CurveRecord, FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
 
 if TYPE_CHECKING:
     from diecut_report.report.figures.labels import Line, PanelData

@@ -14,7 +14,8 @@ from importlib.util import find_spec
 from pathlib import Path
 
 from diecut_report.results.conclusion import RANK, conclusion, governing, summary
-from diecut_report.results.model import ExportRecord, MechanismRecord, MoveRecord, ResultsRecord, SummaryRecord
+from diecut_report.results.mechanism_record import ExportRecord, MechanismRecord
+from diecut_report.results.model import MoveRecord, ResultsRecord, SummaryRecord
 
 BRIEF, STANDARD, FULL = "brief", "standard", "full"
 

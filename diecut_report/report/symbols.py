@@ -22,7 +22,8 @@ from diecut_report.report.chapters.printed_tables import WIDE
 from diecut_report.report.mathematics import OperatorPen
 from diecut_report.report.scope import parts
 from diecut_report.report.text import given_names, tidy
-from diecut_report.results.model import CurveRecord, MechanismRecord, QuantityRecord, ResultsRecord, SectionRecord
+from diecut_report.results.mechanism_record import CurveRecord, MechanismRecord, QuantityRecord, SectionRecord
+from diecut_report.results.model import ResultsRecord
 
 LONGEST_WHOLE = 26  # letters of a source that stands in one line
 _SIGNS = "=<>≤≥≈≠−+√"

@@ -9,16 +9,9 @@ from typing import Any
 
 from diecut_report.quantities.formatting import shown
 from diecut_report.quantities.units import pretty
-from diecut_report.results.model import (
-    ChangesRecord,
-    CurveRecord,
-    FigureRecord,
-    MechanismRecord,
-    ProjectRecord,
-    QuantityRecord,
-    ResultsRecord,
-    TextRole,
-)
+from diecut_report.results.mechanism_record import CurveRecord, FigureRecord, MechanismRecord, QuantityRecord
+from diecut_report.results.model import ChangesRecord, ProjectRecord, ResultsRecord
+from diecut_report.results.record import TextRole
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, built_in, program_catalogue
 from diecut_report.text.phrases import worded
 from diecut_report.text.translation import Translator
@@ -73,9 +66,9 @@ ENGLISH: dict[str, str] = {
     "moves": "affects “{check}”", "move_each": "each affects “{check}”", "more_assumed": " and {n} more",
     "influence": "Influence of inputs",
     "influence_lead": "Each numerical input is decreased and increased by {by}, or by its tolerance; all other inputs are unchanged.",
-    "influence_on": "Influence on {what}", "influence_today": "Now: {value}.", "influence_none": "not feasible",
+    "influence_on": "Influence on {what}", "influence_today": "Now: {value}.", "influence_none": "cannot exist",
     "influence_utilisation": "utilisation",
-    "influence_caption": "Blue: input increased; brown: input decreased; ×: not feasible; line: present value.",
+    "influence_caption": "Blue: input increased; brown: input decreased; ×: cannot exist; line: present value.",
     "influence_lowered": "Decreased to", "influence_raised": "Increased to", "influence_gives": "Gives",
     "influence_more": "{n} further inputs have a smaller effect.", "influence_still": "{n} inputs have no effect.",
                            "influence_tolerances": "Tolerances",

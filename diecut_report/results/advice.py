@@ -26,7 +26,7 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.steps import Clash, Require
 from diecut_report.quantities.formatting import outward
 from diecut_report.results.advised_ways import Change, Number, Way
-from diecut_report.results.model import Relation
+from diecut_report.results.record import Relation
 
 Judge = Callable[[Calculation, Check], tuple[Array, Array]]
 """Where a check is made, and where it holds, each of shape (variants,)."""
@@ -38,6 +38,7 @@ DIFFERENCES = np.geomspace(0.01, 10, GRID_POINTS)  # in the unit of an input
 LEVELS = 3  # of what holds: the check itself; the checks that held, too; the failing ones with the same keys, too
 SECTIONS, ROUNDS = 10, 4  # into which the interval around a limit is cut at once, and how often
 DIGITS = (4, 5, 6)  # significant digits of an advised number: the first with which the check holds
+ROUNDING = 1e-9  # relative: by how much a limit is surely missed that was met but for the rounding of its last place
 FEW_OPTIONS = 3  # that an advice names
 SMALLEST_BATCH = 4  # machines; a larger batch that cannot be calculated as a whole is halved
 
@@ -107,6 +108,11 @@ class VariedNumber:
     part: int | None
     today: float | None
     path: str
+
+    @property
+    def is_absent(self) -> bool:
+        """Return whether there is nothing of what is never below zero, such as a bore: it does not grow with the others."""
+        return self.today == 0 and self.meta.ge == 0
 
     def shown(self, value: float) -> float:
         """Return an SI value in the unit of the input."""
@@ -391,6 +397,10 @@ class TriedLine:
             return abs(math.log(nearest / self.today))
         return abs(nearest - self.today) / max(abs(nearest), abs(self.today))
 
+    def holds_within(self, low: float, high: float) -> bool:
+        """Return whether all that is tried between two parameters holds."""
+        return bool(self.holds(np.linspace(low, high, GRID_POINTS)).all())
+
     @property
     def relation(self) -> Relation:
         """Return how the run bounds the parameter: on one side where all that was tried beyond it holds."""
@@ -422,7 +432,7 @@ class TriedLine:
 def _number(trials: Trials, wanted: Vary, place: VariedNumber) -> Way | None:
     listed = [place.si(float(each)) for each in wanted.series or place.meta.listed]
     grid, is_listed = (np.array(listed), True) if listed else (_grid(place), place.meta.integer)
-    grid = np.array([each for each in grid if _is_towards(each, place.today, wanted.to)])
+    grid = np.sort([each for each in grid if _is_towards(each, place.today, wanted.to)])
     line = TriedLine.of(trials, Ray([place], np.zeros(1), np.ones(1), grid, place.today))
     if line is None:
         return None
@@ -495,8 +505,9 @@ def _change(line: TriedLine, place: VariedNumber) -> Change | None:
     if relation == "between":
         if lows is None or highs is None or lows > highs:
             return None
-        if lows == highs:
-            return Change(place.path, "equal", lows, place.meta.unit)
+        if lows == highs or not line.holds_within(place.si(lows), place.si(highs)):
+            is_below = line.today is not None and line.today > line.run[1]
+            return Change(place.path, "equal", highs if is_below else lows, place.meta.unit)
         return Change(place.path, "between", (lows, highs), place.meta.unit)
     found = lows if relation == "at_least" else highs
     return None if found is None else Change(place.path, relation, found, place.meta.unit)
@@ -510,15 +521,20 @@ def _shortest(line: TriedLine, place: VariedNumber, value: float, *, up: bool) -
 
 
 def _rounded(value: float, *, up: bool) -> list[float]:
-    """A limit as it may be printed, the shortest first: the nearest number may hold, the next one on the safe side does."""
-    return [each for digits in DIGITS for each in (float(f"{value:.{digits}g}"), outward(value, up, digits))]
+    """A limit as it may be printed, the shortest first: the nearest number may hold, the next one on the safe side does.
+
+    A limit that is such a number itself may fail by the rounding of its last place: the next one lies beyond it.
+    """
+    beyond = value + (ROUNDING if up else -ROUNDING) * abs(value)
+    return [each for digits in DIGITS for each in (float(f"{value:.{digits}g}"), outward(beyond, up, digits))]
 
 
 # Several numbers that are changed together; those that need not be changed are left as they are.
 
 
 def _together(trials: Trials, keys: Sequence[str]) -> Way | None:
-    places = [place for key in keys for place in trials.places(key) if place.today is not None]
+    given = [place for key in keys for place in trials.places(key) if place.today is not None]
+    places = [place for place in given if not place.is_absent] or given
     if not places:
         return None
     ray = _common_ray(places)

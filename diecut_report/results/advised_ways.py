@@ -6,7 +6,8 @@ from collections.abc import Iterable, Sequence
 from dataclasses import dataclass
 
 from diecut_report.quantities.formatting import number_text, with_unit
-from diecut_report.results.model import KeyChangeRecord, Relation
+from diecut_report.results.mechanism_record import KeyChangeRecord
+from diecut_report.results.record import Relation
 from diecut_report.text.phrases import Phrase, joined, named, phrase
 
 Number = float | int

@@ -9,6 +9,7 @@ from typing import Literal, TypeGuard, get_args
 from diecut_report.quantities.formatting import number_text
 from diecut_report.quantities.units import UnitError, unit
 from diecut_report.results.conclusion import COUNTED, RANK, SELF_TEST
+from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, QuantityRecord, ShownRecord
 from diecut_report.results.model import (
     CarriedConfigRecord,
     ChangedCheckRecord,
@@ -17,14 +18,10 @@ from diecut_report.results.model import (
     ChangedQuantityRecord,
     ChangedTextRecord,
     ChangesRecord,
-    CheckRecord,
     CheckSideRecord,
     GoverningRecord,
-    MechanismRecord,
-    QuantityRecord,
     QuantitySideRecord,
     ResultsRecord,
-    ShownRecord,
 )
 
 Mechanisms = Mapping[str, MechanismRecord]

@@ -20,7 +20,7 @@ from diecut_report.quantities.formatting import place_shown, shown, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.results.advice import Advisor
 from diecut_report.results.advised_ways import Way, advice_records, advice_text
-from diecut_report.results.model import CheckRecord, ShownRecord
+from diecut_report.results.mechanism_record import CheckRecord, ShownRecord
 from diecut_report.text.phrases import Phrase, joined, named, phrase
 
 # Checks that are not made because an optional input is not given: what each needs, and its demand where that is known.

@@ -14,19 +14,17 @@ from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.mechanism import CurveTable, Profile, Source
 from diecut_report.mechanism.steps import Step
 from diecut_report.results.checks import applies, checks_of
-from diecut_report.results.model import (
+from diecut_report.results.mechanism_record import (
     CheckRecord,
     CountRecord,
     ExportRecord,
-    GoverningRecord,
     MechanismRecord,
     QuantityRecord,
-    ResultsRecord,
     SelfTestCountRecord,
     ShownRecord,
     SourceRecord,
-    SummaryRecord,
 )
+from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
 
 # The sources of a machine: a plugin's own, but those that only steps and checks name which this machine does not have.

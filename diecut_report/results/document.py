@@ -28,24 +28,21 @@ from diecut_report.mechanism.names import Text
 from diecut_report.quantities.formatting import as_given, given_shown
 from diecut_report.results.conclusion import conclusion, counts, governing, shown_alike, summary
 from diecut_report.results.mechanism import worst
+from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import (
-    FORM_VERSION,
-    CheckRecord,
     ConfigRecord,
     LeftOutRecord,
     LogoRecord,
     MaterialsFileRecord,
-    MechanismRecord,
     PressRecord,
     ProgramRecord,
     ProjectRecord,
-    QuantityRecord,
     ReportRecord,
     ResultsRecord,
-    Status,
 )
 from diecut_report.results.origins import Bases, assumed, with_origins
 from diecut_report.results.press_run import Found, Run
+from diecut_report.results.record import FORM_VERSION, Status
 from diecut_report.text.phrases import Phrase
 
 Data = dict[str, Any]

@@ -40,7 +40,7 @@ from diecut_report.quantities.formatting import author_digits, place_shown, show
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of, missing_checks
 from diecut_report.results.conclusion import RANK, cited_sources, counts, exports, failed_self_tests
-from diecut_report.results.model import (
+from diecut_report.results.mechanism_record import (
     AbsentPhaseRecord,
     AbsentRecord,
     CheckRecord,
@@ -53,9 +53,9 @@ from diecut_report.results.model import (
     SectionRecord,
     ShownIntervalRecord,
     ShownPhaseRecord,
-    Status,
 )
 from diecut_report.results.origins import GIVEN, Provenance, inputs
+from diecut_report.results.record import Status
 from diecut_report.text.phrases import Phrase, keys_listed, phrase
 
 # Curves and spectra of a calculation.

@@ -29,7 +29,8 @@ from diecut_report.mechanism.steps import PREFIX, named
 from diecut_report.quantities.formatting import given_shown, shortest
 from diecut_report.quantities.plausible import without_rounding
 from diecut_report.quantities.units import unit
-from diecut_report.results.model import CheckRecord, MechanismRecord, PartRecord, QuantityRecord, SummaryRecord
+from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, PartRecord, QuantityRecord
+from diecut_report.results.model import SummaryRecord
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 # What advice names is changed where it begins: a key that follows from another one is not changed in one mechanism alone.

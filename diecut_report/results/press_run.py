@@ -34,7 +34,7 @@ from diecut_report.results.advice import possible_ways
 from diecut_report.results.advised_ways import advice_text
 from diecut_report.results.checks import holds
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
-from diecut_report.results.model import CheckRecord, MechanismRecord, SourceRecord
+from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, SourceRecord
 from diecut_report.results.origins import Absent, Bases, Provenance, Unavailable, Valueless, Withheld, origin_of, output
 from diecut_report.text.phrases import Phrase, named, phrase
 from diecut_report.time_limit import in_time

@@ -48,15 +48,8 @@ from diecut_report.results.mechanism import (
     sections,
     worst,
 )
-from diecut_report.results.model import (
-    CheckRecord,
-    CurveRecord,
-    FigureRecord,
-    GoverningRecord,
-    ResultsRecord,
-    SectionRecord,
-    SummaryRecord,
-)
+from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, FigureRecord, SectionRecord
+from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
 from diecut_report.results.origins import assumed, checks_with_origins, origin_of, placed_inputs
 from diecut_report.results.press_run import Run, Tell, require_possible
 

@@ -9,7 +9,7 @@ from typing import TYPE_CHECKING, Any, TypeVar, overload
 
 from diecut_report.errors import Problem, UnknownName, nearest
 from diecut_report.quantities.units import unit
-from diecut_report.results.model import CheckRecord, CurveRecord, PhaseRecord
+from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, PhaseRecord
 from diecut_report.scripting.values import QuantityValue, told_in
 from diecut_report.text.phrases import Phrase, phrase
 

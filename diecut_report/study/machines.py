@@ -19,7 +19,8 @@ from diecut_report.errors import Problem, UserError
 from diecut_report.quantities.units import pretty
 from diecut_report.report.text import translated
 from diecut_report.results.conclusion import SELF_TEST, doubtful_kinds
-from diecut_report.results.model import CheckRecord, MechanismRecord, QuantityRecord, ResultsRecord
+from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, QuantityRecord
+from diecut_report.results.model import ResultsRecord
 from diecut_report.study.execution.engines import WorkerSetup, local_engine, results, settle
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
 from diecut_report.text.phrases import Phrase, phrase

@@ -10,12 +10,7 @@ from typing import Any
 
 from diecut_report.errors import nearest
 from diecut_report.quantities.units import pretty, to_display, unit
-from diecut_report.results.model import (
-    MechanismRecord,
-    PlaceRecord,
-    QuantityRecord,
-    ShownRecord,
-)
+from diecut_report.results.mechanism_record import MechanismRecord, PlaceRecord, QuantityRecord, ShownRecord
 
 Data = Mapping[str, Any]
 

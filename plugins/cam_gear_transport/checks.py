@@ -4,11 +4,10 @@ from __future__ import annotations
 
 from diecut_report.api import Check, Vary
 from diecut_report.plugins.cam_gear_transport.cams import LOADED
-from diecut_report.plugins.cam_gear_transport.inputs import CAMS, GRIPPED, SHEET, TORQUE
+from diecut_report.plugins.cam_gear_transport.inputs import CAMS, GRIPPED, MODULES, SHEET, TORQUE
 
 SHORTER = (Vary("dwell_angle", "down"), Vary("sector_stop_sweep", "down"))
 SLOWER = (Vary("cycles_per_hour", "down"),)
-MODULES = (20, 16, 12, 10, 8, 6, 5, 4, 3, 2.5, 2, 1.5, 1.25, 1)  # mm, the usual ones
 
 CHECKS = (
     Check(id="return_time", check_class="practice", title="Time of the sector's return",

@@ -168,6 +168,9 @@ class CamGearTransport(Inputs):
     n_points: Annotated[int, POINTS] = 720
 
 
+MODULES = (1, 1.25, 1.5, 2, 2.5, 3, 4, 5, 6, 8, 10, 12, 16, 20)
+"""The usual modules, in mm."""
+
 CAMS = ("arm_length", "roller_radius", "arm_angle_1", "arm_angle_2")
 """The keys with which the cams are synthesised."""
 

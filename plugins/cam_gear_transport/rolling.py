@@ -4,10 +4,11 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import ByText, Chapter, bind
+from diecut_report.api import ByText, Chapter, Vary, bind
 from diecut_report.mechanics import common
 from diecut_report.mechanics.motion_laws import MIDDLE_POSITION, MIDDLE_VELOCITY, PEAK_ACCELERATION, PEAK_VELOCITY
 from diecut_report.plugins.cam_gear_transport import formulas
+from diecut_report.plugins.cam_gear_transport.inputs import MODULES
 
 # fmt: off
 
@@ -31,8 +32,8 @@ rolling_chapter.value("gear_teeth", "z_1", "1", "Number of teeth of the gear", b
 rolling_chapter.value("sector_wheel_teeth", "z_3", "1", "Number of teeth of the sector, counted as a full wheel", formulas.other_teeth, whole=True,
                       source="this method", needs=("module",))
 rolling_chapter.require("some_teeth", lambda gear_teeth, sector_wheel_teeth: np.minimum(gear_teeth, sector_wheel_teeth) >= 1, key="module",
-                        message="is {module}, with which the gear would have {gear_teeth} and the sector {sector_wheel_teeth} teeth; take "
-                                "{module_finer}, or change sector_dwell_sweep or dwell_angle", needs=("module",))
+                        message="is {module}, with which the gear would have {gear_teeth} and the sector {sector_wheel_teeth} teeth",
+                        needs=("module",), advise=(Vary("module", "down", MODULES), "sector_dwell_sweep", "dwell_angle"))
 rolling_chapter.value("sector_dwell_sweep", "γ_32", "deg", "Sweep of the sector during the dwell: as required by whole numbers of teeth",
                       formulas.sweep_of_teeth, source="003 eq. 1, for whole teeth", needs=("module",), digits=6)
 rolling_chapter.value("sector_dwell_sweep", "γ_32", "deg", "Sweep of the sector during the dwell: as given",

@@ -45,7 +45,7 @@ def test_a_folder_gives_one_table(firm: Path, capfd: Capture) -> None:
         ["old/good", "pass", "a.moment", "75.0", "%", "0", "0", "0", "0"],
         ["firm/weak", "fail", "a.moment", "133.3", "%", "1", "0", "0", "0"],
     ]
-    told = "passed over: it is a study, which batch calculates"
+    told = "skipped: it is a study, which batch calculates"
     assert err == f"{firm / 'study.yaml'}: {told}\n3 machines: 2 pass, 1 fail.\n"
 
 
@@ -119,16 +119,16 @@ def test_what_is_passed_over_in_a_folder_is_told(firm: Path, tmp_path: Path, cap
     saved(firm, "- 1\n", "list.yml")
     check(firm)
     err = capfd.readouterr().err
-    assert f"{firm / 'list.yml'}: passed over: it has no key mechanisms, and so is not a configuration\n" in err
-    assert f"{firm / 'study.yaml'}: passed over: it is a study, which batch calculates\n" in err
+    assert f"{firm / 'list.yml'}: skipped: it has no key mechanisms, and so is not a configuration\n" in err
+    assert f"{firm / 'study.yaml'}: skipped: it is a study, which batch calculates\n" in err
     check(firm, "--quiet")
-    assert "passed over" not in capfd.readouterr().err
+    assert ": skipped: " not in capfd.readouterr().err
     other = tmp_path / "other"
     other.mkdir()
     saved(other, "a: 1\n", "no.yaml")
     assert check(other) == 2
     err = capfd.readouterr().err
-    assert "There is no configuration in" in err and "no.yaml: passed over: it has no key" in err
+    assert "There is no configuration in" in err and "no.yaml: skipped: it has no key" in err
 
 
 def test_only_the_asked_formats_are_written(firm: Path, tmp_path: Path) -> None:

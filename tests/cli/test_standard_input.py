@@ -125,7 +125,7 @@ def test_what_is_too_much_closed_or_asked_for_twice_is_refused(
     [
         (["calc", "press.yaml"], "{"),
         (["diff", "press.yaml", "press.yaml"], "old  press.yaml"),
-        (["influence", "press.yaml"], "a.checks.moment.utilisation, today"),
+        (["influence", "press.yaml"], "a.checks.moment.utilisation, at present"),
         (
             ["solve", "press.yaml", "--vary", "a.arm", "--for", "a.moment = 240 N*m"],
             PRESS.decode().replace("100 mm", "120 mm"),

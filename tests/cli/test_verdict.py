@@ -47,9 +47,12 @@ def test_a_check_without_its_limit_is_told_and_counted(tmp_path: Path, capfd: Ca
     code, found = results(saved(tmp_path, FREE))
     err = capfd.readouterr().err
     assert code == 0 and found["status"] == "pass"
+    told = found["summary"].pop("conclusion")
     assert found["summary"] == {"pass": 0, "warn": 0, "fail": 0, "not_checked": 1, "numerical": {"pass": 0, "fail": 0},
-                                "governing": None, "assumed": [],
-                                "conclusion": "Nothing was checked, and 1 is not checked."}  # fmt: skip
+                                "governing": None, "assumed": []}  # fmt: skip
+    assert told["text"] == "Nothing was checked, and 1 is not checked."
+    assert told["template"] == "Nothing was checked, and {left}."
+    assert told["values"]["left"]["count"] == 1 and told["values"]["left"]["text"] == "1 is not checked"
     assert err.splitlines() == [
         "not checked a: Moment. Moment 200 N·m, but allowable_moment is not given.",
         "Nothing was checked, and 1 is not checked.",

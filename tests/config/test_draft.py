@@ -143,7 +143,7 @@ def test_each_key_stands_once_with_its_symbol_meaning_and_range() -> None:
         keys, 1
     )
     (force,) = [line for line in lines if "allowable_slip_time:" in line]
-    assert force.strip().startswith("# allowable_slip_time: … s") and "if omitted, not checked: Time" in force
+    assert force.strip().startswith("# allowable_slip_time: … s") and "if omitted, not checked: Slip time" in force
     assert max(map(len, lines)) <= 150
 
 

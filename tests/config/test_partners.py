@@ -14,7 +14,7 @@ from diecut_report.mechanism.mechanism import Partner
 from diecut_report.pipeline import calc
 from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.results.document import document
-from diecut_report.results.model import MechanismRecord
+from diecut_report.results.mechanism_record import MechanismRecord
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input, with_values
 from tests.configs import DISCOVERY, HEAD, loaded, problems, saved
@@ -83,7 +83,7 @@ def test_a_study_does_not_vary_what_is_compared_with_the_others(tmp_path: Path, 
     config = loaded(tmp_path, HEAD + DRIVE + CLUTCH)
     asked = find_input(config, f"mechanisms.press_consistency.{key}")
     found = [str(each) for each in with_values(config, {asked: 1.0})[1]]
-    assert any(f"is given here, but ${{drive.{key}}} has it" in each for each in found), found
+    assert any(f"is given here, but ${{drive.{key}}} already provides it" in each for each in found), found
 
 
 def test_the_resolved_configuration_leaves_out_what_is_taken_again(tmp_path: Path) -> None:

@@ -10,7 +10,8 @@ import pytest
 from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
-from diecut_report.results.model import ResultsRecord, ShownRecord
+from diecut_report.results.mechanism_record import ShownRecord
+from diecut_report.results.model import ResultsRecord
 
 KNIFE = Path(__file__, "../../../configs/circular_knife.yaml").resolve().read_text(encoding="utf-8")
 

@@ -43,6 +43,7 @@ from tests.exchange.forgeries import (
     OF_PDF,
     OF_RESULTS,
     OF_REVISION,
+    REFUSED,
     TRUST,
     Forgery,
     added,
@@ -127,7 +128,8 @@ def test_changed_results_are_found(knife: Path, tmp_path: Path, capfd: Capture, 
     data = json.loads((knife / "new.json").read_text("utf-8"))
     forgery.change(data)
     code, told = verified(page_with(json.dumps(data).encode()), tmp_path, capfd)
-    assert code == 1 and forgery.line in told and "Not everything agrees." in told
+    refused = forgery.line == REFUSED  # before anything is calculated
+    assert forgery.line in told and (code, "Not everything agrees." in told) == ((2, False) if refused else (1, True))
 
 
 @pytest.mark.usefixtures("calculated_once")
@@ -188,10 +190,6 @@ def more(place: Any, _: Any) -> None:
 def turned_round(place: Any, _: Any) -> None:
     if isinstance(place, list):
         place.reverse()
-    else:
-        parts = list(place.items())[::-1]
-        place.clear()
-        place.update(parts)
 
 
 @pytest.mark.usefixtures("calculated_once")
@@ -202,6 +200,8 @@ def test_no_value_of_the_results_can_be_changed(
 ) -> None:
     random, text = Random(f"{count} {change.__name__}"), (knife / "new.json").read_text("utf-8")
     paths = [path for path in one_of_each(json.loads(text), random) if not is_told_apart(path)]
+    if change is turned_round:  # the keys of a block have no order
+        paths = [path for path in paths if isinstance(path[-1], int)]
     unnoticed = []
     for path in random.sample(paths, min(count, len(paths))):
         data = json.loads(text)
@@ -284,7 +284,7 @@ def test_what_was_painted_over_is_not_signed(
     forged = added(painted)((small_report / "small.pdf").read_bytes())
     (tmp_path / "a.pdf").write_bytes(forged)
     assert signed(tmp_path / "a.pdf", private, monkeypatch) == 2
-    assert "is not signed" in capfd.readouterr().err and (tmp_path / "a.pdf").read_bytes() == forged
+    assert "was not signed" in capfd.readouterr().err and (tmp_path / "a.pdf").read_bytes() == forged
     code, told = verified(signed_elsewhere(forged, private, certified(private)), tmp_path, capfd)
     assert code == 1 and "✗ pages" in told
 

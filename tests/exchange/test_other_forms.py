@@ -10,7 +10,7 @@ from typing import Any
 import pytest
 
 import diecut_report as dr
-from diecut_report.results.model import FORM_VERSION
+from diecut_report.results.record import FORM_VERSION
 from tests.cli.test_cli import Capture, run
 
 COMMANDS = {

@@ -19,6 +19,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.report.equations import Equations, Typesetter
 from diecut_report.report.mathematics import Latex, Linear
 from diecut_report.report.text import Catalogue
+from diecut_report.results.mechanism_record import ItemRecord
 
 TWICE = Constant(2.0, "k_0", "1")
 
@@ -123,8 +124,12 @@ def bar(rule: Formula, **names: str) -> Mechanism:
 
 def test_a_named_call_prints_by_its_name_and_its_definition_once_below() -> None:
     (chapter,) = section_items(calculate(bar(notch), {"radius": 0.003, "depth": 0.007}))
-    item = json.loads(json.dumps(chapter["items"][0]))
-    assert item["equation"][1] == ["*", ["apply", "k_t", ["/", ["sym", "r"], ["sym", "d"]]], ["sym", "d"]]
+    item = ItemRecord.model_validate(json.loads(json.dumps(chapter["items"][0])))
+    assert item.equation is not None and item.equation[1] == [
+        "*",
+        ["apply", "k_t", ["/", ["sym", "r"], ["sym", "d"]]],
+        ["sym", "d"],
+    ]
     equations = Equations(Catalogue("en"), Typesetter().measure)
     told = equations.of(item)
     assert told is not None and "x = k_t(r/d)·d + k_n(r/d)·r" in told.text

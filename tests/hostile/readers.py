@@ -149,7 +149,7 @@ def stored() -> Reader:
     def read(data: bytes) -> None:
         try:
             write_state(out, json.loads(data))
-        except (ValueError, AttributeError, RecursionError):
+        except (ValueError, TypeError, RecursionError):
             (out / "study.json").write_bytes(data)
         with suppress(UserError):
             list(variants(out))

@@ -215,7 +215,7 @@ def test_a_port_in_use_and_a_file_that_is_none_end_with_words(
         other.listen()
         port = other.getsockname()[1]
         assert main(["live", str(KNIFE), "--port", str(port), "--no-open"]) == 2
-    assert f"The port {port} of this machine is not available: another program is using it" in capfd.readouterr().err
+    assert f"Port {port} of this machine is not available: another program is using it" in capfd.readouterr().err
     stored = f"{tmp_path}#17"
     for given, words in ((str(tmp_path), "This is a folder."), (str(tmp_path / "none.yaml"), "There is no such file."),
                          ("-", "standard input is read only once"), (stored, f"diecut-report take {stored} -o my_press.yaml")):  # fmt: skip

@@ -82,7 +82,7 @@ def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
             patch.setattr(LiveSession, "_made", endless)
             patch.setattr(server, "effect", endless)
             await made._done(session.read)
-            assert session.machine is not None and "did not come back within 0.2 s" in str(session.faults[0].message)
+            assert session.machine is not None and "did not finish within 0.2 s" in str(session.faults[0].message)
             transport = ASGITransport(made.starlette)
             async with AsyncClient(transport=transport, base_url="http://page") as page:
                 answer = await page.get("/effect", params={"input": "knife.depth"})
@@ -90,7 +90,7 @@ def test_a_plugin_that_never_comes_back_is_told_and_the_page_goes_on(
         return answer.status_code, answer.content
 
     status, content = asyncio.run(asyncio.wait_for(told(), 60))
-    assert status == 422 and b"did not come back within 0.2 s" in content and not session.faults
+    assert status == 422 and b"did not finish within 0.2 s" in content and not session.faults
 
 
 def test_a_report_that_is_never_made_is_given_up(monkeypatch: pytest.MonkeyPatch) -> None:

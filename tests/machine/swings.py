@@ -12,7 +12,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import MechanismRecord
+from diecut_report.results.mechanism_record import MechanismRecord
 from tests.machine.swing import MECHANISM, Swing
 
 TURN = 2 * np.pi / 3

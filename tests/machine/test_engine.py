@@ -14,7 +14,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import common
 from diecut_report.mechanism.steps import Root
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import AbsentRecord
+from diecut_report.results.mechanism_record import AbsentRecord
 from tests.machine.toy import MECHANISM, ROOTED, cube, cubed, doubled, plus_one, same, zero
 from tests.machines import inputs, number
 

@@ -19,7 +19,7 @@ from diecut_report.pipeline import calc as run
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import ItemRecord, PlaceRecord
+from diecut_report.results.mechanism_record import ItemRecord, PlaceRecord
 from tests.configs import problems, saved
 from tests.machine.swing import MECHANISM, Swing
 

@@ -17,7 +17,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.pipeline import calc as run
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import MechanismRecord
+from diecut_report.results.mechanism_record import MechanismRecord
 from tests.configs import problems, saved
 from tests.machine.loop import COMPARED, MECHANISM, Loop
 

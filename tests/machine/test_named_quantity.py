@@ -16,7 +16,7 @@ from diecut_report.machine.printing.substitution import filled
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import ItemRecord, ShownRecord
+from diecut_report.results.mechanism_record import ItemRecord, ShownRecord
 
 
 class Wave(Inputs):

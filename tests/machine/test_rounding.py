@@ -56,7 +56,7 @@ def scaled(length: Any) -> Any:
 
 def test_a_residual_of_rounding_is_noted_and_not_refused() -> None:
     told = item(difference, length=0.1 * (1 + 2.0**-52), other=0.1)
-    assert told["substituted"] is None and "rounding" in told["note"]
+    assert told["substituted"] is None and "equal to machine precision" in told["note"]
 
 
 def test_a_true_difference_is_printed_with_its_numbers() -> None:
@@ -156,4 +156,4 @@ def test_a_formula_at_its_limit_is_noted_and_not_refused(monkeypatch: pytest.Mon
     """As a clutch's at the limit of self-locking: its denominator is the difference of equal numbers."""
     monkeypatch.setattr(locked, "function", lambda length, other: length / 2.0**-53)
     told = item(locked)
-    assert told["substituted"] is None and "rounding" in told["note"]
+    assert told["substituted"] is None and "equal to machine precision" in told["note"]

@@ -29,9 +29,9 @@ def chapters(calc: Any) -> dict[str, dict[str, Any]]:
 
 
 def places(chapter: dict[str, Any]) -> set[str]:
-    """Where its formulas are shown that are not marked as taken elsewhere."""
+    """Where its formulas are shown that are not marked as shown elsewhere."""
     shown = [i for i in chapter["items"] if i["type"] in ("formula", "choice") and i.get("at")]
-    return {i["at"]["text"] for i in shown if not i.get("note", "").startswith("Taken at ")}
+    return {i["at"]["text"] for i in shown if not i.get("note", "").startswith("Shown at ")}
 
 
 @pytest.fixture(scope="module")
@@ -66,7 +66,7 @@ def test_what_is_taken_in_the_middle_of_a_piece_is_marked_with_its_place(run: An
     assert items(calc, calc.steps["law_middle"]) == []  # which serves how numbers are found
     [item] = items(calc, replace(calc.steps["law_middle"], printed=True))
     assert Linear()(item["equation"]) == "k(φ = 260°)"
-    assert item["note"].startswith("Taken at φ = 260°")
+    assert item["note"].startswith("Shown at φ = 260°, in the middle of its smooth piece")
 
 
 def test_constants_stand_with_their_value_and_unit_among_the_numbers() -> None:

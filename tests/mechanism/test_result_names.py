@@ -21,7 +21,7 @@ from diecut_report.mechanism.steps import (
     names_ahead,
     result_names,
 )
-from diecut_report.results.model import PartRecord
+from diecut_report.results.mechanism_record import PartRecord
 from tests.machine.loop import MECHANISM as LOOP
 from tests.machine.test_loop import told
 

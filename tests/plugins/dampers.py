@@ -8,7 +8,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 

@@ -14,7 +14,7 @@ from diecut_report.machine.calculation import Calculation, CurveHandle
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM
 from diecut_report.results.checks import check_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 RPM = 2 * pi / 60

@@ -18,7 +18,7 @@ from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.results.checks import applies, check_results, judged
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 
 SHAFT: dict[str, Any] = {
     "inertia": "0.8 kg*m**2",

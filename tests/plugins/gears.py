@@ -8,7 +8,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.gear_pair import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 STEEL: dict[str, Any] = {"sigma_h_lim_1": 767, "sigma_h_lim_2": 767, "sigma_f_lim_1": 314, "sigma_f_lim_2": 314}

@@ -12,7 +12,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.platen_press import MECHANISM
 from diecut_report.plugins.platen_press.inputs import JOINTS
 from diecut_report.results.checks import check_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 GUIDED: dict[str, Any] = {"guide_length": "400 mm", "offset_force": "5 mm", "offset_weight": "20 mm"}

@@ -11,7 +11,7 @@ from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cam_gear_transport import MECHANISM
 from diecut_report.results.checks import check_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs
 
 PUBLISHED: dict[str, Any] = {

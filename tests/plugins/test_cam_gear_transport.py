@@ -17,11 +17,11 @@ from diecut_report.api import formula
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.figure_views import MachineView, laid_out
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
-from diecut_report.plugins.cam_gear_transport import drawing, figures
+from diecut_report.plugins.cam_gear_transport import MECHANISM, drawing, figures
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
-from tests.machines import number
-from tests.plugins.steppers import CAMS, CONVEYOR, LOADED, RATE, at, checks, slope, smooth_places, stepper
+from tests.machines import made_possible, number
+from tests.plugins.steppers import CAMS, CONVEYOR, LOADED, PUBLISHED, RATE, at, checks, slope, smooth_places, stepper
 
 BY_LAW = pytest.mark.parametrize("law", list(LAWS))
 MACHINES = st.fixed_dictionaries(
@@ -160,23 +160,22 @@ def test_a_centre_distance_without_whole_teeth_is_refused_with_the_nearest_one()
 
 
 def test_a_module_that_leaves_the_gear_no_tooth_is_refused() -> None:
+    sweeps = {"sector_dwell_sweep": "10 deg", "sector_stop_sweep": "3 deg"}
+    coarse = sweeps | {"module": "300 mm"}
     with pytest.raises(Impossible, match="have 0 and") as refused:
-        stepper(module="300 mm", sector_dwell_sweep="10 deg")
+        stepper(**coarse)
     assert refused.value.key == "module"
-    finer = re.search(r"a module of ([\d.]+) mm", refused.value.message)
+    module, *others = made_possible(MECHANISM, PUBLISHED | coarse, "module")
+    finer = re.fullmatch(r"set module to at most ([\d.]+) mm", module)
     assert finer is not None
-    assert (
-        checks(stepper(module=float(finer[1]), sector_dwell_sweep="10 deg", sector_stop_sweep="3 deg"))[
-            "tooth_undercut"
-        ].status
-        == "pass"
-    )
+    assert checks(stepper(module=float(finer[1]), **sweeps))["tooth_undercut"].status == "pass"
+    assert [way.split()[1] for way in others] == ["sector_dwell_sweep", "dwell_angle"]
 
 
 def test_few_teeth_are_a_warning() -> None:
     few = checks(stepper(module="12 mm"))["tooth_undercut"]
     assert few.status == "warn"
-    assert "take a module of 8 mm" in few.message
+    assert few.message.endswith("Set module to at most 8 mm.")
     assert checks(stepper(module="8 mm"))["tooth_undercut"].status == "pass"
     assert checks(stepper(module="5 mm"))["tooth_undercut"].status == "pass"
     assert checks(stepper())["tooth_undercut"].missing == ["module"]
@@ -289,6 +288,9 @@ def test_a_short_return_fails_and_the_advice_lengthens_it(module: dict[str, Any]
     short = checks(stepper(dwell_angle="205 deg", **module))["return_time"]
     assert short.status == "fail"
     assert [way[0].key for way in short.advice] == ["dwell_angle", "sector_stop_sweep"]
+    for (change,) in short.advice:
+        longer = {"dwell_angle": "205 deg", **module, change.key: f"{change.value} {change.unit}"}
+        assert checks(stepper(**longer))["return_time"].status == "pass"
 
 
 @pytest.mark.parametrize(

@@ -16,7 +16,7 @@ from diecut_report.machine.calculation import Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.cylinder_sizing import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from tests.examples import examples
 from tests.machines import cylinder, inputs, number
 

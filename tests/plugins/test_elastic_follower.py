@@ -20,7 +20,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics import motion_laws
 from diecut_report.plugins.elastic_follower import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import CurveRecord
+from diecut_report.results.mechanism_record import CurveRecord
 from tests.examples import few
 from tests.machines import inputs, number
 from tests.mechanics.closed_follower import WAVES, after, response, undamped_cycloidal

@@ -18,7 +18,7 @@ from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.geneva_transport import MECHANISM
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from tests.configs import HEAD, problems, saved
 from tests.machines import inputs, number
 

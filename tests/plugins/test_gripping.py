@@ -12,7 +12,7 @@ from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.plugins.cam_gear_transport import MECHANISM as STEPPER
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import inputs, number
 
 CHAIN = {"sprocket_teeth": 30, "chain_pitch": "19.05 mm"}

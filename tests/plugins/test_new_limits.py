@@ -9,7 +9,7 @@ import pytest
 
 from diecut_report.machine.calculation import Calculation
 from diecut_report.results.checks import check_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from tests.machines import drive, number
 from tests.plugins.test_geneva_transport import geneva
 

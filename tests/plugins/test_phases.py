@@ -17,7 +17,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
 from diecut_report.plugins.knife_drive import MECHANISM as KNIFE_DRIVE
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import AbsentPhaseRecord, ShownIntervalRecord
+from diecut_report.results.mechanism_record import AbsentPhaseRecord, ShownIntervalRecord
 from tests.machines import cylinder, drive, inputs, number
 from tests.plugins import steppers
 from tests.plugins.cases import FULL

@@ -18,7 +18,7 @@ from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.machine.calculation import Calculation
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import FigureRecord, ShownRecord
+from diecut_report.results.mechanism_record import FigureRecord, ShownRecord
 from tests.configs import EXAMPLES
 from tests.examples import examples
 from tests.machines import number

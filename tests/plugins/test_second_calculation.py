@@ -9,7 +9,7 @@ import pytest
 
 from diecut_report.formulas import Array
 from diecut_report.results.document import document
-from diecut_report.results.model import MechanismRecord
+from diecut_report.results.mechanism_record import MechanismRecord
 from diecut_report.results.press_run import compute
 from tests.configs import loaded
 

@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.results.document import document
-from diecut_report.results.model import ShownRecord
+from diecut_report.results.mechanism_record import ShownRecord
 from diecut_report.results.press_run import compute
 from tests.configs import HEAD, loaded, problems
 

@@ -18,7 +18,8 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
-from diecut_report.results.model import MechanismRecord, ResultsRecord
+from diecut_report.results.mechanism_record import MechanismRecord
+from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import compared, found
 from tests.configs import HEAD, saved
 from tests.examples import examples, few

@@ -17,7 +17,7 @@ from diecut_report.report.figures.diagram import STROKES, Diagram, legend
 from diecut_report.report.figures.labels import LabelLayout, PanelData, framed, pieces
 from diecut_report.report.figures.style import SizesSize, overlap, text_size
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import CurveRecord, FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
 from tests.records import filled
 from tests.report.made_figures import CHARTS, block, chart, energy, laws, line, panel, wedge
 

@@ -25,7 +25,7 @@ from diecut_report.report.figures.drawing import (
 )
 from diecut_report.report.figures.style import MM, SizesSize, marked, overlap, text_size
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import FigureRecord
+from diecut_report.results.mechanism_record import FigureRecord
 from tests.examples import few
 from tests.report.made_figures import (
     DRAWINGS,

@@ -17,7 +17,7 @@ from diecut_report.report.figures.charts import bars, polar
 from diecut_report.report.figures.drawing import hatching
 from diecut_report.report.figures.style import Labels, marked
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import CurveRecord, FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
 from tests.records import filled
 from tests.report.made_results import typed
 

@@ -19,7 +19,7 @@ from diecut_report.report.equations import WIDTH, Equations, Typesetter
 from diecut_report.report.mathematics import Latex, Linear, unit_latex
 from diecut_report.report.model import Heading
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import ItemRecord, SectionRecord
+from diecut_report.results.mechanism_record import ItemRecord, SectionRecord
 
 Tree = list[Any]
 A, B, C = ["sym", "a"], ["sym", "b"], ["sym", "c"]

@@ -8,7 +8,7 @@ import pytest
 
 from diecut_report.report.chapters.value_tables import value_row
 from diecut_report.report.text import given_names, translated, value_in_words
-from diecut_report.results.model import ItemRecord, MechanismRecord, QuantityRecord, ShownRecord
+from diecut_report.results.mechanism_record import ItemRecord, MechanismRecord, QuantityRecord, ShownRecord
 from diecut_report.text.catalogues import Catalogues
 from tests.records import filled
 from tests.report.made_results import typed

@@ -12,7 +12,8 @@ from jinja2 import UndefinedError
 from diecut_report.report.pages import html
 from diecut_report.report.pages.html import SCRIPTS
 from diecut_report.report.rendering import Rendering, render_html
-from diecut_report.results.model import ProgramRecord, Record, ResultsRecord
+from diecut_report.results.model import ProgramRecord, ResultsRecord
+from diecut_report.results.record import Record
 from diecut_report.text.catalogues import UnknownLanguage
 from tests.report.made_results import typed
 

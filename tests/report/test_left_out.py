@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from diecut_report.report.model import gathered_notes, under_heading
-from diecut_report.results.model import AbsentRecord, ItemRecord
+from diecut_report.results.mechanism_record import AbsentRecord, ItemRecord
 
 
 def _note(name: str, said: str = "does not apply to this machine.") -> ItemRecord:

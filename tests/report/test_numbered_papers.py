@@ -3,7 +3,8 @@
 from __future__ import annotations
 
 from diecut_report.report.chapters.sources import numbered
-from diecut_report.results.model import ChangedQuantityRecord, ItemRecord, ResultsRecord
+from diecut_report.results.mechanism_record import ItemRecord
+from diecut_report.results.model import ChangedQuantityRecord, ResultsRecord
 from tests.records import filled
 
 

@@ -14,7 +14,7 @@ from diecut_report.report.chapters.tables import Tables
 from diecut_report.report.pages.html import folder
 from diecut_report.report.pages.page_engine import HTML
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import ItemRecord, PhaseRecord
+from diecut_report.results.mechanism_record import ItemRecord, PhaseRecord
 from tests.records import filled
 
 NONE = Markup("")

@@ -11,7 +11,8 @@ import pytest
 from diecut_report.report.document import ReportDocument
 from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.rendering import Rendering
-from diecut_report.results.model import ResultsRecord, ShownRecord
+from diecut_report.results.mechanism_record import ShownRecord
+from diecut_report.results.model import ResultsRecord
 from tests.processes import Example
 
 Data = dict[str, Any]

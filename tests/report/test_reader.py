@@ -27,7 +27,7 @@ from diecut_report.report.reader_data import (
 )
 from diecut_report.report.rendering import Rendering
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import CurveRecord, FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
 from tests.records import filled
 from tests.report.made_results import typed
 

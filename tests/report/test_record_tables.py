@@ -8,7 +8,7 @@ from diecut_report.report.chapters.repetition import FEWEST_GIVEN, gathered
 from diecut_report.report.chapters.tables import Tables
 from diecut_report.report.chapters.value_tables import RecordTable
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import QuantityRecord
+from diecut_report.results.mechanism_record import QuantityRecord
 from tests.records import filled
 
 

@@ -5,7 +5,7 @@ from __future__ import annotations
 from typing import Any
 
 from diecut_report.report.chapters.repetition import counted, gathered
-from diecut_report.results.model import QuantityRecord
+from diecut_report.results.mechanism_record import QuantityRecord
 from tests.records import filled
 from tests.report.made_results import inputs, outputs, part, quantity
 

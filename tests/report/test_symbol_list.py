@@ -7,7 +7,7 @@ from typing import Any
 from markupsafe import Markup
 
 from diecut_report.report.symbols import SymbolRow, in_blocks, symbol_rows
-from diecut_report.results.model import MechanismRecord
+from diecut_report.results.mechanism_record import MechanismRecord
 from tests.records import filled
 
 Data = dict[str, Any]

@@ -8,7 +8,7 @@ import pytest
 
 from diecut_report.report.chapters.tables import Tables, table_places
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import CurveRecord, ItemRecord, PhaseRecord
+from diecut_report.results.mechanism_record import CurveRecord, ItemRecord, PhaseRecord
 from tests.records import filled
 
 TURN = CurveRecord(

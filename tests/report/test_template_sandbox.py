@@ -28,7 +28,7 @@ from diecut_report.report.pages.html import (
 )
 from diecut_report.report.pages.pdf import Paper
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import Record
+from diecut_report.results.record import Record
 from tests.report.made_results import typed
 
 Data = dict[str, Any]

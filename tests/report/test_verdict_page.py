@@ -11,7 +11,8 @@ from diecut_report.report.document import document
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
 from diecut_report.results.conclusion import governing, summary
-from diecut_report.results.model import CheckRecord, ResultsRecord
+from diecut_report.results.mechanism_record import CheckRecord
+from diecut_report.results.model import ResultsRecord
 from tests.records import filled
 from tests.report.made_results import check, mechanism, sample, typed
 

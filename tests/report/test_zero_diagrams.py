@@ -7,7 +7,7 @@ from typing import Any
 from diecut_report.report.chapters.repetition import without_zero_diagrams
 from diecut_report.report.chapters.steps import BEFORE, Place, Placed, told_once
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import FigureRecord, MechanismRecord
+from diecut_report.results.mechanism_record import FigureRecord, MechanismRecord
 from tests.records import filled
 
 WORDS = Catalogue("en")

@@ -13,7 +13,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.results.checks import check_results, checks_of, holds, is_of_machine
-from diecut_report.results.model import KeyChangeRecord
+from diecut_report.results.mechanism_record import KeyChangeRecord
 from tests.plugins.cases import OF_KINDS, Case, case, example, names
 
 Inputs = Mapping[str, Any]

@@ -30,7 +30,7 @@ from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
 from diecut_report.results.checks import check_results
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.model import CheckRecord, PlaceRecord
+from diecut_report.results.mechanism_record import CheckRecord, PlaceRecord
 from diecut_report.study.execution import variant_rows
 
 

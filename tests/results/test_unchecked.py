@@ -15,7 +15,7 @@ from diecut_report.mechanism.inputs import flatten
 from diecut_report.results.checks import check_results
 from diecut_report.results.conclusion import governing, summary
 from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
-from diecut_report.results.model import CheckRecord
+from diecut_report.results.mechanism_record import CheckRecord
 from diecut_report.study.execution import variant_rows
 
 

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import re
 from pathlib import Path
 
@@ -11,7 +10,7 @@ import pytest
 from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import load
-from diecut_report.results.model import SummaryRecord
+from diecut_report.results.model import ResultsRecord, SummaryRecord
 from diecut_report.results.origins import Assumed, ordered
 from diecut_report.study.analysis.variant_config import _place
 from tests.configs import GOOD, HEAD, LEVER, saved
@@ -37,8 +36,8 @@ def out(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
 
 def test_those_that_move_a_governing_check_come_first(out: Path) -> None:
-    results = json.loads((out / "press.json").read_text("utf-8"))
-    found = ordered(results)
+    results = ResultsRecord.model_validate_json((out / "press.json").read_bytes())
+    found = ordered(results.summary)
     assert [each.path for each in found] == [
         "mechanisms.a.allowable_moment",  # 0.8 / 0.9 - 0.8 = 0.0889
         "press.sheet.width",  # 0.8 · 0.1, through the expression
@@ -57,7 +56,7 @@ def test_page_1_tells_how_many_they_are_and_which_move_a_check(out: Path) -> Non
         f'<span class="key">{path}</span>'
         for path in ("mechanisms.a.allowable_moment", "press.sheet.width", "mechanisms.a.force")
     )
-    assert f"{paths} (each moves “Moment”) and 2 more." in line
+    assert f"{paths} (each affects “Moment”) and 2 more." in line
 
 
 def test_the_input_table_shows_expression_basis_and_note(out: Path) -> None:

@@ -83,7 +83,7 @@ def test_a_study_of_which_no_variant_can_exist_gives_1_and_says_so(tmp_path: Pat
     impossible = varied("[200, 210]", path="mechanisms.a.teeth")
     assert run("batch", files(tmp_path, impossible), "-o", tmp_path / "out") == 1
     assert [row["status"] for row in rows(tmp_path / "out")] == ["error", "error"]
-    assert "No variant can exist; the summary tells why." in capfd.readouterr().err
+    assert "No variant can exist; the summary gives the reasons." in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("without_summary")
@@ -121,7 +121,7 @@ def test_variants_for_which_a_constraint_has_no_value_are_dropped_and_counted(tm
     page = re.sub(r"<[^>]+>", " ", (out / "summary.html").read_text("utf-8"))
     assert len(re.findall(rf"2\s+variants, {re.escape(NO_VALUE)}", page)) == 2
     assert run("batch", "--resume", out) == 0
-    assert f"drop 2 more of the sample, {NO_VALUE}." in capfd.readouterr().err
+    assert f"exclude 2 more of the sample, {NO_VALUE}." in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("without_summary")
@@ -135,7 +135,7 @@ def test_variants_that_another_constraint_drops_anyway_are_not_counted_again(tmp
 def test_constraints_without_any_value_say_so(tmp_path: Path, capfd: Capture) -> None:
     text = varied("[2 kN, 4 kN]", rest=UNDEFINED.format(limit="3.5 kN"))
     assert run("batch", files(tmp_path, text), "-o", tmp_path / "out") == 2
-    assert f"drop all 2 variants of the sample, {NO_VALUE}. Relax one of them" in capfd.readouterr().err
+    assert f"exclude all 2 variants of the sample, {NO_VALUE}. Relax one of them" in capfd.readouterr().err
 
 
 @pytest.mark.usefixtures("without_summary")

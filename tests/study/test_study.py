@@ -326,7 +326,7 @@ WHOLE = [  # a whole study with one fault: sample, rest, what is told
     ("{method: grid}", "curves: [a.moment]\n", "6:10: curves.0: a.moment is a single value; name it in outputs."),
     ("{method: grid}", "curves: [a.torqe]\n", "6:10: curves.0: a.torqe is not a curve (did you mean 'torque'?)."),
     ("{method: grid}", "objectives: [{minimise: a.momnt}]\n", "6:25: objectives.0.minimise: a.momnt is not an output (did you mean 'moment'?)."),
-    ("{method: grid}", "objectives: [{minimise: a.size}]\n", "6:25: objectives.0.minimise: a.size is a text or a yes/no, which is neither"),
+    ("{method: grid}", "objectives: [{minimise: a.size}]\n", "6:25: objectives.0.minimise: a.size is a text or a yes/no, which cannot be minimised"),
     ("{method: grid}", "objectives: [{}]\n", "6:14: objectives.0: names no outputs; give minimise or maximise with one"),
     ("{method: grid}", "objectives: [{minimize: a.arm}]\n", "6:15: objectives.0.minimize: is an unknown key (did you mean 'minimise'?)"),
     ("{method: grid}", "reports: best\n", "6:10: reports: is “best”"),

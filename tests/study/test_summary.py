@@ -274,11 +274,11 @@ def test_what_was_studied_stands_there_in_words_with_its_symbol_and_the_key_besi
     ]  # fmt: skip
     assert summary.asked.inputs[2].values == "harmonic, modified trapezoidal (modified_trapezoidal)"
     assert summary.asked.objectives == [
-        ("least Greatest power (drive)", "minimise: drive.power_peak"), ("least Mass of the cylinder (cylinder)", "minimise: cylinder.mass"),
+        ("minimum Maximum power (drive)", "minimise: drive.power_peak"), ("minimum Mass of the cylinder (cylinder)", "minimise: cylinder.mass"),
     ]  # fmt: skip
     shown = page(summary)
     assert "Radius of the bore (cylinder) <i class=sy>R</i><sub>b</sub>" in shown
-    assert 'Greatest power (drive)<span class="sub key">minimise: drive.power_peak</span>' in shown
+    assert 'Maximum power (drive)<span class="sub key">minimise: drive.power_peak</span>' in shown
 
 
 def test_a_choice_stands_in_words() -> None:
@@ -583,11 +583,11 @@ def test_titles_are_unlike_each_other() -> None:
     force = [ResultColumn(f"{name}.force", description=f"Force ({end})") for name, end in (("a", "up"), ("b", "up"))]
     both = [ResultColumn(f"a.force_{end}", description=f"Force ({end})") for end in ("mean", "peak")]
     assert list(titles(gear[:1]).values()) == [
-        "Teeth of the gear: no. 1 of gears (train)"
+        "Number of teeth of the gear: no. 1 of gears (train)"
     ]  # one alone that is varied, too
     found = titles([*gear, *force, *both, ResultColumn("status", description="Status")])
     assert list(found.values()) == [
-        "Teeth of the gear: no. 1 of gears (train)", "Teeth of the gear: no. 2 of gears (train)",
+        "Number of teeth of the gear: no. 1 of gears (train)", "Number of teeth of the gear: no. 2 of gears (train)",
         "Force (up) (a)", "Force (b)", "Force (mean) (a)", "Force (peak) (a)", "",
     ]  # fmt: skip
 

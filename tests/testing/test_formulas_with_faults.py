@@ -126,7 +126,7 @@ DOUBTFUL = {
 def test_a_number_that_may_stand_for_a_unit_is_noted(number: str) -> None:
     (note,) = doubts(made(DOUBTFUL[number], BOTH))
     assert f"found: holds {number}, a number without a unit; formulas are in SI and convert nothing" in note
-    assert note.startswith("test_doubts.py:")
+    assert note.startswith("test_formulas_with_faults.py:")
 
 
 def test_a_check_whose_sides_are_exchanged_is_noted() -> None:

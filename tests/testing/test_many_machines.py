@@ -84,4 +84,4 @@ def test_a_check_that_no_machine_fails_is_noted_and_one_that_some_fail_is_not() 
     )
     found = dict(constant(MachineCase(sound, {"force": 5.0, "arm": 0.01, "mode": "near", "n_points": 36}), 80, 1))
     assert set(found) == {"never", "always"}
-    assert "passes in all 80" in found["never"] and "fails in all of 80" in found["always"]
+    assert "passes in all 80" in found["never"] and "fails in all 80" in found["always"]

@@ -17,7 +17,8 @@ from typing import Any, NamedTuple
 
 from diecut_report import api, pipeline
 from diecut_report.config.plugins import LIST, Discovery
-from diecut_report.results.model import QuantityRecord, ResultsRecord
+from diecut_report.results.mechanism_record import QuantityRecord
+from diecut_report.results.model import ResultsRecord
 from tools.site.sources import ROOT
 
 FOLDER = ROOT / "docs" / "reference" / "examples"

@@ -16,8 +16,8 @@ class Group(NamedTuple):
 
 GROUPS = (
     Group("mechanism", "A mechanism", "What a plugin's module declares: the mechanism as a whole, its chapters, checks, sources.", (
-        "Mechanism", "Chapter", "Steps", "Step", "prefixed", "Check", "Source", "Erratum", "Partner", "Comparison", "Profile", "CurveTable",
-        "ExampleBlock", "Wired", "ForEach", "CONTRACT",
+        "Mechanism", "Chapter", "Steps", "Step", "prefixed", "Check", "Vary", "AdviceWay", "Source", "Erratum", "Partner", "Comparison", "Profile",
+        "CurveTable", "ExampleBlock", "Wired", "ForEach", "CONTRACT",
     )),
     Group("inputs", "Inputs", "What a user may give, as a pydantic model; validated values are SI.", (
         "Inputs", "Block", "Annotated", "Quantity", "InOtherUnit", "Text", "OneOf", "CurveInput", "Varying", "Extremes", "Curve", "PhaseInput",
@@ -55,6 +55,8 @@ GROUPS = (
 )  # fmt: skip
 
 TOLD = {  # names without a docstring of their own
+    "AdviceWay": "A way in which a check may be made to hold: an input that is changed alone, by its key or as a `Vary`, "
+    "or several keys whose inputs are changed together in one proportion.",
     "Annotated": "Python's own `typing.Annotated`: joins the type of an input with what is declared of it.",
     "Binding": "What a step takes as its formula: a formula, one that is bound, or one that a text chooses.",
     "CONTRACT": "The number of the contract of this program; a module says by `CONTRACT = 1` for which it is written.",

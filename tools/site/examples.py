@@ -18,7 +18,8 @@ from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.style import SizesSize, Svg
 from diecut_report.report.scope import letter, parts
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import MechanismRecord, ResultsRecord
+from diecut_report.results.mechanism_record import MechanismRecord
+from diecut_report.results.model import ResultsRecord
 from tools.site.sources import ROOT
 
 CONFIGS = ROOT / "configs"

@@ -26,7 +26,7 @@ from diecut_report.mechanism.steps import (
 )
 from diecut_report.report.equations import OPERATORS, Equations, Typesetter
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import ItemRecord
+from diecut_report.results.mechanism_record import ItemRecord
 
 WIDTH = 44.0  # of the page's text, in em of its formulas
 WORDS = Catalogue("en")

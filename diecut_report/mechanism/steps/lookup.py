@@ -12,7 +12,7 @@ from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.rooms import ROW, Calculated, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.rooms import ROW, Item, MachineValues, Names, StepEngine, StepPrinter, TakenName
 from diecut_report.mechanism.steps.table_steps import (
     AS_GIVEN,
     MOST_DIGITS,
@@ -210,7 +210,7 @@ class Lookup(QuantityStep):
                 found[:, part] = value
         calc.values[self.id] = found
 
-    def _text(self, calc: Calculated) -> Any:
+    def _text(self, calc: MachineValues) -> Any:
         return calc.values[self.by] if self.by in calc.steps else calc.inputs[self.by]
 
     def _by_text(self, calc: StepEngine) -> Array:
@@ -314,7 +314,7 @@ class Lookup(QuantityStep):
             line.insert(1, str(text))
         return found
 
-    def _texts(self, calc: Calculated) -> Sequence[str]:
+    def _texts(self, calc: MachineValues) -> Sequence[str]:
         """By which text each part of a row was looked up, or that its number is given."""
         given, count = given_of(calc, self.given), calc[self.id].shape[1]
         if isinstance(given, np.ndarray):

@@ -12,9 +12,9 @@ from diecut_report.formulas import Array
 from diecut_report.mechanism.steps.base import QuantityStep
 from diecut_report.mechanism.steps.rooms import (
     ROW,
-    Calculated,
     Impossible,
     Item,
+    MachineValues,
     Names,
     StepEngine,
     StepPrinter,
@@ -108,7 +108,7 @@ class Pick(QuantityStep):
                 yield from unlike_units(title, one.unit, self.all_units, phrase("the step"))
                 yield from unlike_units(title, one.unit, names.units(self.of), self.of)
 
-    def _own(self, calc: Calculated) -> tuple[tuple[float, ...], str, StandardSeries | None]:
+    def _own(self, calc: MachineValues) -> tuple[tuple[float, ...], str, StandardSeries | None]:
         """The standard values that it takes from, ascending; their unit; and the standard series, if it is one."""
         series = self.series[str(calc.inputs[self.by])] if isinstance(self.series, Mapping) else self.series
         if isinstance(series, StandardSeries):

@@ -104,7 +104,7 @@ class Names(Protocol):
         """Yield what is wrong with a choice by a text: each text that may be given has its row."""
 
 
-class Calculated(Protocol):
+class MachineValues(Protocol):
     """Hold what is known of one machine, or of many variants at once; numbers have the shape (variants, 1), rows (variants, parts)."""
 
     count: int
@@ -146,7 +146,7 @@ class Calculated(Protocol):
         """Return what declares a quantity: its symbol, unit and description."""
 
 
-class StepEngine(Calculated, Protocol):
+class StepEngine(MachineValues, Protocol):
     """Run the steps of a calculation."""
 
     SAME_HEIGHT: float
@@ -213,7 +213,7 @@ class StepPrinter(Protocol):
     """Print numbers, formulas and tables of one calculated machine."""
 
     @property
-    def calc(self) -> Calculated:
+    def calc(self) -> MachineValues:
         """The calculation."""
 
     def value_at(self, name: str, axis: str | None) -> float:

@@ -7,7 +7,7 @@ from typing import Any
 
 from diecut_report.errors import nearest
 from diecut_report.mechanism.inputs import Quantity
-from diecut_report.mechanism.steps.rooms import Calculated, Item, Names, StepPrinter
+from diecut_report.mechanism.steps.rooms import Item, MachineValues, Names, StepPrinter
 from diecut_report.quantities.units import unit
 from diecut_report.standards.tables import StandardSeries, StandardTable, sources_told
 from diecut_report.text.phrases import Phrase, phrase
@@ -17,7 +17,7 @@ MOST_DIGITS = 17
 AS_GIVEN = "as given"
 
 
-def given_of(calc: Calculated, given: str) -> Any:
+def given_of(calc: MachineValues, given: str) -> Any:
     """Return what is given in place of the table's number: of all parts, or a tuple with None for those without; None where nothing is."""
     return calc.inputs.get(given.removeprefix("inputs.")) if given else None
 

@@ -25,7 +25,7 @@ from diecut_report.report.model import (
 from diecut_report.report.scope import BRIEF, FULL, suffixes
 from diecut_report.report.symbols import SymbolRow, symbol_rows, symbols_at
 from diecut_report.report.text import Catalogue, given_names, quantity
-from diecut_report.results.model import (
+from diecut_report.results.mechanism_record import (
     AbsentPhaseRecord,
     CheckRecord,
     ErratumRecord,

@@ -18,17 +18,14 @@ from diecut_report.quantities.formatting import number_text
 from diecut_report.report.model import CheckRow, TornadoFigure, utilisation
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, joined, number, quantity
+from diecut_report.results.mechanism_record import CheckRecord, ItemRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import (
     ChangedCheckRecord,
     ChangedCodeRecord,
     ChangedDocumentRecord,
     ChangedQuantityRecord,
     ChangesRecord,
-    CheckRecord,
     CheckSideRecord,
-    ItemRecord,
-    MechanismRecord,
-    QuantityRecord,
     QuantitySideRecord,
     ResultsRecord,
 )

@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 from diecut_report.quantities.formatting import is_nothing
 from diecut_report.report.equations import Equation, Equations
 from diecut_report.report.text import Catalogue, quantity
-from diecut_report.results.model import (
+from diecut_report.results.mechanism_record import (
     ConversionRecord,
     CurveRecord,
     FigureRecord,

@@ -5,7 +5,8 @@ from __future__ import annotations
 import re
 from collections.abc import Mapping
 
-from diecut_report.results.model import ResultsRecord, TextRole
+from diecut_report.results.model import ResultsRecord
+from diecut_report.results.record import TextRole
 
 PAPER = re.compile(r"\d{3}")
 BRACKETS = re.compile(r"\((\[\d+\])\)")  # about the brackets of a number

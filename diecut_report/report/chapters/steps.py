@@ -15,7 +15,7 @@ from diecut_report.report.chapters.value_tables import ValueRow, listed_row, val
 from diecut_report.report.equations import Equations
 from diecut_report.report.model import Heading, Item, ListedNumbers, PrintedSection, Step, gathered_notes
 from diecut_report.report.text import Catalogue, in_words, is_words, quantity
-from diecut_report.results.model import (
+from diecut_report.results.mechanism_record import (
     FigureRecord,
     ItemRecord,
     MechanismRecord,

@@ -20,7 +20,7 @@ from diecut_report.report.chapters.value_tables import MOST_PARTS, RecordTable, 
 from diecut_report.report.model import ListedNumbers, QuantityRow, Step, rests, utilisation
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, displayed, is_words, number, value_in_words
-from diecut_report.results.model import (
+from diecut_report.results.mechanism_record import (
     CheckPartRecord,
     CheckRecord,
     CurveRecord,

@@ -12,7 +12,7 @@ from diecut_report.report.chapters.printed_tables import DASH, TableCell
 from diecut_report.report.chapters.repetition import Parts, Reference
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, in_words, number, quantity
-from diecut_report.results.model import ItemRecord, QuantityRecord
+from diecut_report.results.mechanism_record import ItemRecord, QuantityRecord
 from diecut_report.text.phrases import NAMING
 
 

@@ -16,7 +16,7 @@ from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, load_fonts, plain, style, text_size
 from diecut_report.report.model import Drawn
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import CurveRecord
+from diecut_report.results.mechanism_record import CurveRecord
 
 # The figures of the results by their type.
 

@@ -34,7 +34,7 @@ from diecut_report.report.figures.style import (
 )
 from diecut_report.report.model import TornadoFigure
 from diecut_report.report.text import Catalogue, displayed, joined, number, sentence, significant
-from diecut_report.results.model import CurveRecord, FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
 
 Data = Mapping[str, Any]
 Array = NDArray[Any]

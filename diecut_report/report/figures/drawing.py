@@ -33,7 +33,7 @@ from diecut_report.report.figures.style import (
     text_size,
 )
 from diecut_report.report.text import Catalogue, joined, number, significant
-from diecut_report.results.model import FigureRecord
+from diecut_report.results.mechanism_record import FigureRecord
 
 # Shapes of drawings as points: where they reach, circles and arcs, the strokes of hatched areas.
 

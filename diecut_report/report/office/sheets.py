@@ -12,14 +12,14 @@ from diecut_report.report.context import Material
 from diecut_report.report.scope import parts, scope
 from diecut_report.report.text import Catalogue, significant
 from diecut_report.report.text import parts as sheet_parts
-from diecut_report.results.model import (
+from diecut_report.results.mechanism_record import (
     CheckRecord,
     CurveRecord,
     MechanismRecord,
     QuantityRecord,
-    ResultsRecord,
     ShownRecord,
 )
+from diecut_report.results.model import ResultsRecord
 from diecut_report.text.phrases import worded
 
 # A sheet of a workbook as data: its name, its heads, and rows of texts and numbers with the digits that they show.

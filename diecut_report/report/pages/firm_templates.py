@@ -37,7 +37,7 @@ from pydantic import BaseModel
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.report.pages.page_policy import fetched_by_css
 from diecut_report.report.text import Catalogue
-from diecut_report.results.model import Record
+from diecut_report.results.record import Record
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.time_limit import Overran, limited
 

@@ -1,0 +1,52 @@
+"""What may be changed where a check fails: the report tells the values with which it holds."""
+
+from __future__ import annotations
+
+from diecut_report.api import AdviceWay, Annotated, Chapter, Check, Inputs, Mechanism, Quantity, Vary
+
+
+class Bracket(Inputs):
+    force: Annotated[float, Quantity("F", "N", "Force", gt=0)]
+    arm: Annotated[float, Quantity("a", "mm", "Arm", gt=0)]
+    width: Annotated[float, Quantity("b", "mm", "Width", gt=0)]
+    height: Annotated[float, Quantity("h", "mm", "Height", gt=0)]
+    allowable_stress: Annotated[float, Quantity("[σ]", "MPa", "Allowed stress", gt=0)] = 100
+
+
+bending = Chapter("Bending")
+bending.value("stress", "σ", "MPa", "Stress", lambda force, arm, width, height: 6 * force * arm / (width * height**2))
+
+STRONGER: tuple[AdviceWay, ...] = (
+    "arm",  # to whichever side helps
+    Vary("height", "up", series=(12, 16, 20, 25)),  # bars that can be bought, in mm
+    ("width", "height"),  # both in one proportion
+)
+
+MECHANISM = Mechanism(
+    kind="advised_bracket",
+    version="1.0",
+    title="Bracket",
+    summary="A bracket.",
+    inputs=Bracket,
+    chapters=(bending,),
+    checks=(
+        Check(
+            id="stress",
+            check_class="strength",
+            title="Stress",
+            demand="stress",
+            limit="allowable_stress",
+            unit="MPa",
+            demand_label="stress",
+            limit_label="allowed",
+            consequence="the bracket bends.",
+            advise=STRONGER,
+        ),
+    ),
+)
+
+PRESS = """
+mechanisms:
+  bracket: {kind: advised_bracket, force: 900 N, arm: 100 mm, width: 20 mm, height: 10 mm}
+"""
+GIVES = {"bracket.stress": "270 MPa"}
