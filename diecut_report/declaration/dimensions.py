@@ -15,7 +15,7 @@ from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.mechanism import Mechanism, axes
 from diecut_report.mechanism.names import Bound, ByText, bound
 from diecut_report.mechanism.steps import SilentStep, Step, names_ahead
-from diecut_report.mechanism.steps.rooms import StepFormula
+from diecut_report.mechanism.steps.protocols import StepFormula
 from diecut_report.quantities.units import DIMENSIONS, Kind, si_text, times, unit
 from diecut_report.text.phrases import Phrase, phrase
 

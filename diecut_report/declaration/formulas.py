@@ -13,7 +13,7 @@ from diecut_report.mechanism.chapters import Chapter, taken
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Bound, ByText, bound
 from diecut_report.mechanism.steps import SilentStep, Step
-from diecut_report.mechanism.steps.rooms import TakenName
+from diecut_report.mechanism.steps.protocols import TakenName
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, named, phrase
 

@@ -21,7 +21,7 @@ from diecut_report.mechanism.inputs import Extremes, Meta, Quantity, fields, tex
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Misdeclared, Written, bound
 from diecut_report.mechanism.steps import ResultName, Step, named, names_ahead, numbered_symbol
-from diecut_report.mechanism.steps.rooms import Impossible, ImpossibleTogether
+from diecut_report.mechanism.steps.protocols import Impossible, ImpossibleTogether
 from diecut_report.quantities.formatting import author_digits, easy_unit, shown
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase

@@ -95,7 +95,7 @@ def without_basis(calc: Calculation, check: Check) -> tuple[str, ...]:
 def unfounded(calc: Calculation, check: Check, keys: tuple[str, ...]) -> CheckRecord:
     """Return a check that would hold by what was typed alone, in the form of those that are not made."""
     words = (
-        "Not checked: it would pass only because of {keys}, which is not substantiated; give the basis there, as in "
+        "Not checked: it would pass only because of {keys}, not yet substantiated; give the basis there, as in "
         "{value: 1.2, basis: standard, note: …}: measured, drawing, or the standard or catalogue that the note names."
     )
     return not_made(calc, check, keys).with_(message=Phrase(words, keys=listed(keys)))

@@ -17,7 +17,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps import Step, Steps, form
 from diecut_report.mechanism.steps.base import QuantityStep
-from diecut_report.mechanism.steps.rooms import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
 from diecut_report.quantities.units import Kind
 from diecut_report.results.mechanism import mechanism_results
 

@@ -10,7 +10,7 @@ from diecut_report.formulas.formula import Formula, FormulaName
 from diecut_report.formulas.tree import Node, transform, walk
 from diecut_report.machine.printing.substitution import Substitution, formula_unit
 from diecut_report.mechanism.steps import Step
-from diecut_report.mechanism.steps.rooms import Item
+from diecut_report.mechanism.steps.protocols import Item
 from diecut_report.quantities.formatting import DIGITS, UNIT_DIGITS, given_shown, number_text, rounded, shortest, shown
 from diecut_report.quantities.units import unit
 

@@ -10,7 +10,7 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.printing.page import Page
 from diecut_report.mechanism.steps import Step
-from diecut_report.mechanism.steps.rooms import Item
+from diecut_report.mechanism.steps.protocols import Item
 from diecut_report.text.phrases import Phrase, phrase
 
 TO_ROUNDING = "0 to machine precision"

@@ -24,7 +24,7 @@ from diecut_report.machine.printing.substitution import (
 )
 from diecut_report.mechanism.names import Bound, bound
 from diecut_report.mechanism.steps import Abscissa, Choice, Interpolated, PartNames, PartTable, Step, part_result
-from diecut_report.mechanism.steps.rooms import Item
+from diecut_report.mechanism.steps.protocols import Item
 from diecut_report.mechanism.steps.value import FormulaStep
 from diecut_report.quantities.formatting import (
     DIGITS,

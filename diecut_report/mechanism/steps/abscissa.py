@@ -10,7 +10,7 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.steps.base import Over, QuantityStep, SilentStep, Step, StepCondition
-from diecut_report.mechanism.steps.rooms import AN_ABSCISSA, NUMBER, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import AN_ABSCISSA, NUMBER, Item, StepEngine, StepPrinter, TakenName
 from diecut_report.quantities.units import Kind
 from diecut_report.text.phrases import Phrase, phrase
 

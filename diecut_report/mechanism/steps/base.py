@@ -14,7 +14,7 @@ from typing import Any, ClassVar, Concatenate, Literal, ParamSpec, Protocol, Typ
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Misdeclared, Written, as_binding, here
-from diecut_report.mechanism.steps.rooms import (
+from diecut_report.mechanism.steps.protocols import (
     LABELS,
     OF_UNIT,
     ROW,

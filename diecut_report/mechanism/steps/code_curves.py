@@ -11,8 +11,8 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.steps.base import Over, QuantityStep, SilentStep
+from diecut_report.mechanism.steps.protocols import AN_ABSCISSA, Called, Item, StepEngine, StepPrinter, TakenName
 from diecut_report.mechanism.steps.result_names import part_result
-from diecut_report.mechanism.steps.rooms import AN_ABSCISSA, Called, Item, StepEngine, StepPrinter, TakenName
 from diecut_report.text.phrases import Phrase, phrase
 
 

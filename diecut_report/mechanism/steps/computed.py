@@ -10,7 +10,7 @@ import numpy as np
 
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.rooms import A_VALUE, PLAIN, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_VALUE, PLAIN, Item, StepEngine, StepPrinter, TakenName
 from diecut_report.mechanism.steps.value import answer
 
 

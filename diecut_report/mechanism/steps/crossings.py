@@ -9,8 +9,8 @@ from typing import ClassVar
 import numpy as np
 
 from diecut_report.mechanism.steps.base import Over, QuantityStep, ResultName
+from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
 from diecut_report.mechanism.steps.result_names import count_name, result_names
-from diecut_report.mechanism.steps.rooms import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
 from diecut_report.text.phrases import Phrase, phrase
 
 

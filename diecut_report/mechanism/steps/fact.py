@@ -8,7 +8,7 @@ from typing import ClassVar
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Written
 from diecut_report.mechanism.steps.base import SilentStep
-from diecut_report.mechanism.steps.rooms import ROW, Kinds, StepEngine
+from diecut_report.mechanism.steps.protocols import ROW, Kinds, StepEngine
 
 
 @dataclass(frozen=True, eq=False)

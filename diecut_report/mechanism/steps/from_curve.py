@@ -12,7 +12,7 @@ from diecut_report.formulas import Array
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.abscissa import require_length
 from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.rooms import (
+from diecut_report.mechanism.steps.protocols import (
     A_VALUE,
     AN_ABSCISSA,
     CURVE_INPUT,

@@ -17,7 +17,7 @@ from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, Reading, formula
 from diecut_report.formulas.tree import Constant, Node, substitute
 from diecut_report.mechanism.names import Misdeclared, Written, bind, bound
-from diecut_report.mechanism.steps.rooms import Item, Names, StepEngine, StepPrinter
+from diecut_report.mechanism.steps.protocols import Item, Names, StepEngine, StepPrinter
 from diecut_report.mechanism.steps.table_steps import MOST_DIGITS, SAME, key_faults, sources, unlike_units
 from diecut_report.mechanism.steps.value import Value
 from diecut_report.quantities.formatting import DIGITS, number_text, with_unit

@@ -11,12 +11,13 @@ import numpy as np
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Misdeclared
-from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.rooms import ROW, Item, MachineValues, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.base import Over
+from diecut_report.mechanism.steps.protocols import ROW, Item, MachineValues, Names, StepEngine, StepPrinter, TakenName
 from diecut_report.mechanism.steps.table_steps import (
     AS_GIVEN,
     MOST_DIGITS,
     SAME,
+    TableStep,
     as_given,
     given_faults,
     given_of,
@@ -34,7 +35,7 @@ BY_NAME = phrase("a text, as the table's rows have names; for a number name the 
 
 
 @dataclass(frozen=True, eq=False)
-class Lookup(QuantityStep):
+class Lookup(TableStep):
     """Declare a number from a row of a table: the one that a text input names, or the one that has the number ``by``.
 
     ``by`` is a text for a table whose rows have names, of an input or one that was found (``choice``, ``computed`` with ``is_text``); for one
@@ -47,9 +48,7 @@ class Lookup(QuantityStep):
     table: Mapping[str, float] | StandardTable
     by: str
     column: str = field(default="", kw_only=True)
-    given: str = field(default="", kw_only=True)
     sought_in: str = field(default="", kw_only=True)
-    key: str = field(default="", kw_only=True)
 
     NAMES: ClassVar[tuple[str, ...]] = ("given", "by")
 
@@ -63,14 +62,6 @@ class Lookup(QuantityStep):
         """Return the column in which the number is sought; StandardFault where there is none of this name."""
         assert isinstance(self.table, StandardTable)
         return self.table.column(self.sought_in) if self.sought_in else self.table.columns[0]
-
-    @property
-    def own_names(self) -> frozenset[str]:
-        return frozenset((self.given,))
-
-    @property
-    def instead(self) -> str:
-        return self.given
 
     def rows(self) -> tuple[Mapping[str, float], str]:
         """Return the numbers by the rows' names, and their unit."""

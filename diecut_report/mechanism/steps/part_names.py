@@ -9,7 +9,7 @@ from typing import ClassVar
 
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import Over, SilentStep
-from diecut_report.mechanism.steps.rooms import A_ROW, A_VALUE, PLAIN, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_ROW, A_VALUE, PLAIN, Item, StepEngine, StepPrinter, TakenName
 from diecut_report.text.phrases import phrase
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal, Unpack, get_args
 
 from diecut_report.mechanism.steps.base import SilentStep, StepCondition, tuple_faults
-from diecut_report.mechanism.steps.rooms import AN_ABSCISSA, NUMBER, TakenName
+from diecut_report.mechanism.steps.protocols import AN_ABSCISSA, NUMBER, TakenName
 from diecut_report.text.phrases import Phrase, phrase
 
 PhaseRole = Literal["working", "rest", "moving", "window"]

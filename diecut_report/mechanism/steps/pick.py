@@ -9,8 +9,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.mechanism.steps.base import QuantityStep
-from diecut_report.mechanism.steps.rooms import (
+from diecut_report.mechanism.steps.protocols import (
     ROW,
     Impossible,
     Item,
@@ -21,6 +20,7 @@ from diecut_report.mechanism.steps.rooms import (
     TakenName,
 )
 from diecut_report.mechanism.steps.table_steps import (
+    TableStep,
     as_given,
     given_faults,
     given_of,
@@ -42,7 +42,7 @@ SERIES_WORDS = {
 
 
 @dataclass(frozen=True, eq=False)
-class Pick(QuantityStep):
+class Pick(TableStep):
     """Declare a value of a standard series: the next one at or above, at or below, or the nearest to a quantity.
 
     ``series`` are the standard values: in the display unit, or a standard series; or one for each value of the text
@@ -56,18 +56,8 @@ class Pick(QuantityStep):
     series: tuple[float, ...] | StandardSeries | Mapping[str, StandardSeries]
     by: str = field(default="", kw_only=True)
     beyond: Literal["impossible", "last"] = field(default="impossible", kw_only=True)
-    given: str = field(default="", kw_only=True)
-    key: str = field(default="", kw_only=True)
 
     NAMES: ClassVar[tuple[str, ...]] = ("of", "given", "by")
-
-    @property
-    def own_names(self) -> frozenset[str]:
-        return frozenset((self.given,))
-
-    @property
-    def instead(self) -> str:
-        return self.given
 
     @property
     def all_series(self) -> tuple[Any, ...]:

@@ -11,7 +11,7 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Misdeclared
-from diecut_report.mechanism.steps.rooms import StepEngine
+from diecut_report.mechanism.steps.protocols import StepEngine
 from diecut_report.text.phrases import Phrase, phrase
 
 WIDE = 8  # bytes of a number

@@ -8,7 +8,7 @@ from typing import Any, ClassVar, NamedTuple
 
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import Over, SilentStep
-from diecut_report.mechanism.steps.rooms import PLAIN, Called, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import PLAIN, Called, Item, StepEngine, StepPrinter, TakenName
 from diecut_report.text.phrases import Phrase, phrase
 
 Cell = float | str | None

@@ -9,8 +9,8 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from diecut_report.mechanism.steps.base import QuantityStep, ResultName
+from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
 from diecut_report.mechanism.steps.result_names import place_name
-from diecut_report.mechanism.steps.rooms import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
 from diecut_report.quantities.formatting import is_rounding
 from diecut_report.quantities.units import Kind, times
 from diecut_report.text.phrases import Phrase

@@ -13,7 +13,7 @@ from diecut_report.mechanism.checks import AdviceWay
 from diecut_report.mechanism.names import Written, bound
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import SilentStep
-from diecut_report.mechanism.steps.rooms import ROW, Kinds, StepEngine, TakenName
+from diecut_report.mechanism.steps.protocols import ROW, Kinds, StepEngine, TakenName
 
 
 class Obstacle(SilentStep):

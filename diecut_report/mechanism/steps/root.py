@@ -12,7 +12,7 @@ import numpy as np
 from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.names import Written, bound
 from diecut_report.mechanism.steps.base import QuantityStep
-from diecut_report.mechanism.steps.rooms import ANY, NUMBER, Item, Kinds, Names, StepEngine, StepPrinter
+from diecut_report.mechanism.steps.protocols import ANY, NUMBER, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.quantities.formatting import told
 from diecut_report.text.phrases import Phrase
 

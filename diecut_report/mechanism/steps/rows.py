@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.rooms import A_ROW, Impossible, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_ROW, Impossible, Item, Names, StepEngine, StepPrinter, TakenName
 from diecut_report.text.phrases import Counted, Phrase, phrase
 
 NEUTRAL = {"sum": 0.0, "product": 1.0, "min": np.inf, "max": -np.inf}

@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.rooms import A_CURVE, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_CURVE, Item, StepEngine, StepPrinter, TakenName
 from diecut_report.quantities.units import Kind, times
 from diecut_report.text.phrases import Phrase
 

@@ -3,11 +3,13 @@
 from __future__ import annotations
 
 from collections.abc import Iterator
+from dataclasses import dataclass, field
 from typing import Any
 
 from diecut_report.errors import nearest
 from diecut_report.mechanism.inputs import Quantity
-from diecut_report.mechanism.steps.rooms import Item, MachineValues, Names, StepPrinter
+from diecut_report.mechanism.steps.base import QuantityStep
+from diecut_report.mechanism.steps.protocols import Item, MachineValues, Names, StepPrinter
 from diecut_report.quantities.units import unit
 from diecut_report.standards.tables import StandardSeries, StandardTable, sources_told
 from diecut_report.text.phrases import Phrase, phrase
@@ -15,6 +17,22 @@ from diecut_report.text.phrases import Phrase, phrase
 SAME = 1e-9  # relative difference within which a number is that of a row
 MOST_DIGITS = 17
 AS_GIVEN = "as given"
+
+
+@dataclass(frozen=True, eq=False)
+class TableStep(QuantityStep):
+    """Take a quantity from a table or series, unless the optional input ``given`` has it; ``key`` is the input to change where it cannot."""
+
+    given: str = field(default="", kw_only=True)
+    key: str = field(default="", kw_only=True)
+
+    @property
+    def own_names(self) -> frozenset[str]:
+        return frozenset((self.given,))
+
+    @property
+    def instead(self) -> str:
+        return self.given
 
 
 def given_of(calc: MachineValues, given: str) -> Any:

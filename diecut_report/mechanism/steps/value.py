@@ -10,7 +10,7 @@ from typing import Any, ClassVar
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Written, bound
 from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.rooms import CURVE, Item, Kinds, Names, StepEngine, StepPrinter
+from diecut_report.mechanism.steps.protocols import CURVE, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.text.phrases import Phrase, joined, named
 
 

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import ClassVar
 
 from diecut_report.mechanism.steps.base import Over, SilentStep
-from diecut_report.mechanism.steps.rooms import CURVE_INPUT, ROW, TakenName
+from diecut_report.mechanism.steps.protocols import CURVE_INPUT, ROW, TakenName
 from diecut_report.text.phrases import phrase
 
 

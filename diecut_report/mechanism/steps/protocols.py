@@ -1,4 +1,4 @@
-"""What steps are asked for, and what the rooms that ask answer them: a declaration check, the engine, the printer."""
+"""What a step may take, and the protocols of what checks, runs and prints it: the declaration check, the engine, the printer."""
 
 from __future__ import annotations
 
