@@ -357,7 +357,8 @@ def said(cause: BaseException) -> str:
     tells_place = isinstance(cause, SyntaxError | FormulaError) or getattr(cause, "tells_place", False)
     declared = Path(getattr(cause, "at", "")).name  # of what is not proved, which the engine tells
     place = f" ({declared or f'{Path(own[-1].filename).name}:{own[-1].lineno}'})" if own and not tells_place else ""
-    return f"{type(cause).__name__}: {other_program(cause) or ' '.join(str(cause).split())}{place}"
+    text = other_program(cause) or " ".join(str(cause).split())
+    return f"{type(cause).__name__}{': ' if text else ''}{text}{place}"
 
 
 PROGRAM = Path(__file__).parents[1]

@@ -155,7 +155,7 @@ def _ends(design: DesignInput, step: float) -> tuple[float, float]:
     Towards an end that does not belong to the range it goes half the way; of listed numbers the next ones are taken.
     """
     today = design.today or 0.0
-    if listed := [value * design.meta.parsed_unit.factor for value in design.meta.listed]:
+    if listed := [design.meta.parsed_unit.to_si(value) for value in design.meta.listed]:
         near = STILL * abs(today)
         return (max((each for each in listed if each < today - near), default=today),
                 min((each for each in listed if each > today + near), default=today))  # fmt: skip

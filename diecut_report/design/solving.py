@@ -293,7 +293,7 @@ def searched_places(design: DesignInput, low: float, high: float) -> Array:
 
 def _listed(design: DesignInput) -> Array:
     """The numbers of its list (SI), ascending; today's as it is, to the last digit."""
-    known = np.sort(np.array([value * design.meta.parsed_unit.factor for value in design.meta.listed]))
+    known = np.sort(np.array([design.meta.parsed_unit.to_si(value) for value in design.meta.listed]))
     return known if design.today is None else np.where(np.isclose(known, design.today, rtol=SAME), design.today, known)
 
 

@@ -25,6 +25,7 @@ from pyhanko_certvalidator.registry import SimpleCertificateStore
 from diecut_report.config.yaml import printable
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.exchange.carried import MOST, form_of
+from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.pdf_faults import PDF_FAULTS
 from diecut_report.exchange.signatures import silent
 from diecut_report.exchange.signing_keys import SigningKey
@@ -37,6 +38,10 @@ PAD = 1.0  # points between a field's edge and its letters
 LIFTED = 0.3  # of a line: its baseline above its lower edge
 NONE_FREE = phrase(
     "This PDF has no free field for a signature: an earlier version or another program made it, or all have signed it."
+)
+AMBIGUOUS = phrase(
+    "The reason or the signer's name holds words that PDF programs take for parts of the file, such as “startxref” or “1 0 obj”: "
+    "`diecut-report verify` would refuse the signed report. Give a --reason, or sign with a certificate, without them."
 )
 
 
@@ -77,6 +82,8 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
     except (PdfError, SigningError, *PDF_FAULTS) as error:
         words = Phrase("The PDF cannot be signed: {error}. Give the file as the program wrote it.", error=error)
         raise UserError(Problem(words, str(asked.report))) from error
+    if not only_signed(whole, signed):
+        raise UserError(Problem(AMBIGUOUS, str(asked.report)))
     write_all({asked.target: signed}, keep=key.file)
     tell(Phrase("signed by {name} in the field {field}", name=key.name, field=field))
 

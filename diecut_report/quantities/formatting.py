@@ -273,5 +273,5 @@ def _decimal_text(number: Decimal) -> str:
 
 
 def si(value: float, unit_text: str) -> float:
-    """Return the SI value of a number in a unit."""
-    return value * unit(unit_text).factor
+    """Return the SI value of a number in a unit, rounded once, as a typed quantity is."""
+    return unit(unit_text).to_si(value)

@@ -247,6 +247,12 @@ def test_a_field_that_is_not_there_or_not_free_is_told(signed: Path, key: Path, 
     refused(capfd, "no free field 'cheked' (did you mean 'checked'?)", signed, "--key", key, "--field", "cheked")
 
 
+def test_a_reason_that_reads_like_a_part_of_the_file_is_refused(pdf: Path, key: Path, capfd: Capture) -> None:
+    before, asked = pdf.read_bytes(), (pdf, "--key", key, "--field", "checked", "--reason", "see startxref")
+    refused(capfd, "would refuse the signed report", *asked)
+    assert pdf.read_bytes() == before
+
+
 def test_a_certificate_of_another_key_is_told(
     pdf: Path, key: Path, engineer: Signer, tmp_path: Path, capfd: Capture
 ) -> None:

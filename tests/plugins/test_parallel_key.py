@@ -262,6 +262,12 @@ def test_practice_is_watched() -> None:
     assert checks(key())["hub_length"].status == "not_checked"
 
 
+@pytest.mark.parametrize("length", LENGTHS.values)
+def test_each_standard_length_is_one(length: float) -> None:
+    """36 mm as the series has them are the 36 mm that somebody types: no rounding lies between them."""
+    assert checks(key(key_length=length, form="B"))["standard_length"].status == "pass"
+
+
 @pytest.mark.parametrize(
     ("changes", "name", "words"),
     [

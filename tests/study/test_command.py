@@ -339,4 +339,8 @@ def test_the_name_of_a_study_acts_on_no_terminal_and_turns_no_letters_round(tmp_
 def test_a_variant_of_such_a_study_has_a_report(tmp_path: Path) -> None:
     saved(tmp_path, BASE)
     run("batch", saved(tmp_path, STUDY, NAME), "-o", tmp_path / "out", "--jobs", 1, "--quiet")
-    assert run("report", f"{tmp_path / 'out'}#1", "-o", tmp_path / "made", "--format", "html", "--quiet") in (0, 1)
+    variant, taken = f"{tmp_path / 'out'}#1", tmp_path / "taken.yaml"
+    assert run("report", variant, "-o", tmp_path / "made", "--format", "html", "--quiet") in (0, 1)
+    assert run("calc", variant, "-o", tmp_path / "made.json", "--quiet") in (0, 1)
+    assert not FORBIDDEN_IN_KEY.search((tmp_path / "made.json").read_text("utf-8").replace("\n", ""))
+    assert run("take", variant, "-o", taken, "--quiet") == 0 and run("calc", taken, "-o", tmp_path / "taken.json") in (0, 1)

@@ -18,7 +18,7 @@ from diecut_report.formulas.formula import Formula, Reading, formula
 from diecut_report.formulas.tree import Constant, Node, substitute
 from diecut_report.mechanism.names import Misdeclared, Written, bind, bound
 from diecut_report.mechanism.steps.protocols import Item, Names, StepEngine, StepPrinter
-from diecut_report.mechanism.steps.table_steps import MOST_DIGITS, SAME, key_faults, sources, unlike_units
+from diecut_report.mechanism.steps.table_steps import MOST_DIGITS, SAME, key_faults, si_values, sources, unlike_units
 from diecut_report.mechanism.steps.value import Value
 from diecut_report.quantities.formatting import DIGITS, number_text, with_unit
 from diecut_report.quantities.units import unit
@@ -73,7 +73,7 @@ class Between(Formula):
             self.line = _line(table, self.columns, interpolation)
         except StandardFault as fault:
             raise Misdeclared(f"step {name}: {fault}") from None
-        self.x, self.y = (np.asarray(own.values) * unit(own.unit).factor for own in self.columns)
+        self.x, self.y = (si_values(own.values, own.unit) for own in self.columns)
         through = self.line.function
 
         def between(x: Any) -> Any:

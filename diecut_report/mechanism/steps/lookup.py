@@ -22,10 +22,11 @@ from diecut_report.mechanism.steps.table_steps import (
     given_faults,
     given_of,
     key_faults,
+    si_values,
     sources,
     unlike_units,
 )
-from diecut_report.quantities.formatting import number_text, with_unit
+from diecut_report.quantities.formatting import number_text, si, with_unit
 from diecut_report.quantities.units import unit
 from diecut_report.standards.tables import Column, StandardFault, StandardTable
 from diecut_report.text.phrases import Phrase, phrase
@@ -210,7 +211,7 @@ class Lookup(TableStep):
         if isinstance(text, np.ndarray):
             return self._by_found(calc, text)
         texts = text if isinstance(text, tuple) else (text,)
-        found = [np.nan if key is None else numbers[key] * unit(display).factor for key in texts]
+        found = [np.nan if key is None else si(numbers[key], display) for key in texts]
         return np.tile(np.asarray(found, dtype=float), (calc.count, 1))
 
     def _by_found(self, calc: StepEngine, texts: Array) -> Array:
@@ -223,21 +224,21 @@ class Lookup(TableStep):
             words = "step {id}: {by} is {text}, which is not a row of its table; the rows are {rows}"
             filling = {"id": self.id, "by": self.by, "text": repr(strange), "rows": ", ".join(numbers)}
             raise Misdeclared(Phrase(words, filling), calc.steps[self.by].at)
-        found = np.array([numbers.get(text, np.nan) for text in texts.flat], dtype=float)
-        return found.reshape(texts.shape) * unit(display).factor
+        found = np.array([si(numbers.get(text, np.nan), display) for text in texts.flat], dtype=float)
+        return found.reshape(texts.shape)
 
     def _by_number(self, calc: StepEngine, given: Any) -> Array:
         """The number of the row that has exactly what is sought; a machine for which no row has it is refused, or marked among several."""
         assert isinstance(self.table, StandardTable)
         own, taken, sought = self.sought, self.table.column(self.column), calc[self.by]
-        numbers = np.asarray(own.values) * unit(own.unit).factor
+        numbers = si_values(own.values, own.unit)
         row = np.abs(sought[..., None] - numbers).argmin(axis=-1)
         missing = np.abs(sought - numbers[row]) > SAME * np.abs(numbers[row])  # not where there is nothing to seek by
         for part, value in enumerate(given or ()):
             missing[:, part] &= value is None
         for variant in np.flatnonzero(missing.any(axis=1)):
             self._refuse(calc, int(variant), int(np.argmax(missing[variant])))
-        return np.where(missing | np.isnan(sought), np.nan, (np.asarray(taken.values) * unit(taken.unit).factor)[row])
+        return np.where(missing | np.isnan(sought), np.nan, si_values(taken.values, taken.unit)[row])
 
     def _refuse(self, calc: StepEngine, variant: int, part: int) -> None:
         key = self.key or self.by.removeprefix("inputs.")

@@ -25,11 +25,11 @@ from diecut_report.mechanism.steps.table_steps import (
     given_faults,
     given_of,
     key_faults,
+    si_values,
     sources,
     unlike_units,
 )
 from diecut_report.quantities.formatting import told, with_unit
-from diecut_report.quantities.units import unit
 from diecut_report.standards.tables import StandardSeries, StandardTable
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -111,7 +111,7 @@ class Pick(TableStep):
             calc.values[self.id] = given
             return
         values, display, _ = self._own(calc)
-        series: Array = np.asarray(values) * unit(display).factor
+        series = si_values(values, display)
         sought = calc[self.of]
         if self.beyond == "impossible":
             self._require_within(calc, sought, series)

@@ -4,12 +4,17 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from dataclasses import dataclass, field
+from functools import cache
 from typing import Any
 
+import numpy as np
+
 from diecut_report.errors import nearest
+from diecut_report.formulas import Array
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.steps.base import QuantityStep
 from diecut_report.mechanism.steps.protocols import Item, MachineValues, Names, StepPrinter
+from diecut_report.quantities.formatting import si
 from diecut_report.quantities.units import unit
 from diecut_report.standards.tables import StandardSeries, StandardTable, sources_told
 from diecut_report.text.phrases import Phrase, phrase
@@ -79,6 +84,12 @@ def key_faults(key: str, taken: str, names: Names, is_covered: bool, beyond: str
     elif not key and taken.removeprefix("inputs.") not in inputs and not is_covered:
         words = 'takes {taken}, which may {where}; name the input that is then to be changed, key="…"'
         yield Phrase(words, taken=taken, where=beyond)
+
+
+@cache
+def si_values(values: tuple[float, ...], unit_text: str) -> Array:
+    """Return the SI values of a series or a column: 36 of mm are the 36 mm that somebody types, to the last digit."""
+    return np.array([si(each, unit_text) for each in values])
 
 
 def unlike_units(what: str, own: str, wanted: set[str], whose: str) -> Iterator[str]:

@@ -68,7 +68,7 @@ def variant_of(
 ) -> Tree:
     """Return the configuration of a variant of an opened folder, as `variant_config` does; also of one that is ``in_error``."""
     found = _variant(stored, variant, discovery, in_error=in_error)
-    base, study = found.base, stored.description.study.file
+    base, study = found.base, printable(stored.description.study.file)
     values = {place: as_config_value(value, column) for place, (column, value) in found.values.items()}
     values |= dict(_title_block(base, variant, study))
     home = kept(stored.folder)[stored.description.base.file].parent
@@ -89,7 +89,7 @@ def taken_config(directory: Path, variant: int, discovery: Discovery, digits: in
     not stored or in error, or where a value cannot be put into the base's text.
     """
     with opened(directory) as stored:
-        found, study = _variant(stored, variant, discovery), stored.description.study.file
+        found, study = _variant(stored, variant, discovery), printable(stored.description.study.file)
     values = {place: _typed(value, column, digits) for place, (column, value) in found.values.items()}
     text = f"# Variant {variant} of {study}\n" + written(found.base, values, over_references=True)
     return TakenConfig(as_file(found.base, text), found.status, found.governing, dict(found.beside.values()))
@@ -155,7 +155,7 @@ def _named_files(base: Tree) -> Iterator[tuple[KeyPath, str]]:
 def _title_block(base: Tree, variant: int, study: str) -> Iterator[tuple[KeyPath, str]]:
     """Yield what the title block says, as typed, and which variant it is: no two documents are called alike."""
     title, number = ("project", "title"), ("project", "document_number")
-    yield title, f"{base.typed(title) or ''} – variant {variant} of {printable(Path(study).stem)}"
+    yield title, f"{base.typed(title) or ''} – variant {variant} of {Path(study).stem}"
     if (base.data.get("project") or {}).get("document_number") is not None:
         yield number, f"{base.typed(number)}/V{variant}"
 
