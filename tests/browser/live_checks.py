@@ -101,7 +101,7 @@ def test_a_slider_moves_a_number(browser: Browser, live: Live) -> None:
     force = tab.shown("knife.force_max").inner_text()
     tab.input("knife.shear_resistance").locator("input[type=range]").press("ArrowRight")
     expect(tab.shown("knife.force_max")).not_to_have_text(force, timeout=SECONDS)
-    tab.page.get_by_role("button", name="Take back Shear stress").click()
+    tab.page.get_by_role("button", name="Undo Shear").click()
     expect(tab.shown("knife.force_max")).to_have_text(force, timeout=SECONDS)
 
 
@@ -167,7 +167,7 @@ def test_why_a_check_fails_stands_open_and_leads_to_its_mechanism(browser: Brows
     expect(failing.locator("details p")).to_be_visible(timeout=SECONDS)
     failing.locator("summary").click()
     tab.type("press.sheet.thickness", "0.6 mm")
-    expect(tab.input("press.sheet.thickness").locator(".was")).to_contain_text("at the start", timeout=SECONDS)
+    expect(tab.input("press.sheet.thickness").locator(".was")).to_contain_text("initially", timeout=SECONDS)
     expect(failing.locator("details p")).to_be_hidden()  # as a hand has left it
     failing.locator("button.to").click()
     expect(tab.page.locator("#mechanisms [aria-current]")).to_contain_text("knife")
