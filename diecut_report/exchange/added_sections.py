@@ -2,6 +2,9 @@
 
 A program that cannot read a table searches the file for objects by itself, each program in its own way. So nothing may stand there that
 only such a search finds, and each revision is given by itself: whatever a program takes out of one was judged.
+
+Programs differ also in what they take for a blank, a comment or the end of a name, and in the ways of packing that they know. So a revision
+is one object after the other, written in what all of them read alike, and what holds other objects is packed in one way or not at all.
 """
 
 from __future__ import annotations
@@ -28,6 +31,15 @@ _HEAD = re.compile(  # a number may stand behind a comment; one with a backslash
     rb"(?:(?:\A|[\r\n])%b*(?:%b)?|(?<![\\0-9+.-])%b%b+%b)%b*\Z" % (_GAP, _NUMBER, _NUMBER, _GAP, _NUMBER, _GAP)
 )
 _TRAILER = re.compile(rb"trailer" + _GAP + rb"*<<")
+_BLANK = rb"[\t\n\f\r ]"
+_WORD = rb"[!\"$&'*-.0-;=?-Z\\^-z|~]+"  # neither a delimiter nor a control character, nor one beyond ASCII
+_TOKEN = re.compile(
+    rb"(?:%b+|<<|>>|[\[\]]|<[\dA-Fa-f]*>|/(?:%b|#[\dA-Fa-f]{2})+|%b|\((?:[^()\\\r]|\\[0-3][0-7]{2}|\\[nrtbf()\\])*\))"
+    % (_BLANK, _WORD, _WORD)
+)
+_LENGTH = re.compile(rb"/Length%b+(\d+)%b*(?:/|>>)" % (_BLANK, _BLANK))
+_STREAM_END = re.compile(rb"[\r\n]*endstream%b+endobj%b*" % (_BLANK, _BLANK))
+_PACKED_KEYS = {"/Type", "/N", "/First", "/Length", "/Filter"}
 
 
 class AddedRevision(NamedTuple):
@@ -71,9 +83,36 @@ def _revision(whole: bytes, begin: int, start: re.Match[bytes], former: int) -> 
     _require(placed.get(number) == place)
     for each, at in placed.items():
         _require(begin <= at <= place and whole[at - 1] in b"\r\n" and whole.startswith(b"%d 0 obj" % each, at))
+    _require_plain(whole[begin : start.start()], sorted(at - begin for at in placed.values()))
     known = {at + len(f"{each} 0 ") - begin for each, at in placed.items()}
     _require(not _has_other_objects(whole[begin:], known))
     return AddedRevision(whole, number, placed, packed)
+
+
+def _require_plain(part: bytes, places: list[int]) -> None:
+    """Refuse what is not these objects one after the other, or holds what programs may read in several ways."""
+    _require(places and not part[: places[0]].strip(b"\r\n"))
+    for at, end in zip(places, [*places[1:], len(part)], strict=True):
+        _require_plain_object(part[at:end])
+
+
+def _require_plain_object(written: bytes) -> None:
+    last, at = next(each for each in _tokens(written) if each[0] in (b"stream", b"endobj"))
+    if last == b"endobj":
+        _require(not written[at:].strip())
+        return
+    lengths, begin = _LENGTH.findall(written, 0, at), written.find(b"\n", at) + 1
+    _require(len(lengths) == 1 and written[at:begin] in (b"\n", b"\r\n"))
+    _require(_STREAM_END.fullmatch(written, begin + int(lengths[0])))
+
+
+def _tokens(written: bytes) -> Iterator[tuple[bytes, int]]:
+    """Each token with its end; ValueError where a program may see others."""
+    at = 0
+    while found := _TOKEN.match(written, at):
+        at = found.end()
+        yield found[0], at
+    _require(at == len(written))
 
 
 def _table(whole: bytes, place: int, stop: int) -> tuple[int, Any, bytes]:
@@ -85,6 +124,8 @@ def _table(whole: bytes, place: int, stop: int) -> tuple[int, Any, bytes]:
     end = found.end() + int(told["/Length"])
     _require(set(told.keys()) <= KEYS and told["/Type"] == "/XRef")
     _require(told.get("/Filter", "/FlateDecode") == "/FlateDecode")
+    rows = pikepdf.Dictionary(Predictor=12, Columns=sum(_whole_numbers(told["/W"])))
+    _require("/DecodeParms" not in told or told["/DecodeParms"] == rows)
     _require(_TABLE_END.fullmatch(whole, end, stop))
     with pikepdf.new() as pdf:
         return number, told, pikepdf.Stream(pdf, whole[found.end() : end], told).read_bytes()
@@ -115,8 +156,11 @@ def _entries(told: Any, data: bytes) -> tuple[dict[int, int], dict[int, list[int
 
 def _numbers_within(stream: Any) -> list[int]:
     """The numbers of the objects that a stream holds, in their order."""
-    words = stream.read_bytes()[: int(stream["/First"])].split()
-    _require("/Extends" not in stream and len(words) == 2 * int(stream["/N"]) and all(map(bytes.isdigit, words)))
+    _require(set(stream.keys()) <= _PACKED_KEYS and stream.get("/Filter", "/FlateDecode") == "/FlateDecode")
+    content = stream.read_bytes()
+    words = content[: int(stream["/First"])].split()
+    _require(len(words) == 2 * int(stream["/N"]) and all(map(bytes.isdigit, words)))
+    _require({b"obj", b"endobj", b"stream"}.isdisjoint(token for token, _ in _tokens(content)))
     return [int(each) for each in words[::2]]
 
 

@@ -22,6 +22,7 @@ if TYPE_CHECKING:
 
 MARK = b"/ByteRange"  # stands in clear in each file that is signed
 SHORT = 16  # letters of a fingerprint
+UNSIGNED = phrase("none, where --trust asks for one: nobody has signed the report, or the signatures were removed")
 
 
 class Signature(NamedTuple):
@@ -34,19 +35,22 @@ class Signature(NamedTuple):
 
 
 def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
-    """Return what the signatures of a PDF tell, in their order; with ``trusted``, a file of certificates, who is not known fails."""
+    """Return what the signatures of a PDF tell, in their order.
+
+    With ``trusted``, a file of certificates, who is not known fails, and so does a report without a signature. UserError where that
+    file cannot be read.
+    """
+    roots = _certificates(trusted) if trusted else None
     if MARK not in whole:
-        return []
+        return [] if roots is None else [Signature(UNSIGNED, False)]
     from pyhanko.pdf_utils.misc import PdfError
     from pyhanko.pdf_utils.reader import PdfFileReader
     from pyhanko.sign.validation.errors import SignatureValidationError, ValidationInfoReadingError
 
     from diecut_report.exchange.later_changes import added_proofs, fault
-    from diecut_report.exchange.signing_keys import MOST, certificates_in
 
     if found_fault := fault(whole):
         return [Signature(Phrase("cannot be read: {found_fault}", found_fault=found_fault), False)]
-    roots = certificates_in(content(trusted, MOST, phrase("certificates (PEM)")), trusted) if trusted else None
     try:
         with silent():
             found = _all_judged(PdfFileReader(io.BytesIO(whole)).embedded_signatures, whole, roots)
@@ -59,6 +63,12 @@ def signatures(whole: bytes, trusted: Path | None = None) -> list[Signature]:
     if all(each.holds for each in found) and not is_ended:
         found.append(Signature(phrase("something was added to the file after the last signature"), False))
     return found
+
+
+def _certificates(file: Path) -> list[x509.Certificate]:
+    from diecut_report.exchange.signing_keys import MOST, certificates_in
+
+    return certificates_in(content(file, MOST, phrase("certificates (PEM)")), file)
 
 
 def _all_judged(embedded: Sequence[Any], whole: bytes, roots: list[x509.Certificate] | None) -> list[Signature]:

@@ -344,7 +344,7 @@ def verify(
     are the results since which the report shows changes. UserError where its configuration cannot be calculated any more.
     """
     results = carried.results
-    signed = signatures(carried.content, trusted) if carried.form == "pdf" else []
+    signed = signatures(carried.content if carried.form == "pdf" else b"", trusted)
     again = recalculated(carried, discovery, tell, previous)
     program = _program(results, again.results)
     plugins = list(_plugins(results, again.results))

@@ -382,9 +382,8 @@ class _Report:
             former = field.unparse(resolved=True).removesuffix(b">>")
             value = b"<< /Type /Sig /ByteRange [0 0 0 0] /Contents <00> >>"
             self.signed = re.sub(rb"(?<=/N )\d+ 0 R", b"%d 0 R" % self.size, former) + b"/V %b >>" % value
-            self.annotated = re.sub(
-                rb"/Annots \[[^]]*", rb"\g<0> %d 0 R " % (self.size + 1), sheet.unparse(resolved=True)
-            )
+            self.as_it_was = sheet.unparse(resolved=True)
+            self.annotated = re.sub(rb"/Annots \[[^]]*", rb"\g<0> %d 0 R " % (self.size + 1), self.as_it_was)
         self.former = int(re.findall(rb"startxref\s+(\d+)", content)[-1])
 
     def revision(
@@ -395,8 +394,16 @@ class _Report:
         hidden: bytes = b"",
         told: bytes = b"",
         start: bytes = START,
+        packed: bytes = b"",
     ) -> bytes:
-        """The report with its first field signed, these objects, some that no table names, and more that the table tells."""
+        """The report with its first field signed, these objects, some that no table names, and more that the table tells.
+
+        With ``packed`` a stream of objects, of which that says more, holds the first sheet as it was.
+        """
+        head, holder = b"%d 0 " % self.sheet, self.size + 1
+        if packed:
+            told_of_it = b"/Type /ObjStm /N 1 /First %d %b" % (len(head), packed)
+            objects = {holder: _stream(head + self.as_it_was, told_of_it)}
         whole, places = self.content + hidden, dict[int, int]()
         for number, written in {self.field: self.signed, self.size: _stream(OVER, drawing), **(objects or {})}.items():
             places[number] = len(whole) + 1
@@ -404,6 +411,8 @@ class _Report:
         place = len(whole)
         places[number := max(places) + 1] = place
         rows = b"".join(b"\x01" + each.to_bytes(4, "big") for each in places.values())
+        if packed:
+            places[self.sheet], rows = holder, rows + b"\x02" + holder.to_bytes(4, "big")
         index = b" ".join(b"%d 1" % each for each in places)
         table = b"/Type /XRef /W [1 4 0] /Index [%b] /Size %d /Prev %d %b " % (
             index,
@@ -451,6 +460,17 @@ def _packed(content: bytes) -> bytes:
     return report.revision({report.size + 1: held})
 
 
+def _sheet_with(given: bytes, written: bytes) -> Callable[[bytes], bytes]:
+    """The first sheet as it was, with another way of writing a part of it."""
+
+    def change(content: bytes) -> bytes:
+        report = _Report(content)
+        assert given in report.as_it_was
+        return report.revision({report.sheet: report.as_it_was.replace(given, written, 1)})
+
+    return change
+
+
 def _of_revision(**options: Any) -> Callable[[bytes], bytes]:
     return lambda content: _Report(content).revision(**options)
 
@@ -466,6 +486,13 @@ OF_REVISION = (
     Forgery(f"{SEARCHED}, with a sign or a point", _hides(b"+%d 0. obj"), PAGES),
     Forgery(f"{SEARCHED}, with a comment", _hides(b"%d 0 %%x\nobj"), PAGES),
     Forgery(f"{SEARCHED}, in a stream whose objects no table names", _packed, PAGES),
+    Forgery("a sheet with a blank that only some programs take for one", _sheet_with(b"/Contents ", b"/Contents\x0b"), PAGES),
+    Forgery("the same, in a comment", _sheet_with(b"/Contents ", b"%\r/Contents "), PAGES),
+    Forgery("a box of a signature, behind such a blank", _of_revision(drawing=DRAWING.replace(b"/BBox ", b"/BBox\x0b")), PAGES),
+    Forgery("a sheet in a stream of objects that only some programs unpack further", _of_revision(packed=b"/DP << /Predictor 2 >>"), PAGES),
+    Forgery("the same, by a way of packing that each does in its own way",
+            _of_revision(packed=b"/DecodeParms << /Predictor 2 /Colors 2 /BitsPerComponent 4 >>"), PAGES),
+    Forgery("a table that is packed so", _of_revision(told=b"/DecodeParms << /Predictor 2 /Columns 5 >> "), PAGES),
     Forgery("where the last table stands, in letters that some programs do not take", _of_revision(start=b"startxref\x0b\n%d\n%%%%EOF\n"), PAGES),
     Forgery("the same, further from the end than some programs look", _of_revision(start=START + b"%%" + 1002 * b" "), PAGES),
     Forgery("a second table that a first one names (hybrid files)", _of_revision(told=b"/XRefStm 9 "), PAGES),

@@ -197,6 +197,17 @@ def test_who_is_not_trusted_is_told_where_trust_is_asked_for(
     assert "not a certificate" in capfd.readouterr().err
 
 
+@pytest.mark.parametrize("form", ["pdf", "html", "json"])
+def test_who_asks_for_trust_asks_for_a_signature(
+    small_report: Path, engineer: Signer, tmp_path: Path, capfd: Capture, form: str
+) -> None:
+    """Whoever removes the signatures, or gives the HTML of a signed PDF, has no report that is trusted."""
+    report, own = small_report / f"small.{form}", engineer.cert(tmp_path / "own.pem")
+    assert run("verify", report, "--numbers", "--trust", own) == 1
+    assert "✗ signature      none, where --trust asks for one" in capfd.readouterr().out
+    assert run("verify", report, "--numbers", "--trust", tmp_path / "missing.pem") == 2
+
+
 def test_a_pem_key_signs_with_its_certificate_beside_it(
     pdf: Path, engineer: Signer, tmp_path: Path, monkeypatch: Patch
 ) -> None:
