@@ -11,7 +11,7 @@ from typing import Any, NamedTuple
 
 from diecut_report.config import yaml
 from diecut_report.config.model import texts
-from diecut_report.config.validation import ConfigPlace, quoted
+from diecut_report.config.validation import ConfigPlace, names_something, quoted
 from diecut_report.config.yaml import KeyPath, Tree, printable, too_much
 from diecut_report.errors import Problem, UserError
 from diecut_report.files import content
@@ -147,7 +147,7 @@ def _entries(tree: Tree, problems: list[Problem]) -> Iterator[Entry]:
 
 def _source(data: Mapping[str, Any], path: KeyPath, place: ConfigPlace, problems: list[Problem]) -> str | None:
     given = data.get(SOURCE)
-    if SOURCE in data and (not isinstance(given, str) or not given.strip()):
+    if SOURCE in data and (not isinstance(given, str) or not names_something(given)):
         words = "is {given}; a text is needed that says where the numbers are from"
         problems.append(place.problem((*path, SOURCE), words, given=quoted(given)))
         return None

@@ -321,7 +321,12 @@ class Basis:
 
 def is_founded(basis: str, note: str) -> bool:
     """Return whether somebody can look a value up: measured, on a drawing, or by a standard or a catalogue that the note names."""
-    return basis in ("measured", "drawing") or (basis in ("standard", "catalogue") and bool(note.strip()))
+    return basis in ("measured", "drawing") or (basis in ("standard", "catalogue") and names_something(note))
+
+
+def names_something(text: str) -> bool:
+    """Return whether a text can name where a value comes from: it holds a word, two letters or digits side by side."""
+    return re.search(r"[^\W_]{2}", text) is not None
 
 
 def weakest(bases: Iterable[str]) -> str:

@@ -24,7 +24,7 @@ from diecut_report.declaration import code, faults
 from diecut_report.declaration.dimensions import by_id, check_units, curve_units, dimensions, formulas, relations
 from diecut_report.declaration.inputs import of_input
 from diecut_report.declaration.names import short
-from diecut_report.declaration.texts import own_files, parsed
+from diecut_report.declaration.texts import PAPER, own_files, parsed, unlisted
 from diecut_report.files import cache_folder
 from diecut_report.formulas.formula import evaluate
 from diecut_report.formulas.tree import Node
@@ -213,6 +213,9 @@ def doubts(mechanism: Mechanism) -> Iterator[str]:
             if float(number) in BY_HAND:
                 words = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
                 yield Phrase(words, place=short(step.at), id=step.id, number=number)
+    for place, subject, name in unlisted(mechanism, PAPER):
+        words = "{place}: {subject} cites {name}, which is not a source; list it: sources=(Source({id}, …),)"
+        yield Phrase(words, place=short(place), subject=subject, name=name, id=repr(name))
     yield from _exchanged(mechanism)
     yield from _idle_chapters(mechanism)
 

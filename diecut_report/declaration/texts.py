@@ -206,6 +206,8 @@ def _told(names: DeclaredNames, token: str) -> str:
 
 
 CITED = re.compile(r"(?:^|; ?)(?:(\d{3,})\b|(\S+?),? (?:eq\.|Fig\.|Table|erratum)\s)")
+PAPER = re.compile(r"(?:^|; ?)(?:(\d{3,})|([^\W\d_]+\d+))\b(?! series)")
+"""What looks like the id of a paper, unlike a standard (ISO 281), an author or a series (R40 series)."""
 
 
 def document_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
@@ -263,17 +265,21 @@ def _silent(mechanism: Mechanism) -> set[str]:
 def _sources(mechanism: Mechanism) -> Iterator[Fault]:
     """Sources that are cited by their id and not listed; a mechanism that lists none cites elsewhere."""
     known = [source.id for source in mechanism.sources]
-    if not known:
-        return
+    for place, subject, name in unlisted(mechanism, CITED) if known else ():
+        words = "cites {name}, which is not a source{nearest}; listed: {known}"
+        listed = {"name": name, "nearest": nearest(name, known), "known": ", ".join(known)}
+        yield Fault(place, subject, Phrase(words, listed))
+
+
+def unlisted(mechanism: Mechanism, pattern: re.Pattern[str]) -> Iterator[tuple[str, Phrase, str]]:
+    """Yield what steps and checks cite in this form and the mechanism does not list: the place, who cites it, and its name."""
+    known = tuple(source.id for source in mechanism.sources)
     cited = [(step.at, Phrase("step {id}", id=step.id), step.source) for _, step in mechanism.steps]
     cited += [(check.at, Phrase("check {id}", id=check.id), check.source) for check in mechanism.checks]
     for place, subject, text in cited:
-        for found in CITED.finditer(text):
-            name = found[1] or found[2]
-            if not any(text[found.start() :].lstrip("; ").startswith(source) for source in known):
-                words = "cites {name}, which is not a source{nearest}; listed: {known}"
-                listed = {"name": name, "nearest": nearest(name, known), "known": ", ".join(known)}
-                yield Fault(place, subject, Phrase(words, listed))
+        for found in pattern.finditer(text):
+            if not text[found.start() :].lstrip("; ").startswith(known):
+                yield place, subject, found[1] or found[2]
 
 
 def _key_result(names: DeclaredNames, name: str) -> str:

@@ -20,7 +20,7 @@ from diecut_report.mechanism.chapters import in_form, taken
 from diecut_report.mechanism.inputs import Extremes, Meta, Quantity, fields, texts_given
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import Misdeclared, Written, bound
-from diecut_report.mechanism.steps import ResultName, Step, named, names_ahead, numbered_symbol
+from diecut_report.mechanism.steps import Abscissa, FromCurve, ResultName, Step, named, names_ahead, numbered_symbol
 from diecut_report.mechanism.steps.protocols import Impossible, ImpossibleTogether
 from diecut_report.quantities.formatting import author_digits, easy_unit, shown
 from diecut_report.quantities.units import unit
@@ -225,6 +225,11 @@ class CurveHandle:
         """Return the id of what the curve runs over: of two curves over one cycle it is the same."""
         return self.abscissa.id
 
+    @property
+    def rate(self) -> Array:
+        """Return how often the curve comes again, as a speed (one turn each time), shape (variants, 1); 0 where nothing tells it."""
+        return cycle_rate(self.calculation, self.cycle)
+
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
         """Return values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
 
@@ -255,6 +260,19 @@ class CurveHandle:
     def joints(self) -> Array:
         """Return those of them where the curve jumps or has a corner."""
         return self.domain.joints[:, 1:-1] / self.domain.period
+
+
+def cycle_rate(calc: Calculation, axis: str) -> Array:
+    """Return how often an abscissa is run through, as ``CurveHandle.rate``: by its speed, or that of a curve laid over the whole of it."""
+    declared = calc.steps[axis]
+    assert isinstance(declared, Abscissa)
+    if declared.speed:
+        found = 2 * np.pi * calc[declared.speed] / calc.domains[axis].period
+    else:
+        laid = (each for each in calc.curves.values() if isinstance(each, FromCurve) and each.abscissa == axis)
+        rates = (calc.inputs[each.given].rate for each in laid if not each.lasts)
+        found = next((rate for rate in rates if rate.all()), np.zeros((1, 1)))
+    return np.broadcast_to(found, (calc.count, 1))
 
 
 class Side(NamedTuple):
@@ -455,7 +473,8 @@ class _Pair:
 
     def _domain(self, name: str) -> bool:
         one, other = self.one.domains[name], self.other.domains[name]
-        return one.intervals == other.intervals and all(_same(getattr(one, n), getattr(other, n)) for n in DOMAIN)
+        is_alike = one.intervals == other.intervals and all(_same(getattr(one, n), getattr(other, n)) for n in DOMAIN)
+        return is_alike and _same(cycle_rate(self.one, name), cycle_rate(self.other, name))
 
     def is_given(self, name: str) -> bool:
         """Return whether a number, or what was given, is the same."""

@@ -127,6 +127,7 @@ class SampledCurve:
 
     joints = breakpoints
     cycle = "list"  # of values, over whatever takes it
+    rate = np.zeros((1, 1))  # which nothing tells
 
     def gain(self, rows: Array | None) -> Array:
         """Return nothing: the curve closes."""

@@ -57,6 +57,11 @@ class CurveOfMachine:
         """Return the id of what the curve runs over."""
         return self.curve.cycle
 
+    @property
+    def rate(self) -> Array:
+        """Return how often it comes again, shape (1, 1)."""
+        return _row(self.curve.rate, self.row)
+
 
 def of_machine(value: Any, row: int, count: int) -> Any:
     """Return what a value of many machines is of one of them: arrays with one row, texts as they are."""

@@ -117,6 +117,10 @@ class Curve(Protocol):
     def cycle(self) -> str:
         """Return the id of what the curve runs over: of two curves over one cycle it is the same."""
 
+    @property
+    def rate(self) -> Array:
+        """Return how often the curve comes again, as a speed (one turn each time), shape (variants, 1); 0 where nothing tells it."""
+
 
 @dataclass(frozen=True)
 class FromPress:

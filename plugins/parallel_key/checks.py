@@ -12,13 +12,14 @@ ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
 # fmt: off
 
 SIZED = ("key_length",)
+TYPED = ("load_direction_factor", "flank_changes")
 LONGER = (Vary("key_length", "up", LENGTHS.values), "key_count")
 
 
 def _pressure(part: str) -> Check:
     return Check(id=f"pressure_{part}", check_class="strength", title=f"Pressure on the {part}", demand=f"pressure_{part}", limit=f"allowed_{part}",
-                 unit="MPa", tolerance=ROUNDING, needs=JUDGED, sized_unless=SIZED, demand_label="pressure", limit_label="allowed", source=METHOD,
-                 consequence=f"the {part} yields where the key bears; a thicker shaft or stronger material helps, too.", advise=LONGER)
+                 unit="MPa", tolerance=ROUNDING, needs=JUDGED, founded=TYPED, sized_unless=SIZED, demand_label="pressure", limit_label="allowed",
+                 source=METHOD, consequence=f"the {part} yields where the key bears; a thicker shaft or stronger material helps, too.", advise=LONGER)
 
 
 CHECKS = (
@@ -35,7 +36,7 @@ CHECKS = (
           severity="warn", tolerance=ROUNDING, demand_label="bearing length", limit_label="1.3 diameters", source=METHOD,
           consequence="the load no longer spreads over so long a key; take a thicker shaft, two keys or stronger material."),
     Check(id="reversing", check_class="practice", title="Reversing torque", demand="reversal_left_out", limit=0.0, unit="1", severity="warn",
-          founded=("load_direction_factor", "flank_changes"),
+          founded=TYPED,
           demand_label="reversing torque not considered", limit_label="accepted", source=METHOD,
           consequence="the key works loose where the torque turns round often; give required_life and cycle_speed, by which the changes of flank are "
                       "counted, or flank_changes itself."),

@@ -76,7 +76,13 @@ class ParallelKey(Inputs):
     ] = None
     flank_changes: Annotated[
         float | None,
-        Quantity("N_Wg", "1", "Number of load direction changes in the whole life, instead of the life", ge=0),
+        Quantity(
+            "N_Wg",
+            "1",
+            "Number of load direction changes in the whole life, instead of the life",
+            ge=0,
+            plausible=("1", "1e12"),
+        ),
     ] = None
     required_life: Annotated[
         float | None,
@@ -85,7 +91,7 @@ class ParallelKey(Inputs):
             "h",
             "Life for which the load direction changes of torque_curve are counted",
             gt=0,
-            plausible=("1 s", "1e7 h"),
+            plausible=("2000 h", "200000 h"),
         ),
     ] = None
     cycle_speed: Annotated[

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind, case
+from diecut_report.api import Chapter, Constant, bind, case
 from diecut_report.plugins.parallel_key import formulas as f
 
 # fmt: off
@@ -12,11 +12,14 @@ from diecut_report.plugins.parallel_key import formulas as f
 CURVE = ("torque_curve",)
 REVERSED = 1e-6  # share of the torque's size up to which the other sign is rounding
 ROUNDING = 1e-9
+ONE_SPEED = 1e-3  # relative difference of two speeds that are one
 METHOD = "DIN 6892:2012, method B"
 BY_LIFE = ("required_life",)
-KNOWN = (*BY_LIFE, "flank_changes", "load_direction_factor")
+FACTOR_GIVEN = ("load_direction_factor",)
+KNOWN = (*BY_LIFE, "flank_changes", *FACTOR_GIVEN)
 JUDGED = ("flank_known",)
 SELDOM = 1024  # changes of flank up to which the formula gives 1
+LEAST_LIFE = Constant(2000 * 3600, "L_min", "s")  # as that of required_life: no machine is built for less
 DIAGRAM = 1e7  # changes of flank up to which the factor is confirmed
 
 cycle = Chapter("Torque over the cycle", needs=CURVE, text="One period of the referenced curve is mapped to one revolution of the cycle angle.")
@@ -25,6 +28,13 @@ cycle.from_curve("torque_over_cycle", "T_φ", "N*m", "Torque as given", given="t
 cycle.reduction("torque_size", "T_m", "N*m", "Maximum absolute torque", "abs_max", of="torque_over_cycle", output=False)
 cycle.reduction("torque_greatest", "T_up", "N*m", "Maximum torque", "max", of="torque_over_cycle", output=False)
 cycle.crossings("flank_change", "φ_f", "deg", "Cycle angle at which the torque changes its sign", of="torque_over_cycle", output=False)
+cycle.computed("curve_rate", "n_φ", "rpm", "Cycle rate of the referred torque, as a speed; 0 where a list of values tells none",
+               function=lambda torque: torque.rate, takes=CURVE, method="the speed of what it runs over, divided by the turns of a cycle",
+               source="kinematics", output=False)
+cycle.require("one_speed", bind(lambda own, curve_rate, tolerance: (curve_rate <= 0) | (abs(own - curve_rate) <= tolerance * curve_rate),
+                                own="cycle_speed", tolerance=ONE_SPEED), key="cycle_speed", needs=("cycle_speed",),
+              message="is {cycle_speed}, but the curve that torque refers to comes again with {curve_rate}; refer to the speed with which that curve "
+                      "is calculated")
 cycle.reduction("torque_least", "T_low", "N*m", "Minimum torque", "min", of="torque_over_cycle", output=False)
 
 load = Chapter("Load", text="A peak in every revolution is a regular load and is included in the equivalent torque; torque_peak is a rare one.")
@@ -55,6 +65,13 @@ FLANKS = ("changes_of_flank", "N_W", "1", "Number of load direction changes in t
 load.value(*FLANKS, bind(lambda reversing, count, speed, life: reversing * count * speed * life / (2 * np.pi), count="flank_change_count",
                          speed="cycle_speed", life="required_life"), needs=(*CURVE, *BY_LIFE), source="this method")
 load.value(*FLANKS, lambda: 0, needs=BY_LIFE, lacks=CURVE, source="this method")
+load.value("least_changes", "N_W,min", "1", "Load direction changes of the curve in the least plausible life; in a cycle, if its speed is not known",
+           bind(lambda reversing, count, rate: reversing * count * np.maximum(1, rate * LEAST_LIFE / (2 * np.pi)), count="flank_change_count",
+                rate="curve_rate"), needs=CURVE, lacks=BY_LIFE, source="this method", output=False)
+load.require("as_many_as_the_curve_has", bind(lambda given, least: given >= least, given="flank_changes", least="least_changes"),
+             key="flank_changes", needs=(*CURVE, "flank_changes"),
+             message="is {flank_changes}, but the torque changes its sign {flank_change_count} times a cycle, so at least {least_changes} times in "
+                     "2000 h (in one cycle, if its speed is not known); give required_life and cycle_speed, by which the changes are counted")
 load.value(*FLANKS, lambda flank_changes: flank_changes, needs=("flank_changes",), source="input")
 FACTOR = ("direction_factor", "f_w", "1", "Load direction factor")
 SELDOM_CHANGED = bind(lambda changes_of_flank, seldom: changes_of_flank <= seldom, seldom=SELDOM)
@@ -64,7 +81,9 @@ for needs in (BY_LIFE, ("flank_changes",)):
     load.choice(*FACTOR, case(lambda: 1, "the load direction changes too rarely to count", SELDOM_CHANGED),
                 COUNTED, case(f.direction_factor, "from the load direction changes; beyond 10⁷ of them the formula is extrapolated"), source=METHOD,
                 needs=needs)
-load.value(*FACTOR, lambda load_direction_factor: load_direction_factor, needs=("load_direction_factor",), source="input")
+load.value(*FACTOR, lambda load_direction_factor: load_direction_factor, needs=FACTOR_GIVEN, source="input")
+load.value("factor_of_least", "f_w,max", "1", "Load direction factor with the least number of changes",
+           bind(f.direction_factor, changes_of_flank="least_changes"), needs=(*CURVE, *FACTOR_GIVEN), source=METHOD, output=False)
 load.fact("flank_known", lambda reversing: reversing <= 0, "the torque reverses, and the number of reversals in the life is not known",
           lacks=KNOWN)
 load.choice(*FACTOR, case(lambda: 1, "the torque keeps its sign", lambda reversing: reversing <= 0),

@@ -7,7 +7,7 @@ import numpy as np
 from diecut_report.api import Chapter, bind, case
 from diecut_report.plugins.parallel_key import formulas as f
 from diecut_report.plugins.parallel_key.dimensions import LENGTHS, LONGEST_KEY
-from diecut_report.plugins.parallel_key.load import KNOWN, METHOD
+from diecut_report.plugins.parallel_key.load import BY_LIFE, CURVE, FACTOR_GIVEN, KNOWN, METHOD
 
 # fmt: off
 
@@ -97,6 +97,10 @@ pressures.choice("reversal_left_out", "n_w", "1", "Reversing torque not consider
                  case(lambda: 1, "the torque reverses, and the number of reversals in the life is not known",
                       lambda reversing: reversing > 0),
                  case(lambda: 0, "the torque keeps its sign"), source="this method", output=False, lacks=KNOWN)
-for known in KNOWN:
+for needs, lacks in ((BY_LIFE, ()), (("flank_changes",), ()), (FACTOR_GIVEN, CURVE)):
     pressures.value("reversal_left_out", "n_w", "1", "Reversing torque not considered: no, the factor includes it", lambda: 0,
-                    source="this method", output=False, needs=(known,))
+                    source="this method", output=False, needs=needs, lacks=lacks)
+pressures.choice("reversal_left_out", "n_w", "1", "Reversing torque not considered (1) or considered (0)",
+                 case(lambda: 1, "the factor is greater than with the load direction changes that the curve has at least",
+                      lambda load_direction_factor, factor_of_least: load_direction_factor > factor_of_least),
+                 case(lambda: 0, "the factor includes it"), source="this method", output=False, needs=(*CURVE, *FACTOR_GIVEN))

@@ -10,7 +10,7 @@ from typing import Any, NamedTuple
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Phrase, Refusal
+from diecut_report.api import Curve, Phrase, Refusal, told
 from diecut_report.plugins.rolling_bearing import formulas as f
 from diecut_report.plugins.rolling_bearing.catalogue import CATALOGUES, DEEP_GROOVE, ROLLER, BearingTable, written
 from diecut_report.plugins.rolling_bearing.duty import Duty, is_curve, of_one_cycle
@@ -28,6 +28,7 @@ PERMITTED_TILTS = {
     ROLLER: 0.29e-3,
 }  # rad, 2′ and 1′: the least of the makers, of needles
 CYLINDRICAL, CYLINDRICAL_TILT = re.compile(r"(N|NJ|NU)[0-9]"), 0.87e-3  # rad, 3′; with ribs on both rings (NUP) less
+ONE_SPEED = 1e-3  # relative difference of two speeds that are one
 MARGIN = 1e-6  # by which a bearing must hold that is chosen with fewer places of the cycle
 
 
@@ -80,6 +81,8 @@ class GivenBearing:
                 self.key("relative_angle"),
                 "is a number; refer to the curve of the angle over the cycle, or give speed in its place",
             )
+        if duty.angle is not None:
+            self._require_one_speed(duty.angle)
         curves = {
             key: value
             for key in ("radial_force", "axial_force", "speed", "relative_angle")
@@ -91,6 +94,16 @@ class GivenBearing:
                 other,
                 "runs over another cycle than the other curves of this bearing; give all over one cycle, or one as a number",
             )
+
+    def _require_one_speed(self, angle: Curve) -> None:
+        """Refuse a cycle rate that is not the one with which the angle comes again."""
+        own, rate = self.number("cycle_speed", 0.0), angle.rate
+        if ((rate > 0) & (np.abs(own - rate) > ONE_SPEED * rate)).any():
+            words = (
+                "is not the {rate} with which the curve of relative_angle comes again; refer to the speed with which that "
+                "curve is calculated"
+            )
+            raise Refusal(self.key("cycle_speed"), Phrase(words, rate=told(float(np.max(rate)), "rpm")))
 
     def knows_factors(self) -> bool:
         """Return whether it is known by which factors an axial force counts."""

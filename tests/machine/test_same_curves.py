@@ -4,11 +4,15 @@ from __future__ import annotations
 
 from typing import Any
 
+import numpy as np
 import pytest
 
 from diecut_report.machine.calculation import Calculation, CurveHandle, same_curve
 from diecut_report.machine.steps.run import calculate
+from diecut_report.plugins.circular_knife import MECHANISM as KNIFE
 from tests.machine.swing import MECHANISM
+from tests.machines import inputs
+from tests.validation.rows_circular_knife import KEYS as CIRCULAR
 
 LINK = {"inertia": 2.0, "stiffness": 100.0, "duration": 2.0, "ripple": 1.0, "share": 0.0, "n_points": 48, "grade": "plain"}  # fmt: skip
 OWN = {"position", "level", "turned", "passed", "middle", "speed", "acceleration", "area", "way", "force"}
@@ -56,3 +60,11 @@ def test_a_curve_that_is_taken_over_is_the_same_where_its_origin_is() -> None:
     assert unlike(start, follower(turned(lift=0.6))) == DRIVEN
     assert unlike(start, follower(turned(), share=0.25)) == DRIVEN  # the pieces are others, too
     assert not same_curve(CurveHandle(start, "position"), CurveHandle(start, "grown"))
+
+
+def test_a_curve_that_is_run_through_at_another_speed_is_another() -> None:
+    """The torque of a circular knife does not depend on its speed; how often it comes again does."""
+    one, same, faster = (calculate(KNIFE, inputs(KNIFE, CIRCULAR | {"speed": speed})) for speed in (50, 50, 60))
+    assert same_curve(CurveHandle(one, "torque"), CurveHandle(same, "torque"))
+    assert not same_curve(CurveHandle(one, "torque"), CurveHandle(faster, "torque"))
+    assert CurveHandle(faster, "torque").rate == pytest.approx(2 * np.pi)

@@ -3,7 +3,7 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -27,6 +27,7 @@ class Over:
     jumps: tuple[float, ...] = ()
     cycle: str = "crank_angle"
     curve_id: str = "curve"
+    rate: Array = field(default_factory=lambda: np.zeros((1, 1)))
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
         """Values at shares of the cycle; of a place where the curve jumps on the side of the middle."""

@@ -11,11 +11,13 @@ from hypothesis import given
 from hypothesis import strategies as st
 from pydantic import ValidationError
 
-from diecut_report.machine.calculation import Impossible
+from diecut_report.machine.calculation import Calculation, Impossible
+from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.parallel_key import MECHANISM
 from diecut_report.plugins.parallel_key.dimensions import KEYS, LENGTHS
 from tests.examples import examples
 from tests.machines import inputs, number
+from tests.plugins.bearings import Over
 from tests.plugins.keys import KEY, OWN, SIZED, TURNING, checks, key
 
 STRENGTH = ("pressure_shaft", "pressure_hub", "pressure_key", "pressure_peak", "shear")
@@ -125,6 +127,39 @@ def test_a_torque_that_keeps_its_sign_keeps_its_flank() -> None:
     calc = key(TURNING | {"torque_curve": [494, 100, 20, 300]} | LIFE)
     assert number(calc, "changes_of_flank") == 0 and number(calc, "direction_factor") == 1
     assert number(key(**LIFE), "direction_factor") == 1
+
+
+def turning_with(rate: float, **more: Any) -> Calculation:
+    """A key under a torque that changes its sign twice in each turn, of a shaft of this speed in rpm."""
+    torque = Over(lambda angle: 494 * np.cos(angle), rate=np.array([[rate * np.pi / 30]]))
+    return calculate(MECHANISM, inputs(MECHANISM, TURNING | {"torque_curve": torque} | more))
+
+
+@pytest.mark.parametrize(
+    ("rate", "typed", "words"),
+    [
+        (50, {"required_life": "20000 h", "cycle_speed": "0.001 rpm"}, "comes again with 50"),
+        (50, {"required_life": "20000 h", "cycle_speed": "50.1 rpm"}, "comes again with 50"),
+        (50, {"flank_changes": 0}, "2 times a cycle"),
+        (50, {"flank_changes": 1.19e7}, "1.2e7 times"),  # 2 · 50/min · 2000 h
+        (0, {"flank_changes": 1}, "at least 2 times"),
+    ],
+)
+def test_what_is_typed_does_not_contradict_the_curve(rate: float, typed: dict[str, Any], words: str) -> None:
+    with pytest.raises(Impossible) as refused:
+        turning_with(rate, **typed)
+    assert refused.value.key == list(typed)[-1] and words in refused.value.message
+
+
+@pytest.mark.parametrize("typed", [LIFE, {"flank_changes": 1.2e7}, {"flank_changes": 1e9}], ids=str)
+def test_what_agrees_with_the_curve_is_taken(typed: dict[str, Any]) -> None:
+    assert number(turning_with(50, **typed), "changes_of_flank") >= 1.2e7
+
+
+@pytest.mark.parametrize(("factor", "status"), [(0.3922, "warn"), (0.3916, "pass")])
+def test_a_factor_beyond_that_of_the_curve_is_told(factor: float, status: str) -> None:
+    """By hand: 2 · (1.2·10⁷)^−0.1 = 0.3920."""
+    assert checks(turning_with(50, load_direction_factor=factor))["reversing"].status == status
 
 
 def test_life_and_a_factor_of_its_own_exclude_each_other() -> None:

@@ -147,6 +147,11 @@ def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
         ([BALL, ROLLER | {"axial_force": 100}], "bearings.1.axial_force", "cylindrical rollers bear no axial force"),
         ([{**BALL, "f0": None} | {"axial_force": 100}], "bearings.0.axial_force", "f0 of a deep groove"),
         ([SWINGING | {"relative_angle": 30}], "bearings.0.relative_angle", "refer to the curve"),
+        (
+            [SWINGING | {"relative_angle": Over(np.sin, rate=np.array([[5.0]]))}],
+            "bearings.0.cycle_speed",
+            "is not the 47.75",
+        ),
         ([SWINGING | {"radial_force": Over(np.sin, cycle="disc_angle")}], "bearings.0.relative_angle", "another cycle"),
         ([SOUGHT | {"radial_force": 90000}], "bearings.0.series", "heavier series"),
         ([SOUGHT | {"designation": "7209"}], "bearings.0.designation", "not in the table"),

@@ -11,6 +11,7 @@ import pytest
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import load
+from diecut_report.errors import UserError
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input
@@ -50,7 +51,8 @@ def judged(tmp_path: Path, own: dict[str, Any], check: str) -> dict[str, Any]:
         ({}, "not_checked"),
         ({"basis": "given", "note": "so I was told"}, "not_checked"),
         ({"basis": "standard"}, "not_checked"),
-        ({"basis": "standard", "note": "  "}, "not_checked"),
+        *(({"basis": "standard", "note": note}, "not_checked") for note in ("  ", ".", "– – –", "__", "a 1")),
+        ({"basis": "standard", "note": "№ 7, ГОСТ"}, "pass"),
         ({"basis": "standard", "note": "ISO 6336-1, method B"}, "pass"),
         ({"basis": "measured"}, "pass"),
     ],
@@ -103,14 +105,19 @@ def mended(**changes: dict[str, Any]) -> dict[str, Any]:
 
 def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
     drawn = {"value": True, "basis": "drawing"}
-    read_off = {"value": 0.7, "basis": "standard", "note": "DIN 6892, figure 5"}
-    for clutch, factor, expected in ((True, 0.7, "not_checked"), (drawn, read_off, "pass")):
+    read_off = {"value": 0.3, "basis": "standard", "note": "DIN 6892, figure 5"}
+    for clutch, factor, expected in ((True, 0.3, "not_checked"), (drawn, read_off, "pass")):
         counted = {"required_life": None, "cycle_speed": None}
         told = mended(consistency={"single_position": clutch}, gear_key=counted | {"load_direction_factor": factor})
-        assert told["consistency.clutch_position"] == told["gear_key.reversing"] == expected
-    for changes, expected in ((1, "not_checked"), ({"value": 1e6, "basis": "measured"}, "pass")):
+        assert (
+            told["consistency.clutch_position"]
+            == told["gear_key.reversing"]
+            == told["gear_key.pressure_hub"]
+            == expected
+        )
+    for changes, expected in ((1e8, "not_checked"), ({"value": 1e8, "basis": "measured"}, "pass")):
         told = mended(gear_key={"required_life": None, "cycle_speed": None, "flank_changes": changes})
-        assert told["gear_key.reversing"] == expected
+        assert told["gear_key.reversing"] == told["gear_key.pressure_hub"] == expected
     told = mended(consistency={"single_position": False})
     assert told["consistency.clutch_position"] == "fail"
 
@@ -118,5 +125,16 @@ def test_a_clutch_and_a_key_do_not_pass_by_a_word() -> None:
 @pytest.mark.parametrize(("typed", "status"), [({}, "not_checked"), ({"basis": "measured"}, "pass")])
 def test_changes_of_flank_that_are_only_typed_prove_nothing(tmp_path: Path, typed: dict[str, str], status: str) -> None:
     key = {"kind": "parallel_key", "shaft_diameter": "40 mm", "yield_shaft": "600 MPa", "yield_hub": "600 MPa"}
-    own = key | {"torque_curve": ["300 N*m", "-200 N*m", "100 N*m", "300 N*m"], "flank_changes": {"value": 1, **typed}}
-    assert judged(tmp_path, own, "reversing")["status"] == status
+    own = key | {"torque_curve": ["300 N*m", "-200 N*m", "100 N*m", "300 N*m"], "flank_changes": {"value": 2, **typed}}
+    for check in ("reversing", "pressure_shaft", "pressure_hub", "pressure_key"):
+        assert judged(tmp_path, own, check)["status"] == status
+
+
+def test_a_life_of_a_second_is_no_life() -> None:
+    with pytest.raises(UserError, match="1 s is not plausible"):
+        mended(gear_key={"required_life": "1 s"})
+
+
+def test_a_torque_that_goes_through_gears_keeps_its_speed() -> None:
+    with pytest.raises(UserError, match="comes again with"):
+        mended(gear_key={"torque": "${main_gears.torque_pinion_curve}", "cycle_speed": "49 rpm"})

@@ -11,7 +11,7 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report.api import GRAVITY, Chapter, Check, Inputs, Mechanism, Quantity
+from diecut_report.api import GRAVITY, Chapter, Check, Inputs, Mechanism, Quantity, Source
 from diecut_report.cli.main import main
 from diecut_report.declaration.formula_checks import doubts
 from tests.testing.test_check_plugin import toggle
@@ -148,3 +148,28 @@ def test_a_chapter_that_nothing_depends_on_is_noted() -> None:
     (note,) = doubts(made(lambda rate: 2 * rate))
     assert "chapter 'Other': no check, key result, figure or other chapter uses its results" in note
     assert list(doubts(replace(made(lambda rate: 2 * rate), key_results=()))) == []  # nothing is asked of it at all
+
+
+@pytest.mark.parametrize(
+    ("source", "name"),
+    [
+        ("zz999 eq. 4", "zz999"),
+        ("017, Fig. 2", "017"),
+        ("statics; S2", "S2"),
+        ("ISO 281", None),
+        ("DIN 743-2, table 1", None),
+        ("R40 series", None),
+        ("this method", None),
+        ("Shigley 7-6", None),
+        ("001 eq. 3", None),
+    ],
+)
+def test_a_paper_that_is_not_among_the_sources_is_noted(source: str, name: str | None) -> None:
+    step = Chapter("Cited")
+    step.value("cited", "G", "N", "Weight", lambda mass: mass * GRAVITY, source=source)
+    mechanism = replace(made(lambda rate: 2 * rate, BOTH), chapters=(step,), key_results=("cited",))
+    listed = replace(mechanism, sources=(Source("001", "A paper."),))
+    for each in (listed,) if name is None else (mechanism, listed):
+        notes = list(doubts(each))
+        assert len(notes) == (name is not None)
+        assert name is None or f"step cited cites {name}, which is not a source; list it" in notes[0]

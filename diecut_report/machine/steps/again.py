@@ -131,6 +131,11 @@ class RowsOf:
         """Return what the curve runs over."""
         return self.curve.cycle
 
+    @property
+    def rate(self) -> Array:
+        """Return how often the curve of each variant comes again."""
+        return self.curve.rate[self.rows]
+
 
 class Again:
     """Calculate machines that differ from those of a calculation in some inputs; ``step`` asks for them."""
