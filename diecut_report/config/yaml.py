@@ -233,7 +233,7 @@ def read(path: Path, raw: bytes | None = None) -> Tree:
     """Read a YAML file for a reader who tells the problems of the tree beside its own; UserError where it cannot be read at all."""
     raw = content(path, MAX_BYTES, phrase("a YAML file")) if raw is None else raw
     try:
-        text = raw.decode("utf-8-sig")
+        text = raw.decode("utf-8")
     except UnicodeDecodeError as error:
         line = raw.count(b"\n", 0, error.start) + 1
         raise UserError(
@@ -248,6 +248,7 @@ def read_text(text: str, file: str) -> Tree:
 
 
 def _parse(text: str, file: str, sha256: str) -> Tree:
+    text = text.lstrip("\ufeff")  # marks of the byte order, of which editors may put one before another
     if control := CONTROL.search(text):
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
