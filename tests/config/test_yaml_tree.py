@@ -267,10 +267,18 @@ def test_a_text_may_have_lines_but_a_key_may_not(escape: str) -> None:
     assert "This key holds the invisible character" in problems(f'"x{escape}y": 1')[0].message
 
 
-@pytest.mark.parametrize("marks", [0, 1, 2])
-def test_load_keeps_text_and_hash_of_the_bytes(tmp_path: Path, marks: int) -> None:
+def test_a_second_mark_of_the_byte_order_is_refused(tmp_path: Path) -> None:
     path = tmp_path / "press.yaml"
-    raw = marks * b"\xef\xbb\xbf" + b"a: 1\r\nb: 2\r\n"
+    path.write_bytes(2 * b"\xef\xbb\xbf" + b"a: 1\n")
+    with pytest.raises(
+        UserError, match=r"press\.yaml:1:1: The control character U\+FEFF stands here\. Write it without"
+    ):
+        load(path)
+
+
+def test_load_keeps_text_and_hash_of_the_bytes(tmp_path: Path) -> None:
+    path = tmp_path / "press.yaml"
+    raw = b"\xef\xbb\xbfa: 1\r\nb: 2\r\n"
     path.write_bytes(raw)
     tree = load(path)
     assert tree.data == {"a": 1, "b": 2}
