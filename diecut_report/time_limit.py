@@ -34,20 +34,30 @@ class Escaped(Exception):
 
 
 @contextmanager
+def contained() -> Iterator[None]:
+    """Raise Escaped where what runs within would leave the program, so that whatever a plugin raises comes out as an Exception.
+
+    KeyboardInterrupt is the user's, Overran belongs to who set the limit.
+    """
+    try:
+        yield
+    except (Exception, KeyboardInterrupt, Overran):
+        raise
+    except BaseException as cause:
+        raise Escaped from cause
+
+
+@contextmanager
 def in_time() -> Iterator[None]:
     """Raise TooLong where what runs within takes longer than PATIENCE, with the trace of where it was; who asked for a limit of his own keeps it.
 
-    Whatever a plugin raises comes out as an Exception, but for KeyboardInterrupt, which is the user's.
+    It is ``contained`` too.
     """
     is_limited = getattr(_limited, "is_so", False)
     try:
-        with nullcontext() if is_limited else limited(PATIENCE):
+        with nullcontext() if is_limited else limited(PATIENCE), contained():
             yield
-    except (Exception, KeyboardInterrupt):
-        raise
-    except BaseException as cause:
-        if not isinstance(cause, Overran):
-            raise Escaped from cause
+    except Overran as cause:
         if is_limited:
             raise
         words = Phrase("it did not come back within {seconds} s; let its loops end", seconds=f"{PATIENCE:g}")

@@ -220,7 +220,9 @@ def _lines(found: CheckedPlugin) -> Iterator[str]:
     version = f" {found.mechanism.version}" if found.mechanism else ""
     yield say("{kind}{version}, from {origin}", kind=found.kind, version=version, origin=found.origin)
     if found.error:
-        yield f"  {say('broke')}: {said(found.error)}"
+        first, *more = said(found.error).split("\n")
+        yield f"  {say('broke')}: {first}"
+        yield from (f"    {each}" for each in more)
     for rule in found.rules:
         told = f": {said(rule.summary)}" if rule.summary else ""
         yield f"  {said(STATES[rule.status])}  {said(rule.title)}{told}"

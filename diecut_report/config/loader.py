@@ -26,6 +26,7 @@ from diecut_report.mechanism.inputs import Block
 from diecut_report.mechanism.mechanism import Mechanism, Partner
 from diecut_report.mechanism.names import SI, Pending, Text
 from diecut_report.text.phrases import Phrase
+from diecut_report.time_limit import contained
 
 # Partners: the mechanisms from which a kind takes inputs by itself, and the kinds that run without being asked.
 
@@ -328,7 +329,8 @@ class _ConfigReader:
         instance = self.instances[name]
         try:
             assert instance is not None
-            _ = instance.given, instance.results
+            with contained():
+                _ = instance.given, instance.results
         except Exception as cause:
             raise PluginError(Phrase("its declarations are invalid: {said}", said=said(cause)), kind) from cause
 

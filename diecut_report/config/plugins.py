@@ -334,7 +334,8 @@ def _judge_declarations(origin: Origin, mechanism: Mechanism) -> None:
     from diecut_report.declaration.formula_checks import faults_of_formulas
 
     try:
-        found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
+        with in_time():
+            found = [str(fault) for fault in faults_at_load(mechanism) or press_defaults.faults(mechanism)]
     except Exception as cause:
         words = Phrase("the declarations of {told} cannot be read: {said}", told=origin.label, said=said(cause))
         raise PluginError(words, origin.kind) from cause
@@ -357,10 +358,21 @@ def said(cause: BaseException) -> str:
     tells_place = isinstance(cause, SyntaxError | FormulaError) or getattr(cause, "tells_place", False)
     declared = Path(getattr(cause, "at", "")).name  # of what is not proved, which the engine tells
     place = f" ({declared or f'{Path(own[-1].filename).name}:{own[-1].lineno}'})" if own and not tells_place else ""
-    text = other_program(cause) or " ".join(str(cause).split())
+    text = other_program(cause) or _text_of(cause)
     return f"{type(cause).__name__}{': ' if text else ''}{text}{place}"
 
 
+def _text_of(cause: BaseException) -> str:
+    """The text of an exception in one line, shortened; nothing where its class cannot tell it."""
+    try:
+        with in_time():
+            text = yaml.printable(" ".join(str(cause).split()))
+    except Exception:
+        return ""
+    return text if len(text) <= LONGEST_TEXT else f"{text[:LONGEST_TEXT]}…"
+
+
+LONGEST_TEXT = 1_500  # letters of an exception's text that are told
 PROGRAM = Path(__file__).parents[1]
 LIBRARIES = ("numpy", "scipy", "pydantic", "pint")
 STANDARD = Path(traceback.__file__).parent

@@ -80,6 +80,8 @@ _BIDI = "\u202a-\u202e\u2066-\u2069"  # they turn the letters after them around
 
 CONTROL = re.compile(f"[^\t\n\r\x20-\x7e\x85\xa0-\ud7ff\ue000-\ufffd\U00010000-\U0010ffff]|[{_BIDI}]")
 """What a file as a whole may not hold."""
+SECOND_MARK = re.compile("\ufeff")
+"""What stands at the beginning where the mark of the byte order, which is not part of the text, stands twice."""
 INVISIBLE = re.compile(
     "[\u00ad\u034f\u061c\u115f\u1160\u17b4\u17b5\u180b-\u180f\u200b-\u200f\u202a-\u202e\u2060-\u206f\u2800\u3164\ufe00-\ufe0f\ufeff"
     "\uffa0\ufff0-\ufffb\U0001bca0-\U0001bca3\U0001d173-\U0001d17a\U000e0000-\U000e0fff]"
@@ -248,7 +250,7 @@ def read_text(text: str, file: str) -> Tree:
 
 
 def _parse(text: str, file: str, sha256: str) -> Tree:
-    if control := CONTROL.search(text):
+    if control := SECOND_MARK.match(text) or CONTROL.search(text):
         before = text[: control.start()]
         place = before.count("\n") + 1, len(before) - before.rfind("\n")
         advice = phrase("Write it without.") if control[0] > " " else phrase("This is not YAML text. Give a text file.")

@@ -17,7 +17,7 @@ from diecut_report.config.model import InfluenceSettings
 from diecut_report.config.yaml import KeyPath
 from diecut_report.design.answers import AskedNumber, quantity
 from diecut_report.design.inputs import DesignInput, design_input, given_numbers, numbers_at_default
-from diecut_report.design.machines import CHECKS, NO_RESERVE, UTILISATION, VariedMachines, varied
+from diecut_report.design.machines import CHECKS, NO_RESERVE, UTILISATION, VariedMachines, impossible, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.quantities.units import UnitError, parse_quantity, pretty, unit
@@ -112,7 +112,7 @@ def tornados(
     asked = list({each.column: each for each in (quantity(config, name) for name in names)}.values())
     made = _beside(config, inputs, ends, asked)
     if not made.exists[0]:
-        raise UserError(Problem(made.reasons[0], config.tree.file))
+        raise impossible(config, made.reasons[0])
     asked = asked or [quantity(config, name) for name in _governing(made)]
     for number in asked:
         _require_value(config, made, number)

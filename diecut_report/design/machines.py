@@ -132,6 +132,13 @@ def varied(
     return VariedMachines(rows)
 
 
+def impossible(config: Config, reason: str, told: str = "") -> UserError:
+    """Return the error of a machine that cannot be calculated, with the line of the key that the reason begins with."""
+    key = reason.partition(": ")[0].split(".")
+    line, column = config.tree.position(tuple(int(part) if part.isdigit() else part for part in key))
+    return UserError(Problem(told or reason, config.tree.file, line, column))
+
+
 def quantities(config: Config) -> dict[str, ResultColumn]:
     """Return all numbers that a machine gives, with their units, by name."""
     return {

@@ -12,7 +12,7 @@ from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.answers import REACHED, Answer, DesignQuestion, FoundValue, Range, Role, needed, typed_answers
 from diecut_report.design.inputs import DesignInput, is_stepped
-from diecut_report.design.machines import VariedMachines, proved, varied
+from diecut_report.design.machines import VariedMachines, impossible, proved, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.mechanics import numerics
@@ -384,11 +384,11 @@ class _RangeSearch:
         if not made.exists.any():
             words = "no machine of the range of {input} can be calculated: {reason}"
             reason = next(filter(None, made.reasons))
-            raise UserError(Problem(Phrase(words, input=name, reason=reason), self.config.tree.file))
+            raise impossible(self.config, reason, Phrase(words, input=name, reason=reason))
         if not len(known):
             words = "{asked} has no value in the whole range of {input}."
             raise UserError(Problem(Phrase(words, asked=asked, input=name), self.config.tree.file))
-        if np.ptp(known) <= SAME * np.abs(known).max() and len(y) > 1:
+        if np.ptp(known) <= SAME * np.abs(known).max() and len(known) > 1:
             words = "{asked} does not vary with {input}: it is {value} in the whole range."
             value = self.question.quantity.told(float(known[0]))
             raise UserError(Problem(Phrase(words, asked=asked, input=name, value=value), self.config.tree.file))

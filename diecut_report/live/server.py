@@ -6,6 +6,7 @@ import asyncio
 import errno
 import gc
 import json
+import re
 import secrets
 import socket
 import threading
@@ -62,7 +63,7 @@ class LiveApplication:
         self._is_ending = asyncio.Event()
         routes = [
             Route("/", self._page), Route("/assets/{name}", self._asset), Route("/events", self._events),
-            Route("/figure/{mechanism}/{index:int}", self._figure), Route("/effect", self._effect),
+            Route("/figure/{mechanism}/{index}", self._figure), Route("/effect", self._effect),
             Route("/report/{form}", self._report),
             Route("/change", self._change, methods=["POST"]), Route("/back", self._back, methods=["POST"]),
             Route("/write", self._write, methods=["POST"]),
@@ -176,7 +177,9 @@ class LiveApplication:
 
     async def _figure(self, request: Request) -> Response:
         mechanism, index = request.path_params["mechanism"], request.path_params["index"]
-        return await self._of_machine(lambda machine: self.pictures.figure(machine, mechanism, index))
+        if not re.fullmatch("[0-9]{1,9}", index):
+            return Response(status_code=404)
+        return await self._of_machine(lambda machine: self.pictures.figure(machine, mechanism, int(index)))
 
     async def _effect(self, request: Request) -> Response:
         """An effect is a whole run of many machines: it gives way to all else, and ends where its page looks at another."""

@@ -315,7 +315,7 @@ def number_and_unit(text: str, wanted: Unit | None = None) -> tuple[Decimal, str
     if match is None:
         raise _unfit(_shortened(text), phrase("does not begin with a finite number"), wanted)
     own = match[2].strip().removeprefix("*").strip()
-    if re.match(r"[0-9.+-]", own) and not own.startswith("1/"):
+    if len(text.splitlines()) > 1 or (re.match(r"[0-9.+-]", own) and not own.startswith("1/")):
         raise _unfit(_shortened(text), phrase("is not one number and a unit"), wanted)
     number = float(match[1])
     # all digits count: a share written in percent may need more of them than a float has

@@ -28,6 +28,7 @@ from diecut_report.mechanism.steps import (
     SILENT,
     Crossings,
     Phase,
+    Reduction,
     ResultName,
     Step,
     count_name,
@@ -386,10 +387,9 @@ def _rowed(calc: Calculation, step: Step) -> Data:
     if not isinstance(row[0], str) and math.isnan(row[0]):
         return {}
     found = _number(step, row[0], _row_unit(calc, step, row[:1]))
-    place = place_name(step.id)
-    if place in calc.values:
-        axis = calc.steps[calc.axis[step.of]]  # type: ignore[attr-defined]
-        value = float(calc[place][0, 0])
+    if isinstance(step, Reduction) and step.is_extreme:
+        axis = calc.steps[calc.axis[step.of]]
+        value = float(calc[place_name(step.id)][0, 0])
         found["at"] = {"symbol": axis.symbol, "value": value}
         found["at"] |= place_shown(value, declared_unit(calc, axis.id, axis.unit))
     return {step.id: found}

@@ -37,7 +37,7 @@ from diecut_report.results.mechanism import SelfTestFailed, mechanism_results
 from diecut_report.results.mechanism_record import CheckRecord, MechanismRecord, SourceRecord
 from diecut_report.results.origins import Absent, Bases, Provenance, Unavailable, Valueless, Withheld, origin_of, output
 from diecut_report.text.phrases import Phrase, named, phrase
-from diecut_report.time_limit import in_time
+from diecut_report.time_limit import contained, in_time
 
 # Comparisons over the results of named kinds, calculated when all mechanisms are known.
 
@@ -236,7 +236,8 @@ class Run:
         meta = declared(instance.model, node[1:])
         assert isinstance(meta, Quantity) and target.formula is not None
         try:
-            return SI(self._number(target.formula(value.value)), meta.parsed_unit.si, target.path)
+            with contained():
+                return SI(self._number(target.formula(value.value)), meta.parsed_unit.si, target.path)
         except Exception as cause:
             self._broke(instance, cause)
             raise Unavailable(target.path) from cause

@@ -267,6 +267,15 @@ def test_a_text_may_have_lines_but_a_key_may_not(escape: str) -> None:
     assert "This key holds the invisible character" in problems(f'"x{escape}y": 1')[0].message
 
 
+def test_a_second_mark_of_the_byte_order_is_refused(tmp_path: Path) -> None:
+    path = tmp_path / "press.yaml"
+    path.write_bytes(2 * b"\xef\xbb\xbf" + b"a: 1\n")
+    with pytest.raises(
+        UserError, match=r"press\.yaml:1:1: The control character U\+FEFF stands here\. Write it without"
+    ):
+        load(path)
+
+
 def test_load_keeps_text_and_hash_of_the_bytes(tmp_path: Path) -> None:
     path = tmp_path / "press.yaml"
     raw = b"\xef\xbb\xbfa: 1\r\nb: 2\r\n"

@@ -3,6 +3,7 @@
 from __future__ import annotations
 
 import json
+import re
 from pathlib import Path
 from typing import Any
 
@@ -137,6 +138,28 @@ def test_a_knife_is_solved_as_by_machines_calculated_one_by_one(capfd: Capture) 
     places = [each["value"] for each in answer["solutions"]]
     assert places == pytest.approx([brentq(over, place * 0.99, place * 1.01, xtol=1e-9) for place in places], rel=1e-6)
     assert places
+
+
+@pytest.mark.parametrize(("asked", "first"), [("<= 60 ms", 0.11198), ("= 52 ms", 0.114002)])
+def test_one_machine_alone_among_those_tried_is_no_constant(
+    tmp_path: Path, capfd: Capture, asked: str, first: float
+) -> None:
+    knife = saved(
+        tmp_path, KNIFE.read_text("utf-8").replace("eccentricity: {value: 20 mm", "eccentricity: {value: 10 mm")
+    )
+    answer = found(capfd, solve(knife, "knife.edge_radius", f"knife.cut_time {asked}", "--format", "json"))
+    assert answer["solutions"][0]["value"] == pytest.approx(first, rel=1e-5)
+
+
+@pytest.mark.parametrize(
+    "command", [["solve", "--vary", "knife.speed", "--for", "knife.cut_time = 1 s"], ["influence"]]
+)
+def test_what_no_machine_can_be_is_told_with_its_line(tmp_path: Path, capfd: Capture, command: list[str]) -> None:
+    text = KNIFE.read_text("utf-8").replace("eccentricity: {value: 20 mm", "eccentricity: {value: 1 mm")
+    line = 1 + next(n for n, each in enumerate(text.splitlines()) if "depth:" in each)
+    assert main([command[0], str(saved(tmp_path, text)), *command[1:]]) == 2
+    told = capfd.readouterr().err
+    assert re.search(rf":{line}:\d+: .*mechanisms\.knife\.depth\.value: is 112 mm, but the edge never", told)
 
 
 DAMPER = (

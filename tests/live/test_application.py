@@ -99,6 +99,7 @@ def test_no_path_of_the_page_is_opened(server: Server) -> None:
         assert server.asked("GET", f"{server.path}assets/{name}")[0] == 404
     assert server.asked("GET", f"{server.path}assets/live.js")[0] == 200
     assert server.asked("GET", f"{server.path}figure/..%2f..%2fetc/0")[0] in (404, 422)
+    assert server.asked("GET", f"{server.path}figure/knife/{'1' * 5000}")[0] == 404
     assert server.asked("GET", f"{server.path}report/..%2fjson")[0] in (404, 422)
 
 

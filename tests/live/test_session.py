@@ -195,7 +195,8 @@ def test_a_file_that_is_at_fault_from_the_start_is_shown_when_it_is_mended(tmp_p
     ("name", "typed", "words"),
     [("knife.eccentricity", "5 kg", "mass"), ("knife.eccentricity", "", "number"), ("knife.none", "5 mm", "not a number"),
      ("knife.thickness", "1 mm", "not a number"), ("knife.eccentricity", "5 mm # a remark", "mm"),
-     ("knife.eccentricity", "1" * 200, "letters"), ("knife.eccentricity", "5 mm\n  depth: 3", "mm")],
+     ("knife.eccentricity", "1" * 200, "letters"), ("knife.eccentricity", "5 mm\n  depth: 3", "mm"),
+     *(("knife.eccentricity", f"5{end}mm", "not one number") for end in "\n\x85\u2028")],
 )  # fmt: skip
 def test_what_is_no_number_for_an_input_is_refused_and_changes_nothing(
     session: LiveSession, name: str, typed: str, words: str

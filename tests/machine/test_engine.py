@@ -247,3 +247,15 @@ def test_a_root_without_a_change_of_sign_names_its_bracket() -> None:
     words = r"Cube root \(x, toy\.py:\d+\): the equation does not change its sign between low = 2000 and high = 2001"
     with pytest.raises(Unproven, match=words):
         calculate(shifted, {"target": 2000.0})
+
+
+def test_a_number_may_have_the_name_of_a_place_that_no_extreme_gives() -> None:
+    steps = Chapter("Toy")
+    steps.value("twice_at", "y", "m", "At", lambda arm: 3 * arm)
+    steps.value("twice", "z", "m", "Twice", lambda arm: 2 * arm)
+    found = mechanism_results(
+        calculate(replace(MECHANISM, chapters=(steps,), checks=(), figures=(), exports=()), {"arm": 1.0}), {}
+    )
+    assert (found.outputs["twice"].value, found.outputs["twice"].at) == (2, None) and found.outputs[
+        "twice_at"
+    ].value == 3

@@ -26,12 +26,20 @@ ROUGH: dict[str, tuple[str, Any]] = {
     "a pole of one sign": ("mm", lambda arm, angle, place: arm / np.abs(as_number(angle - place))),
     "a double pole": ("mm", lambda arm, angle, place: arm / np.sin((angle - place) / 2) ** 2),
     "a tangent": ("mm", lambda arm, angle, place: arm * np.tan((angle - place) / 2 + np.pi / 2)),
+    "a logarithm": ("mm", lambda arm, angle, place: -arm * np.log(np.abs(np.sin((angle - place) / 2)))),
+    "a logarithm beside much": (
+        "mm",
+        lambda arm, angle, place: 10 * arm * np.cos(angle) + arm * np.log(np.abs(np.sin((angle - place) / 2))),
+    ),
+    "a slow pole": ("mm", lambda arm, angle, place: arm / np.abs(as_number(angle - place)) ** 0.1),
 }
 SMOOTH: dict[str, tuple[str, Any]] = {
     "steep": ("mm", lambda arm, angle, place: arm * np.tanh(1e4 * as_number(angle - place))),
     "narrow": ("mm", lambda arm, angle, place: arm / (1e-6 + as_number(angle - place) ** 2)),
     "a corner": ("mm", lambda arm, angle, place: arm * np.abs(as_number(angle - place))),
     "upright": ("mm", lambda arm, angle, place: arm * np.sqrt(np.abs(as_number(angle - place)))),
+    "nearly upright": ("mm", lambda arm, angle, place: arm * np.abs(as_number(angle - place)) ** 0.1),
+    "a logarithm with an end": ("mm", lambda arm, angle, place: arm * np.log(1e-10 + as_number(angle - place) ** 2)),
     "rounding": ("mm", lambda arm, angle: (arm * np.sin(angle) + 1000 * arm) - 1000 * arm - arm * np.sin(angle)),
     "a share of rounding": ("1", lambda arm, angle: (arm + arm * np.cos(angle) ** 2 - 2 * arm + arm * np.sin(angle) ** 2) / arm),
     "a number": ("mm", lambda arm, angle: arm + 0 * as_number(angle)),
@@ -56,7 +64,7 @@ def test_a_rough_place_is_refused_with_its_place(name: str, place: float) -> Non
         curves(calculated(*ROUGH[name], place))
     told = str(caught.value)
     assert told.startswith(
-        "Rough (rough, test_rough_places.py:47) jumps or has a pole inside a smooth piece, near φ = "
+        "Rough (rough, test_rough_places.py:55) jumps or has a pole inside a smooth piece, near φ = "
     )
     found = float(told.partition("φ = ")[2].partition("°")[0])
     assert np.tan(np.radians(found)) == pytest.approx(

@@ -73,6 +73,7 @@ SILENT = (
     calc("plain code that gives single precision", FALL, "return (0 * speed + 1).astype(np.float32)", "fall_time", "64 bits"),
     calc("plain code that gives a truth value for a time", FALL, "return speed > 0", "fall_time", "a number in SI of s"),
     calc("plain code that gives masked numbers", FALL, "return np.ma.masked_greater(speed, 0)", "fall_time", "must return a number"),
+    calc("plain code that gives a number beyond all", FALL, "return 10**400", "fall_time", "a number too large to calculate with"),
     calc("plain code that gives complex numbers", FALL, "return speed * 1j", "fall_time", "must return a number"),
     calc("plain code that leaves the program", FALL, "raise SystemExit(0)", "SystemExit", placed=True),
     calc("plain code that calls itself", FALL, "return falling_time(speed, drop)", "RecursionError", placed=True),

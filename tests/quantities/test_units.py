@@ -189,7 +189,7 @@ def test_what_is_no_finite_number_is_refused(value: float | str) -> None:
         parse_quantity(value, "mm")
 
 
-@pytest.mark.parametrize("value", ["1 000 mm", "2*3 mm", "5 - 3 mm"])
+@pytest.mark.parametrize("value", ["1 000 mm", "2*3 mm", "5 - 3 mm", "5\nmm", "5\x85mm", "5\u2028mm"])
 def test_several_numbers_are_refused(value: str) -> None:
     with pytest.raises(UnitError, match="is not one number and a unit; a length is needed, for example 40 mm"):
         parse_quantity(value, "mm")

@@ -128,6 +128,39 @@ def test_variants_that_a_plugin_breaks_for_are_in_error_and_the_others_are_kept(
     assert rows(tmp_path)[2]["error"].startswith("plugin 'breaking': LookupError: too long for the table (breaking.py:")
 
 
+LEAVES = {  # what a plugin raises to leave the program, and what is told of it
+    "sys.exit": ("exit(0)", "SystemExit: 0"),
+    "the end of a generator": ("raise GeneratorExit('over')", "GeneratorExit: over"),
+    "one of its own": ("raise type('Odd', (BaseException,), {})('no')", "Odd: no"),
+    "one that has no words": ("raise type('Mute', (BaseException,), {'__str__': lambda self: 1 / 0})", "Mute"),
+    "one with far too many": ("raise Exception('a\\x1b\\u202e' + 100_000 * 'x')", "Exception: a\ufffd\ufffdxxx"),
+}
+COMMANDS = {  # those that calculate many machines at once, and one
+    "batch": ["batch", "study.yaml", "-o", "out", "--jobs", "1"],
+    "influence": ["influence", "press.yaml"],
+    "solve": ["solve", "press.yaml", "--vary", "m.x", "--for", "m.a = 5 mm"],
+    "calc": ["calc", "press.yaml"],
+}
+
+
+@pytest.mark.parametrize("raised", LEAVES)
+@pytest.mark.parametrize("command", COMMANDS)
+def test_code_cannot_leave_the_program(
+    tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch, command: str, raised: str
+) -> None:
+    code, words = LEAVES[raised]
+    text = PLUGIN.format(step=COMPUTED.replace("small", "never")).replace('raise LookupError("no table")', code)
+    (tmp_path / "plugins").mkdir()
+    saved(tmp_path / "plugins", text, "breaking.py")
+    saved(tmp_path, BASE)
+    saved(tmp_path, STUDY, "study.yaml")
+    monkeypatch.chdir(tmp_path)
+    assert main([*COMMANDS[command], "--plugins", "plugins"]) == 3
+    out, told = capfd.readouterr()
+    assert words in told and "(breaking.py:" in told and "Traceback" not in told
+    assert len(told) + len(out) < 10_000 and not {*"\x1b\u202e"} & {*told, *out}
+
+
 def test_a_continued_run_tells_it_again(tmp_path: Path, capfd: Capture) -> None:
     assert ran(tmp_path, COMPUTED.replace("small", "never"), capfd)[0] == 3  # no variant is left
     assert main(["batch", "--resume", str(tmp_path / "out"), "--plugins", str(tmp_path / "plugins")]) == 3

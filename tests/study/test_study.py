@@ -374,6 +374,11 @@ def test_a_base_that_is_not_there_is_told_in_the_study(tmp_path: Path) -> None:
     ]
 
 
+def test_a_study_is_not_its_own_base(tmp_path: Path) -> None:
+    told = faults(tmp_path, STUDY.replace("press.yaml", "study.yaml"))
+    assert told == ["study.yaml:2:7: base: is this study itself; name the configuration whose inputs it varies."]
+
+
 def test_what_needs_no_base_is_told_beside_a_missing_one(tmp_path: Path) -> None:
     text = STUDY.replace("press.yaml", "pres.yaml").replace("grid", "grid, seed: 1") + "colour: red\n"
     assert [line.split(": ")[1] for line in faults(tmp_path, text)] == ["base", "sample.seed", "colour"]

@@ -66,6 +66,7 @@ BAD = {  # what stands where in the plugin, and what is told of it
         "KeyError: 'q' (faulty.py:18)",
     ),
 }  # fmt: skip
+TWO = 'chapter.value("b", "b", "mm", "B", lambda q: q)\nchapter.value("c", "c", "mm", "C", lambda r: r)'
 DRAWN = {
     "a figure that asks for what is not there": (
         "return [polyline([(0, view['nope'])])]",
@@ -102,6 +103,13 @@ def test_a_plugin_that_is_bad_costs_its_mechanism_alone(tmp_path: Path, capfd: C
     assert told.startswith("mechanism 'faulty' of plugin 'faulty': ") and words in told and "Traceback" not in told
     assert re.search(r"faulty\.py", told)
     assert results["a"]["status"] == "pass" and results["faulty"]["status"] == "error"
+
+
+def test_each_invalid_declaration_has_its_line(tmp_path: Path, capfd: Capture) -> None:
+    assert main(["check-plugin", "faulty", "--plugins", plugin(tmp_path, step=TWO)]) == 3
+    *_, head, first, second = capfd.readouterr().out.splitlines()
+    assert head.endswith("faulty.py has invalid declarations:") and "\\n" not in head
+    assert re.search(r"^ {6}\S*faulty\.py:17: step b: takes q", first) and "faulty.py:18: step c: takes r" in second
 
 
 @pytest.mark.parametrize("name", DRAWN)

@@ -88,6 +88,10 @@ INSET, WIDE = (
 )  # shares: of a piece, that its ends are left out by; of the period, of pieces that are looked at
 STAYS, APART = 0.5, 0.05  # of a difference: a jump keeps it however near, and what is beside it changes by far less
 GROWS, STILL = 1e3, 4.0  # times the greatest size seen first, and two looks before: a pole
+TENTHS, GOES_ON = (
+    10.0 ** -np.arange(3, 8),
+    0.9,
+)  # shares of a piece: with each tenth of the distance a logarithm moves by as much
 LEAST = 1e-9  # of the sizes in the formula: a difference that is not rounding
 
 
@@ -98,6 +102,7 @@ def require_whole(calc: Calculation, curve: str) -> None:
         values = _values(calc, curve, x, middles)
         place = _pole(calc, curve, x, middles, values)
         place = _torn(calc, curve, x, middles, values) if place is None else place
+        place = _endless(calc, curve, x, middles, values) if place is None else place
     if place is None:
         return
     require(calc, curve, curve)  # tells the condition that jumps there, if one does
@@ -178,6 +183,20 @@ def _pole(calc: Calculation, curve: str, x: Array, middles: Array, values: Array
         x, middles = np.linspace(x[row, before], x[row, after], WITHIN + 1)[None], middles[[row]]
     is_pole = sizes[-1] > GROWS * sizes[0] and sizes[-1] > STILL * sizes[-3]
     return float(x[0, WITHIN // 2]) if is_pole else None
+
+
+def _endless(calc: Calculation, curve: str, x: Array, middles: Array, values: Array) -> float | None:
+    """The place towards which a formula goes on for ever, if slowly, as a logarithm does; None where there is none."""
+    if not calc.curves[curve].is_formula or not _stands_out(np.abs(np.diff(values, 2)), 2):
+        return None
+    place = _sharpest(calc, curve)
+    row = int(np.argmax((x[:, 0] <= place) & (place <= x[:, -1])))
+    for reach in (x[row, -1] - x[row, 0]) * TENTHS * [[-1], [1]]:
+        moved = np.diff(_values(calc, curve, place + reach[None], middles[[row]])[0])
+        is_within = x[row, 0] <= place + reach[0] <= x[row, -1]
+        if is_within and (moved[1:] / moved[:-1] > GOES_ON).all():
+            return place if abs(moved[0]) > LEAST * _scale(calc, curve, x, middles) else None
+    return None
 
 
 def _scale(calc: Calculation, curve: str, x: Array, middles: Array) -> float:

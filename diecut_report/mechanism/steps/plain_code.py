@@ -88,7 +88,10 @@ def _numbers(step: Any, found: Any, wanted: str) -> Array:
     except ValueError:  # a list of lists of unlike lengths
         given = np.array(None)
     if given.dtype == object and all(isinstance(each, Real) for each in given.flat):
-        return given.astype(float)
+        try:
+            return given.astype(float)
+        except OverflowError:
+            raise misgiven(step, phrase("a number too large to calculate with"), wanted) from None
     if given.dtype.kind not in "biuf" or np.ma.is_masked(found):
         raise misgiven(step, reprlib.repr(found), wanted)
     if given.dtype.kind in "iuf" and given.dtype.itemsize < WIDE:

@@ -200,6 +200,10 @@ class _StudyReader:
         if self.given is not None or "base" not in self.data:
             return self.given
         path = self._find(self.data["base"])
+        if path.resolve() == Path(self.tree.file).resolve():
+            words = "is this study itself; name the configuration whose inputs it varies."
+            self.problems.append(self.place.problem(("base",), phrase(words)))
+            return None
         if not os.path.exists(path):
             words = "there is no file {path}. The base is sought from the study's folder; check its name."
             self.problems.append(self.place.problem(("base",), Phrase(words, path=path)))

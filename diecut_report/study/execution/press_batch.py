@@ -28,6 +28,7 @@ from diecut_report.results.origins import Absent, number, output, require_facts
 from diecut_report.results.press_run import Run, Tell
 from diecut_report.study.definition.base_inputs import Input, with_values
 from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.time_limit import contained
 
 Values = Mapping[Input, Array | str]
 
@@ -55,7 +56,8 @@ class Mixed(Exception):
 def of_plugin(kind: str) -> Iterator[None]:
     """Report what breaks within as a fault of the plugin, whose code runs there."""
     try:
-        yield
+        with contained():
+            yield
     except (Impossible, NotOnArrays, Unproven):
         raise
     except PluginError as cause:

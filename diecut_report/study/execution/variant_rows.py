@@ -52,6 +52,7 @@ from diecut_report.study.execution.press_batch import (
     untold,
 )
 from diecut_report.study.storage.description import Kind, ResultColumn
+from diecut_report.time_limit import contained
 
 # Columns of results: what is known of each before anything is calculated, and its values for many variants.
 
@@ -66,7 +67,8 @@ def columns_of(config: Config) -> list[ResultColumn]:
     for name, instance in config.instances.items():
         if instance is not None and instance.mechanism is not None and name != PRESS:
             try:
-                found += [*_outputs(name, instance), *_checks(name, instance)]
+                with contained():
+                    found += [*_outputs(name, instance), *_checks(name, instance)]
             except Exception as cause:
                 raise PluginError(said(cause), instance.mechanism.kind, name) from cause
     return found
