@@ -33,7 +33,7 @@ LAYERS = [
     {"machine"},
     {"results"},
     {"report"},
-    {"pipeline", "study", "firm_folder"},
+    {"press", "study", "firm_folder"},
     {"testing", "design", "exchange"},
     {"scripting", "live"},
     {"cli", "__main__"},

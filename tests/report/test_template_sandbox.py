@@ -14,7 +14,7 @@ from jinja2 import defaults
 from markupsafe import Markup
 
 from diecut_report.errors import UserError
-from diecut_report.pipeline import rendered
+from diecut_report.press import rendered
 from diecut_report.report.context import Material
 from diecut_report.report.pages import firm_templates
 from diecut_report.report.pages.firm_templates import HouseStyle, TemplateSandbox

@@ -1,9 +1,9 @@
-"""The way of the data, as a table of contents: load, validate, resolve, compute, check, render, write."""
+"""The way of a machine from its file to its report: read, validated, calculated, written; all commands and scripts go it."""
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Sequence
-from dataclasses import dataclass
+from collections.abc import Callable, Iterator, Mapping, Sequence
+from dataclasses import dataclass, replace
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -11,9 +11,10 @@ from diecut_report.config.catalogues import catalogues_for, lacking
 from diecut_report.config.loader import Config, examined, in_order, load_config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
-from diecut_report.config.yaml import Tree
+from diecut_report.config.references import rewritten
+from diecut_report.config.yaml import KeyPath, Tree
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, nearest
-from diecut_report.results.changes import compare_with
+from diecut_report.files import write_all
 from diecut_report.results.conclusion import doubtful
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
@@ -80,66 +81,118 @@ class ReportOutcome:
     warnings: tuple[str, ...] = ()
 
 
-def validate(config: Source, discovery: Discovery, judge: Judge | None = None) -> tuple[PluginError, ...]:
-    """Return the plugins that are broken; UserError with all that is wrong, also with machines that cannot exist, or that ``judge`` tells."""
-    made, problems = examined(config, discovery)
-    problems += judge(made) if judge and not problems and not made.broken else []
-    from diecut_report.results.press_run import impossible  # with the engine
-
-    more, broken = impossible(made, problems)
-    if problems or more:
-        raise UserError(in_order([*problems, *more]))
-    return (*made.broken.values(), *broken)
+def _silent(_: str) -> None:
+    """Tell nothing."""
 
 
 @dataclass(frozen=True)
-class Calculated:
-    """A calculated configuration: its results, the plugins that broke, and where figures and exports are declared."""
+class Press:
+    """Hold a machine with a valid configuration, and the kinds that it may use.
 
-    source: Source
+        press = Press.read(Path("press.yaml"), Discovery())
+        made = press.calculate()
+        made.report(Path("out"), ["html", "pdf"])
+
+    ``tell`` is called with what is being done.
+    """
+
     config: Config
+    discovery: Discovery
+    tell: Tell = _silent
+
+    @classmethod
+    def read(cls, source: Source, discovery: Discovery, tell: Tell = _silent, *, find: Find | None = None) -> Press:
+        """Return the press of a configuration; UserError with all that is wrong with it. A broken plugin is kept in ``config.broken``.
+
+        ``find`` says where tables are that the configuration names, where they are not beside it.
+        """
+        tell(phrase("reading the configuration"))
+        return cls(load_config(source, discovery, find=find), discovery, tell)
+
+    @staticmethod
+    def validate(source: Source, discovery: Discovery, judge: Judge | None = None) -> tuple[PluginError, ...]:
+        """Return the plugins that are broken; UserError with all that is wrong, also with machines that cannot exist, or that ``judge`` tells."""
+        config, problems = examined(source, discovery)
+        problems += judge(config) if judge and not problems and not config.broken else []
+        from diecut_report.results.press_run import impossible  # with the engine
+
+        more, broken = impossible(config, problems)
+        if problems or more:
+            raise UserError(in_order([*problems, *more]))
+        return (*config.broken.values(), *broken)
+
+    def usable(self) -> Press:
+        """Return the press; PluginError where one of its plugins is broken."""
+        for error in self.config.broken.values():
+            raise error
+        return self
+
+    def with_values(self, values: Mapping[KeyPath, str], *, over_references: bool = False) -> Press:
+        """Return the press with these values typed into its text, by their places; UserError where that is not possible or not allowed."""
+        tree = rewritten(self.config.tree, values, over_references=over_references)
+        return replace(self, config=load_config(tree, self.discovery))
+
+    def require_reportable(self, formats: Sequence[str], only: Sequence[str] = ()) -> None:
+        """Raise UserError where a report in these formats, or of these mechanisms alone, is not possible."""
+        _refuse_unknown(self.config, only)
+        _refuse_many_sheets(self.config, formats)
+
+    def calculate(self) -> CalculatedPress:
+        """Return the results, with the plugins that broke; UserError with all that is wrong where the machine cannot exist."""
+        from diecut_report.results.document import document  # with the engine, which reading alone does not need
+        from diecut_report.results.press_run import compute
+
+        run = compute(self.config, lambda name: self.tell(Phrase("calculating {name}", name=name)))
+        results = document(run)
+        broken = (*run.errors.values(), *_failed(results))
+        return CalculatedPress(self, results, broken, bool(run.errors), _places(run))
+
+
+@dataclass(frozen=True)
+class CalculatedPress:
+    """Hold a calculated press: its results, the plugins that broke, and where figures and exports are declared."""
+
+    press: Press
     results: ResultsRecord
     broken: tuple[PluginError, ...]
     has_broken: bool  # whether mechanisms were not calculated
     places: Places
 
+    @property
+    def warnings(self) -> tuple[str, ...]:
+        """Return in words which plugins have faults in their formulas."""
+        return tuple(doubtful(self.results, self.press.discovery))
 
-def calc(
-    config: Source, discovery: Discovery, tell: Tell, target: Path | None = None, find: Find | None = None
-) -> tuple[ReportOutcome, str]:
-    """Return the results document and its text; written to ``target`` if there is one.
+    @property
+    def text(self) -> str:
+        """Return the results file."""
+        return results_text(self.results)
 
-    ``find`` says where tables are that the configuration names, where they are not beside it.
-    """
-    made = calculated(config, discovery, tell, find=find)
-    text = results_text(made.results)
-    if target is not None:
-        _write({target: encoded(text)}, config, through=True)
-    written = (target,) if target else ()
-    return ReportOutcome(made.results, written, made.broken, tuple(doubtful(made.results, discovery))), text
+    def save(self, file: Path) -> None:
+        """Write the results file; Unwritable in words where that is not possible."""
+        write_all({file: encoded(self.text)}, keep=Path(self.press.config.tree.file), through=True)
 
+    def report(
+        self, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED, former: ResultsRecord | None = None
+    ) -> ReportOutcome:  # fmt: skip
+        """Write the report in the asked formats, as ``NAME.html``, ``NAME.pdf`` … in the folder, and the exports beside it.
 
-def report(
-    made: Calculated, discovery: Discovery, tell: Tell, folder: Path, formats: Sequence[str], asked: AskedReport = AS_CONFIGURED,
-    former: ResultsRecord | None = None,
-) -> ReportOutcome:  # fmt: skip
-    """Write the report in the asked formats, as ``NAME.html``, ``NAME.pdf`` … in the folder, and the exports beside it.
+        ``former`` are the results of a former revision, since which changes are reported and marked.
+        """
+        tree, tell, discovery = self.press.config.tree, self.press.tell, self.press.discovery
+        results = asked.noted(self.results)
+        if former:
+            from diecut_report.results.changes import compare_with
 
-    ``former`` are the results of a former revision, since which changes are reported and marked.
-    """
-    results = asked.noted(made.results)
-    results = compare_with(former, results) if former else results
-    catalogues = catalogues_of(results, discovery, formats)
-    contents, undrawn = rendered(results, formats, tell, catalogues, asked.house)
-    files_beside, unwritten = exported(results, tell)
-    contents |= files_beside
-    stem = Path(made.source.name).stem
-    files = {folder / f"{stem}.{ending}": content for ending, content in contents.items()}
-    _write(files, made.source)
-    faults = (*made.broken, *(_broken(results, made.places, lost) for lost in (*undrawn, *unwritten)))
-    return ReportOutcome(
-        results, tuple(files), faults, (*untranslated(results, catalogues), *doubtful(results, discovery))
-    )
+            results = compare_with(former, results)
+        catalogues = catalogues_of(results, discovery, formats)
+        contents, undrawn = rendered(results, formats, tell, catalogues, asked.house)
+        files_beside, unwritten = exported(results, tell)
+        stem = Path(tree.name).stem
+        files = {folder / f"{stem}.{ending}": content for ending, content in (contents | files_beside).items()}
+        write_all(files, keep=Path(tree.file))
+        faults = (*self.broken, *(_broken(results, self.places, lost) for lost in (*undrawn, *unwritten)))
+        return ReportOutcome(results, tuple(files), faults, (*untranslated(results, catalogues), *self.warnings))
 
 
 def catalogues_of(results: ResultsRecord, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:
@@ -183,23 +236,6 @@ def _refuse_unknown(config: Config, only: Sequence[str]) -> None:
     ]  # fmt: skip
     if problems:
         raise UserError(problems)
-
-
-def calculated(
-    source: Source, discovery: Discovery, tell: Tell, formats: Sequence[str] = (), only: Sequence[str] = (), find: Find | None = None
-) -> Calculated:  # fmt: skip
-    """Calculate a configuration; UserError with all that is wrong, also where the formats or mechanisms of a report are not possible."""
-    tell(phrase("reading the configuration"))
-    config = load_config(source, discovery, find=find)
-    _refuse_unknown(config, only)
-    _refuse_many_sheets(config, formats)
-    from diecut_report.results.document import document  # with the engine, which checking alone does not need
-    from diecut_report.results.press_run import compute
-
-    run = compute(config, lambda name: tell(Phrase("calculating {name}", name=name)))
-    results = document(run)
-    broken = (*run.errors.values(), *_failed(results))
-    return Calculated(source, config, results, broken, bool(run.errors), _places(run))
 
 
 def _places(run: Run) -> Places:
@@ -284,9 +320,3 @@ def _pdf(rendering: Any) -> bytes:
                 raise
             missing = Phrase(NO_PANGO, library=str(error).split(":")[0].removeprefix("cannot load library "))
             raise UserError(Problem(missing)) from error
-
-
-def _write(files: dict[Path, bytes], config: Source, *, through: bool = False) -> None:
-    from diecut_report.files import write_all
-
-    write_all(files, keep=Path(config.file) if isinstance(config, Tree) else config, through=through)
