@@ -13,12 +13,12 @@ from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import rewritten
 from diecut_report.config.yaml import KeyPath, Tree
-from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, nearest
+from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError, nearest, refusal
 from diecut_report.files import write_all
 from diecut_report.results.conclusion import doubtful
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
-from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues
+from diecut_report.text.catalogues import SOURCE_LANGUAGE
 from diecut_report.text.phrases import Phrase, phrase
 
 if TYPE_CHECKING:
@@ -134,8 +134,21 @@ class Press:
 
     def require_reportable(self, formats: Sequence[str], only: Sequence[str] = ()) -> None:
         """Raise UserError where a report in these formats, or of these mechanisms alone, is not possible."""
-        _refuse_unknown(self.config, only)
-        _refuse_many_sheets(self.config, formats)
+        known, file = list(self.config.kinds), self.config.tree.file
+        words = "--only {name} is not a mechanism{nearest}; the mechanisms: {known}."
+        told = {"known": ", ".join(known)}
+        unknown = [
+            Phrase(words, told, name=repr(name), nearest=nearest(name, known)) for name in only if name not in known
+        ]
+        if unknown:
+            raise UserError([Problem(each, file) for each in unknown])
+        # a PDF's memory grows with its sheets, by 25 to 80 MB for each mechanism
+        if "pdf" in formats and len(known) > MAX_PRINTED_MECHANISMS:
+            words = (
+                "There are {count} mechanisms; the PDF of a report has at most {max_printed_mechanisms}. Leave the PDF out with "
+                "--format html,json, or split the configuration."
+            )
+            raise refusal(words, file, count=len(known), max_printed_mechanisms=MAX_PRINTED_MECHANISMS)
 
     def calculate(self) -> CalculatedPress:
         """Return the results, with the plugins that broke; UserError with all that is wrong where the machine cannot exist."""
@@ -185,57 +198,12 @@ class CalculatedPress:
             from diecut_report.results.changes import compare_with
 
             results = compare_with(former, results)
-        catalogues = catalogues_of(results, discovery, formats)
-        contents, undrawn = rendered(results, formats, tell, catalogues, asked.house)
-        files_beside, unwritten = exported(results, tell)
+        made, (profiles, unwritten) = drawn(results, formats, discovery, tell, asked.house), exported(results, tell)
         stem = Path(tree.name).stem
-        files = {folder / f"{stem}.{ending}": content for ending, content in (contents | files_beside).items()}
+        files = {folder / f"{stem}.{ending}": content for ending, content in (made.contents | profiles).items()}
         write_all(files, keep=Path(tree.file))
-        faults = (*self.broken, *(_broken(results, self.places, lost) for lost in (*undrawn, *unwritten)))
-        return ReportOutcome(results, tuple(files), faults, (*untranslated(results, catalogues), *self.warnings))
-
-
-def catalogues_of(results: ResultsRecord, discovery: Discovery, formats: Sequence[str], file: str = "") -> Catalogues:
-    """Return the catalogues for a report of these results; UserError where the words of one of their mechanisms are not complete."""
-    printed = set(DRAWN) & set(formats)
-    language = results.project.language
-    return catalogues_for(language if printed else SOURCE_LANGUAGE, _kinds(results), discovery, file)
-
-
-def untranslated(results: ResultsRecord, catalogues: Catalogues) -> list[str]:
-    """Return in words which foreign plugins of a report have words that stay English."""
-    return lacking(catalogues, _kinds(results))
-
-
-def _kinds(results: ResultsRecord) -> list[str]:
-    return [mechanism.kind for mechanism in results.mechanisms.values()]
-
-
-def _refuse_many_sheets(config: Config, formats: Sequence[str]) -> None:
-    """A PDF's memory grows with its sheets, by 25 to 80 MB for each mechanism; UserError where there are too many."""
-    count = len(config.kinds)
-    if "pdf" in formats and count > MAX_PRINTED_MECHANISMS:
-        words = (
-            Phrase("There are {count} mechanisms; the PDF of a report has at most {max_printed_mechanisms}. Leave the PDF out with "
-                "--format html,json, or split the configuration.", count=count, max_printed_mechanisms=MAX_PRINTED_MECHANISMS)
-        )  # fmt: skip
-        raise UserError(Problem(words, config.tree.file))
-
-
-def _refuse_unknown(config: Config, only: Sequence[str]) -> None:
-    """UserError where the report is to show what is not a mechanism of the configuration."""
-    known = list(config.kinds)
-    problems = [
-        Problem(
-            Phrase("--only {name} is not a mechanism{nearest}; the mechanisms: {known}.", name=repr(name), nearest=nearest(name, known),
-                known=', '.join(known)),
-            config.tree.file,
-        )
-        for name in only
-        if name not in known
-    ]  # fmt: skip
-    if problems:
-        raise UserError(problems)
+        faults = (*self.broken, *(_broken(results, self.places, lost) for lost in (*made.lost, *unwritten)))
+        return ReportOutcome(results, tuple(files), faults, (*made.untranslated, *self.warnings))
 
 
 def _places(run: Run) -> Places:
@@ -263,17 +231,23 @@ def _broken(results: ResultsRecord, places: Places, lost: Lost) -> PluginError:
     return PluginError(words, mechanism.kind, lost.mechanism)
 
 
-def rendered(
-    results: ResultsRecord,
-    formats: Sequence[str],
-    tell: Tell,
-    catalogues: Catalogues | None = None,
-    house: HouseStyle | None = None,
-) -> tuple[dict[str, bytes], list[Lost]]:
-    """Return the content of each format, all complete before anything is written; and the figures that could not be drawn."""
-    undrawn: list[Lost] = []
+class Drawn(NamedTuple):
+    """A report in its formats, what of it could not be drawn, and in words which foreign plugins have texts that stay English."""
+
+    contents: dict[str, bytes]
+    lost: list[Lost]
+    untranslated: list[str]
+
+
+def drawn(
+    results: ResultsRecord, formats: Sequence[str], discovery: Discovery, tell: Tell, house: HouseStyle | None = None, file: str = ""
+) -> Drawn:  # fmt: skip
+    """Return the report of results, complete before anything is written; UserError where the words of one of their mechanisms are not complete."""
+    is_drawn, kinds = set(DRAWN) & set(formats), [mechanism.kind for mechanism in results.mechanisms.values()]
+    catalogues = catalogues_for(results.project.language if is_drawn else SOURCE_LANGUAGE, kinds, discovery, file)
+    lost: list[Lost] = []
     contents = {"json": encoded(results_text(results))} if "json" in formats else {}
-    if set(DRAWN) & set(formats):
+    if is_drawn:
         tell(phrase("drawing the report"))
         from diecut_report.report.pages import firm_templates as template_limits
         from diecut_report.report.rendering import Rendering
@@ -289,8 +263,8 @@ def rendered(
             contents["docx"] = rendering.docx()
         if "xlsx" in formats:
             contents["xlsx"] = rendering.xlsx()
-        undrawn += [Lost("figure", each.mechanism, each.id, each.words) for each in rendering.faults]
-    return {ending: contents[ending] for ending in formats}, undrawn
+        lost += [Lost("figure", each.mechanism, each.id, each.words) for each in rendering.faults]
+    return Drawn({ending: contents[ending] for ending in formats}, lost, lacking(catalogues, kinds))
 
 
 def exported(results: ResultsRecord, tell: Tell) -> tuple[dict[str, bytes], list[Lost]]:

@@ -16,15 +16,14 @@ from diecut_report.exchange.results_form import other_form
 from diecut_report.files import content, write_all
 from diecut_report.press import (
     AskedReport,
+    Drawn,
     Lost,
     Press,
     ReportOutcome,
     Source,
     Tell,
-    catalogues_of,
+    drawn,
     exported,
-    rendered,
-    untranslated,
 )
 from diecut_report.report.chapters.front import ChangedCheck, ChangedRow, printed_changes
 from diecut_report.report.pages import html
@@ -35,8 +34,6 @@ from diecut_report.results.model import ChangedDocumentRecord, ChangesRecord, Re
 from diecut_report.text.catalogues import Catalogues
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import say, spoken_language
-
-Contents = dict[str, bytes]
 
 
 def render(
@@ -56,27 +53,20 @@ def render(
     results = AskedReport(language, house=house).noted(carried.results)
     if not house:  # the pages may be set with other templates than those were
         results = results.with_(report=results.report.with_(template_sha256=""))
-    catalogues = catalogues_of(results, discovery, formats, str(file))
-    contents, lost = document(results, formats, tell, str(file), catalogues, house)
-    beside, unwritten = exported(results, tell)
-    files = {folder / f"{file.stem}.{ending}": content for ending, content in (contents | beside).items()}
+    made, (profiles, unwritten) = document(results, formats, discovery, tell, str(file), house), exported(results, tell)
+    files = {folder / f"{file.stem}.{ending}": content for ending, content in (made.contents | profiles).items()}
     write_all(files, keep=file)
-    warnings = (*untranslated(results, catalogues), *doubtful(results))
-    return ReportOutcome(results, tuple(files), (), warnings), [*lost, *unwritten]
+    outcome = ReportOutcome(results, tuple(files), (), (*made.untranslated, *doubtful(results)))
+    return outcome, [*made.lost, *unwritten]
 
 
 def document(
-    results: ResultsRecord,
-    formats: Sequence[str],
-    tell: Tell,
-    file: str,
-    catalogues: Catalogues | None = None,
-    house: HouseStyle | None = None,
-) -> tuple[Contents, list[Lost]]:
-    """Return a document in its formats, and what of it could not be drawn; UserError where these are not results of the program."""
+    results: ResultsRecord, formats: Sequence[str], discovery: Discovery, tell: Tell, file: str, house: HouseStyle | None = None
+) -> Drawn:  # fmt: skip
+    """Return a report of results, as ``drawn`` does; UserError where these are not results of the program."""
     _refuse_many_sheets(results, formats, file)
     try:
-        return rendered(results, formats, tell, catalogues, house)
+        return drawn(results, formats, discovery, tell, house, file)
     except UserError:
         raise
     except Exception as cause:  # of any kind: whoever wrote the file may have put anything in any place

@@ -21,7 +21,7 @@ from diecut_report.errors import PluginError, UserError
 from diecut_report.exchange.carried import CarriedResults
 from diecut_report.exchange.rendering import document
 from diecut_report.exchange.signatures import Signature, signatures
-from diecut_report.press import AskedReport, Press, catalogues_of
+from diecut_report.press import AskedReport, Press
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.results.changes import compare_with
 from diecut_report.results.model import CarriedConfigRecord, ProgramRecord, ResultsRecord
@@ -296,9 +296,8 @@ def _set_again(
     carried: CarriedResults, tell: Callable[[str], None], house: HouseStyle | None, discovery: Discovery
 ) -> bytes:
     """What this program makes of the results in a document, in the document's form."""
-    catalogues = catalogues_of(carried.results, discovery, [carried.form], str(carried.path))
-    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), catalogues, house)
-    return contents[carried.form]
+    made = document(carried.results, [carried.form], discovery, tell, str(carried.path), house)
+    return made.contents[carried.form]
 
 
 Data = Mapping[str, Any]

@@ -14,7 +14,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.errors import ConfigError, PluginError, Problem, UnknownName, nearest
 from diecut_report.exchange.rendering import document
 from diecut_report.files import write_all
-from diecut_report.press import DRAWN, AskedReport, Lost, catalogues_of
+from diecut_report.press import DRAWN, AskedReport, Lost
 from diecut_report.results.conclusion import conclusion
 from diecut_report.results.mechanism_record import FigureRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import ResultsRecord
@@ -348,9 +348,8 @@ class Results(Mapping[str, MechanismResults]):
 
     def _rendered(self, form: str, asked: AskedReport) -> tuple[bytes, list[Lost]]:
         data = asked.noted(self._reported())
-        catalogues = catalogues_of(data, self._printable.discovery, (form,))
-        contents, lost = document(data, (form,), lambda _: None, self._data.config.file, catalogues)
-        return contents[form], lost
+        made = document(data, (form,), self._printable.discovery, lambda _: None, self._data.config.file)
+        return made.contents[form], made.lost
 
     def _reported(self) -> ResultsRecord:
         """The results with what a report alone tells: what of the assumed values matters, and what comes of the advice."""

@@ -14,10 +14,10 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from markupsafe import Markup
 
+from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import resolved
 from diecut_report.errors import ConfigError, Problem, UnknownName, Unwritable, UserError
-from diecut_report.press import catalogues_of
 from diecut_report.quantities.formatting import shown, with_unit
 from diecut_report.quantities.units import UnitError, kind_name, parse_quantity, pretty, unit
 from diecut_report.report.context import Material
@@ -483,7 +483,8 @@ class Printable:
             data = data.with_(report=data.report.with_(only=[only]))
         elif only:
             data = data.with_(**self._compared(only))
-        return Material(data, catalogues_of(data, self.discovery, ("html",)))
+        kinds = [mechanism.kind for mechanism in data.mechanisms.values()]
+        return Material(data, catalogues_for(data.project.language, kinds, self.discovery))
 
     def _compared(self, name: str) -> dict[str, Any]:
         """A comparison alone, and the mechanisms that it is between without what takes time to print."""

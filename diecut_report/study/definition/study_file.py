@@ -211,9 +211,7 @@ class _StudyReader:
             words = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
             self.problems += [self.place.problem(("base",), phrase(words)), *error.problems]
             return None
-        return (
-            base.usable().config
-        )  # else no variant can be calculated: the author of the plugin must act, not that of the study
+        return base.usable().config  # with a broken plugin its author must act, not that of the study
 
     def _sample_form(self) -> SampleForm | None:
         """Return the key sample, or None where it, or what it needs, is wrong."""
