@@ -269,7 +269,8 @@ def compared(
     """Return whether the pages of a report are those that are set again of its results, and nothing was added but signatures."""
     if reason := other_templates(carried, house):
         return reason, False
-    made, content = _set_again(carried, tell, house, discovery), carried.content
+    again = document(carried.results, [carried.form], discovery, tell, str(carried.path), house)
+    made, content = again.contents[carried.form], carried.content
     if content == made:
         return MADE, True
     if not (carried.form == "pdf" and content.startswith(made)):
@@ -290,14 +291,6 @@ def other_templates(carried: CarriedResults, house: HouseStyle | None) -> str:
     own = Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
     own = own if asked else phrase("the program's templates alone")
     return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own)
-
-
-def _set_again(
-    carried: CarriedResults, tell: Callable[[str], None], house: HouseStyle | None, discovery: Discovery
-) -> bytes:
-    """What this program makes of the results in a document, in the document's form."""
-    made = document(carried.results, [carried.form], discovery, tell, str(carried.path), house)
-    return made.contents[carried.form]
 
 
 Data = Mapping[str, Any]
