@@ -125,6 +125,11 @@ def layer(name: str) -> int | None:
     return next((index for index, names in enumerate(LAYERS) if part in names), None)
 
 
+def test_a_configuration_is_loaded_by_the_press_alone() -> None:
+    loading = [name for name in PROGRAM if "diecut_report.config.loader.load_config" in imports(name)]
+    assert loading == ["diecut_report.press"]
+
+
 def test_each_module_of_the_program_has_its_place_in_the_table() -> None:
     outside = {"plugins", "templates", "configs"}
     assert [name for name in PROGRAM if layer(name) is None and name.split(".")[1] not in outside] == []
