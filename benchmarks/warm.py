@@ -20,11 +20,11 @@ from functools import partial
 from importlib import import_module
 from pathlib import Path
 
-from diecut_report import pipeline
 from diecut_report.cli.main import COLLECTED
 from diecut_report.config.plugins import Discovery
 from diecut_report.live.page import page_data
 from diecut_report.live.session import LiveSession
+from diecut_report.press import Press
 from diecut_report.study.execution.engines import one_thread
 
 CONFIGS = Path(import_module("diecut_report.configs").__path__[0])
@@ -66,7 +66,7 @@ def main(rounds: int) -> None:
         gc.freeze()  # as the server of the page does
         calc, least = float("inf"), dict.fromkeys(CHANGED, (float("inf"), float("inf")))
         for number in range(rounds + 1):
-            taken = seconds(lambda: pipeline.calc(file, Discovery([]), lambda _: None))
+            taken = seconds(lambda: Press.read(file, Discovery([])).calculate())
             times = {name: updated(session, name, 1e-3 * (number + 1)) for name in CHANGED}
             if number:  # the first one fills what is kept from run to run
                 calc = min(calc, taken)

@@ -17,8 +17,8 @@ from diecut_report.__main__ import THREADS
 # As many threads for linear algebra as the program takes: with more of them sums may differ in their last digit. Read by NumPy when it is loaded.
 os.environ |= dict.fromkeys(THREADS, "1")
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
+from diecut_report.press import Press
 from tests.configs import EXAMPLE, SMALL, saved
 from tests.examples import FEW, MANY
 from tests.processes import Example, in_another_process
@@ -69,13 +69,7 @@ def small_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
 
     def make(folder: Path) -> None:
         config = saved(tmp_path_factory.getbasetemp(), SMALL, "small.yaml")
-        pipeline.report(
-            pipeline.calculated(config, Discovery([]), lambda _: None, ("html", "pdf", "json")),
-            Discovery([]),
-            lambda _: None,
-            folder,
-            ("html", "pdf", "json"),
-        )
+        Press.read(config, Discovery([])).calculate().report(folder, ("html", "pdf", "json"))
 
     return once(tmp_path_factory, "small_report", make)
 

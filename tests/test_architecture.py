@@ -33,7 +33,7 @@ LAYERS = [
     {"machine"},
     {"results"},
     {"report"},
-    {"pipeline", "study", "firm_folder"},
+    {"press", "study", "firm_folder"},
     {"testing", "design", "exchange"},
     {"scripting", "live"},
     {"cli", "__main__"},
@@ -123,6 +123,11 @@ def layer(name: str) -> int | None:
     """The place of a module of the program in the table; None for the three folders of plugins, templates, configs."""
     part = [*name.split("."), ""][1]
     return next((index for index, names in enumerate(LAYERS) if part in names), None)
+
+
+def test_a_configuration_is_loaded_by_the_press_alone() -> None:
+    loading = [name for name in PROGRAM if "diecut_report.config.loader.load_config" in imports(name)]
+    assert loading == ["diecut_report.press"]
 
 
 def test_each_module_of_the_program_has_its_place_in_the_table() -> None:

@@ -13,9 +13,8 @@ import pytest
 import yaml
 
 from diecut_report.errors import UserError
-from diecut_report.results.document import document
-from diecut_report.results.press_run import compute
-from tests.configs import EXAMPLES, loaded
+from diecut_report.press import Press
+from tests.configs import DISCOVERY, EXAMPLES, saved
 from tests.examples import few
 
 PUBLISHED, MENDED = (
@@ -74,7 +73,7 @@ def taken_over(press: dict[str, Any], mended: dict[str, Any], path: str) -> None
 
 def calculated(folder: Path, data: dict[str, Any]) -> dict[str, Any]:
     """The results of a press."""
-    return document(compute(loaded(folder, yaml.safe_dump(data, sort_keys=False)), lambda _: None)).data()
+    return Press.read(saved(folder, yaml.safe_dump(data, sort_keys=False)), DISCOVERY).calculate().results.data()
 
 
 def verdicts(results: dict[str, Any]) -> dict[str, set[str]]:

@@ -12,8 +12,8 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
+from diecut_report.press import Press
 from tests.configs import EXAMPLES
 from tests.examples import few
 
@@ -53,7 +53,7 @@ def home(package: str) -> Path:
     "config", few(EXAMPLES, keep=lambda path: path.stem not in AT_NIGHT), ids=lambda path: path.stem
 )
 def test_an_example_is_calculated(config: Path) -> None:
-    results = pipeline.calc(config, Discovery([]), lambda _: None)[0].results
+    results = Press.read(config, Discovery([])).calculate().results
     assert results.status in ("pass", "warn", "fail")
 
 

@@ -13,7 +13,7 @@ import click
 from jinja2 import Environment, nodes
 
 from diecut_report.cli.main import program
-from diecut_report.config.model import Press, Project
+from diecut_report.config.model import PressBlock, Project
 from diecut_report.config.plugins import Discovery
 from diecut_report.declaration.texts import inputs_texts, is_text
 from diecut_report.machine.printing import items, page
@@ -124,7 +124,7 @@ def _papers() -> Iterator[ProgramText]:
 
 
 def _press() -> Iterator[str]:
-    yield from (text for text, _ in inputs_texts(Press))
+    yield from (text for text, _ in inputs_texts(PressBlock))
     yield from (meta.description for _, meta in fields(Project))
 
 

@@ -109,10 +109,10 @@ def _judged(file: Path, discovery: Discovery, tries: bool) -> JudgedFile:
         with without_output():
             tree = from_standard_input() if file == DASH else yaml.read(file)
             if not is_study(tree):
-                from diecut_report import pipeline
                 from diecut_report.design.influence import misnamed
+                from diecut_report.press import Press
 
-                return JudgedFile(shown, broken=pipeline.validate(tree, discovery, misnamed))
+                return JudgedFile(shown, broken=Press.validate(tree, discovery, misnamed))
             return _study(shown, tree, discovery, tries)
     except UserError as error:
         return JudgedFile(shown, problems=error.problems)

@@ -49,6 +49,7 @@ if TYPE_CHECKING:
     from diecut_report.config.loader import Config
     from diecut_report.design.inputs import DesignInput
     from diecut_report.design.machines import ProvedMachine
+    from diecut_report.press import Press
 
 
 corrected_option = click.option(
@@ -84,19 +85,16 @@ def solve(
 
     Exit codes: 0 found, 1 out of reach (the nearest value is reported), 2 bad input, 3 a plugin broke.
     """
-    from diecut_report.design.answers import data, lines, question
-    from diecut_report.design.inputs import design_input, with_input
+    from diecut_report.design.answers import data, lines
+    from diecut_report.design.inputs import design_input
     from diecut_report.design.solving import solved
 
     with Progress(quiet) as progress, without_output():
-        loaded, discovery = _loaded(config, folders, progress)
-        design = design_input(loaded, vary)
+        press = _read(config, folders, progress)
+        design = design_input(press.config, vary)
         ends = (_end(design, low, "--from"), _end(design, high, "--to"))
-        is_new = design.today is None and ends[0] is not None
-        what = question(with_input(loaded, design, ends[0] or 0.0) if is_new else loaded, asked)
-        progress(Phrase("solving for {input}", input=design.name))
-        answer = solved(loaded, discovery, what, design, passing=passing, low=ends[0], high=ends[1])
-    _give(as_json(data(answer)) if form == "json" else _text(lines(answer)), loaded, answer.machine, target, quiet)
+        answer = solved(press, asked, design, passing=passing, low=ends[0], high=ends[1])
+    _give(as_json(data(answer)) if form == "json" else _text(lines(answer)), press, answer.machine, target, quiet)
     return PASSED if answer.found else CHECK_FAILED
 
 
@@ -133,9 +131,9 @@ def advise(
     from diecut_report.design.advice import data, lines, mended
 
     with Progress(quiet) as progress, without_output():
-        loaded, discovery = _loaded(config, folders, progress)
-        found = mended(loaded, discovery, free=free, keep=keep, most=most, tell=progress)
-    _give(as_json(data(found)) if form == "json" else _text(lines(found)), loaded, found.machine, target, quiet)
+        press = _read(config, folders, progress)
+        found = mended(press, free=free, keep=keep, most=most)
+    _give(as_json(data(found)) if form == "json" else _text(lines(found)), press, found.machine, target, quiet)
     return CHECK_FAILED if found.before.checks("fail") and found.machine is None else PASSED
 
 
@@ -213,7 +211,7 @@ def influence(
     from diecut_report.design.influence import by_input, data, lines, page, tornados, within_tolerances
 
     with Progress(quiet) as progress, without_output():
-        loaded, _ = _loaded(config, folders, progress)
+        loaded = _read(config, folders, progress).config
         sizes = by_input(_tolerance(loaded, each) for each in tolerances)
         progress(phrase("varying one input at a time"))
         found = tornados(loaded, names, share, sizes, defaults=defaults)
@@ -266,23 +264,19 @@ def where(name: str, config: Path, form: str, folders: tuple[Path, ...], quiet: 
     from diecut_report.results.where import where as place_of
 
     with Progress(quiet) as progress, without_output():
-        loaded, _ = _loaded(config, folders, progress)
+        loaded = _read(config, folders, progress).config
         progress(phrase("calculating"))
         found = place_of(WarmPress().calculate(loaded), name)
     emit(as_json(data(found)) if form == "json" else _text(lines(found)))
     return PASSED
 
 
-def _loaded(config: Path, folders: tuple[Path, ...], progress: Progress) -> tuple[Config, Discovery]:
-    """The configuration, and the kinds that it may use; PluginError where one of its plugins is broken."""
-    from diecut_report.config.loader import load_config
+def _read(config: Path, folders: tuple[Path, ...], progress: Progress) -> Press:
+    """The press whose text can be changed; PluginError where one of its plugins is broken."""
+    from diecut_report.press import Press
 
     discovery = Discovery(folders)
-    progress(phrase("reading the configuration"))
-    loaded = load_config(changeable_source(config, discovery), discovery)
-    for error in loaded.broken.values():
-        raise error
-    return loaded, discovery
+    return Press.read(changeable_source(config, discovery), discovery, progress).usable()
 
 
 def _end(design: DesignInput, given: str | None, option: str) -> float | None:
@@ -295,7 +289,7 @@ def _end(design: DesignInput, given: str | None, option: str) -> float | None:
         raise click.BadParameter(words, param_hint=option) from None
 
 
-def _give(told: str, config: Config, machine: ProvedMachine | None, target: Path | None, quiet: bool) -> None:
+def _give(told: str, press: Press, machine: ProvedMachine | None, target: Path | None, quiet: bool) -> None:
     """Write the machine that was found, and tell of it: to standard error where ``-`` sends the machine to standard output."""
     from diecut_report.config.references import as_file
     from diecut_report.design.machines import write_config
@@ -303,10 +297,10 @@ def _give(told: str, config: Config, machine: ProvedMachine | None, target: Path
     if target == DASH:
         tell(told.splitlines())
         if machine is not None:
-            emit(as_file(config.tree, machine.tree.text).decode())
+            emit(as_file(press.config.tree, machine.press.config.tree.text).decode())
         return
     if target is not None and machine is not None:
-        write_config(config.tree, machine, target)
+        write_config(press.config.tree, machine, target)
     emit(told)
     if target is not None and not quiet:
         tell_written([target]) if machine else tell([Phrase("not written: {path}", path=target)])

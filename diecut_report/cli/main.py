@@ -71,7 +71,7 @@ from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import said, say, speak, speaking
 
 if TYPE_CHECKING:
-    from diecut_report.pipeline import ReportOutcome
+    from diecut_report.press import CalculatedPress, ReportOutcome
     from diecut_report.report.pages.firm_templates import HouseStyle
 
 
@@ -242,16 +242,17 @@ def report(
     house: HouseStyle | None, strict: bool, folders: tuple[Path, ...], quiet: bool,
 ) -> int:  # fmt: skip
     """Calculate and write NAME.html, NAME.pdf and NAME.json; on demand NAME.docx and NAME.xlsx."""
-    from diecut_report import pipeline
     from diecut_report.design.findings import with_findings
     from diecut_report.exchange.rendering import side
+    from diecut_report.press import AskedReport, Press
 
     with Progress(quiet) as progress, redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
         former = None if previous is None else side(source(previous, discovery), discovery, progress)[0]
-        made = pipeline.calculated(source(config, discovery), discovery, progress, formats, only)
-        asked = pipeline.AskedReport(asked_language(), detail, only, house)
-        outcome = pipeline.report(with_findings(made, progress), discovery, progress, folder, formats, asked, former)
+        press = Press.read(source(config, discovery), discovery, progress)
+        press.require_reportable(formats, only)
+        asked = AskedReport(asked_language(), detail, only, house)
+        outcome = with_findings(press.calculate()).report(folder, formats, asked, former)
     if not quiet:
         tell_written(outcome.written)
     return _verdict(outcome, discovery, quiet, strict)
@@ -264,15 +265,18 @@ def report(
 @common
 def calc(config: Path, target: Path | None, strict: bool, folders: tuple[Path, ...], quiet: bool) -> int:
     """Calculate and write only the results file."""
-    from diecut_report import pipeline
+    from diecut_report.press import Press
 
     # a plugin that prints does not spoil the JSON
     with Progress(quiet) as progress, without_output() if target is None else redirect_stdout(sys.stderr):
         discovery = Discovery(folders)
-        outcome, text = pipeline.calc(source(config, discovery), discovery, progress, target)
+        made = Press.read(source(config, discovery), discovery, progress).calculate()
+        text = made.text
+        if target is not None:
+            made.save(target)
     if target is None:
         emit(text)
-    return _verdict(outcome, discovery, quiet or target is None, strict)
+    return _verdict(made, discovery, quiet or target is None, strict)
 
 
 @program.command()
@@ -339,7 +343,7 @@ for _command in OTHERS:
 # --- verdict ---------------------------------------------------------------------------------------------------------
 
 
-def _verdict(outcome: ReportOutcome, discovery: Discovery, quiet: bool, strict: bool) -> int:
+def _verdict(outcome: CalculatedPress | ReportOutcome, discovery: Discovery, quiet: bool, strict: bool) -> int:
     tell(str(error) for error in outcome.broken)
     tell(outcome.warnings)
     if not quiet:

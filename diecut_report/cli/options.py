@@ -19,7 +19,7 @@ from diecut_report.text.translation import say
 
 if TYPE_CHECKING:
     from diecut_report.config.plugins import Discovery
-    from diecut_report.pipeline import Source
+    from diecut_report.press import Source
     from diecut_report.report.pages.firm_templates import HouseStyle
 
 RESULTS = "study.json"  # what makes a folder one of a study's results
@@ -67,7 +67,7 @@ def formats_of(known_formats: Callable[[], Sequence[str]], *, may_be_none: bool 
 
 def report_formats() -> tuple[str, ...]:
     """Return the formats of a report."""
-    from diecut_report.pipeline import FORMATS
+    from diecut_report.press import FORMATS
 
     return FORMATS
 

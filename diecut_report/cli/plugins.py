@@ -94,14 +94,13 @@ def _refuse_existing(file: Path) -> None:
 
 def _problems(made: Draft, file: str, discovery: Discovery) -> Sequence[Problem]:
     """Return what is wrong with the text; whether such machines can exist is asked where no example gives their values."""
-    from diecut_report import pipeline
     from diecut_report.config import yaml as yaml_tree
-    from diecut_report.config.loader import load_config
+    from diecut_report.press import Press
 
     tree = yaml_tree.parse(made.text, file)
     try:
         guessed = made.guessed or made.open
-        for error in pipeline.validate(tree, discovery) if guessed else load_config(tree, discovery).broken.values():
+        for error in Press.validate(tree, discovery) if guessed else Press.read(tree, discovery).config.broken.values():
             raise error
     except UserError as error:
         return error.problems

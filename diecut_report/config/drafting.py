@@ -18,7 +18,7 @@ from diecut_report.config.draft_layout import (
     unguessed,
 )
 from diecut_report.config.loader import RESERVED, free_name, name_fault
-from diecut_report.config.model import Press, Project
+from diecut_report.config.model import PressBlock, Project
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind
 from diecut_report.config.validation import keys_of
 from diecut_report.errors import MAX_MECHANISMS, PluginError, Problem, UserError
@@ -257,7 +257,7 @@ def _head(mechanisms: Sequence[Drafted], file: str) -> Iterator[str]:
     project = {"title": say("New press"), **language}
     yield from _block("project", say("title block of each sheet"), Project, project)
     yield ""
-    yield from _block("press", say("data shared by all mechanisms"), Press, _press(mechanisms))
+    yield from _block("press", say("data shared by all mechanisms"), PressBlock, _press(mechanisms))
 
 
 def _press(mechanisms: Sequence[Drafted]) -> dict[str, Any]:

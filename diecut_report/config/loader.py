@@ -11,7 +11,7 @@ from typing import Any
 
 from diecut_report.config import instances, yaml
 from diecut_report.config.instances import BlockData, Instance, Node, Target, substituted
-from diecut_report.config.model import PRESS, ConfigDocument, Press, Project, ReportSettings, texts, written
+from diecut_report.config.model import PRESS, ConfigDocument, PressBlock, Project, ReportSettings, texts, written
 from diecut_report.config.own_tables import Find, Logo, OwnTables, logo_of
 from diecut_report.config.plugins import Discovery, DuplicateKind, UnknownKind, said
 from diecut_report.config.references import Linker, linked, ordered
@@ -259,7 +259,7 @@ class _ConfigReader:
         self.instances[PRESS] = None
         press, home = written(PRESS, data), written("mechanisms", data)
         if isinstance(data.get(press), dict):
-            self._add(PRESS, Press, data[press], ConfigPlace(self.tree, (press,)))
+            self._add(PRESS, PressBlock, data[press], ConfigPlace(self.tree, (press,)))
         mechanisms = data.get(home)
         for name, body in mechanisms.items() if isinstance(mechanisms, dict) else []:
             self.instances.setdefault(name, None)

@@ -103,7 +103,7 @@ class Sheet(Block):
     thickness: Annotated[float | None, Quantity("Δ", "mm", "Thickness of the sheet", gt=0)] = None
 
 
-class Press(Block):
+class PressBlock(Block):
     """What all mechanisms of a press share."""
 
     name: Annotated[str, Text("Name of the press"), Field(min_length=1)]
@@ -141,7 +141,7 @@ def written(key: str, data: Mapping[str, Any]) -> str:
 # Defaults that inputs take from the press: each names a number that a press may give, of the input's kind.
 
 
-NUMBERS = {f"press.{path}": meta for path, meta in fields(Press) if isinstance(meta, Quantity)}
+NUMBERS = {f"press.{path}": meta for path, meta in fields(PressBlock) if isinstance(meta, Quantity)}
 
 
 def faults(mechanism: Mechanism) -> Iterator[Fault]:

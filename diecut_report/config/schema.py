@@ -8,7 +8,7 @@ from typing import Any, get_args, get_origin
 
 from diecut_report.config.instances import DIMENSIONS
 from diecut_report.config.loader import NAME, RESERVED
-from diecut_report.config.model import Press, Project, ReportSettings
+from diecut_report.config.model import PressBlock, Project, ReportSettings
 from diecut_report.config.own_tables import MAX_FILES
 from diecut_report.config.validation import BASES, keys_of
 from diecut_report.errors import MAX_CURVE_VALUES, MAX_MECHANISMS, MAX_PARTS, MAX_TEXT
@@ -44,7 +44,7 @@ def config_schema(mechanisms: Mapping[str, Mechanism], broken: Mapping[str, str]
             "schema_version": {"const": 1, "description": "Version of this form of the file."},
             "project": block_schema(Project, refers=False),
             "report": _report(),
-            "press": block_schema(Press),
+            "press": block_schema(PressBlock),
             "materials": _materials(),
             "mechanisms": {
                 "type": "object",

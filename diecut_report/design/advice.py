@@ -10,7 +10,6 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.loader import Config
-from diecut_report.config.plugins import Discovery
 from diecut_report.design.advised import (
     Advised,
     ChangeableChoice,
@@ -46,6 +45,7 @@ from diecut_report.design.machines import (
 from diecut_report.errors import Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.mechanism.inputs import Quantity
+from diecut_report.press import Press, Tell
 from diecut_report.quantities.formatting import number_text, with_unit
 from diecut_report.quantities.units import UnitError, number_and_unit
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
@@ -198,9 +198,6 @@ def _allowed(run: ChangedMachines, rows: Array) -> Array:
     return found
 
 
-Tell = Callable[[str], None]
-
-
 @dataclass(frozen=True)
 class InputChange:
     """Hold an input that is changed: its name, what stands there today (empty where nothing), and what is to be typed."""
@@ -237,20 +234,12 @@ class Mended:
         return float(sum(abs(each.share) for each in self.changes if each.share is not None))
 
 
-def mended(
-    config: Config,
-    discovery: Discovery,
-    *,
-    free: Iterable[str] = (),
-    keep: Iterable[str] = (),
-    most: float = MOST,
-    tell: Tell,
-) -> Mended:
+def mended(press: Press, *, free: Iterable[str] = (), keep: Iterable[str] = (), most: float = MOST) -> Mended:
     """Return the machine with the smallest changes with which no check fails, calculated as a machine of its own.
 
     ``most`` machines are calculated at most to find it. UserError where nothing is free to be changed, or the machine cannot be as it is.
     """
-    before = proved(config.tree, {}, discovery)
+    before, config, tell = proved(press), press.config, press.tell
     free, keep = list(free), list(keep)
     numbers, only = named_paths(config, free)
     _, kept = named_paths(config, keep)
@@ -279,7 +268,7 @@ def mended(
     if path.passes:
         tell(phrase("removing unnecessary changes"))
         run.spent.most = math.inf  # what is found is not lost for want of a few more
-        return _shortest(config, discovery, before, run, path.share)
+        return _shortest(before, run, path.share)
     why = None
     if not is_ended:
         why, is_ended = _conflict(path, tell)
@@ -314,17 +303,15 @@ def _machines(path: MendingPath) -> ChangedMachines:
     return path.run
 
 
-def _shortest(
-    config: Config, discovery: Discovery, before: ProvedMachine, run: ChangedMachines, share: Array
-) -> Mended:
+def _shortest(before: ProvedMachine, run: ChangedMachines, share: Array) -> Mended:
     """The machine that passes with what is needed alone, and with few digits; proved."""
     for asked in list(run.choices):
         without = run.with_choices({each: text for each, text in run.choices.items() if each is not asked})
         if passes(without(share[None])).all():
             run = without
     share, typed = rounded(run, run.inputs, fewer(run, share))
-    changes = [*_numbers(run.inputs, share, typed), *_choices(config, run.choices)]
-    machine = proved(config.tree, {each.stands: each.after for each in changes}, discovery)
+    changes = [*_numbers(run.inputs, share, typed), *_choices(run.config, run.choices)]
+    machine = proved(before.press.with_values({each.stands: each.after for each in changes}))
     left = tuple(name for name, _ in machine.checks("fail"))
     return Mended(before, tuple(changes), machine if not left else None, left, None, len(run.inputs), run.spent.count)
 

@@ -6,14 +6,15 @@ from collections.abc import Callable
 from dataclasses import replace
 
 from diecut_report.config.loader import Config
-from diecut_report.pipeline import Calculated
+from diecut_report.press import CalculatedPress
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.phrases import phrase
 
 
-def with_findings(made: Calculated, tell: Callable[[str], None]) -> Calculated:
-    """Return a calculation with what its report adds; one of which a plugin broke as it is."""
-    return made if made.has_broken else replace(made, results=findings(made.config, made.results, tell))
+def with_findings(made: CalculatedPress) -> CalculatedPress:
+    """Return a calculated press with what its report adds; one of which a plugin broke as it is."""
+    press = made.press
+    return made if made.has_broken else replace(made, results=findings(press.config, made.results, press.tell))
 
 
 def findings(config: Config, results: ResultsRecord, tell: Callable[[str], None]) -> ResultsRecord:

@@ -12,11 +12,10 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config.instances import Instance
-from diecut_report.config.loader import Config, load_config
+from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
-from diecut_report.config.plugins import Discovery
-from diecut_report.config.references import as_file, written
-from diecut_report.config.yaml import KeyPath, Tree, parse
+from diecut_report.config.references import as_file
+from diecut_report.config.yaml import Tree
 from diecut_report.design.inputs import DesignInput
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import write_all
@@ -24,6 +23,7 @@ from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.steps.soundness import is_made
 from diecut_report.mechanism.inputs import Quantity
+from diecut_report.press import Press
 from diecut_report.results.checks import check_results, checks_of, is_of_machine, is_sized, judged
 from diecut_report.results.conclusion import failed_self_tests, governing
 from diecut_report.results.mechanism import SelfTestFailed
@@ -275,10 +275,9 @@ Data = dict[str, Any]
 
 @dataclass(frozen=True)
 class ProvedMachine:
-    """Hold a machine that was calculated alone: the text that it was read from, its results and checks."""
+    """Hold a machine that was calculated alone: the press that it was read as, its results and checks."""
 
-    tree: Tree
-    config: Config
+    press: Press
     calculations: Mapping[str, Calculation]
     checked: Mapping[str, list[CheckRecord]]
 
@@ -306,30 +305,23 @@ class ProvedMachine:
         yield from ((name, each) for name, checks in self.checked.items() for each in checks)
 
 
-def proved(tree: Tree, values: Mapping[KeyPath, str], discovery: Discovery) -> ProvedMachine:
-    """Write values into the text of a configuration, by their places, and calculate what it then says.
-
-    UserError where a value cannot be written or the machine cannot exist; PluginError where a plugin breaks.
-    """
-    text = written(tree, values) if values else tree.text
-    changed = parse(text, tree.file)
-    again = Tree(changed.root, tree.file, text, changed.sha256, tree.name)
-    config = load_config(again, discovery)
-    run = _CheckedRun(config, lambda _: None)
+def proved(press: Press) -> ProvedMachine:
+    """Return a machine calculated alone; UserError where it cannot exist, PluginError where a plugin breaks."""
+    run = _CheckedRun(press.config, lambda _: None)
     if run.problems:
         raise UserError(run.problems)
     for error in run.errors.values():
         raise error
-    return ProvedMachine(again, config, run.calculations, run.checked)
+    return ProvedMachine(press, run.calculations, run.checked)
 
 
 def write_config(tree: Tree, machine: ProvedMachine, target: Path) -> None:
     """Write the machine's text as a file: whole, or not at all. UserError where it could not be read there as it is here."""
-    home = Path(tree.file).resolve().parent
-    if machine.config.files and target.resolve().parent != home:
+    home, config = Path(tree.file).resolve().parent, machine.press.config
+    if config.files and target.resolve().parent != home:
         words = "The configuration names files beside it ({files}), which would not be found there. Write it into the folder {folder}."
-        raise UserError(Problem(Phrase(words, files=", ".join(machine.config.files), folder=home), str(target)))
-    write_all({target: as_file(tree, machine.tree.text)}, keep=Path(tree.file), through=True)
+        raise UserError(Problem(Phrase(words, files=", ".join(config.files), folder=home), str(target)))
+    write_all({target: as_file(tree, config.tree.text)}, keep=Path(tree.file), through=True)
 
 
 class _CheckedRun(Run):

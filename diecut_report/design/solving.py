@@ -9,13 +9,23 @@ from dataclasses import dataclass, replace
 import numpy as np
 
 from diecut_report.config.loader import Config
-from diecut_report.config.plugins import Discovery
-from diecut_report.design.answers import REACHED, Answer, DesignQuestion, FoundValue, Range, Role, needed, typed_answers
-from diecut_report.design.inputs import DesignInput, is_stepped
+from diecut_report.design.answers import (
+    REACHED,
+    Answer,
+    DesignQuestion,
+    FoundValue,
+    Range,
+    Role,
+    needed,
+    question,
+    typed_answers,
+)
+from diecut_report.design.inputs import DesignInput, is_stepped, with_input
 from diecut_report.design.machines import VariedMachines, impossible, proved, varied
 from diecut_report.errors import Problem, UserError
 from diecut_report.formulas import Array
 from diecut_report.mechanics import numerics
+from diecut_report.press import Press
 from diecut_report.text.phrases import Phrase
 
 # Roots, limits and extremes of a function of one number that is calculated for many numbers at once, each call being dear.
@@ -302,27 +312,30 @@ NEAR = 60  # machines about the best one, as far as its neighbours
 
 
 def solved(
-    config: Config, discovery: Discovery, question: DesignQuestion, design: DesignInput, *, passing: bool = False,
-    low: float | None = None, high: float | None = None,
+    press: Press, asked: str, design: DesignInput, *, passing: bool = False, low: float | None = None, high: float | None = None
 ) -> Answer:  # fmt: skip
     """Return the values of an input with which a question is answered; with ``passing`` only those with which no check fails.
 
-    UserError in words where there is no range to search, or what is asked does not vary with the input.
+    UserError in words where that is not a question, there is no range to search, or what is asked does not vary with the input.
     """
+    config = press.config
+    is_new = design.today is None and low is not None
+    what = question(with_input(config, design, low or 0.0) if is_new else config, asked)
+    press.tell(Phrase("solving for {input}", input=design.name))
     ends = searched_range(design, low, high)
-    search = _RangeSearch(config, question, design, passing)
+    search = _RangeSearch(config, what, design, passing)
     answer = search.answer(*ends)
     if not answer.found:
         return answer
-    return _proved(answer, config, discovery)
+    return _proved(answer, press)
 
 
-def _proved(answer: Answer, config: Config, discovery: Discovery) -> Answer:
+def _proved(answer: Answer, press: Press) -> Answer:
     """The answer with the first value that a machine can have, calculated alone; UserError where there is none such."""
     faults: list[UserError] = []
     for index, first in enumerate(answer.found):
         try:
-            machine = proved(config.tree, {answer.design.stands: first.typed}, discovery)
+            machine = proved(press.with_values({answer.design.stands: first.typed}))
         except UserError as fault:
             faults.append(fault)
             continue
@@ -335,7 +348,7 @@ def _proved(answer: Answer, config: Config, discovery: Discovery) -> Answer:
         )
     words = "{input} = {typed} satisfies it, but the machine then cannot exist: {reason}"
     what = {"input": answer.design.name, "typed": answer.found[0].typed, "reason": faults[0].problems[0].message}
-    raise UserError(Problem(Phrase(words, what), config.tree.file))
+    raise UserError(Problem(Phrase(words, what), press.config.tree.file))
 
 
 @dataclass

@@ -2,18 +2,19 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Iterator, Sequence
+from collections.abc import Iterable, Iterator, Sequence
 from pathlib import Path
 
 from markupsafe import Markup
 
-from diecut_report import __version__, pipeline
+from diecut_report import __version__
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import MAX_PRINTED_MECHANISMS, PluginError, Problem, UserError
 from diecut_report.exchange.carried import MOST as SIDES_MOST
 from diecut_report.exchange.carried import carried_results, form_of
 from diecut_report.exchange.results_form import other_form
 from diecut_report.files import content, write_all
+from diecut_report.press import AskedReport, Drawn, Lost, Press, ReportOutcome, Source, Tell, drawn, exported
 from diecut_report.report.chapters.front import ChangedCheck, ChangedRow, printed_changes
 from diecut_report.report.pages import html
 from diecut_report.report.pages.firm_templates import HouseStyle
@@ -24,9 +25,6 @@ from diecut_report.text.catalogues import Catalogues
 from diecut_report.text.phrases import Phrase, phrase
 from diecut_report.text.translation import say, spoken_language
 
-Contents = dict[str, bytes]
-Tell = Callable[[str], None]
-
 
 def render(
     file: Path,
@@ -36,36 +34,29 @@ def render(
     discovery: Discovery,
     language: str | None = None,
     house: HouseStyle | None = None,
-) -> tuple[pipeline.ReportOutcome, list[pipeline.Lost]]:
+) -> tuple[ReportOutcome, list[Lost]]:
     """Write the report of a results file, or of a report, as ``STEM.html``, ``STEM.pdf`` and the exports beside it.
 
     Return what was written, and the figures and exports that could not be drawn. UserError where nothing can be made of the file.
     """
     carried = carried_results(file)
-    results = pipeline.AskedReport(language, house=house).noted(carried.results)
+    results = AskedReport(language, house=house).noted(carried.results)
     if not house:  # the pages may be set with other templates than those were
         results = results.with_(report=results.report.with_(template_sha256=""))
-    catalogues = pipeline.catalogues_of(results, discovery, formats, str(file))
-    contents, lost = document(results, formats, tell, str(file), catalogues, house)
-    beside, unwritten = pipeline.exported(results, tell)
-    files = {folder / f"{file.stem}.{ending}": content for ending, content in (contents | beside).items()}
+    made, (profiles, unwritten) = document(results, formats, discovery, tell, str(file), house), exported(results, tell)
+    files = {folder / f"{file.stem}.{ending}": content for ending, content in (made.contents | profiles).items()}
     write_all(files, keep=file)
-    warnings = (*pipeline.untranslated(results, catalogues), *doubtful(results))
-    return pipeline.ReportOutcome(results, tuple(files), (), warnings), [*lost, *unwritten]
+    outcome = ReportOutcome(results, tuple(files), (), (*made.untranslated, *doubtful(results)))
+    return outcome, [*made.lost, *unwritten]
 
 
 def document(
-    results: ResultsRecord,
-    formats: Sequence[str],
-    tell: Tell,
-    file: str,
-    catalogues: Catalogues | None = None,
-    house: HouseStyle | None = None,
-) -> tuple[Contents, list[pipeline.Lost]]:
-    """Return a document in its formats, and what of it could not be drawn; UserError where these are not results of the program."""
+    results: ResultsRecord, formats: Sequence[str], discovery: Discovery, tell: Tell, file: str, house: HouseStyle | None = None
+) -> Drawn:  # fmt: skip
+    """Return a report of results, as ``drawn`` does; UserError where these are not results of the program."""
     _refuse_many_sheets(results, formats, file)
     try:
-        return pipeline.rendered(results, formats, tell, catalogues, house)
+        return drawn(results, formats, discovery, tell, house, file)
     except UserError:
         raise
     except Exception as cause:  # of any kind: whoever wrote the file may have put anything in any place
@@ -77,7 +68,7 @@ def document(
         raise UserError([Problem(words, file), *([Problem(why, file)] if why else [])]) from cause
 
 
-def told(lost: Iterable[pipeline.Lost]) -> list[str]:
+def told(lost: Iterable[Lost]) -> list[str]:
     """Return in words what could not be drawn."""
     return [
         Phrase(
@@ -201,14 +192,12 @@ def _aligned(rows: Sequence[Cells], indent: str = "  ") -> Iterator[str]:
 # One side of a comparison: the results of a report or a results file as they stand, those of a configuration by calculating it.
 
 
-def side(
-    given: pipeline.Source, discovery: Discovery, tell: Callable[[str], None]
-) -> tuple[ResultsRecord, tuple[PluginError, ...]]:
+def side(given: Source, discovery: Discovery, tell: Tell) -> tuple[ResultsRecord, tuple[PluginError, ...]]:
     """Return the results of one side, and the plugins that broke where it was calculated; UserError where it cannot be read."""
     if isinstance(given, Path) and _carries_results(given):
         return carried_results(given).results, ()
-    outcome, _ = pipeline.calc(given, discovery, tell)
-    return outcome.results, outcome.broken
+    made = Press.read(given, discovery, tell).calculate()
+    return made.results, made.broken
 
 
 def _carries_results(path: Path) -> bool:

@@ -12,7 +12,6 @@ from pathlib import Path
 from tempfile import TemporaryDirectory
 from typing import Any, NamedTuple
 
-from diecut_report import pipeline
 from diecut_report.config import yaml
 from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
@@ -22,6 +21,7 @@ from diecut_report.errors import PluginError, UserError
 from diecut_report.exchange.carried import CarriedResults
 from diecut_report.exchange.rendering import document
 from diecut_report.exchange.signatures import Signature, signatures
+from diecut_report.press import AskedReport, Press
 from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.results.changes import compare_with
 from diecut_report.results.model import CarriedConfigRecord, ProgramRecord, ResultsRecord
@@ -147,8 +147,8 @@ def recalculated(
     given = carried.results
     with _tables(carried.tables) as find:
         tree = _tree(given.config, f"{carried.path} (its configuration)")
-        made = pipeline.calculated(tree, discovery, tell, find=find)
-        made = with_findings(made, tell) if _is_report(carried) else made
+        made = Press.read(tree, discovery, tell, find=find).calculate()
+        made = with_findings(made) if _is_report(carried) else made
     results, asked = made.results, _asked(given, made.results)
     former, lost = _former(carried, discovery, tell, previous)
     options = _options(given, results, asked)
@@ -189,13 +189,13 @@ def _tables(contents: Mapping[str, bytes]) -> Iterator[Find]:
 # --- options of the command that the configuration does not tell ------------------------------------------------------
 
 
-def _asked(given: ResultsRecord, again: ResultsRecord) -> pipeline.AskedReport:
+def _asked(given: ResultsRecord, again: ResultsRecord) -> AskedReport:
     """The options that a report tells, as far as the command takes them; what it does not take differs from what comes out now."""
     only = given.report.only if again.mechanisms.keys() >= set(given.report.only) else []
-    return pipeline.AskedReport(given.project.language, given.report.detail, tuple(dict.fromkeys(only)))
+    return AskedReport(given.project.language, given.report.detail, tuple(dict.fromkeys(only)))
 
 
-def _options(given: ResultsRecord, again: ResultsRecord, asked: pipeline.AskedReport) -> Found:
+def _options(given: ResultsRecord, again: ResultsRecord, asked: AskedReport) -> Found:
     """The options in words: what a report shows by them does not follow from its configuration."""
     told = [
         f"--language {asked.language}" if asked.language != again.project.language else "",
@@ -235,13 +235,12 @@ def _former(
     try:
         with _tables(carried.former_tables) as find:
             tree = _tree(former, f"{carried.path} (its former configuration)")
-            outcome, _ = pipeline.calc(tree, discovery, tell, find=find)
+            return Press.read(tree, discovery, tell, find=find).calculate().results, None
     except UserError:
         words = phrase(
             "not proved: the former configuration cannot be calculated any more; --previous FILE names the former report"
         )
         return None, (words, False)
-    return outcome.results, None
 
 
 def _other_changes(given: ResultsRecord, again: ResultsRecord, previous: ResultsRecord | None) -> Iterator[Found]:
@@ -270,7 +269,8 @@ def compared(
     """Return whether the pages of a report are those that are set again of its results, and nothing was added but signatures."""
     if reason := other_templates(carried, house):
         return reason, False
-    made, content = _set_again(carried, tell, house, discovery), carried.content
+    again = document(carried.results, [carried.form], discovery, tell, str(carried.path), house)
+    made, content = again.contents[carried.form], carried.content
     if content == made:
         return MADE, True
     if not (carried.form == "pdf" and content.startswith(made)):
@@ -291,15 +291,6 @@ def other_templates(carried: CarriedResults, house: HouseStyle | None) -> str:
     own = Phrase("templates of their own (SHA-256 {asked})", asked=asked[:SHORT])
     own = own if asked else phrase("the program's templates alone")
     return Phrase("not compared, since they are set with {own}; --template DIR names the templates", own=own)
-
-
-def _set_again(
-    carried: CarriedResults, tell: Callable[[str], None], house: HouseStyle | None, discovery: Discovery
-) -> bytes:
-    """What this program makes of the results in a document, in the document's form."""
-    catalogues = pipeline.catalogues_of(carried.results, discovery, [carried.form], str(carried.path))
-    contents, _ = document(carried.results, [carried.form], tell, str(carried.path), catalogues, house)
-    return contents[carried.form]
 
 
 Data = Mapping[str, Any]

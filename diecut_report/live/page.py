@@ -59,7 +59,7 @@ def _fault(problem: Problem) -> Data:
 def _machine(machine: LiveMachine, start: LiveMachine, edits: Mapping[str, str]) -> Data:
     run = machine.run
     return {
-        "title": str((machine.config.tree.data.get("project") or {}).get("title") or machine.tree.name),
+        "title": str((machine.config.tree.data.get("project") or {}).get("title") or machine.config.tree.name),
         "status": run.status,
         "summary": run.summary.data(),
         "conclusion": said(run.summary.conclusion),
@@ -113,7 +113,7 @@ def _inputs(name: str, machine: LiveMachine) -> list[DesignInput | DesignChoice]
     """What may be changed of a mechanism, in the order of the file."""
     every: list[DesignInput | DesignChoice] = [*machine.inputs.values(), *machine.choices.values()]
     own = (each for each in every if each.asked.instance == name)
-    return sorted(own, key=lambda each: machine.tree.position(each.stands))
+    return sorted(own, key=lambda each: machine.config.tree.position(each.stands))
 
 
 def _choice(asked: DesignChoice, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:

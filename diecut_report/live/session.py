@@ -12,13 +12,14 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from diecut_report.config import yaml
-from diecut_report.config.loader import Config, load_config
+from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery, said
 from diecut_report.config.references import as_file, rewritten
 from diecut_report.config.yaml import KeyPath, Tree
 from diecut_report.design.inputs import DesignChoice, DesignInput, given_choices, given_numbers
 from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.files import write
+from diecut_report.press import Press
 from diecut_report.quantities.units import UnitError, number_and_unit, parse_quantity
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
@@ -34,9 +35,8 @@ MAX_EDITS = 1_000
 
 @dataclass(frozen=True)
 class LiveMachine:
-    """Hold a machine that could be calculated: the text that it follows from, its inputs and choices by name, and its run."""
+    """Hold a machine that could be calculated: its configuration, its inputs and choices by name, and its run."""
 
-    tree: Tree
     config: Config
     run: WarmRun
     inputs: Mapping[str, DesignInput]
@@ -178,18 +178,13 @@ class LiveSession:
             self.serial += 1
 
     def _made(self, tree: Tree) -> LiveMachine:
-        tree = rewritten(tree, self._edited())
-        config = load_config(tree, self.discovery)
-        for error in config.broken.values():
-            raise error
+        config = Press.read(rewritten(tree, self._edited()), self.discovery).usable().config
         run = self._press.calculate(config)
         for error in run.errors.values():
             raise error
         _require_shown(run)
         numbers, choices = given_numbers(config), given_choices(config)
-        return LiveMachine(
-            tree, config, run, {each.name: each for each in numbers}, {each.name: each for each in choices}
-        )
+        return LiveMachine(config, run, {each.name: each for each in numbers}, {each.name: each for each in choices})
 
     def _failed(self, problems: Iterable[Problem]) -> None:
         self.faults = list(problems)

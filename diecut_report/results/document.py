@@ -14,7 +14,7 @@ from diecut_report import __version__
 from diecut_report.config import loader
 from diecut_report.config.instances import Instance, Node
 from diecut_report.config.loader import Config
-from diecut_report.config.model import PRESS, Press
+from diecut_report.config.model import PRESS, PressBlock
 from diecut_report.config.own_tables import Logo
 from diecut_report.config.source_hashes import plugin_code, program_hash
 from diecut_report.config.validation import GIVEN, declared, keys_of
@@ -160,10 +160,10 @@ def _project(fields: Data) -> Data:
 
 def _press(run: Run) -> PressRecord:
     press, bases = run.blocks[PRESS], run.bases
-    assert isinstance(press, Press)
+    assert isinstance(press, PressBlock)
     found, chosen = [], run.chosen_units(PRESS)
     for name, value in flatten(press).items():
-        meta = declared(Press, tuple(name.split(".")))
+        meta = declared(PressBlock, tuple(name.split(".")))
         if isinstance(meta, Quantity):
             shown = given_shown(value, chosen.of(name, meta.unit) or meta.unit)
             head: dict[str, Any] = {"path": f"{PRESS}.{name}", "description": meta.description, "symbol": meta.symbol}

@@ -12,15 +12,15 @@ from typing import TYPE_CHECKING, Any
 
 import yaml
 
-from diecut_report import pipeline
-from diecut_report.config.loader import Config, load_config
+from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import Discovery
-from diecut_report.config.references import as_file, written
+from diecut_report.config.references import as_file
 from diecut_report.config.yaml import KeyPath, Tree, parse, read_text
 from diecut_report.errors import Problem, UserError
 from diecut_report.exchange.carried import carried_results
 from diecut_report.files import in_words, write, write_all
+from diecut_report.press import Press
 from diecut_report.scripting.parts import NamedParts
 from diecut_report.scripting.press_inputs import InputList, press_inputs, stands
 from diecut_report.scripting.results import Results
@@ -52,14 +52,18 @@ class LoadedFile:
 class LoadedPress:
     """Hold a valid configuration. It never changes: ``with_values`` gives another one.
 
-    ``config`` is the configuration as the program has read it, ``language`` that of messages and documents, where
+    ``press`` is what the program has read, ``language`` that of messages and documents, where
     one was asked for. ``origin`` is shared by all presses that are made of one that was loaded.
     """
 
-    config: Config
-    discovery: Discovery
+    press: Press
     language: str | None
     origin: LoadedFile = field(default_factory=LoadedFile)
+
+    @property
+    def config(self) -> Config:
+        """Return the configuration as the program has read it."""
+        return self.press.config
 
     @property
     def name(self) -> str:
@@ -93,7 +97,7 @@ class LoadedPress:
         """
         try:
             with told_in(self.language):
-                pipeline.validate(self.config.tree, self.discovery)
+                Press.validate(self.config.tree, self.press.discovery)
         except UserError as error:
             return error.problems
         return ()
@@ -108,7 +112,7 @@ class LoadedPress:
         with told_in(self.language):
             places, problems = self._places(values)
             try:
-                changed = self._read(written(self.config.tree, places, over_references=True)) if places else self
+                changed = self._of(self.press.with_values(places, over_references=True)) if places else self
             except UserError as error:
                 raise UserError([*problems, *error.problems]) from error.__cause__
             if problems:
@@ -125,12 +129,6 @@ class LoadedPress:
             except UserError as error:
                 problems += error.problems
         return places, problems
-
-    def _read(self, text: str) -> LoadedPress:
-        tree = self.config.tree
-        changed = parse(text, tree.file)
-        again = Tree(changed.root, tree.file, text, changed.sha256, tree.name)
-        return self._of(load_config(again, self.discovery))
 
     def save(self, file: str | Path) -> Path:
         """Write the configuration; Unwritable in words where that is not possible. Tables that it names are sought beside it.
@@ -153,8 +151,8 @@ class LoadedPress:
         Where a plugin breaks it is in ``errors`` of the results, whose status is ``error``; those of other mechanisms stand.
         """
         with told_in(self.language), one_thread():
-            outcome, _ = pipeline.calc(self.config.tree, self.discovery, lambda _: None)
-        return Results(outcome.results, self.discovery, self.language, config=self.config, errors=outcome.broken)
+            made = self.press.calculate()
+        return Results(made.results, self.press.discovery, self.language, config=self.config, errors=made.broken)
 
     def sweep(
         self, vary: Mapping[str, Any], *, outputs: Iterable[str] | None = None, constraints: Iterable[str] = (), method: str = "grid",
@@ -174,7 +172,7 @@ class LoadedPress:
             dict(vary), None if outputs is None else list(outputs), list(constraints), method, count, seed
         )
         with told_in(self.language, without_places=True), one_thread():
-            return swept(self.config, self.discovery, self.language, asked)
+            return swept(self.config, self.press.discovery, self.language, asked)
 
     def solve(
         self, vary: str, target: str, *, low: str | None = None, high: str | None = None, passing: bool = False
@@ -187,14 +185,14 @@ class LoadedPress:
         from diecut_report.scripting.questions import solved_press
 
         with told_in(self.language), one_thread():
-            return solved_press(self._usable(), self.discovery, self._of, vary, target, (low, high), passing=passing)
+            return solved_press(self.press.usable(), self._of, vary, target, (low, high), passing=passing)
 
     def advise(self, *, free: Iterable[str] = (), keep: Iterable[str] = ()) -> MendedPress[LoadedPress]:
         """Return the smallest changes with which no check fails: the command ``advise``."""
         from diecut_report.scripting.questions import mended_press
 
         with told_in(self.language), one_thread():
-            return mended_press(self._usable(), self.discovery, self._of, tuple(free), tuple(keep))
+            return mended_press(self.press.usable(), self._of, free, keep)
 
     def influence(self, *of: str, share: float = 0.1, defaults: bool = False) -> InfluenceTable:
         """Return how far each input moves a number (the governing checks, where none is named) when it changes by a share of its value.
@@ -204,16 +202,10 @@ class LoadedPress:
         from diecut_report.scripting.questions import influence_of
 
         with told_in(self.language), one_thread():
-            return influence_of(self._usable(), of, share, defaults=defaults)
+            return influence_of(self.press.usable().config, of, share, defaults=defaults)
 
-    def _usable(self) -> Config:
-        """The configuration; PluginError where one of its plugins is broken."""
-        for error in self.config.broken.values():
-            raise error
-        return self.config
-
-    def _of(self, config: Config) -> LoadedPress:
-        return LoadedPress(config, self.discovery, self.language, self.origin)
+    def _of(self, press: Press) -> LoadedPress:
+        return LoadedPress(press, self.language, self.origin)
 
     def __repr__(self) -> str:
         return f"<press {self.name} of {self.config.tree.name}: {', '.join(self.instances)}>"
@@ -264,10 +256,10 @@ def _press(
     source: Path | Tree, plugins: Iterable[Folder], language: str | None, *, without_places: bool = False
 ) -> LoadedPress:
     with told_in(language, without_places=without_places):
-        discovery = _discovery(plugins)
-        config = load_config(source, discovery)
-        origin = LoadedFile(source.resolve(), {config.tree.sha256}) if isinstance(source, Path) else LoadedFile()
-        return LoadedPress(config, discovery, language, origin)
+        press, origin = Press.read(source, _discovery(plugins)), LoadedFile()
+        if isinstance(source, Path):
+            origin = LoadedFile(source.resolve(), {press.config.tree.sha256})
+        return LoadedPress(press, language, origin)
 
 
 def _discovery(plugins: Iterable[Folder]) -> Discovery:

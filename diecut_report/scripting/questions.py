@@ -3,24 +3,24 @@
 from __future__ import annotations
 
 import math
-from collections.abc import Callable, Sequence
+from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass
 from typing import Any, Generic, TypeVar
 
 from diecut_report.config.loader import Config
-from diecut_report.config.plugins import Discovery
 from diecut_report.design import advice, influence
-from diecut_report.design.answers import Answer, FoundValue, data, lines, question
-from diecut_report.design.inputs import DesignInput, design_input, with_input
+from diecut_report.design.answers import Answer, FoundValue, data, lines
+from diecut_report.design.inputs import DesignInput, design_input
 from diecut_report.design.solving import solved
 from diecut_report.errors import ConfigError, Problem
+from diecut_report.press import Press
 from diecut_report.quantities.units import number_and_unit
 from diecut_report.scripting.values import QuantityValue
 from diecut_report.text.phrases import Phrase
 
 Data = dict[str, Any]
 PressT = TypeVar("PressT")
-Make = Callable[[Config], PressT]
+Make = Callable[[Press], PressT]
 
 
 @dataclass(frozen=True, eq=False, repr=False)
@@ -84,17 +84,15 @@ class InfluenceTable:
 
 
 def solved_press(
-    config: Config, discovery: Discovery, make: Make[PressT], vary: str, target: str, ends: tuple[str | None, str | None], *, passing: bool
+    asked: Press, make: Make[PressT], vary: str, target: str, ends: tuple[str | None, str | None], *, passing: bool
 ) -> Solution[PressT]:  # fmt: skip
-    """Return the answer to a question, as the command gives it; ``make`` makes a press of a configuration."""
-    design = design_input(config, vary)
+    """Return the answer to a question, as the command gives it; ``make`` makes the press of a script."""
+    design = design_input(asked.config, vary)
     low, high = _end(design, ends[0], "low"), _end(design, ends[1], "high")
-    is_new = design.today is None and low is not None
-    asked = question(with_input(config, design, low or 0.0) if is_new else config, target)
-    answer = solved(config, discovery, asked, design, passing=passing, low=low, high=high)
+    answer = solved(asked, target, design, passing=passing, low=low, high=high)
     values = tuple(_value(answer, each) for each in answer.found)
     near = None if answer.nearest is None else _value(answer, answer.nearest)
-    press = None if answer.machine is None else make(answer.machine.config)
+    press = None if answer.machine is None else make(answer.machine.press)
     return Solution(bool(values), values, near, press, data(answer), "\n".join(lines(answer)))
 
 
@@ -114,12 +112,10 @@ def _value(answer: Answer, found: FoundValue) -> QuantityValue:
     )
 
 
-def mended_press(
-    config: Config, discovery: Discovery, make: Make[PressT], free: tuple[str, ...], keep: tuple[str, ...]
-) -> MendedPress[PressT]:
+def mended_press(asked: Press, make: Make[PressT], free: Iterable[str], keep: Iterable[str]) -> MendedPress[PressT]:
     """Return the smallest changes with which no check fails, as the command gives them."""
-    found = advice.mended(config, discovery, free=free, keep=keep, tell=lambda _: None)
-    press = None if found.machine is None else make(found.machine.config)
+    found = advice.mended(asked, free=free, keep=keep)
+    press = None if found.machine is None else make(found.machine.press)
     changes = {each.name: each.after for each in found.changes} if found.machine is not None else {}
     return MendedPress(changes, press, advice.data(found), "\n".join(advice.lines(found)))
 

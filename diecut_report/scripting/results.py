@@ -8,13 +8,13 @@ from functools import cached_property
 from pathlib import Path
 from typing import Any, TypeVar
 
-from diecut_report import pipeline
 from diecut_report.config.loader import Config
 from diecut_report.config.model import DETAILS
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import ConfigError, PluginError, Problem, UnknownName, nearest
 from diecut_report.exchange.rendering import document
 from diecut_report.files import write_all
+from diecut_report.press import DRAWN, AskedReport, Lost
 from diecut_report.results.conclusion import conclusion
 from diecut_report.results.mechanism_record import FigureRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import ResultsRecord
@@ -336,7 +336,7 @@ class Results(Mapping[str, MechanismResults]):
         path = Path(file)
         with told_in(self.language):
             form = _form(path)
-            asked = pipeline.AskedReport(known_language(language), _detail(detail), tuple(only))
+            asked = AskedReport(known_language(language), _detail(detail), tuple(only))
         for name in asked.only:
             self[name]
         with told_in(self.language):
@@ -346,11 +346,10 @@ class Results(Mapping[str, MechanismResults]):
             raise PluginError(f"{each.what} {each.id}: {each.words}", self[each.mechanism].kind, each.mechanism)
         return path
 
-    def _rendered(self, form: str, asked: pipeline.AskedReport) -> tuple[bytes, list[pipeline.Lost]]:
+    def _rendered(self, form: str, asked: AskedReport) -> tuple[bytes, list[Lost]]:
         data = asked.noted(self._reported())
-        catalogues = pipeline.catalogues_of(data, self._printable.discovery, (form,))
-        contents, lost = document(data, (form,), lambda _: None, self._data.config.file, catalogues)
-        return contents[form], lost
+        made = document(data, (form,), self._printable.discovery, lambda _: None, self._data.config.file)
+        return made.contents[form], made.lost
 
     def _reported(self) -> ResultsRecord:
         """The results with what a report alone tells: what of the assumed values matters, and what comes of the advice."""
@@ -378,11 +377,11 @@ class Results(Mapping[str, MechanismResults]):
 
 def _form(path: Path) -> str:
     form = path.suffix.removeprefix(".").lower()
-    if form not in pipeline.DRAWN:
+    if form not in DRAWN:
         words = Phrase(
             "{form} is not a format of a report; known: {known}.",
             form=repr(path.suffix),
-            known=", ".join(pipeline.DRAWN),
+            known=", ".join(DRAWN),
         )
         raise ConfigError(Problem(words, str(path)))
     return form

@@ -14,7 +14,7 @@ from typing import TYPE_CHECKING, Any, Protocol
 
 from markupsafe import Markup
 
-from diecut_report import pipeline
+from diecut_report.config.catalogues import catalogues_for
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import resolved
 from diecut_report.errors import ConfigError, Problem, UnknownName, Unwritable, UserError
@@ -483,7 +483,8 @@ class Printable:
             data = data.with_(report=data.report.with_(only=[only]))
         elif only:
             data = data.with_(**self._compared(only))
-        return Material(data, pipeline.catalogues_of(data, self.discovery, ("html",)))
+        kinds = [mechanism.kind for mechanism in data.mechanisms.values()]
+        return Material(data, catalogues_for(data.project.language, kinds, self.discovery))
 
     def _compared(self, name: str) -> dict[str, Any]:
         """A comparison alone, and the mechanisms that it is between without what takes time to print."""

@@ -111,22 +111,22 @@ def _loaded(folders: tuple[str, ...]) -> Discovery:
 
 def calculated(discovery: Discovery, chunk: tuple[int, str | Tree]) -> CheckedMachine:
     """Return what comes out of a file, or of what was read of it."""
-    from diecut_report import pipeline
+    from diecut_report.press import Press
 
     given = chunk[1] if isinstance(chunk[1], Tree) else Path(chunk[1])
     file = given.file if isinstance(given, Tree) else str(given)
     try:
         with open(os.devnull, "w") as nowhere, redirect_stdout(nowhere):  # a plugin may print
-            outcome, _ = pipeline.calc(given, discovery, lambda _: None)
+            made = Press.read(given, discovery).calculate()
     except UserError as error:
         problems = error.problems
         try:  # all that is wrong: calculating stops at the first of its checks
-            pipeline.validate(given, discovery)
+            Press.validate(given, discovery)
         except UserError as more:
             problems = more.problems
         return CheckedMachine(file, BAD, None, [str(problem) for problem in problems])
-    status = BROKEN if outcome.broken else outcome.results.status
-    return CheckedMachine(file, status, _lean(outcome.results), [*map(str, outcome.broken), *outcome.warnings])
+    status = BROKEN if made.broken else made.results.status
+    return CheckedMachine(file, status, _lean(made.results), [*map(str, made.broken), *made.warnings])
 
 
 def _lean(whole: ResultsRecord) -> ResultsRecord:

@@ -35,7 +35,7 @@ from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import Run, compute
 from diecut_report.testing import machines
 from diecut_report.testing.extreme_inputs import TriedExtremes, input_of
-from diecut_report.testing.machines import Keys, MachineCase, configured, one_of, unlike, with_mechanism
+from diecut_report.testing.machines import Keys, MachineCase, configured, one_of, unlike
 from diecut_report.testing.plugin_words import PluginWords
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, built_in, file_beside, languages
 from diecut_report.text.phrases import Counted, Phrase, joined, phrase
@@ -400,8 +400,8 @@ def check_contract(
 
     The inputs are as for ``calculate``: take some that give as much of the mechanism as may be, also its optional inputs.
     """
-    config = configured(mechanism, inputs, press, others, plugins)
-    test = ContractTest(mechanism, with_mechanism(mechanism, map(Path, plugins)), config, mechanism.kind)
+    made = configured(mechanism, inputs, press, others, plugins)
+    test = ContractTest(mechanism, made.discovery, made.config, mechanism.kind)
     broken = [each for each in test.tried() if each.status in ("fail", "broke")]
     assert not broken, "\n".join(f"{each.title}: {fault}" for each in broken for fault in each.short_list)
 

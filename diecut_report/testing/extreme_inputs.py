@@ -13,13 +13,14 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from diecut_report.config import yaml
-from diecut_report.config.loader import Config, load_config
+from diecut_report.config.loader import Config
 from diecut_report.config.own_tables import Find
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import KeyPath
 from diecut_report.errors import UserError
 from diecut_report.mechanism.chapters import in_unit
 from diecut_report.mechanism.inputs import Block, Quantity, meta_of, nested
+from diecut_report.press import Press
 from diecut_report.results.document import document
 from diecut_report.results.results_file import results_text
 from diecut_report.results.warm_press import WarmPress
@@ -120,7 +121,7 @@ class Outcome(NamedTuple):
 def outcome_of(text: str, discovery: Discovery, press: WarmPress, find: Find | None = None) -> Outcome:
     """Return what comes of a configuration; ``press`` remembers what those that are tried one after another have in common."""
     try:
-        run = press.printed(load_config(yaml.parse(text, "press.yaml"), discovery, find=find))
+        run = press.printed(Press.read(yaml.parse(text, "press.yaml"), discovery, find=find).config)
         results = results_text(document(run))
     except UserError as refusal:
         odd = next((str(problem) for problem in refusal.problems if _odd(str(problem.message))), None)

@@ -12,7 +12,6 @@ from typing import Any
 import numpy as np
 
 from diecut_report.config import yaml
-from diecut_report.config.loader import Config, load_config
 from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, UnknownKind
 from diecut_report.errors import Problem, UserError
 from diecut_report.formulas import Array
@@ -22,9 +21,8 @@ from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.inputs import Quantity, fields
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.steps import Crossings, Pick, Value, named
+from diecut_report.press import Press
 from diecut_report.results.checks import applies, judged
-from diecut_report.results.document import document
-from diecut_report.results.press_run import compute
 from diecut_report.testing.values import MechanismFound
 from diecut_report.text.catalogues import built_in
 from diecut_report.text.phrases import Phrase, phrase
@@ -299,30 +297,31 @@ def calculate(
     machine cannot be, PluginError where the plugin breaks, with file and line.
     """
     try:
-        run = compute(configured(mechanism, inputs, press, others, plugins), lambda _: None)
+        made = configured(mechanism, inputs, press, others, plugins).calculate()
     except UserError as error:
         raise Refused(_problem_text(problem, mechanism.kind) for problem in error.problems) from None
-    if run.errors:
-        raise next(iter(run.errors.values()))
-    if mechanism.kind in run.skipped:
-        raise Refused([run.skipped[mechanism.kind]])
-    return MechanismFound(document(run).mechanisms[mechanism.kind])
+    if made.has_broken:
+        raise made.broken[0]
+    found = made.results.mechanisms[mechanism.kind]
+    if found.status == "skipped":
+        raise Refused([found.error])
+    return MechanismFound(found)
 
 
 def configured(
     mechanism: Mechanism, inputs: Keys, press: Keys | None = None, others: Mapping[str, Keys] | None = None,
     plugins: Iterable[str | Path] = (),
-) -> Config:  # fmt: skip
-    """Return the checked configuration of one machine; UserError with all that is wrong with it."""
+) -> Press:  # fmt: skip
+    """Return the press of one machine; UserError with all that is wrong with it."""
     blocks = {**(others or {}), mechanism.kind: {"kind": mechanism.kind, **inputs}}
     whole = {
         "schema_version": 1, "project": {"title": mechanism.title}, "press": {"name": "-", **(press or {})}, "mechanisms": blocks,
     }  # fmt: skip
     text = json.dumps(whole, default=_plain, ensure_ascii=False)
-    config = load_config(yaml.parse(text, FILE), with_mechanism(mechanism, map(Path, plugins)))
-    if broken := config.broken.get(mechanism.kind):
+    made = Press.read(yaml.parse(text, FILE), with_mechanism(mechanism, map(Path, plugins)))
+    if broken := made.config.broken.get(mechanism.kind):
         raise broken
-    return config
+    return made
 
 
 def _plain(value: Any) -> Any:

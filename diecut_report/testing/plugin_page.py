@@ -10,10 +10,11 @@ from itertools import groupby
 from pathlib import Path
 from typing import Any
 
-from diecut_report.config.loader import Config, load_config
+from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery, DuplicateKind, Origin, in_folder
 from diecut_report.errors import PluginError, Problem, UserError, refusal
 from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.press import Press
 from diecut_report.testing.contract import WORST_LAST, ContractTest, TriedRule, refuse_own, write_missing
 from diecut_report.text.phrases import Counted, Phrase, joined
 from diecut_report.text.po_files import ChangedCatalogue
@@ -33,7 +34,7 @@ def named_machines(files: Iterable[Path], kind: str, discovery: Discovery) -> li
     """Return all machines of a kind in these configurations with their names; UserError where one of them is wrong."""
     return [
         (config, name)
-        for config in (load_config(file, discovery) for file in files)
+        for config in (Press.read(file, discovery).config for file in files)
         for name, own in config.kinds.items()
         if own == kind
     ]

@@ -288,7 +288,7 @@ def test_a_reader_that_closes_early_is_no_error() -> None:
 def test_a_fault_of_the_program_is_neither_a_failing_check_nor_bad_input(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    monkeypatch.setattr("diecut_report.pipeline.results_text", lambda results: 1 / 0)
+    monkeypatch.setattr("diecut_report.press.results_text", lambda results: 1 / 0)
     assert run("calc", saved(tmp_path, LEVER)) == 70
     out, err = capfd.readouterr()
     assert out == "" and "ZeroDivisionError" in err and "a fault of diecut-report itself" in err

@@ -13,7 +13,6 @@ import yaml
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report import pipeline
 from diecut_report.cli.main import main
 from diecut_report.config import yaml as yaml_tree
 from diecut_report.config.catalogues import catalogues_for
@@ -21,6 +20,7 @@ from diecut_report.config.drafting import Draft, draft
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError
+from diecut_report.press import Press
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.translation import speaking
 from tests.configs import DISCOVERY, GOOD
@@ -43,7 +43,7 @@ def validated(text: str) -> None:
 
 
 def calculated(made: Draft) -> ResultsRecord:
-    outcome, _ = pipeline.calc(yaml_tree.parse(made.text, "draft.yaml"), DISCOVERY, lambda _: None)
+    outcome = Press.read(yaml_tree.parse(made.text, "draft.yaml"), DISCOVERY).calculate()
     assert outcome.broken == ()
     return outcome.results
 

@@ -9,7 +9,7 @@ from pathlib import Path
 import pytest
 
 from diecut_report.errors import UserError
-from diecut_report.pipeline import calc
+from diecut_report.press import Press
 from tests.config.test_references import inputs, results
 from tests.configs import DISCOVERY, LEVER, loaded, problems, saved
 
@@ -72,7 +72,7 @@ def test_the_resolved_config_holds_the_value_exactly(tmp_path: Path) -> None:
     text = LEVER + "  b: {kind: lever, force: 1, arm: '${press.sheet.length} / 3'}\n"
     found = results(tmp_path, text)
     path = saved(tmp_path, json.dumps(found.config.resolved), "again.yaml")
-    again = calc(path, DISCOVERY, lambda doing: None)[0].results
+    again = Press.read(path, DISCOVERY).calculate().results
     assert again.mechanisms["b"].inputs["arm"].value == found.mechanisms["b"].inputs["arm"].value
 
 
@@ -132,7 +132,7 @@ WRONG = [
 def test_a_wrong_expression_is_told_with_its_place(tmp_path: Path, inner: str, message: str) -> None:
     text = LEVER + f"  b: {{kind: lever, force: 1, {inner}}}\n"
     with pytest.raises(UserError) as caught:
-        calc(saved(tmp_path, text), DISCOVERY, lambda doing: None)
+        Press.read(saved(tmp_path, text), DISCOVERY).calculate()
     assert message in "\n".join(str(problem) for problem in caught.value.problems).replace(
         f"{tmp_path / 'press.yaml'}:", ""
     )

@@ -10,9 +10,10 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report import errors, pipeline
+from diecut_report import errors
 from diecut_report.config.loader import load_config
 from diecut_report.errors import UserError
+from diecut_report.press import Press
 from diecut_report.quantities.units import UnitError, normalised, parse_quantity
 from diecut_report.results.document import document
 from diecut_report.results.press_run import compute
@@ -77,19 +78,12 @@ def test_mechanisms_are_counted(tmp_path: Path) -> None:
 
 def test_a_pdf_of_many_mechanisms_is_refused_before_it_is_calculated(tmp_path: Path) -> None:
     many = "".join(f"  m{index}: {{kind: lever, force: 2 kN}}\n" for index in range(61))
-    path, heard = saved(tmp_path, HEAD + many), []
+    path = saved(tmp_path, HEAD + many)
     with pytest.raises(
         UserError,
         match=r"61 mechanisms; the PDF of a report has at most 60\. Leave the PDF out with --format html,json",
     ):
-        pipeline.report(
-            pipeline.calculated(path, DISCOVERY, heard.append, ("html", "pdf")),
-            DISCOVERY,
-            heard.append,
-            tmp_path,
-            ("html", "pdf"),
-        )
-    assert heard == ["reading the configuration"]
+        Press.read(path, DISCOVERY).require_reportable(("html", "pdf"))
 
 
 def test_comparisons_beyond_the_cap_are_named_with_the_way_to_them(

@@ -7,16 +7,14 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report.config.loader import load_config
 from diecut_report.config.own_tables import MAX_FILES
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema
 from diecut_report.config.yaml import MAX_BYTES
 from diecut_report.errors import UserError
 from diecut_report.plugins.shaft import MECHANISM
-from diecut_report.results.document import document
+from diecut_report.press import Press
 from diecut_report.results.model import ResultsRecord
-from diecut_report.results.press_run import compute
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.study_run import contents
 from diecut_report.study.execution.worker import Chunk, calculate, load
@@ -67,7 +65,7 @@ NOTE = "own, steels.yaml: Saarstahl, sheet 34CrNiMo6, 2021"
 def results(folder: Path, config: str, tables: str = TABLES) -> ResultsRecord:
     """The results of a configuration with its tables beside it."""
     saved(folder, tables, "steels.yaml")
-    return document(compute(load_config(saved(folder, config), DISCOVERY), lambda _: None))
+    return Press.read(saved(folder, config), DISCOVERY).calculate().results
 
 
 def problems(folder: Path, config: str = HEAD + SHAFT, tables: str = TABLES) -> list[str]:

@@ -11,11 +11,9 @@ import pytest
 from diecut_report.config.model import texts
 from diecut_report.config.plugins import Discovery
 from diecut_report.mechanism.mechanism import Partner
-from diecut_report.pipeline import calc
 from diecut_report.plugins.press_consistency import MECHANISM
-from diecut_report.results.document import document
+from diecut_report.press import Press
 from diecut_report.results.mechanism_record import MechanismRecord
-from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input, with_values
 from tests.configs import DISCOVERY, HEAD, loaded, problems, saved
 from tests.processes import Example
@@ -40,7 +38,7 @@ def references(folder: Path, text: str, name: str = "press_consistency") -> dict
 
 def results(folder: Path, text: str) -> MechanismRecord:
     """The results of the consistency."""
-    outcome, _ = calc(saved(folder, text), DISCOVERY, lambda _: None)
+    outcome = Press.read(saved(folder, text), DISCOVERY).calculate()
     return outcome.results.mechanisms["press_consistency"]
 
 
@@ -88,8 +86,8 @@ def test_a_study_does_not_vary_what_is_compared_with_the_others(tmp_path: Path, 
 
 def test_the_resolved_configuration_leaves_out_what_is_taken_again(tmp_path: Path) -> None:
     text = HEAD + DRIVE + CLUTCH
-    made = document(compute(loaded(tmp_path, text), lambda _: None))
-    again = document(compute(loaded(tmp_path, json.dumps(made.config.resolved)), lambda _: None))
+    made = Press.read(saved(tmp_path, text), DISCOVERY).calculate().results
+    again = Press.read(saved(tmp_path, json.dumps(made.config.resolved)), DISCOVERY).calculate().results
     name = "press_consistency"
     assert made.config.resolved["mechanisms"][name].keys().isdisjoint({"cylinder_mass", "drive", "stroke"})
     assert again.mechanisms[name].checks == made.mechanisms[name].checks

@@ -15,17 +15,15 @@ from hypothesis import example, given, settings
 from hypothesis import strategies as st
 
 from diecut_report.config import yaml
-from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.references import as_file, written
 from diecut_report.config.yaml import KeyPath, load, parse
 from diecut_report.errors import UserError
+from diecut_report.press import Press
 from diecut_report.quantities import units
 from diecut_report.quantities.formatting import as_given, as_typed
 from diecut_report.quantities.units import unit
-from diecut_report.results.document import document
 from diecut_report.results.model import ResultsRecord
-from diecut_report.results.press_run import compute
 from tests.configs import EXAMPLE, EXAMPLES, PLUGINS, saved
 from tests.examples import few
 
@@ -92,7 +90,7 @@ def test_numbers_that_no_float_holds_are_refused_in_words() -> None:
 
 
 def calculated(path: Path) -> ResultsRecord:
-    return document(compute(load_config(path, SHARES), lambda _: None))
+    return Press.read(path, SHARES).calculate().results
 
 
 def numbers_of(results: ResultsRecord) -> dict[str, Any]:

@@ -12,7 +12,7 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import config_schema
 from diecut_report.errors import UserError
-from diecut_report.pipeline import calc
+from diecut_report.press import Press
 from diecut_report.results.document import document
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import Run, compute
@@ -23,7 +23,7 @@ from tests.configs import DISCOVERY, HEAD, LEVER, loaded, problems, saved
 
 def results(folder: Path, text: str) -> ResultsRecord:
     """The results document of a config."""
-    return calc(saved(folder, text), DISCOVERY, lambda doing: None)[0].results
+    return Press.read(saved(folder, text), DISCOVERY).calculate().results
 
 
 def inputs(folder: Path, text: str, name: str = "b") -> dict[str, Any]:

@@ -7,9 +7,9 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.press import Press
 from diecut_report.results.mechanism_record import ShownRecord
 from diecut_report.results.model import ResultsRecord
 
@@ -25,7 +25,7 @@ def config(tmp_path: Path, units: str) -> Path:
 
 def results(tmp_path: Path, units: str) -> ResultsRecord:
     """Its results."""
-    return pipeline.calc(config(tmp_path, units), Discovery(), lambda _: None)[0].results
+    return Press.read(config(tmp_path, units), Discovery()).calculate().results
 
 
 @pytest.mark.parametrize(

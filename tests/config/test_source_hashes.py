@@ -12,16 +12,13 @@ from pathlib import Path
 
 import pytest
 
-from diecut_report import pipeline
 from diecut_report.cli.main import main
-from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.source_hashes import PACKAGE, plugin_hash, program_hash
 from diecut_report.errors import UserError
+from diecut_report.press import Press
 from diecut_report.report.rendering import render_html
-from diecut_report.results.document import document
 from diecut_report.results.model import ResultsRecord
-from diecut_report.results.press_run import compute
 from diecut_report.study.execution import worker
 from tests.configs import GOOD, HEAD, LEVER, SMALL, saved
 from tests.examples import few
@@ -142,7 +139,7 @@ def test_results_tell_whether_the_formulas_of_a_foreign_plugin_are_sound_and_jud
         folder = tmp_path / str(number)
         folder.mkdir()
         saved(folder, content, "lever.py")
-        outcome, _ = pipeline.calc(saved(folder, LEVER), Discovery([folder]), lambda _: None)
+        outcome = Press.read(saved(folder, LEVER), Discovery([folder])).calculate()
         assert outcome.results.mechanisms["a"].plugin_check == check
         words = "The formulas of the plugin of 'lever' have faults; do not rely on its results."
         assert outcome.warnings[:1] == ((words,) if check == "failed" else ())
@@ -155,7 +152,7 @@ def test_a_foreign_plugin_is_named_by_its_file_and_not_by_where_it_lies(tmp_path
     shutil.copy(GOOD / "lever.py", package / "__init__.py")
     other = saved(tmp_path, LEVER + SMALL.removeprefix(HEAD))
     for folder, file in ((GOOD, "lever.py"), (tmp_path / "secret place", "lever/__init__.py")):
-        found = document(compute(load_config(other, Discovery([folder])), lambda _: None))
+        found = Press.read(other, Discovery([folder])).calculate().results
         digest = found.mechanisms["a"].plugin_sha256
         assert found.mechanisms["a"].plugin_file == file and digest
         assert not found.mechanisms["clutch"].plugin_file  # comes with the program

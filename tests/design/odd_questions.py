@@ -9,10 +9,11 @@ from collections.abc import Iterator
 from pathlib import Path
 from typing import Any
 
-from diecut_report.config.loader import Config, load_config
+from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.inputs import given_numbers
 from diecut_report.design.machines import CHECKS, proved, quantities
+from diecut_report.press import Press
 from diecut_report.study.definition.base_inputs import known_paths
 from tests.configs import EXAMPLE, GOOD, HEAD
 
@@ -71,9 +72,8 @@ class Questions:
     """Draws questions to one machine."""
 
     def __init__(self, file: Path) -> None:
-        config = load_config(file, Discovery([GOOD]))
-        self.file = file
-        today = proved(config.tree, {}, Discovery([GOOD]))
+        press = Press.read(file, Discovery([GOOD]))
+        config, today, self.file = press.config, proved(press), file
         units = {name: column.unit for name, column in quantities(config).items()}
         self.today = {each.name: (each.today, each.meta.parsed_unit.si) for each in given_numbers(config)}
         self.today |= {name: (value, units[name]) for name, value in today.outputs.items() if name in units}

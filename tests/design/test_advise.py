@@ -15,6 +15,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.design.advice import mended, share_told
 from diecut_report.design.inputs import design_input
 from diecut_report.design.machines import varied
+from diecut_report.press import Press
 from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 from tests.examples import few
 
@@ -147,7 +148,7 @@ def test_what_steps_do_not_see_is_found_by_one_input_over_its_range(tmp_path: Pa
 
 @pytest.mark.parametrize("config", few([EXAMPLE], lambda _: False))
 def test_the_published_press_is_mended_by_advice_alone(config: Path) -> None:
-    made = mended(load_config(config, Discovery([])), Discovery([]), tell=lambda _: None)
+    made = mended(Press.read(config, Discovery([])))
     assert made.machine is not None and made.machine.checks("fail") == [] and len(made.changes) <= 20
 
 

@@ -15,6 +15,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.design.inputs import design_input
 from diecut_report.design.machines import proved, varied
+from diecut_report.press import Press
 from tests.configs import DISCOVERY, EXAMPLE, GOOD, HEAD, saved
 
 KNIFE = EXAMPLE.with_name("circular_knife.yaml")
@@ -126,13 +127,11 @@ def test_an_input_that_is_not_given_is_put_into_the_file(press: Path, tmp_path: 
 
 
 def test_a_knife_is_solved_as_by_machines_calculated_one_by_one(capfd: Capture) -> None:
-    config = load_config(KNIFE, DISCOVERY)
-    radius = design_input(config, "knife.edge_radius")
+    press = Press.read(KNIFE, DISCOVERY)
+    radius = design_input(press.config, "knife.edge_radius")
 
     def over(value: float) -> float:
-        return (
-            proved(config.tree, {radius.stands: radius.typed(value, 15)}, DISCOVERY).outputs["knife.edge_length"] - 0.04
-        )
+        return proved(press.with_values({radius.stands: radius.typed(value, 15)})).outputs["knife.edge_length"] - 0.04
 
     answer = found(capfd, solve(KNIFE, "knife.edge_radius", "knife.edge_length = 40 mm", "--format", "json"))
     places = [each["value"] for each in answer["solutions"]]
@@ -176,7 +175,7 @@ def test_the_end_of_a_step_is_typed_so_that_it_answers(tmp_path: Path, capfd: Ca
     answer = found(capfd, solve(press, "damper.shore_hardness", "damper.adopted_length = 60 mm", "--format", "json"))
     assert [each["reached"] for each in answer["solutions"]] == [0.06] * len(answer["solutions"])
     longer = f"{answer['solutions'][0]['value'] + 1e-6} "
-    beyond = proved(load_config(press, DISCOVERY).tree, {("mechanisms", "damper", "shore_hardness"): longer}, DISCOVERY)
+    beyond = proved(Press.read(press, DISCOVERY).with_values({("mechanisms", "damper", "shore_hardness"): longer}))
     assert beyond.outputs["damper.adopted_length"] > 0.06
     assert solve(press, "damper.shore_hardness", "damper.adopted_length = 75 mm") == 0
     assert "is already satisfied: damper.adopted_length is 75 mm" in capfd.readouterr().out

@@ -7,11 +7,10 @@ from pathlib import Path
 import numpy as np
 import pytest
 
-from diecut_report.config.loader import load_config
-from diecut_report.config.yaml import load
 from diecut_report.design.inputs import design_input, given_numbers
 from diecut_report.design.machines import SLACK, narrowed, proved, quantities, varied, write_config
 from diecut_report.errors import UserError
+from diecut_report.press import Press
 from tests.configs import DISCOVERY, EXAMPLE, HEAD, loaded, saved
 
 TWO = (
@@ -97,10 +96,10 @@ def test_what_is_not_asked_for_is_not_calculated(tmp_path: Path) -> None:
 
 
 def test_a_machine_proved_alone_is_the_one_of_the_run() -> None:
-    config = load_config(EXAMPLE.with_name("circular_knife.yaml"), DISCOVERY)
-    depth = design_input(config, "knife.depth")
-    many = varied(config, {depth.asked: np.array([0.110, 0.1115])}, 2)
-    alone = proved(config.tree, {depth.stands: depth.typed(0.1115)}, DISCOVERY)
+    press = Press.read(EXAMPLE.with_name("circular_knife.yaml"), DISCOVERY)
+    depth = design_input(press.config, "knife.depth")
+    many = varied(press.config, {depth.asked: np.array([0.110, 0.1115])}, 2)
+    alone = proved(press.with_values({depth.stands: depth.typed(0.1115)}))
     assert len(alone.outputs) > 20
     for name, value in alone.outputs.items():
         assert many.values(name)[1] == pytest.approx(value, rel=1e-9), name
@@ -108,12 +107,12 @@ def test_a_machine_proved_alone_is_the_one_of_the_run() -> None:
 
 
 def test_a_machine_is_written_whole_or_not_at_all(tmp_path: Path) -> None:
-    tree = load(saved(tmp_path, TWO))
-    machine = proved(tree, {("mechanisms", "a", "arm"): "0.12 m"}, DISCOVERY)
+    press = Press.read(saved(tmp_path, TWO), DISCOVERY)
+    tree, machine = press.config.tree, proved(press.with_values({("mechanisms", "a", "arm"): "0.12 m"}))
     write_config(tree, machine, tmp_path / "new" / "made.yaml")
     assert (tmp_path / "new" / "made.yaml").read_text() == TWO.replace("arm: 0.1 m", "arm: 0.12 m")
     with pytest.raises(UserError, match="would be overwritten"):
         write_config(tree, machine, tmp_path / "press.yaml")
     with pytest.raises(UserError, match=r"mechanisms\.a\.arm: 2 m is out of range"):
-        proved(tree, {("mechanisms", "a", "arm"): "2 m"}, DISCOVERY)
+        press.with_values({("mechanisms", "a", "arm"): "2 m"})
     assert sorted(path.name for path in tmp_path.iterdir()) == ["new", "press.yaml"]

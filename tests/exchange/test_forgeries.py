@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import copy
 import io
 import json
 from collections.abc import Callable, Iterator
@@ -29,11 +28,11 @@ from pyhanko.sign import signers
 from pyhanko.sign.timestamps import DummyTimeStamper
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
-from diecut_report import pipeline
 from diecut_report.exchange import signature_status
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.signatures import signatures
 from diecut_report.exchange.signing import Additions
+from diecut_report.press import CalculatedPress, Press
 from diecut_report.text.phrases import cell
 from tests.configs import SMALL, saved
 from tests.examples import few
@@ -97,17 +96,15 @@ def knife(tmp_path_factory: pytest.TempPathFactory) -> Path:
 @pytest.fixture
 def calculated_once(monkeypatch: Patch) -> None:
     """A configuration is calculated once, however often it is verified."""
-    known: dict[str, Any] = {}
-    calc = pipeline.calc
+    known: dict[str, CalculatedPress] = {}
+    calculate = Press.calculate
 
-    def again(tree: Any, *given: Any, **named: Any) -> Any:
-        key = f"{tree.text}{tree.name}{[name for name, value in sorted(named.items()) if value]}"
-        outcome, text = known[key] if key in known else known.setdefault(key, calc(tree, *given, **named))
-        return type(outcome)(
-            copy.deepcopy(outcome.results), *[getattr(outcome, name) for name in ("written", "broken", "warnings")]
-        ), text
+    def again(press: Press) -> CalculatedPress:
+        tree = press.config.tree
+        key = f"{tree.text}{tree.name}{tree.sha256}{press.config.files}"
+        return known.get(key) or known.setdefault(key, calculate(press))
 
-    monkeypatch.setattr(pipeline, "calc", again)
+    monkeypatch.setattr(Press, "calculate", again)
 
 
 def verified(content: bytes, folder: Path, capfd: Capture, *options: object) -> tuple[int, str]:

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from functools import cache
 from typing import Any
 
-from diecut_report.config.model import Press
+from diecut_report.config.model import PressBlock
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.inputs import Quantity
 from tests.extremes.harness import Extreme, judged, quantities, values
@@ -27,7 +27,7 @@ def example_extremes(stem: str, home: str) -> Iterator[Extreme]:
     of_it = (
         quantities(OF_KINDS[body["kind"]].inputs, body, ("mechanisms", home))
         if body
-        else quantities(Press, config["press"], ("press",))
+        else quantities(PressBlock, config["press"], ("press",))
     )
     for key, quantity in of_it:
         if key[-1] != "n_points":

@@ -6,7 +6,7 @@ import json
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
-from diecut_report.config.model import Press
+from diecut_report.config.model import PressBlock
 from diecut_report.config.yaml import KeyPath
 from diecut_report.mechanism.inputs import Quantity, meta_of
 from diecut_report.results.warm_press import WarmPress
@@ -41,7 +41,7 @@ def extremes(kind: str, *, short: bool = False) -> Iterator[Extreme]:
     for machine, keys in list(written.items())[: 1 if short else None]:
         config = _config(kind, keys)
         for key, quantity in (*quantities(OF_KINDS[kind].inputs, config["mechanisms"]["a"], ("mechanisms", "a")),
-                              *(quantities(Press, config["press"], ("press",)) if from_press(kind) else ())):  # fmt: skip
+                              *(quantities(PressBlock, config["press"], ("press",)) if from_press(kind) else ())):  # fmt: skip
             for value in dict.fromkeys(map(repr, values(quantity))):
                 yield Extreme((kind, machine), key, json.loads(value))
 

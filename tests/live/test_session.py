@@ -13,15 +13,13 @@ import numpy as np
 import pytest
 
 from diecut_report.config import yaml
-from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import Tree
 from diecut_report.design.machines import UTILISATION, varied
 from diecut_report.errors import UserError
 from diecut_report.live.page import WORDS, Pictures, assets, effect, page, page_data, slider
 from diecut_report.live.session import LiveSession
-from diecut_report.results.document import document
-from diecut_report.results.press_run import compute
+from diecut_report.press import Press
 from diecut_report.results.warm_press import WarmRun
 from diecut_report.text.translation import speaking
 from tests.configs import EXAMPLES
@@ -92,7 +90,7 @@ def test_it_shows_what_the_file_gives_when_it_is_calculated_by_itself(session: L
     session.change({"knife.eccentricity": "22 mm", "press.sheet.thickness": "0.6 mm"})
     shown = page_data(session)["machine"]
     session.write()
-    results = document(compute(load_config(session.file, Discovery([])), lambda _: None))
+    results = Press.read(session.file, Discovery([])).calculate().results
     assert (shown["status"], shown["summary"]["fail"]) == (results.status, results.summary.fail)
     (knife,) = (each for each in shown["mechanisms"] if each["name"] == "knife")
     checks = {check.id: check for check in results.mechanisms["knife"].checks}

@@ -15,7 +15,7 @@ from diecut_report.errors import UserError
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.chapters import in_form
 from diecut_report.mechanism.inputs import flatten
-from diecut_report.pipeline import calc as run
+from diecut_report.press import Press
 from diecut_report.report.equations import Equations
 from diecut_report.report.text import Catalogue
 from diecut_report.results.mechanism import mechanism_results
@@ -40,9 +40,9 @@ def plugins(tmp_path: Path) -> Discovery:
 
 def found(tmp_path: Path, text: str, plugins: Discovery, name: str = "a") -> dict[str, Any]:
     """The results of one mechanism of a config."""
-    outcome, written = run(saved(tmp_path, text), plugins, lambda _: None)
-    assert not outcome.broken
-    return dict(json.loads(written)["mechanisms"][name])
+    made = Press.read(saved(tmp_path, text), plugins).calculate()
+    assert not made.broken
+    return dict(json.loads(made.text)["mechanisms"][name])
 
 
 def shown(result: dict[str, Any]) -> tuple[float, str, str]:
@@ -106,7 +106,7 @@ def test_a_message_prints_the_unit_that_holds(tmp_path: Path, plugins: Discovery
 
 def problems_of_machine(tmp_path: Path, text: str, plugins: Discovery) -> str:
     with pytest.raises(UserError) as refused:
-        run(saved(tmp_path, text), plugins, lambda _: None)
+        Press.read(saved(tmp_path, text), plugins).calculate()
     return str(refused.value.problems[0])
 
 

@@ -15,7 +15,7 @@ from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.printing.substitution import printed
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
-from diecut_report.pipeline import calc as run
+from diecut_report.press import Press
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.mechanism_record import MechanismRecord
 from tests.configs import problems, saved
@@ -169,9 +169,9 @@ def test_one_group_of_inputs_is_needed(tmp_path: Path, plugins: Discovery, keys:
 
 
 def results(tmp_path: Path, text: str, plugins: Discovery) -> dict[str, Any]:
-    outcome, written = run(saved(tmp_path, text), plugins, lambda _: None)
-    assert not outcome.broken
-    return dict(json.loads(written))
+    made = Press.read(saved(tmp_path, text), plugins).calculate()
+    assert not made.broken
+    return dict(json.loads(made.text))
 
 
 def test_an_optional_default_of_the_press_may_be_absent(tmp_path: Path, plugins: Discovery) -> None:
@@ -225,6 +225,6 @@ def test_a_comparison_is_run_last_for_each_choice_of_instances(tmp_path: Path, p
 
 def test_a_comparison_that_breaks_is_named(tmp_path: Path, plugins: Discovery, monkeypatch: pytest.MonkeyPatch) -> None:
     monkeypatch.setitem(MECHANISM.comparisons[0].takes, "other", ("loop", "force"))  # type: ignore[arg-type]
-    outcome, _ = run(saved(tmp_path, HEAD + "  a: {kind: loop, pull: 1}\n"), plugins, lambda _: None)
+    outcome = Press.read(saved(tmp_path, HEAD + "  a: {kind: loop, pull: 1}\n"), plugins).calculate()
     (error,) = outcome.broken
     assert "loop_comparison-a" in str(error) and outcome.results.status == "error"

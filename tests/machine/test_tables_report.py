@@ -9,7 +9,7 @@ import numpy as np
 import pytest
 
 from diecut_report.config.plugins import Discovery
-from diecut_report.pipeline import calculated, report
+from diecut_report.press import Press
 from diecut_report.report.figures.labels import Across, Line, Note, PanelData
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows
@@ -29,13 +29,7 @@ def plugins(tmp_path: Path) -> Discovery:
 
 
 def test_the_report_prints_rows_sources_and_the_line_between(tmp_path: Path, plugins: Discovery) -> None:
-    outcome = report(
-        calculated(saved(tmp_path, HEAD + MECHANISM), plugins, lambda _: None),
-        plugins,
-        lambda _: None,
-        tmp_path / "out",
-        ["html"],
-    )
+    outcome = Press.read(saved(tmp_path, HEAD + MECHANISM), plugins).calculate().report(tmp_path / "out", ["html"])
     text = (tmp_path / "out" / "press.html").read_text("utf-8")
     assert outcome.broken == ()
     assert text.count("From “Bearings” for 6204<") == 1  # of the bore and of the capacity together
@@ -46,13 +40,7 @@ def test_the_report_prints_rows_sources_and_the_line_between(tmp_path: Path, plu
 
 
 def test_the_report_says_what_is_as_given(tmp_path: Path, plugins: Discovery) -> None:
-    report(
-        calculated(saved(tmp_path, HEAD + AS_GIVEN), plugins, lambda _: None),
-        plugins,
-        lambda _: None,
-        tmp_path / "out",
-        ["html"],
-    )
+    Press.read(saved(tmp_path, HEAD + AS_GIVEN), plugins).calculate().report(tmp_path / "out", ["html"])
     text = (tmp_path / "out" / "press.html").read_text("utf-8")
     assert "Bore: as given" in text and "From “Bearings”" not in text
 

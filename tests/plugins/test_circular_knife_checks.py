@@ -8,10 +8,10 @@ from typing import Any
 
 import pytest
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.machine.calculation import Impossible
+from diecut_report.press import Press
 from tests.configs import EXAMPLES, HEAD, problems
 from tests.machines import number
 from tests.plugins.knives import checks, knife
@@ -114,7 +114,7 @@ def test_a_knife_that_cannot_cut_is_told_of_once(tmp_path: Path, changed: dict[s
         HEAD + f"  k: {{kind: circular_knife, {', '.join(f'{k}: {v}' for k, v in (KEYS | changed).items())}}}\n"
     )
     with pytest.raises(UserError) as refused:
-        pipeline.calc(file, Discovery([]), lambda _: None)
+        Press.read(file, Discovery([])).calculate()
     assert len(refused.value.problems) == 1
 
 
@@ -146,7 +146,7 @@ def test_inputs_out_of_range_are_refused(tmp_path: Path, change: str, words: str
 
 def test_the_example_is_the_worked_example_and_passes() -> None:
     config = next(path for path in EXAMPLES if path.name == "circular_knife.yaml")
-    results = pipeline.calc(config, Discovery([]), lambda _: None)[0].results
+    results = Press.read(config, Discovery([])).calculate().results
     found = results.mechanisms["knife"]
     assert results.status == "pass"
     assert found.outputs["force_max"].value == pytest.approx(4.2 * 10.5276, rel=5e-6)  # of 42, not 10 N/mm²

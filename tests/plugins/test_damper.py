@@ -13,12 +13,12 @@ from hypothesis import strategies as st
 from scipy.integrate import quad, solve_ivp
 from scipy.optimize import brentq
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.figure_views import figures
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
+from diecut_report.press import Press
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import problems, saved
 from tests.machines import inputs, number
@@ -335,7 +335,7 @@ SURE = "kinetic_energy: 150, velocity: 0.5, elastic_modulus: 8"
 @pytest.mark.parametrize("press, impacts", [(", productivity: 6000 1/h", 3000), ("", None)])
 def test_half_the_sheets_heat_each_end(tmp_path: Path, press: str, impacts: float | None) -> None:
     path = saved(tmp_path, CONFIG % (press, SURE))
-    found = pipeline.calc(path, Discovery(), lambda _: None)[0].results.mechanisms["a"]
+    found = Press.read(path, Discovery()).calculate().results.mechanisms["a"]
     if impacts is None:
         assert "heat_power" not in found.outputs
         assert any("impacts_per_hour" in absent.text for absent in found.absent)

@@ -8,13 +8,13 @@ from typing import Annotated, Any
 import numpy as np
 import pytest
 
-from diecut_report import pipeline
 from diecut_report.api import Abscissa, Breakpoints, Chapter, Inputs, Mechanism, Quantity, Value, bind, formula
 from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
+from diecut_report.press import Press
 from tests.configs import HEAD, saved
 from tests.examples import few
 from tests.machines import number
@@ -119,7 +119,7 @@ def test_bad_inputs_are_told_in_words(
 
 def test_wrong_form_and_wrong_key_are_told_together(tmp_path: Path) -> None:
     with pytest.raises(UserError) as refused:
-        pipeline.calc(config(tmp_path, TURNING, {"mass": 3, "damping_ratio": 2}), Discovery([]), lambda _: None)
+        Press.read(config(tmp_path, TURNING, {"mass": 3, "damping_ratio": 2}), Discovery([])).calculate()
     told = "\n".join(map(str, refused.value.problems))
     assert "both given" in told and "f.damping_ratio" in told
 
@@ -141,7 +141,7 @@ AT_NIGHT: list[tuple[dict[str, Any], dict[str, Any]]] = [  # other tests calcula
     ids=lambda part: str(part)[:60],
 )
 def test_what_is_possible_is_calculated(tmp_path: Path, keys: dict[str, Any], changes: dict[str, Any]) -> None:
-    outcome = pipeline.calc(config(tmp_path, keys, changes), Discovery([]), lambda _: None)[0]
+    outcome = Press.read(config(tmp_path, keys, changes), Discovery([])).calculate()
     found = outcome.results.mechanisms["f"]
     assert not found.error
     assert 0.1 <= found.outputs["tuning_ratio"].value <= 50

@@ -7,9 +7,9 @@ from typing import Any
 
 import pytest
 
-from diecut_report.results.document import document
-from diecut_report.results.press_run import compute, impossible
-from tests.configs import loaded
+from diecut_report.press import Press
+from diecut_report.results.press_run import impossible
+from tests.configs import DISCOVERY, loaded, saved
 
 PRESS = Path(__file__).parent / "data/press_before_corrections.yaml"
 
@@ -17,9 +17,11 @@ PRESS = Path(__file__).parent / "data/press_before_corrections.yaml"
 @pytest.fixture(scope="module")
 def press(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The results of its mechanisms."""
-    return document(
-        compute(loaded(tmp_path_factory.mktemp("press"), PRESS.read_text("utf-8")), lambda _: None)
-    ).mechanisms
+    return (
+        Press.read(saved(tmp_path_factory.mktemp("press"), PRESS.read_text("utf-8")), DISCOVERY)
+        .calculate()
+        .results.mechanisms
+    )
 
 
 def value(of: Any, name: str) -> float:

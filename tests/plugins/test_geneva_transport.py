@@ -11,12 +11,12 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.geneva_transport import MECHANISM
+from diecut_report.press import Press
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.mechanism_record import CheckRecord
 from tests.configs import HEAD, problems, saved
@@ -287,7 +287,7 @@ def test_the_figures_are_drawn_even_where_nothing_holds_the_wheel() -> None:
 
 def test_the_crank_makes_a_turn_for_each_sheet_of_the_press(tmp_path: Path) -> None:
     config = saved(tmp_path, HEAD + "  g: {kind: geneva_transport, center_distance: 200 mm, roller_radius: 10 mm}\n")
-    found = pipeline.calc(config, Discovery([]), lambda _: None)[0].results.mechanisms["g"]
+    found = Press.read(config, Discovery([])).calculate().results.mechanisms["g"]
     assert found.inputs["crank_speed"].value == pytest.approx(2 * np.pi * 6000 / 3600, rel=1e-14)
     assert found.outputs["time_dwell"].value == pytest.approx(0.4, rel=1e-14)
 

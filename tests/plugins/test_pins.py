@@ -5,11 +5,9 @@ from __future__ import annotations
 import pytest
 import yaml
 
-from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
-from diecut_report.results.document import document
+from diecut_report.press import Press
 from diecut_report.results.model import ResultsRecord
-from diecut_report.results.press_run import compute
 from tests.configs import EXAMPLES, saved
 
 ELEMENTS = next(path for path in EXAMPLES if path.stem == "flat_cylinder_elements").read_text(encoding="utf-8")
@@ -24,7 +22,7 @@ def press(tmp_path_factory: pytest.TempPathFactory, diameter: str, *only: str) -
     data = yaml.safe_load(ELEMENTS.replace(GIVEN, diameter))
     data["mechanisms"] = {name: data["mechanisms"][name] for name in only or data["mechanisms"]}
     file = saved(tmp_path_factory.mktemp("pins"), yaml.safe_dump(data, sort_keys=False))
-    return document(compute(load_config(file, Discovery([])), lambda _: None))
+    return Press.read(file, Discovery([])).calculate().results
 
 
 @pytest.fixture(scope="module")

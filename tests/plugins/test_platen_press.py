@@ -14,9 +14,9 @@ from numpy.typing import NDArray
 from scipy.integrate import quad
 from scipy.optimize import brentq
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.machine.calculation import Calculation
+from diecut_report.press import Press
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.results.mechanism_record import FigureRecord, ShownRecord
 from tests.configs import EXAMPLES
@@ -315,7 +315,7 @@ def test_the_figure_over_the_thickness_has_the_peaks_of_single_machines() -> Non
 
 def test_the_example_is_the_sources_machine() -> None:
     example = next(path for path in EXAMPLES if path.name == "platen_press_zppt30.yaml")
-    found = pipeline.calc(example, Discovery([]), lambda _: None)[0].results
+    found = Press.read(example, Discovery([])).calculate().results
     assert found.status != "fail"
     kinds = {name: each.kind for name, each in found.mechanisms.items()}
     assert kinds == {"platen": "platen_press", "crank": "shaft", "platen_pin": "shaft", "wheel_key": "parallel_key"}

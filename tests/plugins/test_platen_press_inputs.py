@@ -9,12 +9,12 @@ import numpy as np
 import pytest
 from jsonschema import Draft202012Validator
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.schema import kind_schema
 from diecut_report.errors import UserError
 from diecut_report.machine.calculation import Impossible
 from diecut_report.plugins.platen_press import MECHANISM
+from diecut_report.press import Press
 from tests.configs import HEAD, problems, saved
 from tests.machines import number
 from tests.plugins.platens import platen
@@ -42,7 +42,7 @@ def test_a_list_of_frictions_may_hold_references_and_be_referred_to(tmp_path: Pa
     config = saved(tmp_path, HEAD + "  a: {kind: platen_press, friction: [0.1, 0.02, '${b.friction}', 0.05]}\n"
                    "  b: {kind: platen_press, friction: 0.03}\n  c: {kind: platen_press, friction: [0.1, 0.02, 0.03, 0.05]}\n"
                    "  d: {kind: platen_press, friction: ['${a.friction_guide}', '${c.friction_platen_pin}', 0.03, 0.05]}\n")  # fmt: skip
-    found = pipeline.calc(config, Discovery([]), lambda _: None)[0].results.mechanisms
+    found = Press.read(config, Discovery([])).calculate().results.mechanisms
     expected = number(platen(friction=[0.1, 0.02, 0.03, 0.05]), "friction_arm")
     assert [found[name].outputs["friction_arm"].value for name in "acd"] == [expected] * 3
     of_a = found["a"].inputs
@@ -73,11 +73,11 @@ def test_a_wrong_reference_in_a_list_of_frictions_is_told_once(tmp_path: Path, v
 def test_a_list_with_references_is_referred_to_by_its_single_keys(tmp_path: Path) -> None:
     blocks = "  a: {kind: platen_press, friction: [0.1, '${b.friction}', 0.2, 0.3]}\n  b: {kind: platen_press, friction: 0.05}\n"
     single = saved(tmp_path, HEAD + blocks + "  c: {kind: platen_press, friction: '${a.friction_platen_pin}'}\n")
-    found = pipeline.calc(single, Discovery([]), lambda _: None)[0].results.mechanisms
+    found = Press.read(single, Discovery([])).calculate().results.mechanisms
     assert found["c"].inputs["friction"].value == 0.05
     whole = saved(tmp_path, HEAD + blocks + "  c: {kind: platen_press, friction: '${a.friction}'}\n")
     with pytest.raises(UserError, match=r"is a list; refer to one of its values \(friction_guide, friction_platen_pin"):
-        pipeline.calc(whole, Discovery([]), lambda _: None)
+        Press.read(whole, Discovery([])).calculate()
 
 
 def test_keys_without_a_value_and_four_single_frictions_leave_the_defaults_their_place() -> None:

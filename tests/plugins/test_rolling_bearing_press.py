@@ -10,13 +10,12 @@ import numpy as np
 import pytest
 
 from diecut_report.machine.calculation import Impossible
+from diecut_report.press import Press
 from diecut_report.quantities.plausible import Plausible
-from diecut_report.results.document import document
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.press_run import compute
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.variant_rows import calculate_rows, columns_of
-from tests.configs import HEAD, loaded, problems
+from tests.configs import DISCOVERY, HEAD, loaded, problems, saved
 from tests.plugins.bearings import (
     ANGULAR,
     BALL,
@@ -60,7 +59,7 @@ def plausible_sizes() -> Iterator[None]:
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The results of the press."""
-    return document(compute(loaded(tmp_path_factory.mktemp("press"), PRESS), lambda _: None))
+    return Press.read(saved(tmp_path_factory.mktemp("press"), PRESS), DISCOVERY).calculate().results
 
 
 @pytest.mark.parametrize(
@@ -108,7 +107,7 @@ def test_results_and_curves_of_a_bearing_are_referred_to_by_its_name(tmp_path: P
       - {name: same, type: deep_groove, dynamic_rating: "${bearings.main_b_dynamic_rating}", static_rating: 36 kN,
          radial_force: "${bearings.main_b_load}", speed: "${bearings.main_b_mean_speed}"}
 """
-    found = document(compute(loaded(tmp_path, PRESS + hook), lambda _: None)).mechanisms
+    found = Press.read(saved(tmp_path, PRESS + hook), DISCOVERY).calculate().results.mechanisms
     assert found["again"].outputs["same_life"].value == pytest.approx(
         found["bearings"].outputs["main_b_life"].value, rel=1e-9
     )
@@ -128,7 +127,7 @@ def test_variants_of_a_press_are_each_press_alone(tmp_path: Path) -> None:
     text = PRESS.replace("cutting_force_per_length: 25 N/mm", "cutting_force_per_length: 40 N/mm").replace(
         "55.3 kN", "60 kN"
     )
-    alone = document(compute(loaded(tmp_path, text), lambda _: None)).mechanisms["bearings"].outputs
+    alone = Press.read(saved(tmp_path, text), DISCOVERY).calculate().results.mechanisms["bearings"].outputs
     for name in ("main_b_life", "crank_pin_equivalent_load", "rocker_pin_turns_per_cycle", "life_min", "system_life"):
         assert rows.columns[f"bearings.{name}"][2] == pytest.approx(alone[name].value, rel=1e-9)
 

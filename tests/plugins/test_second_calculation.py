@@ -8,10 +8,9 @@ import numpy as np
 import pytest
 
 from diecut_report.formulas import Array
-from diecut_report.results.document import document
+from diecut_report.press import Press
 from diecut_report.results.mechanism_record import MechanismRecord
-from diecut_report.results.press_run import compute
-from tests.configs import loaded
+from tests.configs import DISCOVERY, saved
 
 pytestmark = pytest.mark.nightly  # what it goes through is tested piece by piece in tests/mechanics/timing
 
@@ -88,7 +87,7 @@ TURN = 2 * np.pi
 
 @pytest.fixture(scope="module")
 def press(tmp_path_factory: pytest.TempPathFactory) -> dict[str, MechanismRecord]:
-    results = document(compute(loaded(tmp_path_factory.mktemp("another"), PRESS), lambda _: None))
+    results = Press.read(saved(tmp_path_factory.mktemp("another"), PRESS), DISCOVERY).calculate().results
     assert all(each.status != "error" for each in results.mechanisms.values()), results
     return results.mechanisms
 

@@ -8,11 +8,10 @@ from typing import Any
 
 import pytest
 
+from diecut_report.press import Press
 from diecut_report.quantities.plausible import Plausible
-from diecut_report.results.document import document
 from diecut_report.results.mechanism_record import ShownRecord
-from diecut_report.results.press_run import compute
-from tests.configs import HEAD, loaded, problems
+from tests.configs import DISCOVERY, HEAD, problems, saved
 
 DRIVE = """
   drive:
@@ -67,7 +66,7 @@ def plausible_sizes() -> Iterator[None]:
 @pytest.fixture(scope="module")
 def results(tmp_path_factory: pytest.TempPathFactory) -> Any:
     """The results of the press."""
-    return document(compute(loaded(tmp_path_factory.mktemp("press"), PRESS), lambda _: None))
+    return Press.read(saved(tmp_path_factory.mktemp("press"), PRESS), DISCOVERY).calculate().results
 
 
 def value(results: Any, name: str) -> float:
@@ -132,7 +131,9 @@ def test_extremes_are_read_in_units_and_kept(tmp_path: Path) -> None:
     text = text.replace('"${drive.crank_bearing_force_x}"', "-9.994 kN").replace(
         '"${drive.crank_bearing_force_y}"', "0"
     )
-    found: Any = document(compute(loaded(tmp_path, text.replace("${drive.crank_speed}", "50 rpm")), lambda _: None))
+    found: Any = (
+        Press.read(saved(tmp_path, text.replace("${drive.crank_speed}", "50 rpm")), DISCOVERY).calculate().results
+    )
     own = found.mechanisms["crankshaft"]
     assert own.inputs["loads.0.torque"].display == ShownRecord(text="-300 … 494", unit="N*m")
     assert found.config.resolved["mechanisms"]["crankshaft"]["loads"][0]["torque"] == {

@@ -13,14 +13,13 @@ from diecut_report.machine.calculation import Calculation, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.shaft import MECHANISM
 from diecut_report.plugins.shaft.sizing import SERIES
+from diecut_report.press import Press
 from diecut_report.results.checks import check_results
-from diecut_report.results.document import document
-from diecut_report.results.press_run import compute
 from diecut_report.study.definition.study_file import load_study
 from diecut_report.study.execution.variant_rows import columns_of
 from diecut_report.study.execution.worker import Chunk
 from diecut_report.study.execution.worker import calculate as calculated
-from tests.configs import loaded, saved
+from tests.configs import DISCOVERY, loaded, saved
 from tests.machines import inputs, number
 from tests.plugins.shafts import CRANKSHAFT, shaft
 from tests.plugins.test_shaft_of_a_press import PRESS
@@ -137,11 +136,9 @@ def test_variants_under_curves_get_their_own_diameters(tmp_path: Path) -> None:
     text = text.replace("n_points: 720", "n_points: 72") + "    required_fatigue_safety: 1.05\n"
     base = loaded(tmp_path, text)
     alone = [
-        document(
-            compute(
-                loaded(tmp_path, text.replace("crank_length: 100 mm", f"crank_length: {length} mm")), lambda _: None
-            )
-        )
+        Press.read(saved(tmp_path, text.replace("crank_length: 100 mm", f"crank_length: {length} mm")), DISCOVERY)
+        .calculate()
+        .results
         for length in (80, 300)
     ]
     sizes = [each.mechanisms["crankshaft"].outputs["section_diameter.2"].value for each in alone]

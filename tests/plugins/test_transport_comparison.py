@@ -10,7 +10,6 @@ import pytest
 from hypothesis import given
 from hypothesis import strategies as st
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
@@ -18,6 +17,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import MECHANISM as CAM
 from diecut_report.plugins.geneva_transport import MECHANISM as GENEVA
+from diecut_report.press import Press
 from diecut_report.results.mechanism_record import MechanismRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import compared, found
@@ -251,7 +251,7 @@ def test_a_press_with_both_drives_is_compared_and_one_with_a_single_drive_is_not
     cross = "  g: {kind: geneva_transport, center_distance: 200, roller_radius: 10}\n"
 
     def calculated(text: str) -> ResultsRecord:
-        return pipeline.calc(saved(tmp_path, HEAD + text), Discovery([]), lambda _: None)[0].results
+        return Press.read(saved(tmp_path, HEAD + text), Discovery([])).calculate().results
 
     both = calculated(cross + stepper).comparisons
     (data,) = both.values()

@@ -14,10 +14,10 @@ import pytest
 from PIL import Image
 from pypdf import PdfReader
 
-from diecut_report import pipeline
 from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
+from diecut_report.press import AskedReport, Press
 from diecut_report.report.chapters.steps import BEFORE, Place, placed, sketch
 from diecut_report.report.context import Material, _left_alone
 from diecut_report.report.pages import html
@@ -70,7 +70,7 @@ def _dense(text: str) -> str:
 
 # what each detail holds
 def test_without_a_word_the_report_is_standard(tmp_path: Path) -> None:
-    results = document(compute(load_config(saved(tmp_path, SMALL), DISCOVERY), lambda _: None))
+    results = Press.read(saved(tmp_path, SMALL), DISCOVERY).calculate().results
     assert "report" not in SMALL and results.report.detail == "standard"
 
 
@@ -227,15 +227,8 @@ def test_only_names_that_the_configuration_has(tmp_path: Path, capfd: pytest.Cap
 
 def test_results_tell_how_the_report_was_asked_for(tmp_path: Path) -> None:
     config = saved(tmp_path, SMALL)
-    asked = pipeline.AskedReport(detail="brief", only=("clutch",))
-    pipeline.report(
-        pipeline.calculated(config, Discovery([]), lambda _: None, ("json",), asked.only),
-        Discovery([]),
-        lambda _: None,
-        tmp_path,
-        ("json",),
-        asked,
-    )
+    asked = AskedReport(detail="brief", only=("clutch",))
+    Press.read(config, Discovery([])).calculate().report(tmp_path, ("json",), asked)
     told = json.loads((tmp_path / "press.json").read_text("utf-8"))["report"]
     assert (told["detail"], told["only"]) == ("brief", ["clutch"])
 
@@ -292,15 +285,8 @@ def test_calculated_figures_tell_what_they_show(small_report: Path) -> None:
 
 def test_a_machine_that_is_drawn_to_scale_has_a_brief_report_too(tmp_path: Path) -> None:
     knife = next(path for path in EXAMPLES if path.stem == "circular_knife")
-    asked = pipeline.AskedReport(detail="brief")
-    pipeline.report(
-        pipeline.calculated(knife, Discovery([]), lambda _: None, ("html",), asked.only),
-        Discovery([]),
-        lambda _: None,
-        tmp_path,
-        ("html",),
-        asked,
-    )
+    asked = AskedReport(detail="brief")
+    Press.read(knife, Discovery([])).calculate().report(tmp_path, ("html",), asked)
     page = (tmp_path / "circular_knife.html").read_text("utf-8")
     assert "Knife, board and counter-knife" in page and "<svg" in page
 
@@ -316,8 +302,7 @@ def press_sheets(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """The PDFs of the example press in each detail."""
 
     def make(folder: Path) -> None:
-        made = pipeline.calculated(EXAMPLE, Discovery([]), lambda _: None, ("json",))
-        pipeline.report(made, Discovery([]), lambda _: None, folder, ("json",))
+        Press.read(EXAMPLE, Discovery([])).calculate().report(folder, ("json",))
         results = ResultsRecord.model_validate_json((folder / f"{EXAMPLE.stem}.json").read_bytes())
         for detail in DETAILS:
             asked = results.with_(report=results.report.with_(detail=detail))

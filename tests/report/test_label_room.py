@@ -16,7 +16,7 @@ from matplotlib.backends.backend_svg import RendererSVG
 from matplotlib.text import Text
 
 from diecut_report.config.plugins import Discovery
-from diecut_report.pipeline import calc
+from diecut_report.press import Press
 from diecut_report.report.chapters.steps import placed, rows_of
 from diecut_report.report.figures.by_type import build
 from diecut_report.report.figures.labels import AWAY, Across, LabelLayout, Line, Note, PanelData, SpanData, framed
@@ -123,7 +123,7 @@ def test_texts_of_all_figures_keep_clear(results: dict[str, Any], paired: bool) 
 @pytest.mark.parametrize("config", EXAMPLES, ids=lambda path: path.stem)
 @pytest.mark.parametrize("language", ["en", "uk"])
 def test_texts_of_figures_keep_clear_in_every_example(config: Path, paired: bool, language: str) -> None:
-    assert _every(calc(config, Discovery([]), lambda _: None)[0].results, paired=paired, language=language) == []
+    assert _every(Press.read(config, Discovery([])).calculate().results, paired=paired, language=language) == []
 
 
 def test_a_diagram_of_many_lines_is_as_wide_as_the_sheet() -> None:

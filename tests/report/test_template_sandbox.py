@@ -13,8 +13,9 @@ import pytest
 from jinja2 import defaults
 from markupsafe import Markup
 
+from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
-from diecut_report.pipeline import rendered
+from diecut_report.press import drawn
 from diecut_report.report.context import Material
 from diecut_report.report.pages import firm_templates
 from diecut_report.report.pages.firm_templates import HouseStyle, TemplateSandbox
@@ -175,10 +176,8 @@ def brief(plain: Data) -> Data:
 def closed(results: Data, text: str) -> str:
     """The page with a template's text at its end."""
     template = '{% extends "program/report.html.j2" %}\n{% block closing %}\n' + text + "\n{% endblock %}\n"
-    made, _ = rendered(
-        typed(results), ["html"], lambda _: None, house=HouseStyle("house", {"report.html.j2": template})
-    )
-    return made["html"].decode()
+    house = HouseStyle("house", {"report.html.j2": template})
+    return drawn(typed(results), ["html"], Discovery([]), lambda _: None, house).contents["html"].decode()
 
 
 @pytest.mark.parametrize("text", WAYS_OUT)

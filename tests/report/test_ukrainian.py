@@ -11,8 +11,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
+from diecut_report.press import Press
 from diecut_report.report.rendering import Rendering
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text import po_files
@@ -143,5 +143,5 @@ def test_numbers_have_a_decimal_comma(small: ResultsRecord) -> None:
 def test_no_english_word_is_left_in_an_example(config: Path) -> None:
     if "study" in config.stem:
         return
-    outcome, _ = pipeline.calc(config, Discovery([]), lambda _: None)
+    outcome = Press.read(config, Discovery([])).calculate()
     assert left_over(outcome.results, in_ukrainian(outcome.results)) == {}

@@ -12,8 +12,7 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.yaml import load
 from diecut_report.errors import UserError
-from diecut_report.results.document import document
-from diecut_report.results.press_run import compute
+from diecut_report.press import Press
 from diecut_report.study.definition.base_inputs import find_input
 from diecut_report.study.execution.press_batch import calculated
 from diecut_report.study.execution.variant_rows import verdicts
@@ -39,7 +38,7 @@ def gears(**more: Any) -> dict[str, Any]:
 
 def judged(tmp_path: Path, own: dict[str, Any], check: str) -> dict[str, Any]:
     file = saved(tmp_path, HEAD + f"  a: {own!r}\n")
-    results = document(compute(load_config(file, Discovery()), lambda _: None))
+    results = Press.read(file, Discovery()).calculate().results
     (found,) = (each for each in results.mechanisms["a"].checks if each.id == check)
     return dict(found) | {"conclusion": results.summary.conclusion}
 
@@ -98,7 +97,7 @@ def mended(**changes: dict[str, Any]) -> dict[str, Any]:
     for name, own in changes.items():
         block = tree.data["mechanisms"][name]
         tree.data["mechanisms"][name] = {key: value for key, value in (block | own).items() if value is not None}
-    results = document(compute(load_config(tree, Discovery()), lambda _: None))
+    results = Press.read(tree, Discovery()).calculate().results
     found = results.mechanisms
     return {f"{name}.{each.id}": each.status for name in found for each in found[name].checks}
 

@@ -4,9 +4,8 @@ from __future__ import annotations
 
 from pathlib import Path
 
-from diecut_report.results.document import document
-from diecut_report.results.press_run import compute
-from tests.configs import loaded
+from diecut_report.press import Press
+from tests.configs import DISCOVERY, saved
 
 STEPPER = """
     kind: geneva_transport
@@ -27,7 +26,7 @@ mechanisms:
 def told(tmp_path: Path, speed: str, first: str = "") -> str:
     """The failing check of a second stepper, whose crank's speed is given so."""
     text = f"{HEAD}  cross:{STEPPER}{first}  next:{STEPPER}    crank_speed: {speed}\n"
-    results = document(compute(loaded(tmp_path, text), lambda _: None))
+    results = Press.read(saved(tmp_path, text), DISCOVERY).calculate().results
     (check,) = (c for c in results.mechanisms["next"].checks if c.status == "fail")
     return check.message
 

@@ -9,9 +9,9 @@ from typing import Any
 import pyarrow.parquet as pq
 import pytest
 
-from diecut_report import pipeline
 from diecut_report.cli.main import main
 from diecut_report.errors import PluginError
+from diecut_report.press import CalculatedPress, ReportOutcome
 from tests.configs import saved
 
 Capture = pytest.CaptureFixture[str]
@@ -191,11 +191,11 @@ def test_code_of_the_inputs_is_a_fault_of_the_plugin(tmp_path: Path, capfd: Capt
 def test_a_plugin_that_breaks_in_a_full_report_alone_is_told(
     tmp_path: Path, capfd: Capture, monkeypatch: pytest.MonkeyPatch
 ) -> None:
-    made = pipeline.report
+    made = CalculatedPress.report
 
-    def broken(*given: Any) -> pipeline.ReportOutcome:
+    def broken(*given: Any) -> ReportOutcome:
         return replace(made(*given), broken=(PluginError("KeyError: 'figure'", "breaking", "m"),))
 
-    monkeypatch.setattr(pipeline, "report", broken)
+    monkeypatch.setattr(CalculatedPress, "report", broken)
     code, told = ran(tmp_path, VALUE.format("twice"), capfd, rest="reports: [0]\n")
     assert code == 3 and "plugin 'breaking' broke in the full report of variant 0: KeyError: 'figure'" in told

@@ -16,13 +16,13 @@ from zipfile import ZipFile
 
 import pytest
 
-from diecut_report import pipeline
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.optimisation import page as optimisation_page
 from diecut_report.live.page import page as live_page
 from diecut_report.live.page import page_data
 from diecut_report.live.session import LiveSession
+from diecut_report.press import Press
 from diecut_report.report.text import translated
 from diecut_report.results.model import ResultsRecord
 from diecut_report.study import command
@@ -224,7 +224,7 @@ def test_the_published_press_is_ukrainian(example: Example) -> None:
     ids=lambda path: path.stem,
 )
 def test_an_example_is_ukrainian(config: Path) -> None:
-    outcome, _ = pipeline.calc(config, Discovery([]), lambda _: None)
+    outcome = Press.read(config, Discovery([])).calculate()
     assert left_over(outcome.results) == {}
 
 

@@ -15,8 +15,9 @@ from functools import cache
 from pathlib import Path
 from typing import Any, NamedTuple
 
-from diecut_report import api, pipeline
+from diecut_report import api
 from diecut_report.config.plugins import LIST, Discovery
+from diecut_report.press import Press
 from diecut_report.results.mechanism_record import QuantityRecord
 from diecut_report.results.model import ResultsRecord
 from tools.site.sources import ROOT
@@ -115,7 +116,7 @@ def run(example: ApiExample) -> ResultsRecord | None:
         (folder / "tables.yaml").write_text(example.said.get("TABLES", ""), encoding="utf-8")
         config = folder / "example.yaml"
         config.write_text(configuration(example), encoding="utf-8")
-        made_of = pipeline.calc(config, Discovery([folder]), lambda _: None)[0]
+        made_of = Press.read(config, Discovery([folder])).calculate()
         if made_of.broken:
             raise made_of.broken[0]
         return made_of.results

@@ -10,9 +10,9 @@ from typing import Any, NamedTuple
 
 import yaml
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.design.findings import with_findings
+from diecut_report.press import Press
 from diecut_report.report.chapters.steps import placed, sketch
 from diecut_report.report.figures.by_type import render
 from diecut_report.report.figures.style import SizesSize, Svg
@@ -81,13 +81,8 @@ def _example(file: Path, *, calculated: bool) -> Example:
     if not calculated:
         return plain
     with tempfile.TemporaryDirectory() as folder:
-        calculated_one = with_findings(pipeline.calculated(file, Discovery(), _silent), _silent)
-        made = pipeline.report(calculated_one, Discovery(), _silent, Path(folder), ("html",))
+        made = with_findings(Press.read(file, Discovery()).calculate()).report(Path(folder), ["html"])
         return plain._replace(results=made.results, report=(Path(folder) / f"{file.stem}.html").read_bytes())
-
-
-def _silent(_: str) -> None:
-    """Tell nothing of the way."""
 
 
 def shown_kinds(found: list[Example]) -> dict[str, Shown]:

@@ -24,6 +24,7 @@ from diecut_report.design.machines import ProvedMachine, proved
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.files import refuse_unreadable_name
 from diecut_report.formulas import Array
+from diecut_report.press import Press
 from diecut_report.study.analysis.variant_config import variant_of
 from diecut_report.study.analysis.variants import UTILISATION as RECHECK_UTILISATION
 from diecut_report.study.analysis.variants import Stored, opened, quoted
@@ -271,7 +272,8 @@ def _alone(place: MachinePlace, some: SomeMachines) -> dict[int, Rechecked]:
 
 def _of_one(place: MachinePlace, stored: Stored, variant: int) -> Rechecked:
     try:
-        machine = proved(variant_of(stored, variant, place.discovery, f"{variant}.yaml"), {}, place.discovery)
+        tree = variant_of(stored, variant, place.discovery, f"{variant}.yaml")
+        machine = proved(Press.read(yaml.parse(tree.text, tree.file), place.discovery))
     except (UserError, PluginError) as error:
         return Rechecked("error", fault=str(error).splitlines()[0])
     known = _numbers(machine)

@@ -16,11 +16,11 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report import pipeline
 from diecut_report.config.loader import Config
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError, Problem, UserError
 from diecut_report.formulas import Array
+from diecut_report.press import Press
 from diecut_report.quantities.units import unit
 from diecut_report.report.text import number
 from diecut_report.results.checks import NOT_CHECKED
@@ -368,7 +368,7 @@ def reason_text(stored: Stored, variant: int, reason: str, discovery: Discovery)
         return reason
     problems: Sequence[Problem] = ()
     try:
-        pipeline.validate(variant_of(stored, variant, discovery, str(variant), in_error=True), discovery)
+        Press.validate(variant_of(stored, variant, discovery, str(variant), in_error=True), discovery)
     except UserError as error:
         problems = error.problems
     except PluginError:  # it is reported where it broke

@@ -10,7 +10,7 @@ from typing import Annotated, Any, Literal, get_args, get_origin
 from diecut_report.config import loader
 from diecut_report.config.instances import Instance, substituted
 from diecut_report.config.loader import Config
-from diecut_report.config.model import PRESS, Press
+from diecut_report.config.model import PRESS, PressBlock
 from diecut_report.config.references import Linker, ordered
 from diecut_report.config.validation import declared, keys_of, validate
 from diecut_report.config.yaml import KeyPath
@@ -189,7 +189,7 @@ def _changed(instance: Instance | None, values: Mapping[Input, Any]) -> Instance
     data = substituted(instance, {}, lambda _, __: None)
     for key, value in own.items():
         _put(data, key, value)
-    declared_as = instance.mechanism.inputs if instance.mechanism else Press
+    declared_as = instance.mechanism.inputs if instance.mechanism else PressBlock
     place, bases, taken = instance.place, instance.bases, instance.own
     if taken and not taken.naming.keys().isdisjoint(own):
         taken = taken.anew(declared_as, data, own, place)

@@ -12,7 +12,7 @@ from pathlib import Path, PurePath
 from typing import Any
 
 from diecut_report.config import yaml
-from diecut_report.config.loader import Config, beside, load_config
+from diecut_report.config.loader import Config, beside
 from diecut_report.config.model import PRESS
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.validation import ConfigPlace, as_typed, validate
@@ -20,6 +20,7 @@ from diecut_report.config.yaml import Tree
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.formulas.conditions import ConditionError
 from diecut_report.formulas.tree import Node
+from diecut_report.press import Press
 from diecut_report.study.definition.base_inputs import MECHANISMS, Input
 from diecut_report.study.definition.constraints import Constraint, Term, parse, term
 from diecut_report.study.definition.sample import Sampled, SampleReader, misused
@@ -209,14 +210,12 @@ class _StudyReader:
             self.problems.append(self.place.problem(("base",), Phrase(words, path=path)))
             return None
         try:
-            base = load_config(path, self.discovery, find=lambda name: self._find(self._beside_base(name)))
+            base = Press.read(path, self.discovery, find=lambda name: self._find(self._beside_base(name)))
         except UserError as error:
             words = "the base has problems, which are reported with its own name; what is varied in it is judged when they are fixed."
             self.problems += [self.place.problem(("base",), phrase(words)), *error.problems]
             return None
-        if base.broken:  # no variant can be calculated: the author of the plugin must act, not that of the study
-            raise next(iter(base.broken.values()))
-        return base
+        return base.usable().config  # with a broken plugin its author must act, not that of the study
 
     def _sample_form(self) -> SampleForm | None:
         """Return the key sample, or None where it, or what it needs, is wrong."""

@@ -9,9 +9,9 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.formulas import Array
+from diecut_report.press import AskedReport, Press
 from diecut_report.study.analysis.answers import rounded
 from diecut_report.study.analysis.variant_config import variant_config
 from diecut_report.study.definition.study_file import Study
@@ -90,9 +90,9 @@ def write_chosen(
 def _write(place: ReportPlace, report: VariantReport) -> dict[str, str]:
     discovery = Discovery([Path(plugin) for plugin in place.plugins])
     config = variant_config(place.directory, report.variant, discovery, f"{report.variant}.yaml")
-    asked = pipeline.AskedReport(place.language)
-    made = pipeline.calculated(config, discovery, lambda _: None, FORMATS)
-    outcome = pipeline.report(made, discovery, lambda _: None, place.directory / FOLDER, list(FORMATS), asked)
+    press = Press.read(config, discovery)
+    press.require_reportable(FORMATS)
+    outcome = press.calculate().report(place.directory / FOLDER, FORMATS, AskedReport(place.language))
     return {error.kind: error.message for error in outcome.broken}
 
 

@@ -13,9 +13,9 @@ from typing import Any
 
 import pytest
 
-from diecut_report import pipeline
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import UserError
+from diecut_report.press import Press
 from diecut_report.report import rendering
 from diecut_report.results.conclusion import governing
 from diecut_report.results.mechanism_record import CheckRecord
@@ -29,13 +29,9 @@ ALL = Discovery([GOOD, BROKEN])
 FAILS = LEVER.replace("force: 2 kN", "force: 2 kN, allowable_moment: 150")
 
 
-def silent(doing: str) -> None:
-    """Progress that nobody sees."""
-
-
 def results(path: Path, discovery: Discovery = DISCOVERY) -> ResultsRecord:
     """The results document of a config."""
-    return pipeline.calc(path, discovery, silent)[0].results
+    return Press.read(path, discovery).calculate().results
 
 
 # --- the document ----------------------------------------------------------------------------------------------------
@@ -43,7 +39,7 @@ def results(path: Path, discovery: Discovery = DISCOVERY) -> ResultsRecord:
 
 def test_the_document_holds_what_the_contract_names(tmp_path: Path) -> None:
     path = saved(tmp_path, FAILS)
-    found = json.loads(pipeline.calc(path, DISCOVERY, silent)[1])
+    found = json.loads(Press.read(path, DISCOVERY).calculate().text)
     assert found["schema_version"] == 1
     assert found["program"]["name"] == "diecut-report"
     assert found["config"]["file"] == "press.yaml"
@@ -96,7 +92,7 @@ def test_the_results_text_is_strict_json_with_exact_floats() -> None:
 
 def test_equal_inputs_give_equal_bytes_in_every_process(example: Example) -> None:
     """Of reports too: tests/hostile/test_surroundings.py, tests/report/test_again.py."""
-    assert (example.code, example.told) == (1, pipeline.calc(EXAMPLE, Discovery([]), silent)[1])
+    assert (example.code, example.told) == (1, Press.read(EXAMPLE, Discovery([])).calculate().text)
 
 
 def check_(status: str, utilisation: float | None) -> CheckRecord:
@@ -135,7 +131,7 @@ def test_a_broken_mechanism_is_in_error_and_the_others_are_kept(tmp_path: Path, 
         "  b: {kind: lever, force: 1, arm: '${x.result}'}\n"
         "  c: {kind: lever, force: 1, arm: '${b.arm}'}\n"
     )
-    outcome, _ = pipeline.calc(saved(tmp_path, text), ALL, silent)
+    outcome = Press.read(saved(tmp_path, text), ALL).calculate()
     found = outcome.results.mechanisms
     assert {name: data.status for name, data in found.items()} == {
         "a": "fail",
@@ -161,7 +157,7 @@ BOTH = "rod_comparison-a-x"
 
 
 def test_a_broken_comparison_is_in_error_and_the_mechanisms_are_kept(tmp_path: Path) -> None:
-    outcome, _ = pipeline.calc(saved(tmp_path, COMPARED), ALL, silent)
+    outcome = Press.read(saved(tmp_path, COMPARED), ALL).calculate()
     found = outcome.results.comparisons[BOTH]
     assert (found.status, outcome.results.status) == ("error", "error")
     assert (found.kind, found.title, found.plugin_version) == ("rod_comparison", "Lever and rod compared", "2")
@@ -216,9 +212,7 @@ def painted(monkeypatch: pytest.MonkeyPatch) -> type[Painted]:
 
 def made(config: Path, folder: Path, formats: tuple[str, ...] = ("html", "pdf", "json")) -> tuple[Path, ...]:
     """The files that a report writes."""
-    return pipeline.report(
-        pipeline.calculated(config, DISCOVERY, silent, formats), DISCOVERY, silent, folder, formats
-    ).written
+    return Press.read(config, DISCOVERY).calculate().report(folder, formats).written
 
 
 def below(folder: Path) -> list[str]:
@@ -341,17 +335,13 @@ def test_a_link_is_replaced_and_not_what_it_points_to(tmp_path: Path) -> None:
 
 def test_a_report_of_a_broken_plugin_is_written_all_the_same(tmp_path: Path) -> None:
     text = LEVER + "  broken: {kind: breaks_in_calculation}\n  b: {kind: lever, force: 1, arm: '${broken.result}'}\n"
-    written = pipeline.report(
-        pipeline.calculated(saved(tmp_path, text), ALL, silent, ("html",)), ALL, silent, tmp_path, ("html",)
-    ).written
+    written = Press.read(saved(tmp_path, text), ALL).calculate().report(tmp_path, ("html",)).written
     html = written[0].read_text("utf-8")
     assert "the plugin fell over" in html and "It refers to broken" in html
 
 
 def test_a_report_tells_of_a_broken_comparison(tmp_path: Path) -> None:
-    written = pipeline.report(
-        pipeline.calculated(saved(tmp_path, COMPARED), ALL, silent, ("html",)), ALL, silent, tmp_path, ("html",)
-    ).written
+    written = Press.read(saved(tmp_path, COMPARED), ALL).calculate().report(tmp_path, ("html",)).written
     html = written[0].read_text("utf-8")
     chapter = html[html.index('<h2 id="m-C">') :]
     assert "This comparison could not be calculated." in chapter and "the comparison fell over" in chapter
@@ -362,8 +352,8 @@ def test_a_report_tells_of_a_broken_comparison(tmp_path: Path) -> None:
 def test_the_examples_are_calculated_without_slow_imports() -> None:
     """All but the one of tests/cli/test_cli.py, ``test_calc_imports_nothing_that_draws_or_is_slow``."""
     code = (
-        "import sys; from pathlib import Path; from diecut_report import pipeline; from diecut_report.config.plugins import Discovery\n"
-        f"for name in {[str(path) for path in EXAMPLES if path != EXAMPLE]!r}: pipeline.calc(Path(name), Discovery([]), lambda doing: None)\n"
+        "import sys; from pathlib import Path; from diecut_report.config.plugins import Discovery; from diecut_report.press import Press\n"
+        f"for name in {[str(path) for path in EXAMPLES if path != EXAMPLE]!r}: Press.read(Path(name), Discovery([])).calculate()\n"
         "print(sorted({'pint', 'matplotlib', 'weasyprint', 'jinja2', 'ezdxf', 'scipy.stats'} & set(sys.modules)))"
     )
     done = subprocess.run([sys.executable, "-c", code], capture_output=True, text=True, check=True)
