@@ -15,11 +15,10 @@ from diecut_report.errors import UnknownName
 from diecut_report.results.mechanism import numbers
 from diecut_report.results.warm_press import WarmPress, WarmRun
 from diecut_report.results.where import where
-from tests.configs import DISCOVERY, EXAMPLE, EXAMPLES
+from tests.configs import DISCOVERY, EXAMPLE, EXAMPLES, PARTS
 from tests.examples import few
 
 KNIFE = EXAMPLE.with_name("circular_knife.yaml")
-PARTS = ("flat_cylinder_elements", "flat_cylinder_mechanisms", "flat_cylinder_press_mended")  # have the kinds of others
 
 
 @cache
