@@ -94,10 +94,15 @@ def knife(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="module")
+def known() -> dict[str, Any]:
+    """What has been calculated, by its configuration."""
+    return {}
+
+
 @pytest.fixture
-def calculated_once(monkeypatch: Patch) -> None:
+def calculated_once(known: dict[str, Any], monkeypatch: Patch) -> None:
     """A configuration is calculated once, however often it is verified."""
-    known: dict[str, Any] = {}
     calc = pipeline.calc
 
     def again(tree: Any, *given: Any, **named: Any) -> Any:
