@@ -16,6 +16,11 @@ STUDIES = [path for path in YAML if path.stem.endswith("_study")]
 EXAMPLES = [path for path in YAML if path not in STUDIES]
 EXAMPLE = next(path for path in EXAMPLES if path.name == "flat_cylinder_press.yaml")
 MECHANISMS = EXAMPLE.with_name("flat_cylinder_mechanisms.yaml")  # the same without its timing
+PARTS = (
+    "flat_cylinder_elements",
+    "flat_cylinder_mechanisms",
+    "flat_cylinder_press_mended",
+)  # have the kinds of EXAMPLE alone
 ON_ARRAYS = [path for path in EXAMPLES if "kind: cyclogram" not in path.read_text(encoding="utf-8")]
 DISCOVERY = Discovery([GOOD])
 

@@ -63,6 +63,15 @@ def pytest_unconfigure() -> None:
     gc.unfreeze()
 
 
+@pytest.fixture(scope="session", autouse=True)
+def compiled_templates() -> None:
+    """Templates are compiled once."""
+    from diecut_report.report.pages.firm_templates import OPTIONS
+    from tests.templates import Compiled
+
+    OPTIONS["bytecode_cache"] = Compiled()
+
+
 @pytest.fixture(scope="session")
 def small_report(tmp_path_factory: pytest.TempPathFactory) -> Path:
     """Give the folder with the report of a small press (HTML, PDF and results), made once for all workers of a run."""

@@ -13,14 +13,9 @@ from pathlib import Path
 import pytest
 
 from diecut_report.config.plugins import Discovery
-from diecut_report.press import Press
 from tests.configs import EXAMPLES
-from tests.examples import few
 
 ROOT = Path(__file__).parents[1]
-AT_NIGHT = {  # the published press is calculated in tests/cli, the mended one in tests/test_mending.py; these have parts of it
-    "flat_cylinder_press", "flat_cylinder_press_mended", "flat_cylinder_elements", "flat_cylinder_mechanisms",
-}  # fmt: skip
 LISTED = ROOT / "files.txt"
 PACKAGES = tomllib.loads((ROOT / "pyproject.toml").read_text("utf-8"))["tool"]["setuptools"]["package-dir"]
 
@@ -47,14 +42,6 @@ def test_every_file_of_the_sources_is_installed() -> None:
 def home(package: str) -> Path:
     """Where a package is installed."""
     return Path(import_module(package).__path__[0])
-
-
-@pytest.mark.parametrize(
-    "config", few(EXAMPLES, keep=lambda path: path.stem not in AT_NIGHT), ids=lambda path: path.stem
-)
-def test_an_example_is_calculated(config: Path) -> None:
-    results = Press.read(config, Discovery([])).calculate().results
-    assert results.status in ("pass", "warn", "fail")
 
 
 @pytest.mark.wheel

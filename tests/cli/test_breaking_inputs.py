@@ -30,19 +30,12 @@ mechanisms:
   b: {kind: lever, force: 2 kN, speed: 1 rpm, load: [1 N*m, "${a.moment}", 1 N*m, 2 N*m]}
   c: {kind: lever, force: 2 kN, speed: 1 rpm, load: "${b.load}"}
 """
-BREAKING = {
-    "a formula of a default of the press": (("@formula\n" + PRESS, PRESS.replace("return", "raise KeyError('nothing')  #")),),
-}  # fmt: skip
 
 
-@pytest.mark.parametrize("name", BREAKING)
-def test_what_breaks_gives_3_and_the_results_of_the_others(
-    name: str, tmp_path: Path, capfd: pytest.CaptureFixture[str]
-) -> None:
-    text = LEVER.replace('kind="lever"', 'kind="breaking"')
-    for old, new in BREAKING[name]:
-        assert old in text
-        text = text.replace(old, new)
+def test_what_breaks_gives_3_and_the_results_of_the_others(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    sound, breaking = "@formula\n" + PRESS, PRESS.replace("return", "raise KeyError('nothing')  #")
+    assert sound in LEVER
+    text = LEVER.replace('kind="lever"', 'kind="breaking"').replace(sound, breaking)
     (tmp_path / "own").mkdir()
     (tmp_path / "own" / "breaking.py").write_text(text, "utf-8")
     (tmp_path / "press.yaml").write_text(CONFIG, "utf-8")
@@ -73,11 +66,11 @@ def test_a_reference_to_a_list_that_holds_references_is_told(tmp_path: Path, cap
     assert "mechanisms.c.load: ${b.load} is a list that holds references itself (${a.moment})" in err
 
 
-@pytest.mark.parametrize("bound", range(1, 100))
 @pytest.mark.parametrize("unit", ["%", "deg", "rpm", "mm", "1/h"])
-def test_a_number_typed_as_its_bound_is_allowed(unit: str, bound: int) -> None:
-    quantity = Quantity("x", unit, "X", ge=bound, le=bound)
-    for given in (bound, f"{bound} {unit}", f"{bound}.0 {unit}"):
-        quantity.validate(given)
-    with pytest.raises(ValueError, match="out of range"):
-        quantity.validate(bound * (1 + 1e-12))
+def test_a_number_typed_as_its_bound_is_allowed(unit: str) -> None:
+    for bound in range(1, 100):
+        quantity = Quantity("x", unit, "X", ge=bound, le=bound)
+        for given in (bound, f"{bound} {unit}", f"{bound}.0 {unit}"):
+            quantity.validate(given)
+        with pytest.raises(ValueError, match="out of range"):
+            quantity.validate(bound * (1 + 1e-12))

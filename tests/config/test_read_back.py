@@ -53,9 +53,8 @@ def test_a_value_of_any_unit_is_read_back_as_the_same_float(name: str, value: fl
         assert found.hex() == value.hex()
 
 
-@pytest.mark.parametrize("name", [name for name in TABLE["units"] if unit(name).si != "1"])
-def test_a_value_with_a_dimension_stands_in_si_whatever_the_keys_unit(name: str) -> None:
-    assert as_given(0.1, name) == f"0.1 {unit(name).si}"
+def test_a_value_with_a_dimension_stands_in_si_whatever_the_keys_unit() -> None:
+    assert [n for n in TABLE["units"] if unit(n).si != "1" and as_given(0.1, n) != f"0.1 {unit(n).si}"] == []
 
 
 def test_pure_numbers_stand_in_the_keys_own_unit() -> None:

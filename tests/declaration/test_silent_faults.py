@@ -41,6 +41,7 @@ from tests.declaration.test_faults import (
     PEAK,
     STEPS,
     Arm,
+    assert_told,
     check,
     is_long,
     made,
@@ -181,10 +182,7 @@ def test_what_is_sound_passes(name: str) -> None:
 
 @pytest.mark.parametrize("name", FAULTS)
 def test_a_mistake_is_told_with_its_place(name: str) -> None:
-    mechanism, words = FAULTS[name]
-    told = list(map(str, faults(mechanism)))
-    assert any(words in line for line in told), told
-    assert all(line.startswith(("test_silent_faults.py:", "test_faults.py:")) for line in told), told
+    assert_told(*FAULTS[name])
 
 
 TWICE = """

@@ -93,10 +93,15 @@ def knife(tmp_path_factory: pytest.TempPathFactory) -> Path:
     return folder
 
 
+@pytest.fixture(scope="module")
+def known() -> dict[str, Any]:
+    """What has been calculated, by its configuration."""
+    return {}
+
+
 @pytest.fixture
-def calculated_once(monkeypatch: Patch) -> None:
+def calculated_once(known: dict[str, Any], monkeypatch: Patch) -> None:
     """A configuration is calculated once, however often it is verified."""
-    known: dict[str, CalculatedPress] = {}
     calculate = Press.calculate
 
     def again(press: Press) -> CalculatedPress:
@@ -401,7 +406,7 @@ def test_the_name_of_a_file_forges_no_line(tmp_path: Path, capfd: Capture) -> No
     names = ("a\n✓ pass.yaml", "b\x1b[1A\u202e\u3164.yaml", "c       pass  ok.yaml", "bad\n✓ pass.yaml")
     for name in names:
         saved(tmp_path, SMALL.replace("300 N", "-300 N") if name.startswith("bad") else SMALL, name)
-    run("check", tmp_path)
+    run("check", tmp_path, "--jobs", 1)
     rows, told = (text.splitlines() for text in capfd.readouterr())
     assert len(rows) == 5 and rows[1].startswith('"a ✓ pass"  ') and rows[-1].startswith("c pass ok  ")
     for name in names:

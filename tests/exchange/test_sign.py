@@ -90,10 +90,21 @@ def pdf(small_report: Path, tmp_path: Path) -> Path:
     return path
 
 
-@pytest.fixture
-def signed(pdf: Path, key: Path) -> Path:
+@pytest.fixture(scope="module")
+def signed_once(engineer: Signer, small_report: Path, tmp_path_factory: pytest.TempPathFactory) -> bytes:
     """The report, signed by the one who approves it."""
-    assert run("sign", pdf, "--key", key, "--field", "approved", "--quiet") == 0
+    folder = tmp_path_factory.mktemp("signed")
+    path, key = folder / "signed.pdf", engineer.p12(folder / "key.p12")
+    with pytest.MonkeyPatch.context() as patch:
+        patch.setenv(VARIABLE, PASSWORD)
+        assert run("sign", small_report / "small.pdf", "--key", key, "--field", "approved", "-o", path, "--quiet") == 0
+    return path.read_bytes()
+
+
+@pytest.fixture
+def signed(pdf: Path, signed_once: bytes) -> Path:
+    """A copy of the signed report."""
+    pdf.write_bytes(signed_once)
     return pdf
 
 

@@ -10,14 +10,21 @@ from diecut_report.config.loader import load_config
 from diecut_report.config.yaml import load
 from diecut_report.errors import UserError
 from diecut_report.results.warm_press import WarmPress, WarmRun
-from tests.configs import DISCOVERY, EXAMPLES
+from tests.configs import DISCOVERY, EXAMPLES, PARTS
+from tests.examples import few
 from tests.extremes.random_machines import FILES, faults
 
-FEW, ALL = 6, 2000  # machines of each example
+FEW, ALL = 4, 2000  # machines of each example
 
 
-@pytest.mark.parametrize("file", FILES, ids=lambda file: str(file.stem))
-@pytest.mark.parametrize("count", [FEW, pytest.param(ALL, marks=pytest.mark.nightly)])
+@pytest.mark.parametrize(
+    ("file", "count"),
+    few(
+        [(file, count) for file in FILES for count in (FEW, ALL)],
+        lambda each: each[1] == FEW and each[0].stem not in PARTS,
+    ),
+    ids=lambda each: each.stem if isinstance(each, Path) else str(each),
+)
 def test_no_machine_is_left_unproved_and_no_check_vanishes(file: Path, count: int) -> None:
     found, made = faults(file, count, seed=count)
     assert made > 0 and not found, "\n".join(f"{each.told}\n    {each.changes}" for each in found)

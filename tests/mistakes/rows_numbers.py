@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from tests.mistakes.rows import calc, load, row, tested
+from tests.mistakes.rows import calc, row, tested
 
 # fmt: off
 
@@ -29,11 +29,6 @@ DIMENSIONS = (
          "lambda head_diameter, belt_speed: head_diameter < belt_speed", "discharge"),
     tested("a derivative in another unit", '"N/rad"', '"N/s"', "force_slope", "rad"),
     tested("an integral in the curve's unit", '"W", "J"', '"W", "N"', "work"),
-    load("a greatest value in another unit", '"M_max", "N*m"', '"M_max", "N"', "torque_max"),
-    load("crossings in another unit than the abscissa", '"φ_r", "deg"', '"φ_r", "mm"', "release", "mm"),
-    load("a total in another unit than its parts", '"U_j", "N"', '"U_j", "kg"', "journal_losses"),
-    load("a running sum in another unit than its parts", '"ΣU_i", "N"', '"ΣU_i", "kg"', "losses_so_far"),
-    load("a part in another unit than its row", '"F_f", "N"', '"F_f", "kg"', "foot_load"),
     tested("an abscissa's period in another unit", "period=2 * np.pi", 'period="chute_drop"', "angle"),
     tested("breakpoints in another unit than the abscissa", '"angle", "scoop_start", "scoop_end")', '"angle", "scoop_start", "chute_drop")',
          "scooping"),

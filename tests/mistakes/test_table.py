@@ -1,6 +1,6 @@
 """Each mistake of the table is told where it must be, in words; the plugin without any is right.
 
-CI tries each third row, which is some of each of the table's parts.
+CI tries each sixth row, which is some of each of the table's parts, and those that only a report or a study tells.
 """
 
 from __future__ import annotations
@@ -36,13 +36,13 @@ def elevator(**changes: Any) -> Calculation:
     return calculate(right(), inputs(right(), keys))
 
 
-THIRD = {mistake.what for mistake in TABLE[::3]}
+SIXTH = {mistake.what for mistake in (*TABLE[::6], *(row for row in TABLE if row.told in ("report", "study")))}
 
 
 @pytest.mark.usefixtures("without_summary")
 @pytest.mark.parametrize(
     "mistake",
-    few(TABLE, keep=lambda mistake: mistake.what in THIRD),
+    few(TABLE, keep=lambda mistake: mistake.what in SIXTH),
     ids=lambda mistake: mistake.what.replace(" ", "_"),
 )
 def test_a_mistake_is_told(mistake: Mistake, tmp_path: Path) -> None:

@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from functools import cache
 from typing import Any
 
 from diecut_report.machine.calculation import Calculation, CurveHandle
@@ -44,6 +45,7 @@ def taken(calculation: Calculation, names: dict[str, str]) -> dict[str, Any]:
     return curves | {key: SI(value, units[key], names[key]) for key, value in numbers.items()}
 
 
+@cache
 def whole_press() -> dict[str, Any]:
     """The keys of a consistency check that has all that it needs."""
     cylinder = drive(**UNBALANCED, crank_speed="50 rpm", n_points=72)

@@ -11,20 +11,22 @@ import pytest
 import yaml
 from scipy.optimize import brentq
 
+from diecut_report.config.loader import load_config
+from diecut_report.config.yaml import load
 from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.drive_train import MECHANISM as DRIVE_TRAIN
 from diecut_report.plugins.press_consistency import MECHANISM
 from diecut_report.plugins.press_consistency.on_main_shaft import listed
 from diecut_report.results.checks import check_results
+from diecut_report.results.press_run import compute
 from diecut_report.text.phrases import Phrase
-from tests.configs import EXAMPLE
+from tests.configs import DISCOVERY, EXAMPLE
 from tests.machines import inputs, number
 from tests.mechanics.timing.example_press import calculations
 from tests.plugins.drive_trains import EXAMPLE as TRAIN
 from tests.plugins.drive_trains import WORKING
 from tests.plugins.presses import OF_DRIVE, OF_TRAIN, TYPED, taken, whole_press
-from tests.results.test_founded import mended
 
 OF_CLUTCH = {
     "clutch_torque": "design_torque",
@@ -150,6 +152,40 @@ CHANGED = [  # what passes in the whole press, and a change with which it does n
 def test_mechanisms_that_do_not_belong_together_are_told_apart(check: str, change: dict[str, Any], status: str) -> None:
     assert verdicts_of_the_whole()[check] == "pass"
     assert verdicts(consistency(whole_press(), **change))[check] == status
+
+
+BESIDE = {
+    "crankshaft",
+    "cross_shaft",
+    "crank_pin",
+    "rocker_pin",
+    "bearings",
+    "gear_key",
+    "crank_key",
+    "main_gears",
+    "gripper_chain",
+}
+"""Elements of the mended press, of which neither timing nor consistency takes anything."""
+
+
+def mended(**changes: dict[str, Any]) -> dict[str, str]:
+    """The statuses of the checks of the mended press without its elements, with other inputs of its mechanisms."""
+    tree = load(EXAMPLE.with_stem("flat_cylinder_press_mended"))
+    tree.data["mechanisms"] = {
+        name: {key: value for key, value in (block | changes.get(name, {})).items() if value is not None}
+        for name, block in tree.data["mechanisms"].items()
+        if name not in BESIDE
+    }
+    run = compute(load_config(tree, DISCOVERY), lambda _: None)
+    return {f"{name}.{each.id}": each.status for name, calc in run.calculations.items() for each in check_results(calc)}
+
+
+@pytest.mark.parametrize(
+    ("typed", "status"),
+    [(True, "not_checked"), ({"value": True, "basis": "drawing"}, "pass"), (False, "fail")],
+)
+def test_a_clutch_of_one_position_does_not_pass_by_a_word(typed: Any, status: str) -> None:
+    assert mended(consistency={"single_position": typed})["consistency.clutch_position"] == status
 
 
 def test_the_play_of_the_wheel_is_calculated_for_what_the_timing_leaves() -> None:

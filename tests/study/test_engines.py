@@ -145,14 +145,18 @@ def test_early_end_leaves_no_process(tmp_path: Path) -> None:
     assert [child for child in psutil.Process().children() if "spawn_main" in " ".join(child.cmdline())] == []
 
 
+def started(folder: Path) -> subprocess.Popen[str]:
+    """A process of its own that runs a pool of two, which leave their traces in the folder."""
+    script, pipe = folder / "run.py", subprocess.PIPE
+    script.write_text(RUN)
+    paths = os.environ | {"PYTHONPATH": str(ROOT)}
+    command = [sys.executable, str(script), str(folder)]
+    return subprocess.Popen(command, stdout=pipe, stderr=pipe, text=True, env=paths, process_group=0)
+
+
 @pytest.mark.parametrize("sent", [signal.SIGINT, signal.SIGKILL])
 def test_ended_run_leaves_no_process(tmp_path: Path, sent: signal.Signals) -> None:
-    script = tmp_path / "run.py"
-    script.write_text(RUN)
-    command, paths = [sys.executable, str(script), str(tmp_path)], os.environ | {"PYTHONPATH": str(ROOT)}
-    run = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=paths, process_group=0
-    )
+    run = started(tmp_path)
     until(lambda: len(begun(tmp_path)) == 2)
     workers = begun(tmp_path)
     os.killpg(run.pid, sent) if sent is signal.SIGINT else run.kill()  # Ctrl-C goes to all processes of a terminal
@@ -163,12 +167,7 @@ def test_ended_run_leaves_no_process(tmp_path: Path, sent: signal.Signals) -> No
 
 @pytest.mark.parametrize("later", [0, 0.05, 0.1])
 def test_interrupt_while_the_processes_begin_is_silent(tmp_path: Path, later: float) -> None:
-    script = tmp_path / "run.py"
-    script.write_text(RUN)
-    command, paths = [sys.executable, str(script), str(tmp_path)], os.environ | {"PYTHONPATH": str(ROOT)}
-    run = subprocess.Popen(
-        command, stdout=subprocess.PIPE, stderr=subprocess.PIPE, text=True, env=paths, process_group=0
-    )
+    run = started(tmp_path)
     until(lambda: workers_of(run.pid))
     workers = workers_of(run.pid)
     time.sleep(later)  # in another place of their beginning

@@ -59,11 +59,15 @@ with Store.open(Path(sys.argv[1])).lock():
 
 def filled(folder: Path, study: Description | None = None) -> Store:
     store = Store.create(folder, study or description())
+    fill(store)
+    return store
+
+
+def fill(store: Store) -> None:
     with store.lock():
         for index in range(store.description.parts):
             rows = store.description.part_rows(index)
             store.write_part(index, part(rows.start, len(rows)))
-    return store
 
 
 @contextmanager
@@ -385,14 +389,6 @@ def small_disk(tmp_path: Path) -> Iterator[Path]:
         return
     yield disk
     subprocess.run(["umount", str(disk)], check=True)
-
-
-def fill(store: Store) -> int:
-    with store.lock():
-        for index in range(store.description.parts):
-            rows = store.description.part_rows(index)
-            store.write_part(index, part(rows.start, len(rows)))
-    return store.description.parts
 
 
 def limited(monkeypatch: pytest.MonkeyPatch) -> None:
