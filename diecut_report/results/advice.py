@@ -24,6 +24,7 @@ from diecut_report.mechanism.checks import AdviceWay, Check, Vary
 from diecut_report.mechanism.inputs import Quantity, list_inputs
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.steps import Clash, Require
+from diecut_report.mechanism.steps.table_steps import si_values
 from diecut_report.quantities.formatting import outward
 from diecut_report.results.advised_ways import Change, Number, Way
 from diecut_report.results.record import Relation
@@ -91,7 +92,7 @@ def _way(trials: Trials, way: AdviceWay) -> Way | None:
     if not trials.may_be_given(wanted.key):
         return None
     if texts := trials.texts(wanted.key):
-        return _text(trials, wanted.key, [text for text in texts if text in (wanted.series or texts)])
+        return _text(trials, wanted.key, [text for text in texts if text in (wanted.values or texts)])
     places = trials.places(wanted.key)
     return _number(trials, wanted, places[0]) if len(places) == 1 else _together(trials, (wanted.key,))
 
@@ -273,8 +274,8 @@ class CheckTrials(Trials):
         return tuple(check.title for check, (there, holds) in judged if there[0] and not holds[0])
 
     def _affected(self, keys: tuple[str, ...], checks: Sequence[Check]) -> list[Check]:
-        """The checks that follow from one of these inputs; all where what is given changes."""
-        if any(key not in self.calc.inputs for key in keys):
+        """The checks that follow from one of these inputs; all where other steps may be made."""
+        if self._switches(keys):
             return list(checks)
         mechanism, given = self.calc.mechanism, self.calc.given
         return [each for each in checks if not inputs_of(mechanism, given, (*each.named, *each.needs)).isdisjoint(keys)]
@@ -283,8 +284,12 @@ class CheckTrials(Trials):
         """What must be calculated to judge the checks; None for all, as curves are judged when all is known."""
         names = {name for each in (self.check, *checks) for name in each.named}
         names |= _required(self.calc.mechanism, self.calc.given, tuple(changed))
-        is_whole = any(key not in self.calc.inputs for key in changed) or names & self.calc.curves.keys()
+        is_whole = self._switches(changed) or names & self.calc.curves.keys()
         return None if is_whole else sorted(names)
+
+    def _switches(self, keys: Iterable[str]) -> bool:
+        """Whether steps may be switched on or off: by what was not given, or by a text."""
+        return any(key not in self.calc.inputs or self.texts(key) for key in keys)
 
 
 @dataclass(frozen=True)
@@ -430,8 +435,8 @@ class TriedLine:
 
 
 def _number(trials: Trials, wanted: Vary, place: VariedNumber) -> Way | None:
-    listed = [place.si(float(each)) for each in wanted.series or place.meta.listed]
-    grid, is_listed = (np.array(listed), True) if listed else (_grid(place), place.meta.integer)
+    listed = si_values(wanted.values or place.meta.listed, getattr(wanted.series, "unit", place.meta.unit))
+    grid, is_listed = (listed, True) if listed.size else (_grid(place), place.meta.integer)
     grid = np.sort([each for each in grid if _is_towards(each, place.today, wanted.to)])
     line = TriedLine.of(trials, Ray([place], np.zeros(1), np.ones(1), grid, place.today))
     if line is None:
