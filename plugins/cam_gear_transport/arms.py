@@ -68,7 +68,7 @@ def times(rocker: Rocker) -> tuple[float, float]:
 
 def leaves_time(rocker: Rocker) -> bool:
     """Whether the return has its time."""
-    return times(rocker)[1] > rocker.least_return
+    return times(rocker)[1] >= rocker.least_return * (1 - 1e-9)
 
 
 def motion(rocker: Rocker) -> ArmMotion:
