@@ -402,17 +402,40 @@ class TriedLine:
             return abs(math.log(nearest / self.today))
         return abs(nearest - self.today) / max(abs(nearest), abs(self.today))
 
-    def holds_within(self, low: float, high: float) -> bool:
-        """Return whether all that is tried between two parameters holds."""
-        return bool(self.holds(np.linspace(low, high, GRID_POINTS)).all())
+    @property
+    def rises(self) -> bool:
+        """Return whether the values that hold lie above the present one."""
+        return bool(self.run[1] == self.grid[-1] if self.today is None else self.run[0] > self.today)
 
     @property
     def relation(self) -> Relation:
         """Return how the run bounds the parameter: on one side where all that was tried beyond it holds."""
-        first, last = self.run
-        if last == self.grid[-1] and (self.today is None or self.today < first):
-            return "at_least"
-        return "at_most" if first == self.grid[0] and (self.today is None or self.today > last) else "between"
+        if self.rises:
+            return "at_least" if self.run[1] == self.grid[-1] else "between"
+        return "at_most" if self.run[0] == self.grid[0] else "between"
+
+    def region(self, meta: Quantity) -> tuple[Relation, float, float]:
+        """Return where all that is tried holds, of a number alone: how it is bounded, its end at the present value, and the other one."""
+        relation = self.relation
+        near, far = (self.low(), self.high()) if self.rises else (self.high(), self.low())
+        if relation != "between":
+            far = _ends(meta)[self.rises]
+        for _ in range(ROUNDS):
+            tried = self._within(meta, near, far)
+            failing = np.flatnonzero(~self.holds(tried))
+            if not len(failing):
+                return relation, near, far
+            relation, far = "between", self._moved(float(tried[max(failing[0] - 1, 0)]), float(tried[failing[0]]))
+        return "equal", near, near
+
+    def _within(self, meta: Quantity, near: float, far: float) -> Array:
+        """Values from one to another: between those of the grid, as many to each part, and as many to each decade."""
+        low, high = sorted((near, far))
+        decades = [np.geomspace(np.copysign(meta.sizes.ends[0], end), end, GRID_POINTS) for end in (low, high) if end]
+        middles = (self.grid[1:] + self.grid[:-1]) / 2
+        values = np.concatenate([[near, far], np.linspace(low, high, GRID_POINTS), middles, *decades])
+        values = np.unique(np.rint(values) if meta.integer else values)
+        return _allowed(meta, values[(low <= values) & (values <= high)])[:: 1 if near <= far else -1]
 
     def low(self) -> float:
         """Return the lower end of the run, moved as far as it holds."""
@@ -441,7 +464,8 @@ def _number(trials: Trials, wanted: Vary, place: VariedNumber) -> Way | None:
     line = TriedLine.of(trials, Ray([place], np.zeros(1), np.ones(1), grid, place.today))
     if line is None:
         return None
-    change = _listed_change(line, place) if is_listed else _change(line, place)
+    relation, near, far = (line.relation, *line.run) if listed.size else line.region(place.meta)
+    change = (_listed_change if is_listed else _change)(line, place, relation, near, far)
     if change is None:
         return None
     typed = change.value if isinstance(change.value, tuple) else (change.value,)
@@ -485,37 +509,40 @@ def _bounds(meta: Quantity) -> list[float | None]:
     return [None if end is None else end * meta.parsed_unit.factor for end in ends]
 
 
-def _listed_change(line: TriedLine, place: VariedNumber) -> Change:
+def _ends(meta: Quantity) -> tuple[float, float]:
+    """The ends of what a machine may have, SI: the bounds, else the plausible sizes."""
+    low, high = _bounds(meta)
+    least, most = meta.sizes.ends
+    return (-most if low is None else low or least, most if high is None else high)
+
+
+def _listed_change(line: TriedLine, place: VariedNumber, relation: Relation, near: float, far: float) -> Change:
     """The change to a value of a series, or a whole number."""
-    first, last = (_typed(place, end) for end in line.run)
-    if line.relation != "between" and first != last:
-        return Change(place.path, line.relation, first if line.relation == "at_least" else last, place.meta.unit)
-    inside = [each for each in line.grid if line.run[0] <= each <= line.run[1]]
-    near = sorted(sorted(inside, key=lambda each: abs(each - (line.today or 0.0)))[:FEW_OPTIONS])
-    values = tuple(_typed(place, each) for each in near)
-    return Change(
-        place.path, "one_of" if len(values) > 1 else "equal", values if len(values) > 1 else values[0], place.meta.unit
-    )
+    low, high = sorted((near, far))
+    if relation in ("at_least", "at_most") and line.run[0] != line.run[1]:
+        return Change(place.path, relation, _typed(place, near), place.meta.unit)
+    inside = [each for each in line.grid if low <= each <= high]
+    near_ones = sorted(sorted(inside, key=lambda each: abs(each - (line.today or 0.0)))[:FEW_OPTIONS])
+    values = tuple(_typed(place, each) for each in near_ones)
+    relation, value = ("one_of", values) if len(values) > 1 else ("equal", values[0])
+    return Change(place.path, relation, value, place.meta.unit)
 
 
 def _typed(place: VariedNumber, value: float) -> Number:
     return round(place.shown(value)) if place.meta.integer else place.shown(value)
 
 
-def _change(line: TriedLine, place: VariedNumber) -> Change | None:
+def _change(line: TriedLine, place: VariedNumber, relation: Relation, near: float, far: float) -> Change | None:
     """The change to values that hold as they are printed; None where none that is printed does."""
-    relation = line.relation
-    lows = _shortest(line, place, line.low(), up=True) if relation != "at_most" else None
-    highs = _shortest(line, place, line.high(), up=False) if relation != "at_least" else None
+    first = _shortest(line, place, near, up=line.rises)
+    if first is None:
+        return None
     if relation == "between":
-        if lows is None or highs is None or lows > highs:
-            return None
-        if lows == highs or not line.holds_within(place.si(lows), place.si(highs)):
-            is_below = line.today is not None and line.today > line.run[1]
-            return Change(place.path, "equal", highs if is_below else lows, place.meta.unit)
-        return Change(place.path, "between", (lows, highs), place.meta.unit)
-    found = lows if relation == "at_least" else highs
-    return None if found is None else Change(place.path, relation, found, place.meta.unit)
+        last = _shortest(line, place, far, up=not line.rises)
+        if last is not None and first != last and (last > first) == line.rises:
+            return Change(place.path, "between", (min(first, last), max(first, last)), place.meta.unit)
+        relation = "equal"
+    return Change(place.path, relation, first, place.meta.unit)
 
 
 def _shortest(line: TriedLine, place: VariedNumber, value: float, *, up: bool) -> float | None:
