@@ -92,7 +92,7 @@ def solve(
         loaded, discovery = _loaded(config, folders, progress)
         design = design_input(loaded, vary)
         ends = (_end(design, low, "--from"), _end(design, high, "--to"))
-        is_new = design.today is None and ends[0] is not None
+        is_new = design.present is None and ends[0] is not None
         what = question(with_input(loaded, design, ends[0] or 0.0) if is_new else loaded, asked)
         progress(Phrase("solving for {input}", input=design.name))
         answer = solved(loaded, discovery, what, design, passing=passing, low=ends[0], high=ends[1])

@@ -34,13 +34,14 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
 
 def _wrong(names: DeclaredNames, owner: Check | Require, judged: Iterable[str]) -> Iterator[str]:
     """What is wrong with the ways that a check or a condition advises; ``judged`` are the names on which its verdict rests."""
-    if not isinstance(owner.advise, tuple):
-        if not isinstance(owner.advise, str):  # which is told where words are
+    advise: Any = owner.advise  # as an author wrote it
+    if not isinstance(advise, tuple):
+        if not isinstance(advise, str):  # which is told where words are
             words = "has advise={given}; write a tuple of ways, with a comma behind a single one"
-            yield Phrase(words, given=repr(owner.advise))
+            yield Phrase(words, given=repr(advise))
         return
     behind = _behind(names, judged) if all(map(names.givers, judged)) else None
-    for way in owner.advise:
+    for way in advise:
         keys = (way.key,) if isinstance(way, Vary) else (way,) if isinstance(way, str) else way
         if not keys or not isinstance(keys, tuple) or not all(isinstance(key, str) for key in keys):
             words = "advise holds {way}; write the key of an input, Vary(key, …), or a tuple of keys that are changed together"
@@ -91,7 +92,8 @@ def _not_changed(names: DeclaredNames, key: str, together: tuple[str, ...], behi
 
 def _vary(names: DeclaredNames, way: Vary) -> Iterator[str]:
     """What is wrong with the direction and the series of a key."""
-    known, series = names.world.keys[way.key], way.series
+    known = names.world.keys[way.key]
+    series: Any = way.series
     wrong = list(allowed_wrong(way))
     if not wrong and isinstance(series, StandardSeries):
         title = Phrase("the series “{title}”", title=series.title)

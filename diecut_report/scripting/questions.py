@@ -89,7 +89,7 @@ def solved_press(
     """Return the answer to a question, as the command gives it; ``make`` makes a press of a configuration."""
     design = design_input(config, vary)
     low, high = _end(design, ends[0], "low"), _end(design, ends[1], "high")
-    is_new = design.today is None and low is not None
+    is_new = design.present is None and low is not None
     asked = question(with_input(config, design, low or 0.0) if is_new else config, target)
     answer = solved(config, discovery, asked, design, passing=passing, low=low, high=high)
     values = tuple(_value(answer, each) for each in answer.found)

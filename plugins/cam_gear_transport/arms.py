@@ -14,7 +14,7 @@ from diecut_report.mechanics import cam
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.cam_gear_transport import formulas, loads
 
-# The search is the method's own: two arm angles, each for its own cam, and with them length and sweeps; advice varies one number, or several in one proportion.
+# The search is the method's own: each arm's angle is for its own cam, with one length and the sweeps; advice keeps one proportion.
 FACTORS = np.linspace(1, 0.05, 20)  # of lengths and sweeps that are tried
 DEGREE = si(1, "deg")
 CLEAR = 0.01 * DEGREE  # by which a pressure angle keeps its limit
