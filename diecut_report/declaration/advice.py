@@ -6,7 +6,7 @@ from collections.abc import Iterable, Iterator
 from itertools import pairwise
 from typing import Any
 
-from diecut_report.declaration.inputs import allowed_wrong
+from diecut_report.declaration.inputs import allowed_wrong, fault_of
 from diecut_report.declaration.names import DeclaredNames, Fault, Key, of_check, of_step
 from diecut_report.declaration.texts import not_an_input
 from diecut_report.errors import nearest
@@ -118,15 +118,7 @@ def _numbers_wrong(meta: Any, series: tuple[Any, ...]) -> Iterator[str]:
         return
     for one, other in [pair for pair in pairwise(series) if pair[0] >= pair[1]][:1]:
         yield Phrase("has a series that does not ascend ({one} before {other}); put it in order", one=one, other=other)
-    refused = [_refused(meta, each) for each in series]
+    refused = [fault_of(meta, each) for each in series]
     if refused and all(refused):
         words = "has a series of which no value is allowed: {why}; its numbers count in {unit}"
         yield Phrase(words, why=refused[0], unit=meta.unit)
-
-
-def _refused(meta: Quantity, value: float) -> str:
-    try:
-        meta.validate(value)
-    except ValueError as why:
-        return str(why)
-    return ""

@@ -492,11 +492,12 @@ def _refused(meta: Quantity | Text, value: Any) -> str:
     if isinstance(meta, Text) and not meta.options:
         return ""
     others = [replace(meta, unit=unit, units=()) for _, unit in meta.units] if isinstance(meta, Quantity) else []
-    found = [_fault(each, value) for each in (meta, *others)]
+    found = [fault_of(each, value) for each in (meta, *others)]
     return found[0] if all(found) else ""
 
 
-def _fault(meta: Quantity | Text, value: Any) -> str:
+def fault_of(meta: Quantity | Text, value: Any) -> str:
+    """Return why an input does not take a value; empty where it does."""
     try:
         meta.validate(value)
     except ValueError as fault:
