@@ -50,8 +50,8 @@ def seconds(work: Callable[[], object]) -> float:
 def updated(session: LiveSession, name: str, share: float) -> tuple[float, float]:
     """Change an input by a share, and make what the page gets: the seconds of both."""
     first = session.start.inputs[name] if session.start else None
-    assert first is not None and first.today is not None, "the full press gives it as a number"
-    calculated = seconds(partial(session.change, {name: first.typed(first.today * (1 + share))}))
+    assert first is not None and first.present is not None, "the full press gives it as a number"
+    calculated = seconds(partial(session.change, {name: first.typed(first.present * (1 + share))}))
     if session.faults:
         raise SystemExit(str(session.faults[0]))
     return calculated, seconds(partial(page_data, session))

@@ -40,7 +40,7 @@ ALLOWED_PLAIN = ("needs", "lacks", "only_with", "asks_for")  # which are told of
 def allowed_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield words that are not among the allowed ones, and tolerances that let a machine fail."""
     for subject, declared in _declared(mechanism):
-        for text in _allowed_wrong(declared):
+        for text in allowed_wrong(declared):
             yield Fault(declared.at, subject, text)
     for check in mechanism.checks:
         if not 0 <= check.tolerance <= MOST_TOLERANCE:
@@ -63,7 +63,8 @@ def _declared(mechanism: Mechanism) -> Iterator[tuple[str, Any]]:
     yield from ((Phrase("erratum of {source}", source=erratum.source), erratum) for erratum in mechanism.errata)
 
 
-def _allowed_wrong(declared: Any) -> Iterator[str]:
+def allowed_wrong(declared: Any) -> Iterator[str]:
+    """Yield what is wrong with the words, flags and tuples of something declared."""
     for name, (words, kind) in _fields(cast(Hashable, type(declared))).items():
         value = getattr(declared, name)
         if words and value not in words:
@@ -491,11 +492,12 @@ def _refused(meta: Quantity | Text, value: Any) -> str:
     if isinstance(meta, Text) and not meta.options:
         return ""
     others = [replace(meta, unit=unit, units=()) for _, unit in meta.units] if isinstance(meta, Quantity) else []
-    found = [_fault(each, value) for each in (meta, *others)]
+    found = [fault_of(each, value) for each in (meta, *others)]
     return found[0] if all(found) else ""
 
 
-def _fault(meta: Quantity | Text, value: Any) -> str:
+def fault_of(meta: Quantity | Text, value: Any) -> str:
+    """Return why an input does not take a value; empty where it does."""
     try:
         meta.validate(value)
     except ValueError as fault:

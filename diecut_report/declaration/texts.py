@@ -169,18 +169,23 @@ def _wrong(names: DeclaredNames, place: str, subject: str, field: str, tokens: I
             yield Fault(place, subject, Phrase("{field} names {text}", field=field, text=text))
 
 
+def not_an_input(names: DeclaredNames, path: str) -> str:
+    """Return a name that is not an input, with what it is, or the nearest input."""
+    inputs = [known for known in names.world.keys if "=" not in known]
+    what = (
+        phrase("a step; only inputs can be named")
+        if names.givers(path)
+        else Phrase("not an input{nearest}", nearest=nearest(path, inputs))
+    )
+    return Phrase("{path}, which is {what}", path=path, what=what)
+
+
 def _told(names: DeclaredNames, token: str) -> str:
     """What is wrong with a token, in words; empty where nothing is."""
     path, is_text, text = token.partition("=")
     key = names.world.keys.get(path)
     if key is None:
-        inputs = [known for known in names.world.keys if "=" not in known]
-        what = (
-            phrase("a step; only inputs can be named")
-            if names.givers(path)
-            else Phrase("not an input{nearest}", nearest=nearest(path, inputs))
-        )
-        return Phrase("{path}, which is {what}", path=path, what=what)
+        return not_an_input(names, path)
     if not is_text:
         return ""
     if key.home:

@@ -117,7 +117,7 @@ def _texts(design: DesignInput, share: float) -> Texts:
     value = _value(design, share)
     found = []
     for digits in DIGITS:
-        further = share * (design.today or 1.0) > 0
+        further = share * (design.present or 1.0) > 0
         found += [
             design.typed(value, digits),
             design.typed_inwards(value, digits, up=further),
@@ -127,14 +127,14 @@ def _texts(design: DesignInput, share: float) -> Texts:
 
 
 def _value(design: DesignInput, share: float) -> float:
-    return (design.today or 0.0) * (1.0 + share)
+    return (design.present or 0.0) * (1.0 + share)
 
 
 def _shares(inputs: Sequence[DesignInput], share: Array, typed: dict[int, str]) -> Array:
     found = share.copy()
     for each, text in typed.items():
         try:
-            found[each] = inputs[each].read(text) / (inputs[each].today or 1.0) - 1.0
+            found[each] = inputs[each].read(text) / (inputs[each].present or 1.0) - 1.0
         except ValueError:  # rounded beyond what its declaration allows: a machine that cannot be
             found[each] = np.nan
     return found
@@ -194,7 +194,7 @@ def _allowed(run: ChangedMachines, rows: Array) -> Array:
     """Which rows change no input beyond what its declaration allows."""
     found = np.ones(len(rows), dtype=bool)
     for index, each in enumerate(run.inputs):
-        found &= each.allows((each.today or 0.0) * (1.0 + rows[:, index]))
+        found &= each.allows((each.present or 0.0) * (1.0 + rows[:, index]))
     return found
 
 
@@ -318,15 +318,15 @@ def _shortest(before: ProvedMachine, run: ChangedMachines, share: Array) -> Mend
 
 def _with_single_change(path: MendingPath, tell: Tell) -> MendingPath:
     """The search begun anew where one input alone mends the machine with less: of those that it changed, or of all where it mends nothing."""
-    run, today = _machines(path), np.zeros(len(path.inputs))
+    run, present = _machines(path), np.zeros(len(path.inputs))
     changed = np.flatnonzero(path.share).tolist()
     if path.passes and len(changed) < 2:
         return path
     tell(phrase("trying changes of a single input"))
-    failing = {name.split(".")[0] for name in run(today[None]).failing(0)}
+    failing = {name.split(".")[0] for name in run(present[None]).failing(0)}
     among = changed if path.passes else range(len(path.inputs))
     among = [each for each in among if failing <= set(downstream(run.config, path.inputs[each].asked.instance))]
-    for base in [today] if path.passes or not changed else [today, path.share]:
+    for base in [present] if path.passes or not changed else [present, path.share]:
         found = single_change(run, base, among, path.merit if path.passes else math.inf)
         if found is not None:
             other = MendingPath(run, path.inputs, found)
@@ -346,24 +346,24 @@ def _again(path: MendingPath, tell: Tell) -> MendingPath:
 
 def _start(run: ChangedMachines, inputs: Sequence[DesignInput], advice: Advised) -> Array:
     """Where the search begins: at what is advised, where that machine is better than today's."""
-    today = np.zeros(len(inputs))
+    present = np.zeros(len(inputs))
     shares = [
-        advice.numbers[each.asked.path][1] / (each.today or 1.0) - 1.0 if each.asked.path in advice.numbers else 0.0
+        advice.numbers[each.asked.path][1] / (each.present or 1.0) - 1.0 if each.asked.path in advice.numbers else 0.0
         for each in inputs
     ]
     advised = np.array(shares)
     if not advised.any():
-        return today
-    made = run(np.array([today, advised]))
+        return present
+    made = run(np.array([present, advised]))
     worse = len(made.failing(1)) > len(made.failing(0)) or not made.exists[1]
-    return today if worse else advised
+    return present if worse else advised
 
 
 def _numbers(inputs: Sequence[DesignInput], share: Array, typed: dict[int, str]) -> list[InputChange]:
     return [
         InputChange(
             inputs[each].name,
-            inputs[each].told(inputs[each].today or 0.0),
+            inputs[each].told(inputs[each].present or 0.0),
             text,
             float(share[each]),
             inputs[each].stands,
@@ -394,8 +394,8 @@ def _share(config: Config, asked: Input, text: str) -> float | None:
     """By how much a stepped number is changed; None for a text."""
     if not isinstance(asked.meta, Quantity):
         return None
-    today = design_input(config, asked.path).today
-    return float(asked.meta.validate(text)) / today - 1.0 if today else None
+    present = design_input(config, asked.path).present
+    return float(asked.meta.validate(text)) / present - 1.0 if present else None
 
 
 def data(found: Mended) -> dict[str, Any]:

@@ -95,12 +95,12 @@ def _take(config: Config, found: Advised, path: str, change: KeyChangeRecord) ->
         numbers = [design.read(with_unit(f"{each}", change.unit)) for each in values]
     except (UnknownPath, UserError, ValueError):  # of another mechanism, calculated, or not a value of this key
         return False
-    if not design.today:
+    if not design.present:
         return False
-    today = design.today
-    value = min(numbers, key=lambda each: abs(each - today))
-    other = found.numbers.get(design.asked.path, (design, today))[1]
-    furthest = max((value, other), key=lambda each: abs(each - today))
+    present = design.present
+    value = min(numbers, key=lambda each: abs(each - present))
+    other = found.numbers.get(design.asked.path, (design, present))[1]
+    furthest = max((value, other), key=lambda each: abs(each - present))
     found.numbers[design.asked.path] = (design, furthest)
     return True
 
@@ -277,9 +277,9 @@ class MendingPath:
 
 def _ends(inputs: Sequence[DesignInput], share: Array, region: float) -> tuple[Array, Array]:
     """The least and the greatest share that each input may be changed by: within the region, and its own bounds."""
-    today = np.array([each.today or 1.0 for each in inputs])
+    present = np.array([each.present or 1.0 for each in inputs])
     bounds = np.array([each.bounds for each in inputs])
-    ends = np.sort(bounds / today[:, None] - 1.0, axis=1)
+    ends = np.sort(bounds / present[:, None] - 1.0, axis=1)
     inner = 1e-6 * np.maximum(1.0, np.abs(share))  # bounds may be open
     low = np.maximum(share - region, ends[:, 0] + inner)
     high = np.minimum(share + region, ends[:, 1] - inner)
@@ -474,16 +474,16 @@ def _texts(config: Config, asked: Input) -> tuple[str, ...]:
     """The other texts that it may be."""
     instance = config.instances[asked.instance]
     assert instance is not None
-    today = config.tree.typed(instance.place.stands(asked.key)[1])
-    return tuple(text for text in options_of(asked) if text != today)
+    present = config.tree.typed(instance.place.stands(asked.key)[1])
+    return tuple(text for text in options_of(asked) if text != present)
 
 
 def _of_number(design: DesignInput) -> ChangeableChoice | None:
-    if not is_stepped(design) or not design.today:
+    if not is_stepped(design) or not design.present:
         return None
-    values = [each for each in _steps(design) if each != design.today]
-    values.sort(key=lambda each: abs(each - (design.today or 0.0)))
-    costs = tuple(abs(each / design.today - 1.0) for each in values)
+    values = [each for each in _steps(design) if each != design.present]
+    values.sort(key=lambda each: abs(each - (design.present or 0.0)))
+    costs = tuple(abs(each / design.present - 1.0) for each in values)
     return ChangeableChoice(design.asked, tuple(map(design.typed, values)), costs)
 
 
@@ -492,6 +492,6 @@ def _steps(design: DesignInput) -> Iterator[float]:
         factor = design.meta.parsed_unit.factor
         yield from (value * factor for value in design.meta.listed)
         return
-    today = round(design.today or 0.0)
-    tried = np.arange(today - WHOLE_REACH, today + WHOLE_REACH + 1, dtype=float)
+    present = round(design.present or 0.0)
+    tried = np.arange(present - WHOLE_REACH, present + WHOLE_REACH + 1, dtype=float)
     yield from tried[design.allows(tried)].tolist()

@@ -199,13 +199,13 @@ class Answer:
 
 def lines(answer: Answer) -> Iterator[str]:
     """Yield what is found, in words."""
-    design, asked, today = answer.design, answer.question.quantity, answer.design.today
+    design, asked, present = answer.design, answer.question.quantity, answer.design.present
     passing = phrase(" with no check failing") if answer.passing else ""
     reached = "" if math.isnan(answer.reached) else f", {asked.name} {localised(asked.told(answer.reached))}"
     now = (
         phrase("not given at present")
-        if today is None
-        else Phrase("at present {value}", value=localised(design.told(today)))
+        if present is None
+        else Phrase("at present {value}", value=localised(design.told(present)))
     )
     words = "{question}{passing}, by {input} ({now}{reached})"
     yield Phrase(words, question=answer.question.told, passing=passing, input=design.name, now=now, reached=reached)
@@ -304,7 +304,7 @@ def data(answer: Answer) -> dict[str, Any]:
     question, design, machine = answer.question, answer.design, answer.machine
     return {
         "schema_version": 1,
-        "vary": {"path": design.asked.path, "unit": design.meta.parsed_unit.si, "today": design.today, "from": answer.low, "to": answer.high},
+        "vary": {"path": design.asked.path, "unit": design.meta.parsed_unit.si, "today": design.present, "from": answer.low, "to": answer.high},
         "for": {"name": question.quantity.name, "kind": question.kind, "passing": answer.passing, "unit": question.quantity.si,
                 "today": None if math.isnan(answer.reached) else answer.reached,
                 **({} if question.kind in ("max", "min") else {"value": question.value})},
@@ -379,7 +379,7 @@ def typed_answers(search: Searched, places: list[tuple[float, Role]]) -> list[Fo
 def _candidates(design: DesignInput, value: float, role: Role) -> list[str]:
     """What may be typed, the best first."""
     exact = design.typed(value, EXACT)
-    if design.is_whole or role == "today" or value == design.today:
+    if design.is_whole or role == "today" or value == design.present:
         return [exact]
     inwards = [design.typed_inwards(value, EXACT, up=up) for up in (True, False)]
     few = {

@@ -42,9 +42,9 @@ class InputEffect:
     low: float
     high: float
 
-    def reach(self, today: float) -> float:
+    def reach(self, present: float) -> float:
         """Return how far the number moves at most; infinite where a machine cannot be."""
-        moved = np.abs(np.array([self.low, self.high]) - today)
+        moved = np.abs(np.array([self.low, self.high]) - present)
         return float("inf") if np.isnan(moved).any() else float(moved.max())
 
 
@@ -56,7 +56,7 @@ class Tornado:
     """
 
     asked: AskedNumber
-    today: float
+    present: float
     bars: tuple[InputEffect, ...]
     still: int
     at_default: int = 0
@@ -104,7 +104,7 @@ def tornados(
     own = {each.asked.path for each in tolerances}
     standing = numbers_at_default(config)
     numbers = [*given_numbers(config), *(standing if defaults else ())]
-    inputs = [*tolerances, *(each for each in numbers if each.today and each.asked.path not in own)]
+    inputs = [*tolerances, *(each for each in numbers if each.present and each.asked.path not in own)]
     if not inputs:
         words = phrase("no input is given as a non-zero number, so none has an influence.")
         raise UserError(Problem(words, config.tree.file))
@@ -116,7 +116,7 @@ def tornados(
     asked = asked or [quantity(config, name) for name in _governing(made)]
     for number in asked:
         _require_value(config, made, number)
-    left = 0 if defaults else sum(1 for each in standing if each.today and each.asked.path not in own)
+    left = 0 if defaults else sum(1 for each in standing if each.present and each.asked.path not in own)
     return [replace(_tornado(made, each, inputs, ends), at_default=left) for each in asked]
 
 
@@ -133,7 +133,7 @@ def by_input(sizes: Iterable[tuple[DesignInput, float]]) -> dict[DesignInput, fl
 
 def require_scatter(design: DesignInput) -> None:
     """Refuse a tolerance of what does not scatter: a whole number, or one without a value today."""
-    if design.is_whole or design.today is None:
+    if design.is_whole or design.present is None:
         words = "{input} is a whole number or has no value at present, so it cannot have a tolerance."
         raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
 
@@ -145,7 +145,7 @@ def _require_value(config: Config, made: VariedMachines, asked: AskedNumber) -> 
 
 
 def _step(design: DesignInput, share: float) -> float:
-    size = abs(design.today or 0.0) * share
+    size = abs(design.present or 0.0) * share
     return max(1.0, float(round(size))) if design.is_whole else size
 
 
@@ -154,14 +154,14 @@ def _ends(design: DesignInput, step: float) -> tuple[float, float]:
 
     Towards an end that does not belong to the range it goes half the way; of listed numbers the next ones are taken.
     """
-    today = design.today or 0.0
+    present = design.present or 0.0
     if listed := [design.meta.parsed_unit.to_si(value) for value in design.meta.listed]:
-        near = STILL * abs(today)
-        return (max((each for each in listed if each < today - near), default=today),
-                min((each for each in listed if each > today + near), default=today))  # fmt: skip
+        near = STILL * abs(present)
+        return (max((each for each in listed if each < present - near), default=present),
+                min((each for each in listed if each > present + near), default=present))  # fmt: skip
     low, high = design.bounds
-    found = np.array([max(today - step, low), min(today + step, high)])
-    lowered, raised = np.where(design.allows(found), found, (found + today) / 2)
+    found = np.array([max(present - step, low), min(present + step, high)])
+    lowered, raised = np.where(design.allows(found), found, (found + present) / 2)
     return float(lowered), float(raised)
 
 
@@ -172,7 +172,7 @@ def _beside(
     count = 1 + 2 * len(inputs)
     given = {}
     for index, (design, pair) in enumerate(zip(inputs, ends, strict=True)):
-        column = np.full(count, design.today)
+        column = np.full(count, design.present)
         column[1 + 2 * index : 3 + 2 * index] = pair
         given[design.asked] = column
     return varied(config, given, count, [each.asked for each in asked if each.asked is not None])
@@ -207,13 +207,15 @@ def _tornado(
     made: VariedMachines, asked: AskedNumber, inputs: Sequence[DesignInput], ends: Sequence[tuple[float, float]]
 ) -> Tornado:
     values = made.values(asked.column)
-    today = float(values[0])
+    present = float(values[0])
     bars = [
         InputEffect(each, lowered, raised, float(values[1 + 2 * i]), float(values[2 + 2 * i]))
         for i, (each, (lowered, raised)) in enumerate(zip(inputs, ends, strict=True))
     ]
-    moving = [each for each in bars if each.reach(today) > STILL * abs(today)]
-    return Tornado(asked, today, tuple(sorted(moving, key=lambda each: -each.reach(today))), len(bars) - len(moving))
+    moving = [each for each in bars if each.reach(present) > STILL * abs(present)]
+    return Tornado(
+        asked, present, tuple(sorted(moving, key=lambda each: -each.reach(present))), len(bars) - len(moving)
+    )
 
 
 def within_tolerances(
@@ -228,13 +230,13 @@ def within_tolerances(
     given = {}
     for design, tolerance in tolerances.items():
         require_scatter(design)
-        assert design.today is not None
+        assert design.present is not None
         off = (
             draws.normal(0.0, tolerance / IN_TOLERANCE, count)
             if distribution == "normal"
             else draws.uniform(-tolerance, tolerance, count)
         )
-        given[design.asked] = design.today + off
+        given[design.asked] = design.present + off
     made = varied(config, given, count)
     chances = [_chance(name, made.check(name) == "pass", _judged(made, name)) for name in made.checks]
     whole = _chance(
@@ -286,7 +288,7 @@ def lines(found: Sequence[Tornado], tolerances: Tolerances | None, option: str =
 
 def _influence_text_tornado(found: Tornado) -> Iterator[Phrase]:
     asked = found.asked
-    yield Phrase("{asked}, at present {value}", asked=asked.name, value=localised(asked.told(found.today, 4)))
+    yield Phrase("{asked}, at present {value}", asked=asked.name, value=localised(asked.told(found.present, 4)))
     bars = found.bars[:SHOWN]
     width = max((len(each.design.name) for each in bars), default=0)
     for each in bars:
@@ -320,7 +322,7 @@ def _tolerances(found: Tolerances) -> Iterator[Phrase]:
     is_normal = found.distribution == "normal"
     way = Phrase("normal, {n} standard deviations", n=f"{IN_TOLERANCE:g}") if is_normal else phrase("uniform")
     given = ", ".join(
-        f"{each.name} {localised(each.told(each.today or 0.0))} ± {localised(each.told(size))}"
+        f"{each.name} {localised(each.told(each.present or 0.0))} ± {localised(each.told(size))}"
         for each, size in found.by_input.items()
     )
     words = "within tolerances ({way}; {n} machines, seed {seed}): {inputs}"
@@ -346,7 +348,7 @@ def data(found: Sequence[Tornado], tolerances: Tolerances | None) -> dict[str, A
     return {
         "schema_version": 1,
         "tornados": [
-            {"name": each.asked.name, "unit": each.asked.si, "today": each.today, "bars": [_bar(bar) for bar in each.bars], "still": each.still,
+            {"name": each.asked.name, "unit": each.asked.si, "today": each.present, "bars": [_bar(bar) for bar in each.bars], "still": each.still,
              "at_default": each.at_default}
             for each in found
         ],
@@ -399,7 +401,7 @@ def page(found: Sequence[Tornado], tolerances: Tolerances | None, name: str) -> 
         text = "\n".join(map(said, _influence_text_tornado(each)))
         figure = (
             tornado(
-                each.today / factor,
+                each.present / factor,
                 bars,
                 say("Influence of inputs on {asked}", asked=each.asked.name),
                 f"tornado-{index}",
@@ -522,7 +524,7 @@ def _report_influence_tornado(found: Tornado) -> Data:
         for bar in found.bars[:SHOWN]
     ]  # fmt: skip
     more = len(found.bars) - len(bars)
-    return {"name": found.asked.name, "unit": found.asked.unit, "today": _in(own, found.today), "bars": bars, "more": more,
+    return {"name": found.asked.name, "unit": found.asked.unit, "today": _in(own, found.present), "bars": bars, "more": more,
             "still": found.still, "at_default": found.at_default}  # fmt: skip
 
 
@@ -531,7 +533,7 @@ def _report_influence_tolerances(found: Tolerances) -> Data:
         {
             "name": each.name,
             "unit": each.unit,
-            "value": _in(each.unit, each.today or 0.0),
+            "value": _in(each.unit, each.present or 0.0),
             "tolerance": _size(each, size),
         }
         for each, size in found.by_input.items()

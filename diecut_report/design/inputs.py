@@ -32,13 +32,13 @@ MANY_STEPS = 20  # references that are followed to where a value stands; a loop 
 
 @dataclass(frozen=True, eq=False)
 class DesignInput:
-    """Hold an input that may be changed. ``today`` is its value (SI), None where it has none; ``unit`` the one it is typed in.
+    """Hold an input that may be changed. ``present`` is its value (SI), None where it has none; ``unit`` the one it is typed in.
 
     ``stands`` is its place in the file, whether it is there or not.
     """
 
     asked: Input
-    today: float | None
+    present: float | None
     unit: str
     is_given: bool
     stands: KeyPath
@@ -135,7 +135,7 @@ def _of_instance(config: Config, name: str, *, given: bool) -> Iterator[DesignIn
             found = _made(config, find_input(config, f"{prefix}{'.'.join(map(str, (name, *slot.key)))}"))
         except UnknownPath:  # it stands for several, as in a list
             continue
-        if found.today is not None:
+        if found.present is not None:
             yield found
 
 
@@ -184,10 +184,10 @@ def _made(config: Config, asked: Input) -> DesignInput:
     assert instance is not None and isinstance(asked.meta, Quantity)
     _, stands = instance.place.stands(asked.key)
     typed = config.tree.typed(stands)
-    return DesignInput(asked, _today(config, asked), _typed_unit(typed, asked.meta), typed is not None, stands)
+    return DesignInput(asked, _present(config, asked), _typed_unit(typed, asked.meta), typed is not None, stands)
 
 
-def _today(config: Config, asked: Input) -> float | None:
+def _present(config: Config, asked: Input) -> float | None:
     """The value that the file gives, or the default."""
     link = config.links.get((asked.instance, *asked.key))
     if link is not None and (link.expression or link.result is not None or link.node in config.links):
@@ -285,7 +285,7 @@ NAMED = 12  # inputs that a message names
 
 def nothing_free(config: Config, left_out: Collection[str]) -> Phrase:
     """Return what is to be done where no input is free: the inputs that could be named, but for those paths."""
-    numbers = [each.name for each in given_numbers(config) if each.today and each.asked.path not in left_out]
+    numbers = [each.name for each in given_numbers(config) if each.present and each.asked.path not in left_out]
     found = [*(each.name for each in given_choices(config) if each.asked.path not in left_out), *numbers]
     if not found:
         return Phrase("nothing is free to be changed: keep fewer inputs by --keep.")
@@ -296,7 +296,7 @@ def nothing_free(config: Config, left_out: Collection[str]) -> Phrase:
 def untried(config: Config, instances: Collection[str], known: Collection[str]) -> tuple[str, ...]:
     """Return the texts, yes/no and numbers of parts of mechanisms that are tried only where they are named."""
     choices = [(each.asked, each.name) for each in given_choices(config) if len(each.options) > 1]
-    whole = [(each.asked, each.name) for each in given_numbers(config) if each.is_whole and each.today]
+    whole = [(each.asked, each.name) for each in given_numbers(config) if each.is_whole and each.present]
     own = [name for asked, name in (*choices, *whole) if asked.instance in instances and asked.path not in known]
     return tuple(dict.fromkeys(own))
 
@@ -364,7 +364,7 @@ def changeable(
     else:
         own = [each for each in given_numbers(config) if is_form(config, each) and not is_stepped(each)]
         named = own + [design_input(config, name) for name in advised]
-    found = {each.asked.path: each for each in named if each.asked.path not in keep and each.today}
+    found = {each.asked.path: each for each in named if each.asked.path not in keep and each.present}
     return list(found.values())
 
 
@@ -383,7 +383,7 @@ def named_paths(config: Config, names: Iterable[str]) -> tuple[list[str], set[st
 
 def _require_values(config: Config, named: Iterable[DesignInput]) -> None:
     for each in named:
-        if not each.today:
+        if not each.present:
             words = "{input} has no value at present, or is zero, and cannot be varied by a percentage; give it a value first."
             raise UserError(Problem(Phrase(words, input=each.name), config.tree.file, path="--free"))
 

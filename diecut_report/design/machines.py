@@ -247,8 +247,8 @@ class ChangedMachines:
     def __call__(self, shares: Array) -> VariedMachines:
         count = len(shares)
         self.spent.take(count)
-        today = np.array([each.today for each in self.inputs], dtype=float)
-        values = today * (1.0 + shares)
+        present = np.array([each.present for each in self.inputs], dtype=float)
+        values = present * (1.0 + shares)
         given: dict[Input, Any] = {each.asked: values[:, index] for index, each in enumerate(self.inputs)}
         return varied(
             self.config, given | {asked: _column(asked, text, count) for asked, text in self.choices.items()}, count

@@ -192,22 +192,22 @@ NEARER = 60  # machines about today's value, as far as the nearest root that was
 
 
 def roots(
-    function: Function, x: Array, values: Array, today: float | None, allows: Callable[[Array], Array]
+    function: Function, x: Array, values: Array, present: float | None, allows: Callable[[Array], Array]
 ) -> tuple[list[float], list[float]]:
-    """Return where a function is zero, ascending, and where it jumps over zero; of places that are all zero the ends, and ``today``.
+    """Return where a function is zero, ascending, and where it jumps over zero; of places that are all zero the ends, and ``present``.
 
     It is searched between ascending numbers with their values, and closer about today's, so that the nearest root is not missed.
     """
     x, values = looked_closer(function, x, values, ROOT_SEARCH_ROUNDS)
-    places, jumps = _crossed(function, x, values, today)
-    more = _about(today, places, x, allows) if places else _about_the_nearest(function, x, values)
+    places, jumps = _crossed(function, x, values, present)
+    more = _about(present, places, x, allows) if places else _about_the_nearest(function, x, values)
     if not len(more):
         return places, jumps
     x = np.union1d(x, more)
-    return _crossed(function, x, function(x), today)
+    return _crossed(function, x, function(x), present)
 
 
-def _crossed(function: Function, x: Array, values: Array, today: float | None) -> tuple[list[float], list[float]]:
+def _crossed(function: Function, x: Array, values: Array, present: float | None) -> tuple[list[float], list[float]]:
     """The places between these numbers alone."""
     places: list[float] = []
     jumps: list[float] = []
@@ -220,17 +220,17 @@ def _crossed(function: Function, x: Array, values: Array, today: float | None) -
     beside = np.concatenate([[np.nan], values, [np.nan]])
     before, after = beside[:-2], beside[2:]
     is_kept = ((before == 0) | (after == 0)) & np.isfinite(before) & np.isfinite(after)  # its ends are found
-    taken = [float(each) for each in x[(values == 0) & (~is_kept | (x == today))]]
+    taken = [float(each) for each in x[(values == 0) & (~is_kept | (x == present))]]
     found = [each for each in places if all(abs(each - one) > SAME_PLACE * abs(one) for one in taken)]
     return sorted([*taken, *found]), jumps
 
 
-def _about(today: float | None, places: list[float], x: Array, allows: Callable[[Array], Array]) -> Array:
+def _about(present: float | None, places: list[float], x: Array, allows: Callable[[Array], Array]) -> Array:
     """Numbers about today's value, as far as the nearest place: another may lie nearer."""
-    if today is None:
+    if present is None:
         return np.array([])
-    reach = min(abs(each - today) for each in places)
-    near = np.linspace(today - reach, today + reach, NEARER + 1)
+    reach = min(abs(each - present) for each in places)
+    near = np.linspace(present - reach, present + reach, NEARER + 1)
     return np.asarray(near[(near > x[0]) & (near < x[-1]) & allows(near)])
 
 
@@ -267,14 +267,14 @@ def searched_range(design: DesignInput, low: float | None, high: float | None) -
     UserError where there is none.
     """
     least, most = design.bounds
-    today = design.today
+    present = design.present
     if design.meta.listed:
         known = _listed(design)
         return float(known[0]) if low is None else low, float(known[-1]) if high is None else high
-    if (low is None or high is None) and not today:
+    if (low is None or high is None) and not present:
         words = "{input} has no value at present; give the range to search with --from and --to."
         raise UserError(Problem(Phrase(words, input=design.name), path="--vary"))
-    around = sorted((today / WIDER, today * WIDER)) if today else (math.nan, math.nan)
+    around = sorted((present / WIDER, present * WIDER)) if present else (math.nan, math.nan)
     first = max(around[0], least) if low is None else low
     last = min(around[1], most) if high is None else high
     if not first < last:
@@ -295,16 +295,20 @@ def searched_places(design: DesignInput, low: float, high: float) -> Array:
         return whole if len(whole) <= MOST_WHOLE else np.unique(np.round(np.linspace(low, high, MOST_WHOLE)))
     is_wide = low > 0 and high / low > 4
     x = np.geomspace(low, high, POINTS) if is_wide else np.linspace(low, high, POINTS)
-    today = design.today
-    if today is not None and low < today < high:
-        x = np.unique(np.append(x, today))
+    present = design.present
+    if present is not None and low < present < high:
+        x = np.unique(np.append(x, present))
     return x[design.allows(x)] if design.allows(x).any() else x
 
 
 def _listed(design: DesignInput) -> Array:
     """The numbers of its list (SI), ascending; today's as it is, to the last digit."""
     known = np.sort(np.array([design.meta.parsed_unit.to_si(value) for value in design.meta.listed]))
-    return known if design.today is None else np.where(np.isclose(known, design.today, rtol=SAME), design.today, known)
+    return (
+        known
+        if design.present is None
+        else np.where(np.isclose(known, design.present, rtol=SAME), design.present, known)
+    )
 
 
 PASSING_CLOSE = 1e-6  # relative width at which the limit of what passes is known: more is not typed
@@ -319,7 +323,7 @@ def solved(
     UserError in words where that is not a question, there is no range to search, or what is asked does not vary with the input.
     """
     config = press.config
-    is_new = design.today is None and low is not None
+    is_new = design.present is None and low is not None
     what = question(with_input(config, design, low or 0.0) if is_new else config, asked)
     press.tell(Phrase("solving for {input}", input=design.name))
     ends = searched_range(design, low, high)
@@ -377,7 +381,9 @@ class _RangeSearch:
         y = made.values(self.question.quantity.column)
         self._refuse_constant(made, y)
         self._keep(x, made)
-        answer = Answer(self.question, self.design, float(x[0]), float(x[-1]), self._today(x, y), passing=self.passing)
+        answer = Answer(
+            self.question, self.design, float(x[0]), float(x[-1]), self._present(x, y), passing=self.passing
+        )
         if self.question.kind == "=":
             roots, jumps = self._roots(x, y)
             answer = replace(answer, found=tuple(self._nearest_first(roots)), jumps=tuple(jumps))
@@ -406,8 +412,8 @@ class _RangeSearch:
             value = self.question.quantity.told(float(known[0]))
             raise UserError(Problem(Phrase(words, asked=asked, input=name, value=value), self.config.tree.file))
 
-    def _today(self, x: Array, y: Array) -> float:
-        index = np.flatnonzero(x == (np.nan if self.design.today is None else self.design.today))
+    def _present(self, x: Array, y: Array) -> float:
+        index = np.flatnonzero(x == (np.nan if self.design.present is None else self.design.present))
         return float(y[index[0]]) if len(index) else math.nan
 
     # --- what is looked for ------------------------------------------------------------------------------------------
@@ -418,8 +424,8 @@ class _RangeSearch:
         if self.is_stepped:
             exact = np.abs(off) <= SAME * max(abs(value), 1e-300)
             return self._judged([(float(each), "root") for each in x[exact]]), []
-        places, jumps = roots(self._off, x, off, self.design.today, self.design.allows)
-        judged = self._judged([(each, "today" if each == self.design.today else "root") for each in places])
+        places, jumps = roots(self._off, x, off, self.design.present, self.design.allows)
+        judged = self._judged([(each, "today" if each == self.design.present else "root") for each in places])
         true = [
             each for each in judged if self.missed(np.array(each.reached)) <= REACHED
         ]  # else it stands beside a jump
@@ -531,17 +537,17 @@ class _RangeSearch:
         return typed_answers(self, places)
 
     def _nearest_first(self, found: list[FoundValue]) -> list[FoundValue]:
-        today = self.design.today
-        return found if today is None else sorted(found, key=lambda each: abs(each.value - today))
+        present = self.design.present
+        return found if present is None else sorted(found, key=lambda each: abs(each.value - present))
 
     def _of_ranges(self, ranges: list[Range]) -> list[FoundValue]:
         """Of each range the value nearest to today's, which may be that itself."""
-        today = self.design.today
-        if today is None:
+        present = self.design.present
+        if present is None:
             return [low for low, _ in ranges]
-        if any(low.value <= today <= high.value for low, high in ranges):
-            return self._judged([(today, "today")])
-        return self._nearest_first([min(ends, key=lambda each: abs(each.value - today)) for ends in ranges])
+        if any(low.value <= present <= high.value for low, high in ranges):
+            return self._judged([(present, "today")])
+        return self._nearest_first([min(ends, key=lambda each: abs(each.value - present)) for ends in ranges])
 
     def _nearest(self, x: Array, made: VariedMachines, y: Array) -> FoundValue | None:
         """The value that comes nearest to what is asked."""
@@ -553,7 +559,7 @@ class _RangeSearch:
             value, _ = greatest(lambda places: -np.abs(self._off(places)), x, -away)
         else:
             best = x[away <= away.min()]  # where all are as far away the one that is nearest to today's
-            value = float(best[np.argmin(np.abs(best - (self.design.today or best[0])))])
+            value = float(best[np.argmin(np.abs(best - (self.design.present or best[0])))])
         found = self._judged([(value, "nearest")])
         return replace(found[0], at_end=value in (x[0], x[-1])) if found else None
 

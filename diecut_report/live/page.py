@@ -127,15 +127,15 @@ def _choice(asked: DesignChoice, kind: str, start: LiveMachine, edits: Mapping[s
 
 
 def _input(asked: DesignInput, kind: str, start: LiveMachine, edits: Mapping[str, str]) -> Data:
-    assert asked.today is not None, "a number that the file gives has a value"
+    assert asked.present is not None, "a number that the file gives has a value"
     low, high = slider(asked)
     own = unit(asked.unit)
     first = start.inputs.get(asked.name)
     return _named(asked, asked.meta, kind) | {
         "unit": "" if asked.unit == "1" else asked.unit,
-        "value": _plain(own.from_si(asked.today)),
-        "typed": edits.get(asked.name) or asked.typed(asked.today),
-        "start": first.typed(first.today) if first is not None and first.today is not None else "",
+        "value": _plain(own.from_si(asked.present)),
+        "typed": edits.get(asked.name) or asked.typed(asked.present),
+        "start": first.typed(first.present) if first is not None and first.present is not None else "",
         "low": _plain(own.from_si(low)),
         "high": _plain(own.from_si(high)),
         "whole": asked.is_whole,
@@ -149,7 +149,7 @@ def _named(asked: DesignInput | DesignChoice, meta: Any, kind: str) -> Data:
 
 def slider(asked: DesignInput) -> tuple[float, float]:
     """Return from where to where (SI) a slider moves an input: half its size to each side, within what the input may be."""
-    value = asked.today or 0.0
+    value = asked.present or 0.0
     least, greatest = asked.bounds
     if asked.is_whole:
         return max(value - WHOLE_REACH, least), min(value + WHOLE_REACH, greatest)

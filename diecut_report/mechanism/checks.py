@@ -11,6 +11,7 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import placed
+from diecut_report.standards.tables import StandardSeries
 from diecut_report.text.phrases import Phrase, phrase
 
 CheckClass = Literal["function", "strength", "practice", "numerical"]
@@ -21,13 +22,18 @@ UNDECLARED: CheckClass = None  # type: ignore[assignment]  # no allowed class: t
 class Vary:
     """Name an input that may be changed so that a check holds, where its key alone does not say enough.
 
-    ``to`` is the direction where only one makes sense; ``series`` are the values that can be bought, in the unit of the input,
-    or those of its texts that are tried.
+    ``to`` is the direction where only one makes sense; ``series`` are the values that can be bought, ascending: a standard series, or
+    numbers in the unit of the input; or those of its texts that are tried.
     """
 
     key: str
     to: Literal["up", "down", ""] = ""
-    series: tuple[float | str, ...] = ()
+    series: tuple[float | str, ...] | StandardSeries = ()
+
+    @property
+    def values(self) -> tuple[float | str, ...]:
+        """Return the values that are tried alone; none where all are."""
+        return self.series.values if isinstance(self.series, StandardSeries) else self.series
 
 
 AdviceWay = str | Vary | tuple[str, ...]

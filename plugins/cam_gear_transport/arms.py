@@ -14,6 +14,7 @@ from diecut_report.mechanics import cam
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw
 from diecut_report.plugins.cam_gear_transport import formulas, loads
 
+# The search is the method's own: each arm's angle is for its own cam, with one length and the sweeps; advice keeps one proportion.
 FACTORS = np.linspace(1, 0.05, 20)  # of lengths and sweeps that are tried
 DEGREE = si(1, "deg")
 CLEAR = 0.01 * DEGREE  # by which a pressure angle keeps its limit
@@ -68,7 +69,7 @@ def times(rocker: Rocker) -> tuple[float, float]:
 
 def leaves_time(rocker: Rocker) -> bool:
     """Whether the return has its time."""
-    return times(rocker)[1] > rocker.least_return
+    return times(rocker)[1] >= rocker.least_return * (1 - 1e-9)
 
 
 def motion(rocker: Rocker) -> ArmMotion:

@@ -11,7 +11,7 @@ SLOWER = (Vary("cycles_per_hour", "down"),)
 
 CHECKS = (
     Check(id="return_time", check_class="practice", title="Time of the sector's return",
-          demand="min_return_time", limit="time_return", unit="1", operator="<",
+          demand="min_return_time", limit="time_return", unit="1", tolerance=1e-9,
           demand_label="required fraction", limit_label="available fraction, T₄", source="practice",
           consequence="the sector and the conveyor are thrown in too short a time.", advise=SHORTER),
     Check(id="gear_turn", check_class="numerical", title="One revolution of the gear per cycle", demand="gear_rotation_error", limit=1e-6, unit="deg",

@@ -27,7 +27,7 @@ CHECKS = (
           demand="depth_least", limit="corner_distance", unit="mm", operator="<",
           demand_label="minimum distance of the edge from the axis, R − r", limit_label="board's upper front edge from the axis", source="geometry",
           consequence="over the whole turn this front edge is inside the edge's circle, so that the blade's end comes down on the board from "
-          "above.", advise=PLACE),
+          "above.", advise=("front_distance", "eccentricity", "depth")),
     Check(id="shear_resistance", check_class="practice", presumed=True, title="Shear resistance compared with the force of a rule",
           demand="rule_force", limit="guillotine_line_force",
           unit="N/mm", tolerance=1e-9, severity="warn", needs=("rule_force",), demand_label="required by a straight rule",

@@ -6,41 +6,37 @@ from diecut_report.api import Check, Vary
 from diecut_report.plugins.drive_train.belts import FASTEST_BELT, LARGEST_DEVIATION, LARGEST_RATIO, LEAST_WRAP, PULLEYS
 
 DRIVER = "vbelt.driver_diameter"
-RUN_UP = (
-    Vary("load_inertia", "down"),
-    Vary("speed_fluctuation", "up"),
-    Vary("run_up_load", "down"),
-    Vary("reserve_factor", "up"),
-)
+STRONGER = (Vary("run_up_load", "down"), Vary("reserve_factor", "up"))
+RUN_UP = (Vary("load_inertia", "down"), Vary("speed_fluctuation", "up"), *STRONGER)
 
 CHECKS = (
     Check(id="vbelt_speed", check_class="practice", title="Speed of the V-belt",
           demand="vbelt_speed", limit=FASTEST_BELT, unit="m/s", demand_label="belt speed", limit_label="allowed", source="practice",
           consequence="the centrifugal force lifts the belt out of the grooves; a slower motor helps, too.",
-          advise=(Vary(DRIVER, "down", PULLEYS.values), Vary(DRIVER, "down"))),
+          advise=(Vary(DRIVER, "down", PULLEYS), Vary(DRIVER, "down"))),
     Check(id="vbelt_wrap", check_class="practice", title="Wrap on the smaller pulley",
           demand=LEAST_WRAP, limit="vbelt_wrap", unit="deg", demand_label="required", limit_label="wrap", source="practice",
           consequence="the belt slips; a larger vbelt.section has longer belts.",
-          advise=("vbelt.center_distance", Vary(DRIVER, "up", PULLEYS.values))),
+          advise=("vbelt.center_distance", Vary(DRIVER, "up", PULLEYS))),
     Check(id="vbelt_ratio", check_class="practice", title="Ratio of the V-belt",
           demand="vbelt_ratio_actual", limit=LARGEST_RATIO, unit="1", demand_label="ratio", limit_label="allowed", source="practice",
           consequence="too much for one V-belt; the gears can take more of it, whose ratio is {gear_ratio_total}.",
           advise=(Vary("gears.driven_teeth", "up"),)),
     Check(id="vbelt_count", check_class="strength", title="Number of belts", demand="vbelt_count_needed", limit="vbelt_count", unit="1",
           needs=("power_per_belt",), demand_label="required", limit_label="mounted", sized_unless=("vbelt.count",), source="Optibelt",
-          consequence="the belts are overloaded and wear out.", advise=(Vary("vbelt.count", "up"), Vary(DRIVER, "up", PULLEYS.values))),
+          consequence="the belts are overloaded and wear out.", advise=(Vary("vbelt.count", "up"), Vary(DRIVER, "up", PULLEYS))),
     Check(id="vbelt_slip", check_class="function", title="Slip of the V-belt", demand="vbelt_pull", limit="vbelt_slip_pull", unit="N",
           needs=("vbelt.tension",), demand_label="maximum pull", limit_label="slip limit", tolerance=1e-9, source="Euler",
           consequence="the belts slip when the motor runs up or is overloaded; check the shafts for the load that a higher tension puts "
                       "on them.", advise=(Vary("vbelt.tension", "up"),)),
     Check(id="vbelt_bendings", check_class="practice", title="Bending frequency of the V-belt", demand="vbelt_bendings", limit=100.0, unit="1/s",
           severity="warn", demand_label="bending frequency", limit_label="allowed", source="Optibelt",
-          consequence="the belt heats and ages.", advise=(Vary("vbelt.center_distance", "up"), Vary(DRIVER, "down", PULLEYS.values))),
+          consequence="the belt heats and ages.", advise=(Vary("vbelt.center_distance", "up"), Vary(DRIVER, "down", PULLEYS))),
     Check(id="output_speed_error", check_class="function", title="Output speed",
           demand="output_speed_error", limit=LARGEST_DEVIATION, unit="%", tolerance=1e-9,
           demand_label="deviation", limit_label="allowed", source="this method",
           consequence="with driven pulleys of R40 the output turns at {output_speed}, not at {inputs.output_speed}; other gears may meet it, too.",
-          advise=(Vary(DRIVER, series=PULLEYS.values), DRIVER)),
+          advise=(Vary(DRIVER, series=PULLEYS), DRIVER)),
     Check(id="motor_power", check_class="function", title="Motor", demand="power_required", limit="motor_power", unit="kW",
           demand_label="required power", limit_label="rated power", sized_unless=(), source="IEC 60072-1",
           consequence="no standard motor is so large; less torque or speed of the output needs less, or several motors.",
@@ -58,7 +54,7 @@ CHECKS = (
     Check(id="run_up_torque", check_class="function", title="Torque during run-up",
           demand="run_up_load_torque", limit="run_up_torque", unit="N*m",
           operator="<", demand_label="load torque at the motor", limit_label="torque of the motor", source="this method",
-          consequence="the motor does not run up.", advise=RUN_UP),
+          consequence="the motor does not run up.", advise=STRONGER),
     Check(id="run_up_time", check_class="function", title="Run-up time", demand="run_up_time", limit="allowable_run_up_time", unit="s",
           demand_label="run-up", limit_label="allowed", source="this method",
           consequence="the motor's protection trips; one for heavy starting allows a longer allowable_run_up_time.", advise=RUN_UP),

@@ -52,7 +52,7 @@ vbelt_chapter.require("driver_large_enough",
                       bind(lambda least_driver_diameter, driver_diameter: least_driver_diameter <= driver_diameter,
                            driver_diameter="vbelt.driver_diameter"), key="vbelt.driver_diameter",
                       message="is {vbelt.driver_diameter}, but a belt of section {vbelt.section} needs pulleys of {least_driver_diameter} or more: "
-                              "take a larger pulley or a smaller section", advise=(Vary("vbelt.driver_diameter", "up", belts.PULLEYS.values),))
+                              "take a larger pulley or a smaller section", advise=(Vary("vbelt.driver_diameter", "up", belts.PULLEYS),))
 vbelt_chapter.require("pulleys_apart", bind(belts.has_room, least="least_center_distance", **RATIO), key="vbelt.center_distance",
                       message="is {vbelt.center_distance}, but pulleys of {vbelt.driver_diameter} and {driven_diameter} overlap up to "
                               "{least_center_distance:up}", advise=DISTANCE)

@@ -11,7 +11,7 @@ LEAST_CONTACT, LEAST_CLEARANCE = 1.1, 0.12
 
 # fmt: off
 
-MODULE = (Vary("module", "up", MODULES.values), ("center_distance", "module"))
+MODULE = (Vary("module", "up", MODULES), ("center_distance", "module"))
 ROOM = ("keep_clearance", Vary("dedendum", "up"))
 
 

@@ -18,7 +18,7 @@ CHECKS = (
           demand="locking_radius", limit="flank_distance", unit="mm", operator="<",
           demand_label="radius of the locking arc", limit_label="distance of the slot's flank", source="geometry",
           consequence="the locking arc cuts into the slots, the tips of the wheel's arms would be {arm_tip} thick.",
-          advise=LOCKING),
+          advise=LOCKING[:2]),
     Check(id="locking_reach", check_class="function", title="Locking disc reaches the wheel",
           demand="rim_distance", limit="disc_radius", unit="mm", operator="<",
           demand_label="distance of the wheel's rim", limit_label="radius of the locking disc", source="geometry",

@@ -13,7 +13,7 @@ ROUNDING = 1e-9  # relative: what is typed in at its limit reaches it
 
 SIZED = ("key_length",)
 TYPED = ("load_direction_factor", "flank_changes")
-LONGER = (Vary("key_length", "up", LENGTHS.values), "key_count")
+LONGER = (Vary("key_length", "up", LENGTHS), "key_count")
 
 
 def _pressure(part: str) -> Check:
@@ -46,9 +46,9 @@ CHECKS = (
     Check(id="standard_length", check_class="practice", title="Standard length", demand="length_off", limit=0.0, unit="mm", severity="warn",
           tolerance=1e-9, demand_label="off the nearest standard length", limit_label="accepted", source="DIN 6885-1",
           consequence="no key of the shelf is so long; the nearest one has {nearest_length}.",
-          advise=(Vary("key_length", series=LENGTHS.values),)),
+          advise=(Vary("key_length", series=LENGTHS),)),
     Check(id="hub_length", check_class="practice", title="Key within the hub", demand="key_length", limit="hub_length", unit="mm", severity="warn",
           needs=("hub_length",), tolerance=ROUNDING, demand_label="key", limit_label="hub", source="geometry",
           consequence="what stands out of the hub does not bear.",
-          advise=("hub_length", Vary("key_length", "down", LENGTHS.values))),
+          advise=("hub_length", Vary("key_length", "down", LENGTHS))),
 )

@@ -43,6 +43,7 @@ from diecut_report.api import (
     Step,
     Text,
     Value,
+    Vary,
     Words,
     bind,
     formula,
@@ -50,6 +51,7 @@ from diecut_report.api import (
 from diecut_report.declaration import Fault, faults
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.mechanism.figures import Figure
+from diecut_report.standards.tables import StandardSeries
 from diecut_report.text.translation import said, speaking
 
 
@@ -175,6 +177,16 @@ SOUND = {
     "a two-sided check": made(checks=(check(at_least=1.0),)),
     "a check on a row": made(checks=(check(demand="bars.length", unit="mm", consequence="shorten bar {part}"),)),
     "a check on a curve": made(checks=(check(demand="torque"),)),
+    "advice on what a check follows from": made(
+        checks=(
+            check(advise=("arm", Vary("force", "down", (1, 2, 3)), Vary("arm", "up"), ("force", "arm"))),
+            check(id="long", demand="bars.length", unit="mm", needs=("width",), advise=("bars.length", "width")),
+        ),
+    ),
+    "advice by a text that chooses a formula": made(
+        value("side", formula=ByText("mode", {"near": product, "away": turned})),
+        checks=(check(demand="side", advise=("mode", Vary("mode", series=("away",)))),),
+    ),
     "a cited source": made(value("other", source="002 eq. 3; energy"), sources=SOURCES),
 }  # fmt: skip
 
@@ -321,6 +333,74 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "a row against a curve": (
         made(checks=(check(demand="bars.length", limit="torque", unit="mm"),)),
         "compares what runs over",
+    ),
+    # advice
+    "advice on a key that is not an input": (
+        made(checks=(check(advise=("amr",)),)),
+        "check strong: advise names amr, which is not an input (did you mean 'arm'?)",
+    ),
+    "advice on a step": (
+        made(checks=(check(advise=(Vary("moment", "down"),)),)),
+        "check strong: advise names moment, which is a step; only inputs can be named",
+    ),
+    "advice on a text that may be any": (
+        made(checks=(check(advise=("remark",)),)),
+        "check strong: advise names remark, which is neither a number nor a text with allowed values",
+    ),
+    "advice on a curve": (
+        made(checks=(check(advise=("motion",)),)),
+        "check strong: advise names motion, which is neither a number nor a text with allowed values",
+    ),
+    "advice on a text together with a number": (
+        made(checks=(check(advise=(("mode", "arm"),)),)),
+        "check strong: advise names mode together with arm, but texts are changed each by itself",
+    ),
+    "advice on nothing": (
+        made(checks=(check(advise=((),)),)),
+        "check strong: advise holds (); write the key of an input",
+    ),
+    "advice on keys in one list": (
+        made(checks=(check(advise=(["arm", "force"],)),)),
+        "check strong: advise holds ['arm', 'force']; write the key of an input",
+    ),
+    "advice in a list": (
+        made(checks=(check(advise=["arm"]),)),
+        "check strong: has advise=['arm']; write a tuple of ways, with a comma behind a single one",
+    ),
+    "advice on a key that changes nothing of the check": (
+        made(checks=(check(advise=("width",)),)),
+        "check strong: advise names width, on which its verdict does not depend",
+    ),
+    "advice on a key that changes nothing of what is required": (
+        made(require(advise=("force",))),
+        "step long: advise names force, on which its verdict does not depend",
+    ),
+    "advice to an unknown side": (
+        made(checks=(check(advise=(Vary("arm", "dwon"),)),)),
+        "check strong: the advice on arm has to='dwon' (did you mean 'down'?)",
+    ),
+    "advice by a descending series": (
+        made(checks=(check(advise=(Vary("arm", series=(8, 6, 6)),)),)),
+        "check strong: the advice on arm has a series that does not ascend (8 before 6)",
+    ),
+    "advice by a series of texts": (
+        made(checks=(check(advise=(Vary("arm", series=("8 mm",)),)),)),
+        "check strong: the advice on arm has '8 mm' in its series; write plain numbers, which count in its unit (mm)",
+    ),
+    "advice by a standard series in another unit": (
+        made(checks=(check(advise=(Vary("force", series=StandardSeries("", "R10", "mm", (1.0, 2.0), ())),)),)),
+        "check strong: the series “R10” is in mm, force in N",
+    ),
+    "advice by a series that the key cannot have": (
+        made(checks=(check(advise=(Vary("arm", series=(1e-5, 2e-5)),)),)),
+        "check strong: the advice on arm has a series of which no value is allowed: 1e-05 mm is not plausible",
+    ),
+    "advice by texts that are not allowed": (
+        made(
+            value("side", formula=ByText("mode", {"near": product, "away": turned})),
+            checks=(check(demand="side", advise=(Vary("mode", series=("awy",)),)),),
+        ),
+        "check strong: the advice on mode has 'awy' in its series (did you mean 'away'?)",
     ),
     # kinds
     "an extreme of a number": (

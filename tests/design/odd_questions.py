@@ -75,7 +75,7 @@ class Questions:
         press = Press.read(file, Discovery([GOOD]))
         config, today, self.file = press.config, proved(press), file
         units = {name: column.unit for name, column in quantities(config).items()}
-        self.today = {each.name: (each.today, each.meta.parsed_unit.si) for each in given_numbers(config)}
+        self.today = {each.name: (each.present, each.meta.parsed_unit.si) for each in given_numbers(config)}
         self.today |= {name: (value, units[name]) for name, value in today.outputs.items() if name in units}
         self.inputs = [path for name in config.instances for path in known_paths(config, name)]
         self.numbers = list(quantities(config))

@@ -155,8 +155,8 @@ def test_an_input_is_changed_within_its_own_range(
     press_inputs: dict[str, DesignInput], name: str, share: float, ends: tuple[float, float]
 ) -> None:
     design = press_inputs[name]
-    assert design.today is not None
-    assert _ends(design, share * design.today) == pytest.approx(ends)
+    assert design.present is not None
+    assert _ends(design, share * design.present) == pytest.approx(ends)
 
 
 @pytest.fixture(scope="module")

@@ -33,14 +33,14 @@ def test_names_may_be_short_and_references_are_followed(tmp_path: Path) -> None:
         "b.width": "press.sheet.length",
     }
     arm = design_input(config, "a.arm")
-    assert (arm.today, arm.unit, arm.bounds, arm.typed(0.12), arm.told(0.12)) == (
+    assert (arm.present, arm.unit, arm.bounds, arm.typed(0.12), arm.told(0.12)) == (
         0.1,
         "m",
         (0.0, 1.0),
         "0.12 m",
         "0.12 m",
     )
-    assert design_input(config, "c.speed").today == pytest.approx(2 * np.pi * 6000 / 3600)
+    assert design_input(config, "c.speed").present == pytest.approx(2 * np.pi * 6000 / 3600)
 
 
 @pytest.mark.parametrize(

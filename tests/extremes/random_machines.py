@@ -52,7 +52,7 @@ class Drawn:
             str, list[float]
         ]()  # sizes of the machine by their units: those that are given, and those that follow
         for each in self.numbers:
-            self.alike.setdefault(each.meta.parsed_unit.si, []).append(float(each.today or 0.0))
+            self.alike.setdefault(each.meta.parsed_unit.si, []).append(float(each.present or 0.0))
         for calc in run.calculations.values():
             for name, values in calc.values.items():
                 if name in calc.steps and values.dtype != object and np.isfinite(values[0]).all():
@@ -70,13 +70,13 @@ class Drawn:
         if number.is_whole:
             value = float(round(value))
         allowed = number.allows(np.array([value]))[0]
-        return value if allowed and np.isfinite(value) else float(number.today or 0.0)
+        return value if allowed and np.isfinite(value) else float(number.present or 0.0)
 
     def _slightly(self, number: DesignInput) -> float:
-        return float((number.today or 0.0) * self.random.uniform(0.99, 1.01))
+        return float((number.present or 0.0) * self.random.uniform(0.99, 1.01))
 
     def _widely(self, number: DesignInput) -> float:
-        return float((number.today or self._coinciding(number)) * 10 ** self.random.uniform(-1, 1))
+        return float((number.present or self._coinciding(number)) * 10 ** self.random.uniform(-1, 1))
 
     def _typed(self, number: DesignInput) -> float:
         law = self.random.choice([self._slightly, self._widely])
@@ -117,7 +117,9 @@ def faults(file: Path, count: int, seed: int, alone: int = 1) -> tuple[list[Faul
 
 
 def _columns(numbers: list[DesignInput], changes: list[Changes]) -> dict[Input, np.ndarray]:
-    return {each.asked: np.array([change.get(each, each.today) for change in changes], dtype=float) for each in numbers}
+    return {
+        each.asked: np.array([change.get(each, each.present) for change in changes], dtype=float) for each in numbers
+    }
 
 
 def _changed(base: Config, changes: Changes) -> Config:

@@ -124,7 +124,7 @@ def test_an_effect_gives_way_to_a_change_and_is_made_again_after_it(
     session, began, depths = LiveSession(file, Discovery([])), threading.Event(), []
 
     def slow(machine: Any, name: str, tell: Callable[[str], None]) -> dict[str, str]:
-        depths.append(machine.inputs[name].today)
+        depths.append(machine.inputs[name].present)
         began.set()
         while len(depths) == 1:  # the first ends by giving way, or never
             tell("knife")

@@ -16,7 +16,7 @@ FORMULAS = (
          "    for _ in range(2):\n        height = height / 1.4\n    return line_mass * GRAVITY * height", "hanging_weight", "for _ in"),
     load("a conditional expression", "high=lambda belt_length: belt_length / 2",
          "high=lambda belt_length: belt_length / 2 if belt_length > 1 else belt_length", "centre", "belt_length / 2 if belt_length > 1"),
-    load("math in place of NumPy", "as_angle(np.sqrt(", "as_angle(math.sqrt(", "speed_limit", r"math\.sqrt", "NumPy",
+    load("math in place of NumPy", "as_angle(np.sqrt(", "as_angle(math.sqrt(", "speed_limit", r"math\.sqrt", r"np\.sqrt",
          also=(("import numpy as np\n", "import math\n\nimport numpy as np\n"),), placed=False),
     load("a formula with the name of the function that it calls",
          "@formula\ndef length_by_wraps(centre: Any, small_pulley: Any, large_pulley: Any) -> Any:\n    half_wrap = np.arccos(",

@@ -293,6 +293,12 @@ def test_a_short_return_fails_and_the_advice_lengthens_it(module: dict[str, Any]
         assert checks(stepper(**longer))["return_time"].status == "pass"
 
 
+@pytest.mark.parametrize("rounding", [-1e-12, 0, 1e-12])
+def test_a_return_of_just_the_time_that_it_needs_passes(rounding: float) -> None:
+    left = number(stepper(dwell_angle="205 deg"), "time_return")
+    assert checks(stepper(dwell_angle="205 deg", min_return_time=left * (1 + rounding)))["return_time"].status == "pass"
+
+
 @pytest.mark.parametrize(
     "keys, words",
     [

@@ -111,7 +111,7 @@ def test_of_a_search_it_tells_how_many_machines_are_tried(tmp_path: Path, capfd:
     assert main(["validate", str(tmp_path / "study.yaml"), "--dry-run", "--plugins", str(GOOD)]) == 0
     lines = capfd.readouterr().out.splitlines()
     assert lines[0].endswith("study.yaml: a search over 400 machines, 40 per generation")
-    assert lines[1:3] == ["  searched for: minimum a.moment", "  feasible: machines with no failing check"]
+    assert lines[1:3] == ["  searched for: a.moment minimised", "  feasible: machines with no failing check"]
     assert "  mechanisms.a.force  1 … 5 kN" in lines  # the whole range, and not what the first generation takes of it
     assert lines[-1].startswith("  time: ") and lines[-1].endswith(" on one processor, excluding page and reports")
 

@@ -274,11 +274,11 @@ def test_what_was_studied_stands_there_in_words_with_its_symbol_and_the_key_besi
     ]  # fmt: skip
     assert summary.asked.inputs[2].values == "harmonic, modified trapezoidal (modified_trapezoidal)"
     assert summary.asked.objectives == [
-        ("minimum Maximum power (drive)", "minimise: drive.power_peak"), ("minimum Mass of the cylinder (cylinder)", "minimise: cylinder.mass"),
+        ("Maximum power (drive) minimised", "minimise: drive.power_peak"), ("Mass of the cylinder (cylinder) minimised", "minimise: cylinder.mass"),
     ]  # fmt: skip
     shown = page(summary)
     assert "Radius of the bore (cylinder) <i class=sy>R</i><sub>b</sub>" in shown
-    assert 'Maximum power (drive)<span class="sub key">minimise: drive.power_peak</span>' in shown
+    assert 'Maximum power (drive) minimised<span class="sub key">minimise: drive.power_peak</span>' in shown
 
 
 def test_a_choice_stands_in_words() -> None:

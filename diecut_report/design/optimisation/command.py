@@ -47,7 +47,7 @@ def data(found: OptimisationResult) -> Data:
         "dropped": found.dropped,
         "front": list(_points(found)),
         "suggested": None if front.suggested is None else int(front.variants[front.suggested]),
-        "today": front.today,
+        "today": front.present,
         "bounds": [_place(each) for each in found.bounds],
         "progress": [
             {"tried": tried, "reached": _number(reached)}

@@ -30,10 +30,10 @@ from diecut_report.design.optimisation.texts import (
     conflict_lines,
     counts,
     held,
+    present,
     recheck_lines,
     row,
     suggested,
-    today,
 )
 from diecut_report.files import room
 from diecut_report.formulas import Array
@@ -121,7 +121,7 @@ def _pair(axes: Axes, found: FoundFront, there: TriedMachines, behind: Cloud, pa
     if found.suggested is not None:
         axes.plot(*points[[found.suggested]].T, "o", color="none", markeredgecolor=ACCENT, markeredgewidth=1.6,
                   markersize=9, label=say("suggestion"))  # fmt: skip
-    if found.today is not None and np.isfinite(there.costs[0]).all():
+    if found.present is not None and np.isfinite(there.costs[0]).all():
         signs = np.array([1.0 if found.objectives[place].is_less else -1.0 for place in pair])
         now = there.costs[0, [x, y]] * signs * scale
         axes.plot([now[0]], [now[1]], "*", color="#b06a2c", markersize=9, label=say("today"))
@@ -226,7 +226,7 @@ def _filled(found: OptimisationResult, kind: str) -> str:
         style=Markup(style), version=__version__, title=_title(found), figure=partial(_figure, kind), figures=_figures(found),
         asked=questions.asked_questions(found.stored), heads=[titled(column) for column in columns_shown(found.front)],
         goals=[goal.label for goal in found.front.objectives], rows=[_row(found, place) for place in found.front.listed],
-        counts=capital(counts(found)), suggested=capital(suggested(found)), today=capital(today(found, named)),
+        counts=capital(counts(found)), suggested=capital(suggested(found)), present=capital(present(found, named)),
         held=_held(found), rechecked=[capital(line) for line in recheck_lines(found)],
         conflict=list(conflict_lines(found, found.conflict)) if found.conflict else [],
         words=[each for each in found.bounds if each.is_text], told=said, named=named, number=number, say=say, counted=_counted,

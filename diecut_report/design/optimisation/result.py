@@ -9,7 +9,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.design.optimisation.run import VIOLATION, Recheck, asked_of, rechecked, todays_values
+from diecut_report.design.optimisation.run import VIOLATION, Recheck, asked_of, present_values, rechecked
 from diecut_report.design.optimisation.search import gene
 from diecut_report.formulas import Array
 from diecut_report.mechanism.inputs import Quantity
@@ -45,7 +45,7 @@ class TriedMachines:
 class FoundFront:
     """Hold the front in the order of its first objective; ``values`` are SI, ``listed`` places in it.
 
-    ``suggested`` is the place of the point that stands out, ``why`` says how; ``today`` the number of today's machine, where it was
+    ``suggested`` is the place of the point that stands out, ``why`` says how; ``present`` the number of today's machine, where it was
     tried; ``allowed`` how many machines break nothing.
     """
 
@@ -59,7 +59,7 @@ class FoundFront:
     listed: tuple[int, ...]
     suggested: int | None
     why: str
-    today: int | None
+    present: int | None
     allowed: int
 
     @property
@@ -108,7 +108,7 @@ def found_front(study: Study, stored: Stored, there: TriedMachines) -> FoundFron
     return FoundFront(
         goals, tuple(stored.varied), there.variants[places], costs * signs, there.status[places], there.governing[places],
         {path: values[places] for path, values in there.inputs.items()},
-        _listed(costs, asked_of(study).points, suggested), suggested, why, _today(study, there), len(allowed),
+        _listed(costs, asked_of(study).points, suggested), suggested, why, _present(study, there), len(allowed),
     )  # fmt: skip
 
 
@@ -157,18 +157,18 @@ def _listed(costs: Array, most: int, suggested: int | None) -> tuple[int, ...]:
     return tuple(sorted(chosen))
 
 
-def _today(study: Study, there: TriedMachines) -> int | None:
+def _present(study: Study, there: TriedMachines) -> int | None:
     """The number of today's machine: the first, where it has today's values."""
-    own = todays_values(study)
+    own = present_values(study)
     if not len(there.variants) or there.variants[0] != 0 or own.keys() != there.inputs.keys():
         return None
     return 0 if all(_is_alike(there.inputs[path][0], value) for path, value in own.items()) else None
 
 
-def _is_alike(tried: Any, today: Any) -> bool:
-    if isinstance(tried, str) or isinstance(today, str):
-        return bool(tried == today)
-    return bool(abs(tried - today) <= NEAR * max(abs(tried), abs(today)))
+def _is_alike(tried: Any, present: Any) -> bool:
+    if isinstance(tried, str) or isinstance(present, str):
+        return bool(tried == present)
+    return bool(abs(tried - present) <= NEAR * max(abs(tried), abs(present)))
 
 
 def columns_shown(front: FoundFront) -> Sequence[StoredColumn]:

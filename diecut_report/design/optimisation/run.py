@@ -311,7 +311,7 @@ def _share(one: Any, other: float | None) -> float:
 # Today's machine among those that are searched: the values that the base has for what varies.
 
 
-def todays_values(study: Study) -> dict[str, Any]:
+def present_values(study: Study) -> dict[str, Any]:
     """Return what the base gives for each varied path (SI, texts); what it does not give, or calculates, is left out."""
     found = {path: _value(study.base, asked) for path, asked in study.inputs.items()}
     return {path: value for path, value in found.items() if value is not None}
@@ -375,7 +375,7 @@ class _Run:
         from diecut_report.design.optimisation.search import search  # with pymoo, which takes half a second
 
         self.study, self.engine, self.tell = study, engine, tell
-        self.search = search(asked_of(study), todays_values(study))
+        self.search = search(asked_of(study), present_values(study))
         self.counts = Counts(rows)
         self.slow: dict[str, str] = {}
         self.broken: dict[str, str] = {}

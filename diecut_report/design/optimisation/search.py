@@ -141,24 +141,24 @@ class Search(Protocol):
         """Take what came of it: the objectives (machines, objectives), less is better, and by how much each is not allowed."""
 
 
-def search(asked: Optimise, today: Mapping[str, Any]) -> Search:
-    """Return the search that fits; ``today`` has today's values by path, as far as there are any: that machine is tried first."""
+def search(asked: Optimise, present: Mapping[str, Any]) -> Search:
+    """Return the search that fits; ``present`` has today's values by path, as far as there are any: that machine is tried first."""
     genes = [gene(variable) for variable in asked.variables]
     if asked.is_exhaustive:
         return _All(genes, asked)
-    first = _first(genes, asked, today)
+    first = _first(genes, asked, present)
     if len(asked.objectives) == 1 and all(each.kind in ("share", "fixed") for each in genes):
         return _Differential(genes, asked, first)
     return _Genetic(genes, asked, first)
 
 
-def _first(genes: Sequence[Gene], asked: Optimise, today: Mapping[str, Any]) -> Codes:
+def _first(genes: Sequence[Gene], asked: Optimise, present: Mapping[str, Any]) -> Codes:
     """The codes of the first generation: spread evenly, with today's machine before them where it is within what varies."""
     rows = asked.first.rows(0, asked.population)
     free = [each for each in genes if each.kind != "fixed"]
     columns = {each.path: [each.code(value) for value in rows[each.path]] for each in free}
     codes = [{path: column[row] for path, column in columns.items()} for row in range(asked.population)]
-    own = {each.path: each.code(today[each.path]) if each.path in today else None for each in free}
+    own = {each.path: each.code(present[each.path]) if each.path in present else None for each in free}
     return codes if None in own.values() else [own, *codes[1:]]
 
 

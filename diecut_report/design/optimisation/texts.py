@@ -40,7 +40,7 @@ def lines(found: OptimisationResult) -> Iterator[str]:
     if found.conflict is not None:
         yield from conflict_lines(found, found.conflict)
         return
-    yield from (line for line in (head(found), *table(found), suggested(found), today(found)) if line)
+    yield from (line for line in (head(found), *table(found), suggested(found), present(found)) if line)
     for each in found.bounds:
         if told := held(each, found.front.is_single):
             yield told
@@ -50,7 +50,7 @@ def lines(found: OptimisationResult) -> Iterator[str]:
 def goals(found: OptimisationResult) -> str:
     """Return what was searched for."""
     told = [
-        Phrase("minimum {quantity}" if goal.is_less else "maximum {quantity}", quantity=called(goal.column))
+        Phrase("{quantity} minimised" if goal.is_less else "{quantity} maximised", quantity=called(goal.column))
         for goal in found.front.objectives
     ]
     return Phrase("searched for: {goals}", goals=joined(told, ", "))
@@ -116,9 +116,9 @@ def suggested(found: OptimisationResult) -> str:
     return Phrase("a suggestion: {number} ({why})", number=number, why=phrase(front.why))
 
 
-def today(found: OptimisationResult, name: Callable[[StoredColumn], str] = called) -> str:
+def present(found: OptimisationResult, name: Callable[[StoredColumn], str] = called) -> str:
     """Return what today's machine has of the objectives, each by its ``name``."""
-    if found.front.today is None:
+    if found.front.present is None:
         return ""
     signs = [1.0 if goal.is_less else -1.0 for goal in found.front.objectives]
     goals_ = zip(found.front.objectives, found.known.costs[0] * signs, strict=True)

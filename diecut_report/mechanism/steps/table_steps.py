@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Iterator
+from collections.abc import Iterable, Iterator
 from dataclasses import dataclass, field
 from functools import cache
 from typing import Any
@@ -87,7 +87,7 @@ def key_faults(key: str, taken: str, names: Names, is_covered: bool, beyond: str
 
 
 @cache
-def si_values(values: tuple[float, ...], unit_text: str) -> Array:
+def si_values(values: Iterable[Any], unit_text: str) -> Array:
     """Return the SI values of a series or a column: 36 of mm are the 36 mm that somebody types, to the last digit."""
     return np.array([si(each, unit_text) for each in values])
 

@@ -244,7 +244,7 @@ def _search_lines(found: DryRun, asked: Optimise) -> Iterator[str]:
     words = "a search over {n} machines, {population} per generation"
     yield say(words, n=asked.evaluations, population=asked.population)
     goals = [
-        say("minimum {quantity}" if each.minimise else "maximum {quantity}", quantity=each.output)
+        say("{quantity} minimised" if each.minimise else "{quantity} maximised", quantity=each.output)
         for each in asked.objectives
     ]
     yield say("searched for: {goals}", goals=", ".join(goals))

@@ -45,7 +45,7 @@ class StoredObjective:
     @property
     def label(self) -> str:
         """Return the objective in words."""
-        return say("minimum {quantity}" if self.is_less else "maximum {quantity}", quantity=named(self.column))
+        return say("{quantity} minimised" if self.is_less else "{quantity} maximised", quantity=named(self.column))
 
 
 @dataclass(frozen=True)

@@ -105,7 +105,7 @@ def _dropped(counts: Mapping[str, Any]) -> str:
 
 def _objective(column: StoredColumn | None, way: str, name: str) -> AskedText:
     typed = f"{way}: {name}"
-    words = "minimum {quantity}" if way == "minimise" else "maximum {quantity}"
+    words = "{quantity} minimised" if way == "minimise" else "{quantity} maximised"
     return AskedText(say(words, quantity=named(column)), typed) if column else AskedText(typed, "")
 
 

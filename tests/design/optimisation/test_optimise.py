@@ -89,7 +89,7 @@ def test_other_machines_than_those_stored_are_refused(
 ) -> None:
     study = search_file(tmp_path)
     optimised(study, tmp_path / "out", "--quiet")
-    monkeypatch.setattr(run_module, "todays_values", lambda _: {})  # as another version of the library might ask
+    monkeypatch.setattr(run_module, "present_values", lambda _: {})  # as another version of the library might ask
     assert optimised(None, tmp_path, "--resume", str(tmp_path / "out"), "--quiet") == 2
     assert "belong to another search" in capfd.readouterr().err
 
