@@ -1,10 +1,8 @@
-"""The revisions that were added to a PDF, where all programs read them alike: each ends with a table that leaves no choice.
+"""The revisions that were added to a PDF, where all programs read them alike: objects one after the other, and a table of them.
 
-A program that cannot read a table searches the file for objects by itself, each program in its own way. So nothing may stand there that
-only such a search finds, and each revision is given by itself: whatever a program takes out of one was judged.
-
-Programs differ also in what they take for a blank, a comment or the end of a name, and in the ways of packing that they know. So a revision
-is one object after the other, written in what all of them read alike, and what holds other objects is packed in one way or not at all.
+Programs differ in what they take for a blank, a number or the end of a name, in the ways of packing that they know, and in what they do
+with a reference to nothing. A program that cannot read a table searches the file for objects by itself, each in its own way. So a
+revision may hold only what leaves no choice, written in one way: whoever writes otherwise is not misread, but refused.
 """
 
 from __future__ import annotations
@@ -20,10 +18,9 @@ LONGEST_END = 64  # bytes behind the end; a program looks for the last table in 
 LONGEST_GAP = 64  # bytes between the numbers of an object and what it is; more are not taken
 KEYS = {"/Type", "/Size", "/Index", "/W", "/ID", "/Prev", "/Length", "/Filter", "/DecodeParms"}  # with /Root and /Info
 _LINE = rb"(?:\r\n|\n|\r)"
-_START = re.compile(rb"[\r\n]startxref" + _LINE + rb"(\d{1,15})" + _LINE + rb"%%EOF")
-_TABLE = re.compile(rb"(\d{1,10}) 0 obj[\r\n ]*<<([^#%(]*?)>>[\r\n ]*stream\r?\n")
-_REFERENCES = re.compile(rb"/(?:Root|Info) \d+ \d+ R")
-_TABLE_END = re.compile(rb"[\r\n]*endstream[\r\n ]+endobj[\r\n ]*")
+_START = re.compile(rb"[\r\n]startxref" + _LINE + rb"([1-9]\d{0,14})" + _LINE + rb"%%EOF")
+_TABLE = re.compile(rb"([1-9]\d{0,9}) 0 obj[\r\n ]*<<(.*?)>>[\r\n ]*stream\r?\n", re.DOTALL)
+_REFERENCES = re.compile(rb"/(?:Root|Info) \d+ 0 R")
 _OBJECT = re.compile(rb"(?<!end)obj")
 _GAP = rb"[\0-\x20\x7f-\xff]"  # with all that any program takes for white space
 _NUMBER = rb"[0-9+.-]+"
@@ -31,35 +28,32 @@ _HEAD = re.compile(  # a number may stand behind a comment; one with a backslash
     rb"(?:(?:\A|[\r\n])%b*(?:%b)?|(?<![\\0-9+.-])%b%b+%b)%b*\Z" % (_GAP, _NUMBER, _NUMBER, _GAP, _NUMBER, _GAP)
 )
 _TRAILER = re.compile(rb"trailer" + _GAP + rb"*<<")
-_BLANK = rb"[\t\n\f\r ]"
-_WORD = rb"[!\"$&'*-.0-;=?-Z\\^-z|~]+"  # neither a delimiter nor a control character, nor one beyond ASCII
-_TOKEN = re.compile(
-    rb"(?:%b+|<<|>>|[\[\]]|<[\dA-Fa-f]*>|/(?:%b|#[\dA-Fa-f]{2})+|%b|\((?:[^()\\\r]|\\[0-3][0-7]{2}|\\[nrtbf()\\])*\))"
-    % (_BLANK, _WORD, _WORD)
+
+BLANK, END = rb"[\t\n\f\r ]", rb"(?![^\t\n\f\r ()<>\[\]/%])"
+PARTS = rb"%b+|<<|>>|[\[\]]|<(?:[\dA-Fa-f]{2})*>|/[\w.+-]{1,127}%b|-?(?:0|[1-9]\d{0,9})(?:\.\d{1,10})?%b" % (
+    BLANK,
+    END,
+    END,
 )
-_LENGTH = re.compile(rb"/Length%b+(\d+)%b*(?:/|>>)" % (_BLANK, _BLANK))
-_STREAM_END = re.compile(rb"[\r\n]*endstream%b+endobj%b*" % (_BLANK, _BLANK))
-_PACKED_KEYS = {"/Type", "/N", "/First", "/Length", "/Filter"}
+TEXT = rb"\((?:[^()\\\r]|\\[0-3][0-7]{2}|\\[nrtbf()\\])*\)"
+_TOKEN = re.compile(rb"(?:([1-9]\d{0,9}) 0 R%b|(true|false|stream|endobj)%b|%b|%b)" % (END, END, PARTS, TEXT), re.ASCII)
+_LENGTH = re.compile(rb"/Length%b+(\d+)%b" % (BLANK, END))
+_STREAM_END = re.compile(rb"[\r\n]*endstream%b+endobj%b*" % (BLANK, BLANK))
 
 
 class AddedRevision(NamedTuple):
-    """Hold the file up to the end of a revision, the number of its table, where its objects stand, and those that streams of it hold."""
+    """Hold the file up to the end of a revision, the number of its table, where its objects stand, and the numbers that they refer to."""
 
     content: bytes
     table: int
     placed: dict[int, int]
-    packed: dict[int, list[int]]
+    named: set[int]
 
     def is_plain(self, pdf: pikepdf.Pdf) -> bool:
-        """Return whether only this revision's table tells of objects, and only streams that it names hold some: those that it says."""
-        objects = {number: pdf.get_object(number, 0) for number in self.placed}
-        holders = {number for number, each in objects.items() if _type(each) == "/ObjStm"}
-        tables = {number for number, each in objects.items() if _type(each) == "/XRef"}
-        return (
-            tables <= {self.table}
-            and holders == self.packed.keys()
-            and all(_numbers_within(objects[number]) == self.packed[number] for number in holders)
-        )
+        """Return whether only this revision's table tells of objects, and no stream holds some."""
+        types = {number: _type(pdf.get_object(number, 0)) for number in self.placed}
+        tables = {number for number, each in types.items() if each == "/XRef"}
+        return tables <= {self.table} and "/ObjStm" not in types.values()
 
 
 def revisions(before: bytes, after: bytes) -> Iterator[AddedRevision]:
@@ -68,7 +62,7 @@ def revisions(before: bytes, after: bytes) -> Iterator[AddedRevision]:
     starts = list(_START.finditer(after, begin))
     last = starts[-1].end() if starts else begin
     _require(len(starts) <= MOST_REVISIONS and after.count(b"startxref", begin) == len(starts))
-    _require(len(after) - last <= LONGEST_END and not _has_other_objects(after[last:], set()))
+    _require(len(after) - last <= LONGEST_END and not after[last:].strip(b"\r\n"))
     for start in starts:
         yield _revision(after[: start.end()], begin, start, former)
         begin, former = start.end(), int(start[1])
@@ -76,63 +70,58 @@ def revisions(before: bytes, after: bytes) -> Iterator[AddedRevision]:
 
 def _revision(whole: bytes, begin: int, start: re.Match[bytes], former: int) -> AddedRevision:
     """The last revision of a file, which has what was added from ``begin`` on."""
-    place = int(start[1])
-    number, told, data = _table(whole, place, start.start())
+    place, part = int(start[1]), whole[begin : start.start()]
+    number, told, data = _table(whole, place)
     _require(begin <= place and told["/Prev"] == former)
-    placed, packed = _entries(told, data)
-    _require(placed.get(number) == place)
+    placed = _entries(told, data)
+    _require(placed.get(number) == place == max(placed.values()))
+    places = sorted(at - begin for at in placed.values())
+    _require(not part[: places[0]].strip(b"\r\n"))
+    named = set[int]()
+    for at, end in zip(places, [*places[1:], len(part)], strict=True):
+        named |= _named(part[at:end])
     for each, at in placed.items():
-        _require(begin <= at <= place and whole[at - 1] in b"\r\n" and whole.startswith(b"%d 0 obj" % each, at))
-    _require_plain(whole[begin : start.start()], sorted(at - begin for at in placed.values()))
+        _require(whole[at - 1] in b"\r\n" and whole.startswith(b"%d 0 obj" % each, at))
     known = {at + len(f"{each} 0 ") - begin for each, at in placed.items()}
     _require(not _has_other_objects(whole[begin:], known))
-    return AddedRevision(whole, number, placed, packed)
+    return AddedRevision(whole, number, placed, named)
 
 
-def _require_plain(part: bytes, places: list[int]) -> None:
-    """Refuse what is not these objects one after the other, or holds what programs may read in several ways."""
-    _require(places and not part[: places[0]].strip(b"\r\n"))
-    for at, end in zip(places, [*places[1:], len(part)], strict=True):
-        _require_plain_object(part[at:end])
-
-
-def _require_plain_object(written: bytes) -> None:
-    last, at = next(each for each in _tokens(written) if each[0] in (b"stream", b"endobj"))
-    if last == b"endobj":
-        _require(not written[at:].strip())
-        return
-    lengths, begin = _LENGTH.findall(written, 0, at), written.find(b"\n", at) + 1
-    _require(len(lengths) == 1 and written[at:begin] in (b"\n", b"\r\n"))
-    _require(_STREAM_END.fullmatch(written, begin + int(lengths[0])))
-
-
-def _tokens(written: bytes) -> Iterator[tuple[bytes, int]]:
-    """Each token with its end; ValueError where a program may see others."""
-    at = 0
+def _named(written: bytes) -> set[int]:
+    """The numbers that an object refers to; ValueError where it, or what follows it, may be read in several ways."""
+    named, at = set[int](), written.find(b"obj") + len(b"obj")
     while found := _TOKEN.match(written, at):
         at = found.end()
-        yield found[0], at
-    _require(at == len(written))
+        if found[1]:
+            named.add(int(found[1]))
+        if found[2] == b"endobj":
+            _require(not written[at:].strip(b"\t\n\r "))
+            return named
+        if found[2] == b"stream":
+            lengths, begin = _LENGTH.findall(written, 0, at), written.find(b"\n", at) + 1
+            _require(len(lengths) == 1 and written[at:begin] in (b"\n", b"\r\n"))
+            _require(_STREAM_END.fullmatch(written, begin + int(lengths[0])))
+            return named
+    raise ValueError
 
 
-def _table(whole: bytes, place: int, stop: int) -> tuple[int, Any, bytes]:
-    """The number of a table, what it tells of itself, and its rows; nothing may stand between it and ``stop``."""
+def _table(whole: bytes, place: int) -> tuple[int, Any, bytes]:
+    """The number of a table, what it tells of itself, and its rows."""
     found = _TABLE.match(whole, place)
     if found is None:
         raise ValueError
     number, told = int(found[1]), pikepdf.Object.parse(b"<<%b>>" % _REFERENCES.sub(b"", found[2]))
-    end = found.end() + int(told["/Length"])
     _require(set(told.keys()) <= KEYS and told["/Type"] == "/XRef")
     _require(told.get("/Filter", "/FlateDecode") == "/FlateDecode")
     rows = pikepdf.Dictionary(Predictor=12, Columns=sum(_whole_numbers(told["/W"])))
     _require("/DecodeParms" not in told or told["/DecodeParms"] == rows)
-    _require(_TABLE_END.fullmatch(whole, end, stop))
     with pikepdf.new() as pdf:
-        return number, told, pikepdf.Stream(pdf, whole[found.end() : end], told).read_bytes()
+        data = whole[found.end() : found.end() + int(told["/Length"])]
+        return number, told, pikepdf.Stream(pdf, data, told).read_bytes()
 
 
-def _entries(told: Any, data: bytes) -> tuple[dict[int, int], dict[int, list[int]]]:
-    """Where a table says that objects stand, and what others hold: the numbers in their order."""
+def _entries(told: Any, data: bytes) -> dict[int, int]:
+    """Where a table says that objects stand."""
     widths, index = _whole_numbers(told["/W"]), _whole_numbers(told.get("/Index", [0, told["/Size"]]))
     kinds, places, ends = (sum(widths[:count]) for count in (1, 2, 3))
     _require(len(widths) == 3 and places > kinds and len(data) == ends * sum(index[1::2]) <= ends * MOST_ADDED)
@@ -140,28 +129,18 @@ def _entries(told: Any, data: bytes) -> tuple[dict[int, int], dict[int, list[int
         each for first, count in zip(index[::2], index[1::2], strict=True) for each in range(first, first + count)
     ]
     _require(len(set(numbers)) == len(numbers))
-    placed, packed = dict[int, int](), dict[int, list[int]]()
+    placed = dict[int, int]()
     for at, number in enumerate(numbers):
         row = data[at * ends : (at + 1) * ends]
         kind = int.from_bytes(row[:kinds], "big") if kinds else 1
-        first, second = int.from_bytes(row[kinds:places], "big"), int.from_bytes(row[places:], "big")
-        if kind == 1 and not second:  # a later generation is another object for some programs
-            placed[number] = first
-        elif kind == 2 and second == len(packed.setdefault(first, [])):
-            packed[first].append(number)
-        else:  # what is taken away may be there for others
-            _require(kind == 0 and number == 0)
-    return placed, packed
-
-
-def _numbers_within(stream: Any) -> list[int]:
-    """The numbers of the objects that a stream holds, in their order."""
-    _require(set(stream.keys()) <= _PACKED_KEYS and stream.get("/Filter", "/FlateDecode") == "/FlateDecode")
-    content = stream.read_bytes()
-    words = content[: int(stream["/First"])].split()
-    _require(len(words) == 2 * int(stream["/N"]) and all(map(bytes.isdigit, words)))
-    _require({b"obj", b"endobj", b"stream"}.isdisjoint(token for token, _ in _tokens(content)))
-    return [int(each) for each in words[::2]]
+        if (
+            number
+        ):  # a later generation is another object for some programs, and what is taken away may be there for others
+            _require(kind == 1 and not int.from_bytes(row[places:], "big"))
+            placed[number] = int.from_bytes(row[kinds:places], "big")
+        else:
+            _require(kind == 0)
+    return placed
 
 
 def _has_other_objects(part: bytes, known: set[int]) -> bool:

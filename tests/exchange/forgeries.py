@@ -361,6 +361,7 @@ OF_PDF = (
 
 DRAWING = b"/Type /XObject /Subtype /Form /BBox [0 0 9 9]"
 OVER = b"1 1 1 rg -999 -999 9999 9999 re f"
+SIGNATURE = b"<< /Type /Sig /ByteRange [0 0 0 0] /Contents <00> >>"
 START = b"startxref\n%d\n%%%%EOF\n"
 
 
@@ -375,14 +376,17 @@ class _Report:
         with pikepdf.open(io.BytesIO(content)) as pdf:
             field, sheet = pdf.Root.AcroForm.Fields[0], pdf.pages[0].obj
             self.content, self.size = content, int(pdf.trailer.Size)
+            self.value = self.size + 2  # the number of the signature
             self.named = b"/Root %d 0 R /Info %d 0 R" % (pdf.Root.objgen[0], pdf.trailer.Info.objgen[0])
             self.field, self.sheet = field.objgen[0], sheet.objgen[0]
+            self.number_of_root, self.root = pdf.Root.objgen[0], pdf.Root.unparse(resolved=True)
             self.contents, self.painted = sheet.Contents.objgen[0], _stream(OVER)
             self.written = _stream(sheet.Contents.read_raw_bytes(), b"/Filter /FlateDecode")
-            former = field.unparse(resolved=True).removesuffix(b">>")
-            value = b"<< /Type /Sig /ByteRange [0 0 0 0] /Contents <00> >>"
-            self.signed = re.sub(rb"(?<=/N )\d+ 0 R", b"%d 0 R" % self.size, former) + b"/V %b >>" % value
-            self.as_it_was = sheet.unparse(resolved=True)
+            former, signature = field.unparse(resolved=True).removesuffix(b">>"), b"/V %d 0 R >>" % self.value
+            self.signed = re.sub(rb"(?<=/N )\d+ 0 R", b"%d 0 R" % self.size, former) + signature
+            self.as_it_was, second = sheet.unparse(resolved=True), pdf.Root.AcroForm.Fields[1]
+            self.second = second.objgen[0]
+            self.signed_too = second.unparse(resolved=True).removesuffix(b">>") + signature
             self.annotated = re.sub(rb"/Annots \[[^]]*", rb"\g<0> %d 0 R " % (self.size + 1), self.as_it_was)
         self.former = int(re.findall(rb"startxref\s+(\d+)", content)[-1])
 
@@ -395,6 +399,7 @@ class _Report:
         told: bytes = b"",
         start: bytes = START,
         packed: bytes = b"",
+        over: bytes = OVER,
     ) -> bytes:
         """The report with its first field signed, these objects, some that no table names, and more that the table tells.
 
@@ -405,7 +410,8 @@ class _Report:
             told_of_it = b"/Type /ObjStm /N 1 /First %d %b" % (len(head), packed)
             objects = {holder: _stream(head + self.as_it_was, told_of_it)}
         whole, places = self.content + hidden, dict[int, int]()
-        for number, written in {self.field: self.signed, self.size: _stream(OVER, drawing), **(objects or {})}.items():
+        own = {self.field: self.signed, self.size: _stream(over, drawing), self.value: SIGNATURE}
+        for number, written in (own | (objects or {})).items():
             places[number] = len(whole) + 1
             whole += b"\n%d 0 obj\n%b\nendobj\n" % (number, written)
         place = len(whole)
@@ -471,6 +477,27 @@ def _sheet_with(given: bytes, written: bytes) -> Callable[[bytes], bytes]:
     return change
 
 
+def _unpacked(content: bytes) -> bytes:
+    """The contents of the first sheet, the same bytes, but as what is not packed."""
+    report = _Report(content)
+    return report.revision({report.contents: report.written.replace(b"/Filter /FlateDecode", b"")})
+
+
+def _signed_twice(content: bytes) -> bytes:
+    """One signature in two fields."""
+    report = _Report(content)
+    return report.revision({report.second: report.signed_too})
+
+
+def _signed_again(content: bytes) -> bytes:
+    """The signature of one field in another one, in a revision that nobody has signed, with what proves certificates."""
+    report = _Report(content)
+    later = _Report(report.revision())
+    later.signed, later.value = report.signed, report.value
+    proofs = report.root.removesuffix(b">>") + b"/DSS << /Type /DSS >> >>"
+    return later.revision({report.second: report.signed_too, report.number_of_root: proofs})
+
+
 def _of_revision(**options: Any) -> Callable[[bytes], bytes]:
     return lambda content: _Report(content).revision(**options)
 
@@ -493,6 +520,15 @@ OF_REVISION = (
     Forgery("the same, by a way of packing that each does in its own way",
             _of_revision(packed=b"/DecodeParms << /Predictor 2 /Colors 2 /BitsPerComponent 4 >>"), PAGES),
     Forgery("a table that is packed so", _of_revision(told=b"/DecodeParms << /Predictor 2 /Columns 5 >> "), PAGES),
+    Forgery("contents of a sheet, unpacked otherwise: the bytes are the same, and what is said of them is not", _unpacked, PAGES),
+    Forgery("the signature of somebody in a second field", _signed_twice, PAGES),
+    Forgery("the same, later, where nobody signs", _signed_again, PAGES),
+    Forgery("a part of a sheet that refers to another generation of an object: nothing for some, something for others",
+            _sheet_with(b"/Contents ", b"/CropBox 9 1 R /Contents "), PAGES),
+    Forgery("a number so long that some programs read its beginning", _sheet_with(b"/Contents ", b"/Contents " + 300 * b"0"), PAGES),
+    Forgery("a drawing of a signature that takes back the box that cuts it", _of_revision(over=b"Q " + OVER), PAGES),
+    Forgery("a drawing of a signature that is moved, by numbers that programs round", _of_revision(
+        drawing=DRAWING + b" /Matrix [1 0 0 1 9999999999 -9999999999]"), PAGES),
     Forgery("where the last table stands, in letters that some programs do not take", _of_revision(start=b"startxref\x0b\n%d\n%%%%EOF\n"), PAGES),
     Forgery("the same, further from the end than some programs look", _of_revision(start=START + b"%%" + 1002 * b" "), PAGES),
     Forgery("a second table that a first one names (hybrid files)", _of_revision(told=b"/XRefStm 9 "), PAGES),
