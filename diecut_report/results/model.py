@@ -304,6 +304,10 @@ class ResultsRecord(Record):
 class _WithoutDefaults(GenerateJsonSchema):
     """A key that may be left out has no default: where it is left out there is nothing."""
 
+    def tagged_union_schema(self, schema: core_schema.TaggedUnionSchema) -> Schema:
+        """Return one of several blocks as any union: the blocks themselves tell which is meant."""
+        return self.generate_inner(core_schema.union_schema(list(schema["choices"].values())))
+
     def default_schema(self, schema: core_schema.WithDefaultSchema) -> Schema:
         """Return the schema of the value, which is not null where null says nothing."""
         inner = schema["schema"]

@@ -40,6 +40,7 @@ class TextRole(Enum):
     """What a text is to a translator."""
 
     TEXT = auto()  # a sentence or a label
+    DRAWN = auto()  # one in a figure
     WORD = auto()  # a value: a number, a choice by its key, or a name, which stands as it is
     SOURCE = auto()  # where a formula stands
     PAPER = auto()  # how a work is cited
@@ -76,9 +77,9 @@ def always(meaning: str, alias: str | None = None) -> Any:
     return Field(alias=alias, description=meaning)
 
 
-def sometimes(meaning: str, default: Any = None) -> Any:
-    """Return a key that is left out where it has nothing to report."""
-    return Field(default=default, description=meaning)
+def sometimes(meaning: str, default: Any = None, alias: str | None = None) -> Any:
+    """Return a key that is left out where it has nothing to report; ``alias`` where it is called otherwise."""
+    return Field(default=default, alias=alias, description=meaning)
 
 
 class MessageRecord(Record):
@@ -178,8 +179,9 @@ class _Drawn:
 Text = Annotated[str, _Translated(TextRole.TEXT)]
 Message = Annotated[str, _Translated(TextRole.TEXT, is_message=True)]
 ErrorText = Annotated[str, _Translated(TextRole.TEXT, is_plain=True)]
+DrawnText = Annotated[str, _Translated(TextRole.DRAWN)]
+DrawnError = Annotated[str, _Translated(TextRole.DRAWN, is_plain=True)]
 Word = Annotated[str, _Translated(TextRole.WORD)]
 SourceText = Annotated[str, _Translated(TextRole.SOURCE)]
 Paper = Annotated[str, _Translated(TextRole.PAPER)]
 DrawnData = Annotated[dict[str, Any], _Drawn()]
-DrawnList = Annotated[list[dict[str, Any]], _Drawn()]

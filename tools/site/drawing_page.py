@@ -22,7 +22,7 @@ from diecut_report.api import (
 from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.style import SizesSize, drawn
 from diecut_report.report.text import Catalogue
-from diecut_report.results.mechanism_record import FigureRecord
+from diecut_report.results.figure_record import FigureRecord
 from tools.site.markup import html, plain
 
 WORDS = Catalogue("en")
