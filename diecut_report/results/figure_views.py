@@ -33,7 +33,8 @@ from diecut_report.mechanism.figures import (
     Shape,
     View,
     circle,
-    plain,
+    level,
+    mark,
     point,
     polyline,
 )
@@ -477,26 +478,25 @@ def _curves(figure: Figure) -> list[str]:
 
 
 def _panel(panel: Panel, view: MachineView, abscissa: str) -> Data:
-    named: dict[str, tuple[Any, ...]] = {"levels": panel.levels, "marks": panel.marks, "spans": panel.spans}
-    made: Data = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
-        key: [plain(part, view) for part in parts] for key, parts in named.items()
-    }
-    made["marks"] = [
-        _on_curve(mark, shown, panel, view) for mark, shown in zip(panel.marks, made["marks"], strict=True)
-    ]
+    made: Data = {
+        "title": panel.title, "unit": panel.unit, "series": [vars(each) for each in panel.series],
+        "levels": [level(view[each.value], each.label) for each in panel.levels],
+        "marks": [mark(view[each.x], _marked(each, panel, view), each.label) for each in panel.marks],
+        "spans": [{"from": view[each.start], "to": view[each.end], "label": each.label} for each in panel.spans],
+    }  # fmt: skip
     curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series if panel.range]
     heights = (height for one in panel.series for height in view.heights(one.curve, abscissa))
     return _in_chosen_unit(view, declared(made, panel.range, view, curves), heights)
 
 
-def _on_curve(mark: Mark, shown: Data, panel: Panel, view: MachineView) -> Data:
-    """A mark with the sign of the curve: the greatest size of a curve says nothing of the side on which it stands."""
-    step = view.calc.step_or_input(mark.y)
+def _marked(mark: Mark, panel: Panel, view: MachineView) -> float:
+    """The height of a mark with the sign of the curve: the greatest size of a curve says nothing of the side on which it stands."""
+    step, height = view.calc.step_or_input(mark.y), view[mark.y]
     if not isinstance(step, Reduction) or step.operation != "abs_max" or mark.x != place_name(step.id):
-        return shown
+        return height
     if step.of not in [one.curve for one in panel.series]:
-        return shown
-    return shown | {"y": math.copysign(shown["y"], _height(step.id, step.of, view))}
+        return height
+    return math.copysign(height, _height(step.id, step.of, view))
 
 
 def _height(size: str, curve: str, view: MachineView) -> float:

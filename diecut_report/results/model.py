@@ -19,7 +19,6 @@ from diecut_report.results.record import (
     Basis,
     CheckClass,
     CheckStatus,
-    DrawnData,
     ErrorText,
     Message,
     Name,
@@ -282,7 +281,7 @@ class ResultsRecord(Record):
     mechanisms: dict[Name, MechanismRecord] = always("The mechanisms by name, in the order of the configuration.")
     comparisons: dict[Name, MechanismRecord] = sometimes("Comparisons between mechanisms, by kind and mechanisms.", {})
     comparisons_left_out: LeftOutRecord | None = sometimes("Comparisons that are not made.")
-    influence: DrawnData = sometimes(
+    influence: dict[str, Any] = sometimes(
         "Of a report with `report: {influence: …}`: what moves what, as its chapter reports it.", {}
     )
     changes: ChangesRecord | None = sometimes(

@@ -57,18 +57,13 @@ MANY = 4
 PAGE = 650.0  # no chart is higher
 
 
-def plot(
-    figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue, size: SizesSize = SizesSize.LARGE
-) -> Figure:
-    """Curves of the results, over a common abscissa."""
-    return _sheet(diagrams(figure, curves, words), words, size)
-
-
 def chart(
     figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue, size: SizesSize = SizesSize.LARGE
 ) -> Figure:
-    """Lines that the figure brings itself, each diagram over what it likes."""
-    return _sheet(diagrams(figure, curves, words), words, size)
+    """The diagrams of a plot or a chart, one below the other; on a sheet that is to be saved many stand two by two."""
+    panels = diagrams(figure, curves, words)
+    is_low = size is SizesSize.LOW and len(panels) >= MANY
+    return _side_by_side(panels, words) if is_low else _column(panels, words, size)
 
 
 def diagrams(figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue) -> list[PanelData]:
@@ -79,13 +74,6 @@ def diagrams(figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Cat
         else _of_curves(panel, curves, curves[figure.abscissa], words)
         for panel in figure.panels
     ]
-
-
-def _sheet(panels: list[PanelData], words: Catalogue, size: SizesSize) -> Figure:
-    """All diagrams, one below the other; on a sheet that is to be saved many stand two by two."""
-    return (
-        _side_by_side(panels, words) if size is SizesSize.LOW and len(panels) >= MANY else _column(panels, words, size)
-    )
 
 
 def _side_by_side(panels: list[PanelData], words: Catalogue) -> Figure:
