@@ -154,9 +154,9 @@ def test_the_advised_pitch_puts_six_teeth_into_mesh() -> None:
 def test_the_figure_draws_the_cylinder_on_the_die_below() -> None:
     figures = {figure.id: figure.shapes for figure in mechanism_results(belt(OVER), {}).figures}
     shapes = figures["toothed_belt_layout"]
-    ground = next(s for s in shapes if s.get("role") == "ground")
+    ground = next(s for s in shapes if getattr(s, "role", "") == "ground")
     assert [y for _, y in ground.points] == pytest.approx([0.150 - 0.105] * 2)
-    assert {"die", "cylinder, on pulley 4"} <= {s.get("text") for s in shapes}
+    assert {"die", "cylinder, on pulley 4"} <= {getattr(s, "text", "") for s in shapes}
 
 
 def test_the_example_wraps_its_pulley_on_the_side_away_from_the_die() -> None:
@@ -174,6 +174,6 @@ def test_the_example_wraps_its_pulley_on_the_side_away_from_the_die() -> None:
 def test_the_arrow_of_a_belt_stands_outside_its_longest_run() -> None:
     """Three like pulleys, counter-clockwise; the belt comes down from the third to the first, upright and longest."""
     shapes = layout([0, 0.3, 0], [0, 0.5, 1], [0.05] * 3, [1, 1, 1])
-    start, end = next((shape.start, shape.end) for shape in shapes if shape.shape == "arrow")
+    start, end = next((shape["from"], shape["to"]) for shape in shapes if shape["shape"] == "arrow")
     assert (start[0], end[0]) == pytest.approx((-0.05 - 0.06,) * 2)
     assert (start[1], end[1]) == pytest.approx((0.6, 0.4))

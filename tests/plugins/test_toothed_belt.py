@@ -176,7 +176,7 @@ def test_the_outputs_of_the_method_are_there() -> None:
 def test_the_drawn_belt_is_a_closed_line_of_the_belt_s_length() -> None:
     calc = belt(IDLER)
     figures = {figure.id: figure.shapes for figure in mechanism_results(calc, {}).figures}
-    lines = [s for s in figures["toothed_belt_layout"] if s.get("role") == "link"]
+    lines = [s for s in figures["toothed_belt_layout"] if getattr(s, "role", "") == "link"]
     runs = [np.array(s.points) for s in lines if s.shape == "polyline"]
     arcs = [s for s in lines if s.shape == "arc"]
     drawn = sum(float(np.hypot(*(b - a))) for a, b in runs) + sum(s.radius * (s.end - s.start) for s in arcs)
