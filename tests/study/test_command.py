@@ -343,4 +343,7 @@ def test_a_variant_of_such_a_study_has_a_report(tmp_path: Path) -> None:
     assert run("report", variant, "-o", tmp_path / "made", "--format", "html", "--quiet") in (0, 1)
     assert run("calc", variant, "-o", tmp_path / "made.json", "--quiet") in (0, 1)
     assert not FORBIDDEN_IN_KEY.search((tmp_path / "made.json").read_text("utf-8").replace("\n", ""))
-    assert run("take", variant, "-o", taken, "--quiet") == 0 and run("calc", taken, "-o", tmp_path / "taken.json") in (0, 1)
+    assert run("take", variant, "-o", taken, "--quiet") == 0 and run("calc", taken, "-o", tmp_path / "taken.json") in (
+        0,
+        1,
+    )
