@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Mapping
+from collections.abc import Iterator, Mapping
 from typing import Annotated, Any, Literal, TypeVar, get_args, get_origin
 
 from diecut_report.results.record import Record
@@ -42,8 +42,23 @@ def _filled(form: Any, value: Any) -> Any:
         return [_filled(args[0], each) for each in value]
     if get_origin(form) is dict and isinstance(value, Mapping):
         return {key: _filled(args[1], each) for key, each in value.items()}
-    inner = [each for each in args if isinstance(each, type) and issubclass(each, Record)]
-    return _filled(inner[0], value) if inner and isinstance(value, Mapping) else value
+    inner = list(_records(form))
+    if not inner or not isinstance(value, Mapping):
+        return value
+    return _of_record(max(inner, key=lambda kind: sum(_has(kind, key, value[key]) for key in value)), value)
+
+
+def _records(form: Any) -> Iterator[type[Record]]:
+    """The kinds of blocks that a type allows."""
+    if isinstance(form, type) and issubclass(form, Record):
+        yield form
+    elif get_origin(form) is not Literal:
+        yield from (kind for each in get_args(form) for kind in _records(each))
+
+
+def _has(kind: type[Record], key: str, value: Any) -> bool:
+    found = next((field for name, field in kind.model_fields.items() if key in (name, field.alias)), None)
+    return found is not None and (get_origin(found.annotation) is not Literal or value in get_args(found.annotation))
 
 
 def _empty(form: Any) -> Any:

@@ -16,14 +16,15 @@ from diecut_report.design.inputs import DesignChoice, DesignInput
 from diecut_report.design.machines import STATUS, UTILISATION, VariedMachines, downstream, narrowed, varied
 from diecut_report.errors import Problem, refusal
 from diecut_report.live.session import LiveMachine, LiveSession
-from diecut_report.machine.figure_views import shown_figures
 from diecut_report.quantities.plausible import plausible
 from diecut_report.quantities.units import unit
 from diecut_report.report.pages.html import filled_page, folder
 from diecut_report.report.reader_data import figure_readings
 from diecut_report.report.text import Catalogue, figure_translated, quantity, tidy
 from diecut_report.results.checks import NOT_CHECKED
-from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, FigureRecord, QuantityRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.figure_views import shown_figures
+from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, QuantityRecord
 from diecut_report.results.press_run import Tell
 from diecut_report.study.execution.press_batch import untold
 from diecut_report.text.phrases import phrase

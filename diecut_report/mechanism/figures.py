@@ -264,18 +264,6 @@ def rigid(shapes: Sequence[Shape], at: Point = (0.0, 0.0), turned: float = 0.0) 
     return {"shape": "rigid", "shapes": list(shapes), "at": list(at), "turned": turned}
 
 
-def plain(declared: Any, value_of: View) -> dict[str, Any]:
-    """Return a level, mark or span with its ids replaced by SI values."""
-    match declared:
-        case Level(value=value, label=words):
-            return {"value": value_of[value], "label": words}
-        case Mark(x=x, y=y, label=words):
-            return {"x": value_of[x], "y": value_of[y], "label": words}
-        case Span(start=start, end=end, label=words):
-            return {"from": value_of[start], "to": value_of[end], "label": words}
-    raise TypeError(declared)
-
-
 # The data of charts: lines, areas and marks over an abscissa of any kind, all in SI.
 
 

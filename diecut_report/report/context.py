@@ -15,7 +15,8 @@ from diecut_report.report.pages.firm_templates import HouseStyle
 from diecut_report.report.scope import BRIEF, FULL, parts
 from diecut_report.report.symbols import DeclaredLetters, declared_letters
 from diecut_report.report.text import Catalogue, translated
-from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.catalogues import Catalogues
 

@@ -16,7 +16,8 @@ from diecut_report.report.chapters.value_tables import RecordTable, ValueRow
 from diecut_report.report.equations import Equation
 from diecut_report.report.symbols import SymbolRow, symbol
 from diecut_report.report.text import is_words, joined, number, quantity, value_in_words
-from diecut_report.results.mechanism_record import AbsentRecord, FigureRecord, ItemRecord, QuantityRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import AbsentRecord, ItemRecord, QuantityRecord
 
 ORDER = {"fail": 0, "warn": 1, "pass": 2, "not_checked": 3}
 

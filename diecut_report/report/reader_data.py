@@ -16,7 +16,19 @@ from diecut_report.report.chapters.tables import period_of
 from diecut_report.report.context import Material
 from diecut_report.report.scope import parts
 from diecut_report.report.text import Catalogue, displayed, joined, tidy
-from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
+from diecut_report.results.figure_record import (
+    CircleRecord,
+    FigureRecord,
+    LabelRecord,
+    MovedRecord,
+    MovingRecord,
+    MovingShape,
+    Panel,
+    PlotPanelRecord,
+    PolylineRecord,
+    RigidRecord,
+)
+from diecut_report.results.mechanism_record import CurveRecord
 
 if TYPE_CHECKING:
     from diecut_report.report.figures.labels import Line, PanelData
@@ -79,6 +91,7 @@ def short(value: float) -> float:
 
 
 Points = NDArray[Any]
+KEPT = ("shape", "role", "closed", "anchor")  # of a shape, where it has them
 AIR = 0.03  # around all that is ever drawn, of its greater side
 LETTER, WIDE = (
     0.024,
@@ -87,100 +100,95 @@ LETTER, WIDE = (
 
 
 def moving_data(
-    chapter: str, number: str, figure: FigureRecord, curves: Mapping[str, CurveRecord], pool: ReaderRows
+    chapter: str, number: str, title: str, moving: MovingRecord, curves: Mapping[str, CurveRecord], pool: ReaderRows
 ) -> dict[str, Any]:
     """Return a moving drawing: its abscissa, the room that it takes, and each shape with its numbers at each place."""
-    moving = figure.moving
-    over = curves[moving["over"]]
-    shown, places = over.display_unit, np.array(moving["places"])
+    over = curves[moving.over]
+    shown, places = over.display_unit, np.array(moving.places)
     ends = [to_display(float(places[end]), shown) for end in (0, -1)]
     return {
-        "figure": number, "group": pool.over(chapter, over, shown), "title": tidy(figure.title),
+        "figure": number, "group": pool.over(chapter, over, shown), "title": tidy(title),
         "across": {"title": tidy(over.description), "symbol": over.symbol, "unit": pretty(shown), "range": ends},
         "places": pool.row(places / unit(shown).factor, X_DIGITS),
-        "room": _room(moving["shapes"]),
-        "letter": rounded([_letter(moving["shapes"])])[0],
-        "shapes": [{**_shape(shape, pool), **_during(shape, shown)} for shape in moving["shapes"]],
+        "room": _room(moving.shapes),
+        "letter": rounded([_letter(moving.shapes)])[0],
+        "shapes": [{**_shape(shape, pool), **_during(shape, shown)} for shape in moving.shapes],
     }  # fmt: skip
 
 
-def _shape(shape: Data, pool: ReaderRows) -> Data:
+def _shape(shape: MovingShape, pool: ReaderRows) -> Data:
     """A shape: its own numbers where it stands still, else those at each place, one that does not change once."""
-    kept = {key: shape[key] for key in ("shape", "role", "closed", "anchor") if shape.get(key)}
-    if "text" in shape:
-        kept["text"] = tidy(shape["text"])
-    if "shapes" in shape:
-        kept["shapes"] = [_shape(own, pool) for own in shape["shapes"]]
-    if "moves" not in shape:
-        return kept | {"numbers": _standing(shape)}
-    columns = np.array(shape["moves"]).T.copy()
-    if "shapes" in shape:
-        columns[2] = np.degrees(columns[2])
+    kept: dict[str, Any] = {key: value for key in KEPT if (value := getattr(shape, key, ""))}
+    if isinstance(shape, LabelRecord):
+        kept["text"] = tidy(shape.text)
+    if isinstance(shape, RigidRecord | MovedRecord) and shape.shape == "rigid":
+        kept["shapes"] = [_shape(own, pool) for own in shape.shapes]
+    if isinstance(shape, RigidRecord):
+        return kept | {"numbers": [*rounded(shape.at), *rounded([math.degrees(shape.turned)])]}
+    rows = _rows(shape)
+    if not isinstance(shape, MovedRecord):
+        return kept | {"numbers": rounded(rows[0])}
+    if shape.shape == "rigid":
+        rows[:, 2] = np.degrees(rows[:, 2])
+    columns = rows.T.copy()
     return kept | {"rows": [pool.row(row[:1] if (row == row[0]).all() else row, Y_DIGITS) for row in columns]}
 
 
-def _during(shape: Data, shown: str) -> Data:
+def _during(shape: MovingShape, shown: str) -> Data:
     """Between which places of the abscissa a shape is filled."""
-    return {"during": [to_display(end, shown) for end in shape["during"]]} if "during" in shape else {}
+    during = getattr(shape, "during", None)
+    return {"during": [to_display(end, shown) for end in during]} if during else {}
 
 
-def _standing(shape: Data) -> list[float | None]:
-    if "shapes" in shape:
-        return [*rounded(shape["at"]), *rounded([math.degrees(shape["turned"])])]
-    return rounded(_own(shape))
+def _rows(shape: MovingShape) -> Points:
+    """A shape's numbers at each place, of one that stands still at one: points, a centre and radius, a shift and angle; shape (places, numbers)."""
+    match shape:
+        case MovedRecord():
+            return np.array(shape.moves)
+        case PolylineRecord():
+            return np.array(shape.points).reshape(1, -1)
+        case CircleRecord():
+            return np.array([[*shape.center, shape.radius]])
+        case RigidRecord():
+            return np.array([[*shape.at, shape.turned]])
+    return np.array([shape.at])
 
 
-def _own(shape: Data) -> list[float]:
-    """A shape's numbers: a polyline's points, a circle's centre and radius, a point."""
-    if shape["shape"] == "polyline":
-        return [number for point in shape["points"] for number in point]
-    return [*shape["center"], shape["radius"]] if shape["shape"] == "circle" else list(shape["at"])
-
-
-def _room(shapes: Sequence[Data]) -> list[float | None]:
+def _room(shapes: Sequence[MovingShape]) -> list[float | None]:
     """Left, top, width and height (downwards) of all that is drawn at any place, with some air."""
     size = _letter(shapes)
-    ends = [end for shape in shapes for end in _ends(shape)] + [_written(shape, size) for shape in _labels(shapes)]
-    low, high = np.concatenate(ends).min(axis=0), np.concatenate(ends).max(axis=0)
+    labels = [_written(shape, size) for shape in shapes if isinstance(shape, LabelRecord)]
+    ends = np.concatenate([*(end for shape in shapes for end in _ends(shape)), *labels])
+    low, high = ends.min(axis=0), ends.max(axis=0)
     air = AIR * float((high - low).max())
     return rounded([low[0] - air, -high[1] - air, *(high - low + 2 * air)])
 
 
-def _labels(shapes: Sequence[Data]) -> list[Data]:
-    return [shape for shape in shapes if shape["shape"] == "label"]
-
-
-def _letter(shapes: Sequence[Data]) -> float:
+def _letter(shapes: Sequence[MovingShape]) -> float:
     """The size of labels."""
     ends = np.concatenate([end for shape in shapes for end in _ends(shape)])
     return LETTER * float((ends.max(axis=0) - ends.min(axis=0)).max())
 
 
-def _written(shape: Data, size: float) -> Points:
+def _written(label: LabelRecord, size: float) -> Points:
     """The corners of a label."""
-    wide, (x, y) = WIDE * size * len(shape["text"]), shape["at"]
-    left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[shape["anchor"]] * wide
+    wide, (x, y) = WIDE * size * len(label.text), label.at
+    left = x - {"left": 0.0, "center": 0.5, "right": 1.0}[label.anchor] * wide
     return np.array([[left, y - size / 2], [left + wide, y + size / 2]])
 
 
-def _ends(shape: Data) -> list[Points]:
-    """Points that a shape reaches at its places, each of shape (any, 2)."""
-    if "shapes" not in shape:
-        return [_reached(shape["shape"], np.array(shape.get("moves") or [_own(shape)]))]
-    x, y, turned = np.array(shape.get("moves") or [[*shape["at"], shape["turned"]]]).T[:, :, None]
-    c, s = np.cos(turned), np.sin(turned)
-    found = []
-    for a, b in ((end[:, 0], end[:, 1]) for own in shape["shapes"] for end in _ends(own)):
-        found.append(np.stack([x + c * a - s * b, y + s * a + c * b], axis=-1).reshape(-1, 2))
-    return found
-
-
-def _reached(kind: str, numbers: Points) -> Points:
-    """The points of a shape, of a circle the corners about it."""
-    if kind != "circle":
-        return numbers.reshape(-1, 2)
-    centers, radii = numbers[:, :2], numbers[:, 2:]
-    return np.concatenate([centers - radii, centers + radii])
+def _ends(shape: MovingShape) -> list[Points]:
+    """Points that a shape reaches at its places, each of shape (any, 2); of a circle the corners about it."""
+    rows = _rows(shape)
+    if isinstance(shape, RigidRecord | MovedRecord) and shape.shape == "rigid":
+        x, y, turned = rows.T[:, :, None]
+        c, s = np.cos(turned), np.sin(turned)
+        own = ((end[:, 0], end[:, 1]) for part in shape.shapes for end in _ends(part))
+        return [np.stack([x + c * a - s * b, y + s * a + c * b], axis=-1).reshape(-1, 2) for a, b in own]
+    if shape.shape == "circle":
+        centers, radii = rows[:, :2], rows[:, 2:]
+        return [np.concatenate([centers - radii, centers + radii])]
+    return [rows.reshape(-1, 2)]
 
 
 READ = ("plot", "chart", "polar")  # figures whose curves are read at the cursor
@@ -227,7 +235,8 @@ def _moving(material: Material, pool: ReaderRows) -> Iterator[Data]:
     for chapter in material.document.chapters:
         for number, figure in chapter.figures:
             if figure.moving and number in material.figures:
-                yield moving_data(chapter.name, number, figure, calculated[chapter.name].curves, pool)
+                curves = calculated[chapter.name].curves
+                yield moving_data(chapter.name, number, figure.title, figure.moving, curves, pool)
 
 
 def _figure(
@@ -243,7 +252,7 @@ def _figure(
         return None
     made = []
     for panel, raw in zip(panels, figure.panels, strict=True):
-        across, over = panel.across, raw.get("over") or figure.abscissa
+        across, over = panel.across, raw.over or figure.abscissa
         group = pool.over(name, curves[over], across.unit) if over else pool.group(name, *across[:3])
         made.append(_panel(panel, raw, words, pool) | {"group": group})
     return {"title": tidy(figure.title), "panels": made}
@@ -251,8 +260,7 @@ def _figure(
 
 def _unrolled(figure: FigureRecord) -> FigureRecord:
     """A polar figure's curves as a diagram over its angle, which is read beside it."""
-    notes: dict[str, Any] = {"levels": [], "marks": [], "spans": []}
-    panel = {"title": figure.title, "unit": figure.unit, "series": figure.series, **notes}
+    panel = PlotPanelRecord(title=figure.title, unit=figure.unit, series=figure.series, levels=[], marks=[], spans=[])
     return figure.with_(type="plot", panels=[panel])
 
 
@@ -266,7 +274,7 @@ def _finite(values: Any) -> Any:
     return values[np.isfinite(values)]
 
 
-def _panel(panel: PanelData, raw: Data, words: Catalogue, pool: ReaderRows) -> dict[str, Any]:
+def _panel(panel: PanelData, raw: Panel, words: Catalogue, pool: ReaderRows) -> dict[str, Any]:
     across = panel.across
     return {
         "title": tidy(panel.title), "unit": pretty(panel.unit), "finest": finest(panel.unit),
@@ -274,12 +282,12 @@ def _panel(panel: PanelData, raw: Data, words: Catalogue, pool: ReaderRows) -> d
         "range": [float(end) for end in panel.heights],
         "lines": [_line(line, pool) for line in panel.lines],
         "fills": [_line(line, pool) for line in panel.fills],
-        "levels": [{"y": note.y, "text": _said(own["label"], own["value"], panel.unit, words)}
-                   for note, own in zip(panel.levels, raw["levels"], strict=True)],
-        "marks": [{"x": note.x, "y": note.y, "text": _said(own["label"], own["y"], panel.unit, words) if own["label"] else ""}
-                  for note, own in zip(panel.marks, raw["marks"], strict=True)],
-        "uprights": [{"x": note.x, "text": tidy(own["label"])}
-                     for note, own in zip(panel.verticals, raw.get("verticals", ()), strict=True)],
+        "levels": [{"y": note.y, "text": _said(own.label, own.value, panel.unit, words)}
+                   for note, own in zip(panel.levels, raw.levels, strict=True)],
+        "marks": [{"x": note.x, "y": note.y, "text": _said(own.label, own.y, panel.unit, words) if own.label else ""}
+                  for note, own in zip(panel.marks, raw.marks, strict=True)],
+        "uprights": [{"x": note.x, "text": tidy(own.label)}
+                     for note, own in zip(panel.verticals, raw.verticals, strict=True)],
         "spans": [{"from": span.start, "to": span.end, "text": tidy(span.text)} for span in panel.spans],
     }  # fmt: skip
 

@@ -9,7 +9,8 @@ from typing import Any
 
 from diecut_report.quantities.formatting import shown
 from diecut_report.quantities.units import pretty
-from diecut_report.results.mechanism_record import CurveRecord, FigureRecord, MechanismRecord, QuantityRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord, MechanismRecord, QuantityRecord
 from diecut_report.results.model import ChangesRecord, ProjectRecord, ResultsRecord
 from diecut_report.results.record import TextRole
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, Catalogues, built_in, program_catalogue
@@ -313,9 +314,6 @@ def _texts(value: Any) -> list[str]:
 # Results in another language: the same numbers and keys, with the texts translated for print.
 
 
-DRAWN_TEXTS = frozenset({"title", "label", "lines", "text"})
-"""Keys of figures whose texts are drawn."""
-NUMBERS = frozenset({"values", "points", "outer", "holes"})
 DATE = re.compile(r"(\d{4})-(\d\d)-(\d\d)")
 
 
@@ -351,7 +349,7 @@ def figure_translated(
 ) -> tuple[FigureRecord, dict[str, CurveRecord]]:
     """Return a figure of a mechanism of this kind with the curves that it shows, in the language of the catalogues."""
     texts = _MechanismTexts(_translator(catalogues), kind)
-    return texts.figure(figure), {name: curve.with_texts(texts.text) for name, curve in curves.items()}
+    return figure.with_texts(texts.text), {name: curve.with_texts(texts.text) for name, curve in curves.items()}
 
 
 def _translator(catalogues: Catalogues) -> Translator:
@@ -374,7 +372,7 @@ def _mechanism(words: Translator, data: MechanismRecord, results: ResultsRecord)
     kinds = [results.mechanisms[name].kind for name in data.between]
     home = kinds[-1] if kinds and all(map(built_in, kinds)) else data.kind
     texts = _MechanismTexts(words, data.kind, given_names(data, results.mechanisms), home)
-    return data.with_(figures=[]).with_texts(texts.text).with_(figures=[texts.figure(each) for each in data.figures])
+    return data.with_texts(texts.text)
 
 
 class _MechanismTexts:
@@ -393,33 +391,9 @@ class _MechanismTexts:
             return self.words.said(text, self.kind)
         if text in self.names:
             return text
+        if role is TextRole.DRAWN:  # what is not translated has at least its numbers in the language's form
+            return self.words.numbers(self.words.said(text, self.kind))
         return self.words.known(worded(text), self.kind) or self.words.said(text, self.kind)
-
-    def figure(self, figure: FigureRecord) -> FigureRecord:
-        """Return a figure: whatever text is not translated has at least its numbers in the language's form."""
-        drawn = {key: self._drawn(getattr(figure, key)) for key in ("panels", "series", "groups", "shapes", "moving")}
-        labels = {key: self._label(getattr(figure, key)) for key in ("title", "caption", "error")}
-        return figure.with_(**drawn, **labels)
-
-    def _drawn(self, data: Any) -> Any:
-        if isinstance(data, Mapping):
-            return {key: self._drawn_part(key, part) for key, part in data.items()}
-        return [self._drawn(part) for part in data] if isinstance(data, list) else data
-
-    def _drawn_part(self, key: str, part: Any) -> Any:
-        if key in NUMBERS:
-            return part
-        if key not in DRAWN_TEXTS:
-            return self._drawn(part)
-        if isinstance(part, str):
-            return self._label(part)
-        if isinstance(part, list):
-            return [self._label(each) if isinstance(each, str) else self._drawn(each) for each in part]
-        return self._drawn(part)
-
-    def _label(self, text: str) -> str:
-        """A text within a figure."""
-        return text if text in self.names else self.words.numbers(self.words.said(text, self.kind))
 
 
 # Columns of numbers aligned on their decimal sign: how much room a number leaves behind itself.

@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Collection, Iterable, Iterator, Mapping, Sequence
-from typing import Any, NamedTuple, Protocol
+from typing import NamedTuple, Protocol
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.config.source_hashes import plugin_faults
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.figure_views import curve_named, guarded
 from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.mechanism import CurveTable, Profile, Source
 from diecut_report.mechanism.steps import Step
 from diecut_report.results.checks import applies, checks_of
+from diecut_report.results.figure_views import curve_named, guarded
 from diecut_report.results.mechanism_record import (
     CheckRecord,
     CountRecord,
@@ -64,19 +64,21 @@ def exports(calc: Calculation) -> list[ExportRecord]:
 
 def _export(calc: Calculation, profile: Profile) -> ExportRecord:
     is_table = isinstance(profile, CurveTable)
-    said = {"id": profile.id, "title": profile.title, "type": "table" if is_table else "profile"}
     columns = list(profile.columns)
+    lost = ExportRecord(
+        id=profile.id, title=profile.title, type="table" if is_table else "profile", abscissa="", columns=columns
+    )
 
-    def made() -> dict[str, Any]:
+    def made() -> ExportRecord:
+        abscissa = curve_named(calc, columns[0])
         if is_table:
             own = [name for name, step in calc.curves.items() if step.output and calc.axis[name] == columns[0]]
-            return said | {"abscissa": curve_named(calc, columns[0]), "columns": own}
-        abscissa = curve_named(calc, columns[0])
+            return lost.with_(abscissa=abscissa, columns=own)
         for name in columns:
             curve_named(calc, name, abscissa)
-        return said | {"abscissa": abscissa, "columns": columns}
+        return lost.with_(abscissa=abscissa)
 
-    return ExportRecord(**guarded(made, said | {"abscissa": "", "columns": columns}, profile.at))
+    return guarded(made, lambda error: lost.with_(error=error), profile.at)
 
 
 # Numbers that one mechanism hands to another: both show them with the same digits.

@@ -13,7 +13,6 @@ from diecut_report.config.source_hashes import plugin_code
 from diecut_report.formulas import Array
 from diecut_report.machine import mechanism as listings
 from diecut_report.machine.calculation import Calculation, Unproven, declared_unit, unit_for
-from diecut_report.machine.figure_views import figures
 from diecut_report.machine.mechanism import intervals, period_of, phases_of, speed_of
 from diecut_report.machine.numerics.domain import Domain
 from diecut_report.machine.printing.items import section_items
@@ -41,13 +40,13 @@ from diecut_report.quantities.formatting import author_digits, place_shown, show
 from diecut_report.quantities.units import unit
 from diecut_report.results.checks import applies, check_results, checks_of, missing_checks
 from diecut_report.results.conclusion import RANK, cited_sources, counts, exports, failed_self_tests
+from diecut_report.results.figure_views import figures
 from diecut_report.results.mechanism_record import (
     AbsentPhaseRecord,
     AbsentRecord,
     CheckRecord,
     CurveRecord,
     ErratumRecord,
-    FigureRecord,
     MechanismRecord,
     PhaseRecord,
     QuantityRecord,
@@ -270,7 +269,7 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance], o
         warnings=[check.message for check in checks if check.status == "warn"],
         sections=made(sections),
         absent=absent(calc, provenance),
-        figures=made(figure_records),
+        figures=made(figures),
         exports=exports(calc),
         errata=list(errata(calc)),
     )
@@ -279,11 +278,6 @@ def mechanism_results(calc: Calculation, provenance: Mapping[str, Provenance], o
 def sections(calc: Calculation) -> list[SectionRecord]:
     """Return the printed calculation."""
     return [SectionRecord(**each) for each in section_items(calc)]
-
-
-def figure_records(calc: Calculation) -> list[FigureRecord]:
-    """Return the figures that the machine has."""
-    return [FigureRecord(**each) for each in figures(calc)]
 
 
 def require_self_tests(checks: list[CheckRecord]) -> None:

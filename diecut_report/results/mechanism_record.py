@@ -9,13 +9,12 @@ from typing import Literal, Self
 
 from pydantic import PrivateAttr
 
+from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.record import (
     TREE,
     Basis,
     CheckClass,
     CheckStatus,
-    DrawnData,
-    DrawnList,
     ErrorText,
     Id,
     Message,
@@ -294,32 +293,6 @@ class SectionRecord(Record):
     text: Text = always("What stands below it.")
     items: list[ItemRecord] = always("Its steps, in their order.")
     shown: list[PlaceRecord] = sometimes("The places at which its curves are shown.", [])
-
-
-class FigureRecord(Record):
-    """A figure, as data; what its type does not have is left out. Values are SI."""
-
-    type: Literal["plot", "chart", "polar", "bars", "drawing", "failed"] = always(
-        "`plot`: curves over their abscissa; `chart`: other lines; `polar`: curves about a pole; `bars`: numbers side by side; "
-        "`drawing`: of the machine; `failed`: it could not be made."
-    )
-    id: str = always("Its id.")
-    title: Text = always("Its title.")
-    caption: Text = always("What is to be seen in it.")
-    shows: list[str] = sometimes("The ids of the quantities that it shows.", [])
-    abscissa: str = sometimes("The abscissa of a plot or a polar plot.", "")
-    panels: DrawnList = sometimes("Its panels: title, unit, and what is drawn in them.", [])
-    unit: str = sometimes("The unit of distances and dimensions; `1` where a drawing is not to scale.", "")
-    series: DrawnList = sometimes("The curves of a polar plot, by name, with their labels.", [])
-    range: list[float | None] = sometimes("From which distance to which a polar plot reaches.", [])
-    groups: DrawnList = sometimes("The groups of bars: label, unit, bars with label and value.", [])
-    shapes: DrawnList = sometimes("What is drawn, back to front: shape, role, places.", [])
-    schematic: bool = sometimes("true: it is not drawn to scale.", False)
-    moving: DrawnData = sometimes(
-        "What moves in it: over which abscissa, at which places, the shapes; those that move with their numbers at each (`moves`).",
-        {},
-    )
-    error: ErrorText = sometimes("Why it could not be made.", "")
 
 
 class SourceRecord(Record):

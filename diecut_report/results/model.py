@@ -19,7 +19,6 @@ from diecut_report.results.record import (
     Basis,
     CheckClass,
     CheckStatus,
-    DrawnData,
     ErrorText,
     Message,
     Name,
@@ -282,7 +281,7 @@ class ResultsRecord(Record):
     mechanisms: dict[Name, MechanismRecord] = always("The mechanisms by name, in the order of the configuration.")
     comparisons: dict[Name, MechanismRecord] = sometimes("Comparisons between mechanisms, by kind and mechanisms.", {})
     comparisons_left_out: LeftOutRecord | None = sometimes("Comparisons that are not made.")
-    influence: DrawnData = sometimes(
+    influence: dict[str, Any] = sometimes(
         "Of a report with `report: {influence: …}`: what moves what, as its chapter reports it.", {}
     )
     changes: ChangesRecord | None = sometimes(
@@ -303,6 +302,10 @@ class ResultsRecord(Record):
 
 class _WithoutDefaults(GenerateJsonSchema):
     """A key that may be left out has no default: where it is left out there is nothing."""
+
+    def tagged_union_schema(self, schema: core_schema.TaggedUnionSchema) -> Schema:
+        """Return one of several blocks as any union: the blocks themselves tell which is meant."""
+        return self.generate_inner(core_schema.union_schema(list(schema["choices"].values())))
 
     def default_schema(self, schema: core_schema.WithDefaultSchema) -> Schema:
         """Return the schema of the value, which is not null where null says nothing."""

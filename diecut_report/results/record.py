@@ -40,6 +40,7 @@ class TextRole(Enum):
     """What a text is to a translator."""
 
     TEXT = auto()  # a sentence or a label
+    DRAWN = auto()  # one in a figure
     WORD = auto()  # a value: a number, a choice by its key, or a name, which stands as it is
     SOURCE = auto()  # where a formula stands
     PAPER = auto()  # how a work is cited
@@ -76,9 +77,9 @@ def always(meaning: str, alias: str | None = None) -> Any:
     return Field(alias=alias, description=meaning)
 
 
-def sometimes(meaning: str, default: Any = None) -> Any:
-    """Return a key that is left out where it has nothing to report."""
-    return Field(default=default, description=meaning)
+def sometimes(meaning: str, default: Any = None, alias: str | None = None) -> Any:
+    """Return a key that is left out where it has nothing to report; ``alias`` where it is called otherwise."""
+    return Field(default=default, alias=alias, description=meaning)
 
 
 class MessageRecord(Record):
@@ -148,38 +149,11 @@ def _changer(form: Any, marks: tuple[Any, ...] = ()) -> Changer | None:
     return lambda value, change: value if value is None else inner(value, change)  # of several types one
 
 
-class _Drawn:
-    """Mark data of figures, in which a text with values may stand at any place."""
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.with_info_before_validator_function(
-            self._read, handler(source), serialization=core_schema.plain_serializer_function_ser_schema(self._written)
-        )
-
-    def _read(self, given: Any, info: ValidationInfo) -> Any:
-        if isinstance(given, dict):
-            if given.keys() >= {"template", "values", "text"}:
-                return message_of(given)
-            return {key: self._read(each, info) for key, each in given.items()}
-        if isinstance(given, list):
-            return [each if type(each) is float else self._read(each, info) for each in given]
-        return info.context[WORDINGS].get(given, given) if info.context and isinstance(given, str) else given
-
-    def _written(self, part: Any) -> Any:
-        if isinstance(part, dict):
-            return {key: self._written(each) for key, each in part.items()}
-        if isinstance(part, list | tuple):
-            return [each if type(each) is float else self._written(each) for each in part]
-        if isinstance(part, Phrase):
-            return message_data(part) if part.values else str.__str__(part)
-        return part
-
-
 Text = Annotated[str, _Translated(TextRole.TEXT)]
 Message = Annotated[str, _Translated(TextRole.TEXT, is_message=True)]
 ErrorText = Annotated[str, _Translated(TextRole.TEXT, is_plain=True)]
+DrawnText = Annotated[str, _Translated(TextRole.DRAWN)]
+DrawnError = Annotated[str, _Translated(TextRole.DRAWN, is_plain=True)]
 Word = Annotated[str, _Translated(TextRole.WORD)]
 SourceText = Annotated[str, _Translated(TextRole.SOURCE)]
 Paper = Annotated[str, _Translated(TextRole.PAPER)]
-DrawnData = Annotated[dict[str, Any], _Drawn()]
-DrawnList = Annotated[list[dict[str, Any]], _Drawn()]

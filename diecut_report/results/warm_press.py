@@ -29,7 +29,6 @@ from diecut_report.config.loader import Config
 from diecut_report.config.model import PRESS
 from diecut_report.config.source_hashes import plugin_code
 from diecut_report.machine.calculation import Calculation, ChosenUnits, CurveHandle, same_curve
-from diecut_report.machine.figure_views import shown_figures
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import Block, flatten
 from diecut_report.mechanism.mechanism import Mechanism
@@ -37,10 +36,11 @@ from diecut_report.mechanism.names import SI
 from diecut_report.results.checks import check_results
 from diecut_report.results.conclusion import Open, governing, summary
 from diecut_report.results.document import document, verdict
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.figure_views import figures, shown_figures
 from diecut_report.results.mechanism import (
     Quantities,
     curves,
-    figure_records,
     key_outputs,
     mechanism_results,
     numbers,
@@ -48,7 +48,7 @@ from diecut_report.results.mechanism import (
     sections,
     worst,
 )
-from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, FigureRecord, SectionRecord
+from diecut_report.results.mechanism_record import CheckRecord, CurveRecord, SectionRecord
 from diecut_report.results.model import GoverningRecord, ResultsRecord, SummaryRecord
 from diecut_report.results.origins import assumed, checks_with_origins, origin_of, placed_inputs
 from diecut_report.results.press_run import Run, Tell, require_possible
@@ -238,7 +238,7 @@ class WarmRun(Run):
 
     def figures(self, name: str) -> list[FigureRecord]:
         """Return the figures of a mechanism."""
-        found: list[FigureRecord] = self.remembered[name].of(figure_records)
+        found: list[FigureRecord] = self.remembered[name].of(figures)
         return found
 
     def figure_titles(self, name: str) -> list[str]:

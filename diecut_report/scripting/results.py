@@ -16,7 +16,8 @@ from diecut_report.exchange.rendering import document
 from diecut_report.files import write_all
 from diecut_report.press import DRAWN, AskedReport, Lost
 from diecut_report.results.conclusion import conclusion
-from diecut_report.results.mechanism_record import FigureRecord, MechanismRecord, QuantityRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import MechanismRecord, QuantityRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.results_file import encoded, results_text
 from diecut_report.scripting.parts import (

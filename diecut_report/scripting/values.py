@@ -26,7 +26,8 @@ from diecut_report.report.pages.html import Screen, filled_page
 from diecut_report.report.scope import BRIEF, STANDARD
 from diecut_report.report.symbols import symbol
 from diecut_report.report.text import Catalogue, quantity
-from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.catalogues import SOURCE_LANGUAGE, UnknownLanguage, known, of_all_plugins
 from diecut_report.text.catalogues import SOURCE_LANGUAGE as ENGLISH

@@ -64,8 +64,16 @@ IN_CALC = {
     "an unknown id": (DRAWING.format("[circle((0, 0), view['top'])]"), "there is no number 'top' in this machine"),
     "what raises": (DRAWING.format("1 / 0"), "ZeroDivisionError: division by zero (disc.py:"),
     "what raises in numpy": (DRAWING.format("np.linalg.inv(np.zeros((2, 2)))"), "Singular matrix (disc.py:"),
-    "a point at NaN": (DRAWING.format("[point((float('nan'), 0))]"), "not a finite number"),
-    "an array": (DRAWING.format("[{'shape': 'polyline', 'points': np.zeros((2, 2))}]"), "list of these"),
+    "a point at NaN": (
+        DRAWING.format("[point((float('nan'), 0))]"),
+        "shapes.0.point.at.0: Input should be a finite number",
+    ),
+    "an array": (
+        DRAWING.format("[{'shape': 'polyline', 'points': np.zeros((2, 2))}]"),
+        "shapes.0.polyline.points: Input should be a valid list",
+    ),
+    "an unknown shape": (DRAWING.format("[{'shape': 'blob', 'at': [0, 0]}]"), "Input tag 'blob' found"),
+    "a shape without its keys": (DRAWING.format("[{'shape': 'circle'}]"), "shapes.0.circle.center: Field required"),
     "bars of a curve": (
         "Bars(id='lost', title='Lost', caption='', groups=(BarGroup(label='', unit='mm', bars=(('y', 'height'),)),))",
         "no number 'height'",
@@ -76,8 +84,6 @@ IN_DRAWING = {
         DRAWING.format("[circle((0, 0), view['width'], 'bold')]"),
         "'bold' is not a role of a circle; known: outline",
     ),
-    "an unknown shape": (DRAWING.format("[{'shape': 'blob', 'at': [0, 0]}]"), "'blob' is not a shape"),
-    "a shape without its keys": (DRAWING.format("[{'shape': 'circle'}]"), "KeyError: 'center'"),
 }
 
 

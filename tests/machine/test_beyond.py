@@ -11,9 +11,9 @@ import pytest
 from diecut_report.api import POINTS, Annotated, Block, Chapter, Drawing, Inputs, Mechanism, Quantity, Text
 from diecut_report.declaration import faults
 from diecut_report.machine.calculation import Impossible, Unproven
-from diecut_report.machine.figure_views import figures
 from diecut_report.machine.printing.items import section_items
 from diecut_report.machine.steps.run import calculate
+from diecut_report.results.figure_views import figures
 
 SERIES = (100.0, 160.0, 200.0)
 
@@ -112,5 +112,5 @@ def test_a_drawing_that_gives_no_shapes_is_told(drawn: Any, given: str) -> None:
 
     mechanism = replace(lift(), figures=(Drawing(id="drum", title="Drum", caption="", build=drum),))
     [figure] = figures(run(mechanism))
-    assert figure["type"] == "failed"
-    assert figure["error"].startswith(f"drum gives {given}; return a list of what circle, polyline,")
+    assert figure.type == "failed"
+    assert figure.error.startswith(f"drum gives {given}; return a list of what circle, polyline,")

@@ -143,8 +143,8 @@ def test_a_running_integral_of_listed_values_goes_from_corner_to_corner() -> Non
 
 def test_a_sweep_calculates_the_machine_again() -> None:
     first, second = told().figures[0].panels
-    assert [line["y"] for line in first["lines"]] == [pytest.approx([0.5, 1, 1.5, 2])] * 2
-    assert second["lines"][0]["y"] == pytest.approx([0, 1, 0, 1, 0], abs=1e-14)
+    assert [line.y for line in first.lines] == [pytest.approx([0.5, 1, 1.5, 2])] * 2
+    assert second.lines[0].y == pytest.approx([0, 1, 0, 1, 0], abs=1e-14)
 
 
 def test_an_export_names_its_curves() -> None:

@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from diecut_report.api import POINTS, Annotated, Chapter, Chart, Inputs, Mark, Mechanism, Panel, Plot, Quantity, Series
-from diecut_report.machine.figure_views import figures
 from diecut_report.machine.steps.run import calculate
+from diecut_report.results.figure_views import figures
 
 
 class Wave(Inputs):
@@ -34,7 +34,7 @@ def wave(drawn: str = "height") -> Mechanism:
 def marked(drawn: str, shift: float) -> dict[str, Any]:
     """The mark in the plot."""
     [figure] = figures(calculate(wave(drawn), {"shift": shift, "n_points": 36}))
-    [mark] = figure["panels"][0]["marks"]
+    [mark] = figure.panels[0].marks
     return dict(mark)
 
 
@@ -54,4 +54,4 @@ def test_a_size_beside_another_curve_stays_a_size() -> None:
 def test_a_chart_without_panels_is_left_out() -> None:
     empty = Chart(id="none", title="None", caption="", build=lambda view: [])
     mechanism = replace(wave(), figures=(empty, *wave().figures))
-    assert [each["id"] for each in figures(calculate(mechanism, {"shift": 0.0, "n_points": 36}))] == ["wave"]
+    assert [each.id for each in figures(calculate(mechanism, {"shift": 0.0, "n_points": 36}))] == ["wave"]

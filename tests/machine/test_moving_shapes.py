@@ -9,8 +9,8 @@ import numpy as np
 import pytest
 
 from diecut_report.api import circle, label, point, polyline, rigid
-from diecut_report.machine.figure_views import MachineView, Undrawable, frame_places, laid_out, moving_shapes
 from diecut_report.machine.numerics.domain import Domain
+from diecut_report.results.figure_views import MachineView, Undrawable, frame_places, laid_out, moving_shapes
 from tests.machines import drive
 
 SPOKE = [polyline([(0.0, 0.0), (1.0, 0.0)], "body")]

@@ -6,8 +6,8 @@ import numpy as np
 import pytest
 
 from diecut_report.machine.calculation import CurveHandle, Impossible
-from diecut_report.machine.figure_views import MachineView
 from diecut_report.machine.steps.run import calculate
+from diecut_report.results.figure_views import MachineView
 from tests.examples import few
 from tests.machine.loop import MECHANISM as LOOP
 from tests.machine.swing import MECHANISM, RATIOS

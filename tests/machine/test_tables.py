@@ -15,11 +15,12 @@ from diecut_report.declaration import faults
 from diecut_report.declaration.formula_checks import check_mechanism
 from diecut_report.formulas.formula import evaluate
 from diecut_report.machine.calculation import Calculation, Impossible
-from diecut_report.machine.figure_views import figures
 from diecut_report.machine.printing.items import section_items
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.inputs import flatten
 from diecut_report.quantities.units import unit
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.figure_views import figures
 from tests.machine.geared import FACTORS, LIFTS, MECHANISM, Geared
 
 TEETH, Y = (column.values for column in FACTORS.columns)
@@ -182,59 +183,59 @@ def test_what_a_table_gives_can_be_varied() -> None:
     assert rerun({"bore_given": [0.05, 0.06]}, ["bore"])["bore"] == pytest.approx([0.05, 0.06])
 
 
-def plotted(limits: Any, **inputs: Any) -> dict[str, Any]:
+def plotted(limits: Any, **inputs: Any) -> FigureRecord:
     panel = replace(MECHANISM.figures[0].panels[0], range=limits)  # type: ignore[attr-defined]
     mechanism = replace(MECHANISM, figures=(replace(MECHANISM.figures[0], panels=(panel,)),))  # type: ignore[call-arg]
     return figures(calculate(mechanism, flatten(Geared(**({"bearing": "6204"} | inputs)))))[0]
 
 
 def test_a_panel_has_the_range_that_it_declares() -> None:
-    assert "range" not in plotted(None)["panels"][0]
-    assert plotted((0, None))["panels"][0]["range"] == [0, None]
-    assert plotted((-1, "bore"))["panels"][0]["range"] == [pytest.approx(-0.001), 0.02]
+    assert plotted(None).panels[0].range == []
+    assert plotted((0, None)).panels[0].range == [0, None]
+    assert plotted((-1, "bore")).panels[0].range == [pytest.approx(-0.001), 0.02]
 
 
-def figured(figure: Any) -> dict[str, Any]:
+def figured(figure: Any) -> FigureRecord:
     return figures(calculate(replace(MECHANISM, figures=(figure,)), flatten(Geared(bearing="6204"))))[0]
 
 
-def round_diagram(limits: Any) -> dict[str, Any]:
+def round_diagram(limits: Any) -> FigureRecord:
     drawn = (Series(curve="lift", label="h"),)
     return figured(Polar(id="p", title="Lift", caption="", abscissa="turn", unit="mm", series=drawn, range=limits))
 
 
-def barred(limits: Any) -> dict[str, Any]:
+def barred(limits: Any) -> FigureRecord:
     group = BarGroup(label="Bores", unit="mm", bars=(("one", "bore"), ("less", "-lift_max")), range=limits)
     return figured(Bars(id="b", title="Bars", caption="", groups=(group,)))
 
 
 def test_a_polar_diagram_has_the_range_of_its_distances() -> None:
     assert "range" not in round_diagram(None) and "error" not in round_diagram(None)
-    assert round_diagram((0, None))["range"] == [0, None] and round_diagram((None, "bore"))["range"] == [None, 0.02]
-    assert "h reaches 10 mm, outside of the range of 'Lift', … to 8 mm; widen it" in round_diagram((None, 8))["error"]
-    assert "'Lift' begins below zero, where no distance from the pole is" in round_diagram((-1, 12))["error"]
+    assert round_diagram((0, None)).range == [0, None] and round_diagram((None, "bore")).range == [None, 0.02]
+    assert "h reaches 10 mm, outside of the range of 'Lift', … to 8 mm; widen it" in round_diagram((None, 8)).error
+    assert "'Lift' begins below zero, where no distance from the pole is" in round_diagram((-1, 12)).error
 
 
 def test_a_group_of_bars_has_a_range() -> None:
-    assert "range" not in barred(None)["groups"][0]
-    assert barred((-15, "bore"))["groups"][0]["range"] == [-0.015, 0.02]
-    assert "less reaches -10 mm, outside of the range of 'Bores', -5 mm to …; widen it" in barred((-5, None))["error"]
+    assert barred(None).groups[0].range == []
+    assert barred((-15, "bore")).groups[0].range == [-0.015, 0.02]
+    assert "less reaches -10 mm, outside of the range of 'Bores', -5 mm to …; widen it" in barred((-5, None)).error
 
 
 def test_what_leaves_the_range_is_a_fault_of_the_figure_in_words() -> None:
-    told = plotted((0, 8))["error"]
+    told = plotted((0, 8)).error
     assert told.startswith("h reaches 10 mm, outside of the range of 'Lift', 0 mm to 8 mm; widen it")
-    assert "20 mm to 10 mm, which is none" in plotted(("bore", 10))["error"]
+    assert "20 mm to 10 mm, which is none" in plotted(("bore", 10)).error
 
 
 def test_a_charts_panel_has_a_range_in_its_unit() -> None:
-    def chart(limits: Any, **more: Any) -> dict[str, Any]:
+    def chart(limits: Any, **more: Any) -> FigureRecord:
         panel = chart_panel(
             "Lift", "mm", "Turn", "φ", "deg", lines=[line([0, 1], [0.001, np.nan], "h")], range=limits, **more
         )
         drawn = Chart(id="own", title="Own", caption="", build=lambda view: [panel])
         return figures(calculate(replace(MECHANISM, figures=(drawn,)), flatten(Geared(bearing="6204"))))[0]
 
-    assert chart((0, 2))["panels"][0]["range"] == [0, 0.002]
-    assert "h reaches 1 mm, outside of the range of 'Lift', … to 0.5 mm" in chart((None, 0.5))["error"]
-    assert "top reaches 3 mm" in chart((0, 2), levels=[level(0.003, "top")])["error"]
+    assert chart((0, 2)).panels[0].range == [0, 0.002]
+    assert "h reaches 1 mm, outside of the range of 'Lift', … to 0.5 mm" in chart((None, 0.5)).error
+    assert "top reaches 3 mm" in chart((0, 2), levels=[level(0.003, "top")]).error

@@ -8,8 +8,8 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.figure_views import MachineView, _listed, _moving, laid_out
 from diecut_report.mechanism.figures import Drawing
+from diecut_report.results.figure_views import MachineView, _listed, _moving, laid_out
 
 Shape = dict[str, Any]
 

@@ -15,9 +15,9 @@ from scipy.integrate import quad
 
 from diecut_report.api import formula
 from diecut_report.machine.calculation import Calculation, Impossible
-from diecut_report.machine.figure_views import MachineView, laid_out
 from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
 from diecut_report.plugins.cam_gear_transport import MECHANISM, drawing, figures
+from diecut_report.results.figure_views import MachineView, laid_out
 from diecut_report.results.mechanism import mechanism_results
 from tests.examples import examples
 from tests.machines import made_possible, number

@@ -77,20 +77,16 @@ def test_the_figures_of_any_knife_are_drawn_and_its_three_positions_beside_one_a
     calc = calculate(MECHANISM, any_knife(0.1, 0.2, low, board, cut, 0.5))
     figures = {figure.id: figure for figure in mechanism_results(calc, {}).figures}
     assert list(figures) == ["positions", "front", "motion", "load", "placement"]
-    marks = [
-        shape["at"] for shape in figures["positions"].shapes if shape["shape"] == "point" and shape["role"] == "mark"
-    ]
-    pivots = [
-        shape["at"] for shape in figures["positions"].shapes if shape["shape"] == "point" and shape["role"] == "pivot"
-    ]
+    marks = [shape.at for shape in figures["positions"].shapes if shape.shape == "point" and shape.role == "mark"]
+    pivots = [shape.at for shape in figures["positions"].shapes if shape.shape == "point" and shape.role == "pivot"]
     reached = [mark[0] - pivot[0] for mark, pivot in zip(marks, pivots, strict=True)]
     assert reached[0] == pytest.approx(number(calc, "front_distance"), rel=1e-9)
     assert reached[2] == pytest.approx(number(calc, "cut_end"), rel=1e-9)
     assert {mark[1] for mark in marks} == {-number(calc, "depth")}
     blades = [
-        np.array(shape["points"])[:, 0]
+        np.array(shape.points)[:, 0]
         for shape in figures["positions"].shapes
-        if shape["shape"] == "polyline" and shape["role"] == "body"
+        if shape.shape == "polyline" and shape.role == "body"
     ]
     assert len(blades) == 3
     for left, right in pairwise(blades):

@@ -12,10 +12,10 @@ from __future__ import annotations
 import pytest
 
 from diecut_report.declaration.formula_checks import check_mechanism
-from diecut_report.machine.figure_views import shown_figures
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.results.figure_views import shown_figures
 from diecut_report.results.mechanism import mechanism_results
 from diecut_report.testing.machines import unlike
 from tests.examples import few

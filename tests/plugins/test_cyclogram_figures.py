@@ -11,6 +11,7 @@ from diecut_report.cli.main import main
 from diecut_report.config.loader import load_config
 from diecut_report.config.plugins import Discovery
 from diecut_report.results.document import document
+from diecut_report.results.figure_record import MovedRecord, PolylineRecord
 from diecut_report.results.press_run import compute
 from tests.configs import HEAD, problems, saved
 
@@ -58,14 +59,14 @@ def test_a_line_across_all_rows_follows_the_angle_and_the_bars_that_it_passes_ar
     saved(tmp_path, PLUGIN, "small_feeder.py")
     config = load_config(saved(tmp_path, HEAD + LINES), Discovery([tmp_path]))
     [figure] = [each for each in document(compute(config, lambda _: None)).mechanisms["cyc"].figures if each.moving]
-    shapes, places = figure.moving["shapes"], np.array(figure.moving["places"])
-    [cursor] = [np.array(shape["moves"]) for shape in shapes if "moves" in shape]
+    shapes, places = figure.moving.shapes, np.array(figure.moving.places)
+    [cursor] = [np.array(shape.moves) for shape in shapes if isinstance(shape, MovedRecord)]
     assert cursor[:, 0] == pytest.approx(places / (2 * np.pi) * 8) and cursor[:, 0] == pytest.approx(cursor[:, 2])
-    heights = [y for shape in shapes if shape["shape"] == "polyline" and "points" in shape for _, y in shape["points"]]
+    heights = [y for shape in shapes if isinstance(shape, PolylineRecord) for _, y in shape.points]
     assert set(cursor[:, 1]) == {max(heights)} and set(cursor[:, 3]) == {min(heights)}
-    filled = [shape["during"] for shape in shapes if "during" in shape]
+    filled = [during for shape in shapes if (during := getattr(shape, "during", None))]
     assert np.degrees(filled) == pytest.approx(np.array([[30, 120], [120, 360], [0, 30]]))
-    assert [shape["text"] for shape in shapes if shape["shape"] == "label"][5:8] == [
+    assert [shape.text for shape in shapes if shape.shape == "label"][5:8] == [
         "feeder:",
         "A sheet is carried",
         "Back without a sheet",

@@ -2,7 +2,6 @@
 
 from __future__ import annotations
 
-import json
 import math
 import re
 from math import degrees
@@ -10,7 +9,8 @@ from typing import Any
 
 import pytest
 
-from diecut_report.machine.figure_views import figures
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.figure_views import figures
 from diecut_report.results.mechanism import mechanism_results
 from tests.plugins.test_cyclogram import example, locks, press
 
@@ -87,36 +87,36 @@ def test_a_length_is_told_only_where_one_window_holds_an_interlock() -> None:
     assert "needed_length.1" not in outputs
 
 
-def drawn(name: str, transport: str = "feeder", which: str = "cutting passing") -> dict[str, Any]:
+def drawn(name: str, transport: str = "feeder", which: str = "cutting passing") -> FigureRecord:
     """A figure of the press with this transport."""
-    found = {figure["id"]: figure for figure in figures(example(transport, which))}
+    found = {figure.id: figure for figure in figures(example(transport, which))}
     assert "error" not in found[name]
     return found[name]
 
 
 def shapes(name: str) -> list[dict[str, Any]]:
     """The shapes of a figure of the press with the cam-gear transport."""
-    return list(drawn(name)["shapes"])
+    return list(drawn(name).shapes)
 
 
 def test_lines_at_the_ends_of_the_offsets_say_which_end_they_are() -> None:
-    told = json.dumps(drawn("ways", "cross", "contact passing"), ensure_ascii=False)
-    assert re.findall(r'"((?:from|to) [^"]*)"', told) == ["from 29.53°", "to 49.44°"]
+    told = str(drawn("ways", "cross", "contact passing"))
+    assert re.findall(r"'((?:from|to) [^']*)'", told) == ["from 29.53°", "to 49.44°"]
 
 
 def test_the_dwell_is_shaded_and_interlocks_are_brackets_with_their_margins() -> None:
     drawn = shapes("cyclogram")
-    shades = [shape["points"] for shape in drawn if shape.get("role") == "shade"]
+    shades = [shape.points for shape in drawn if getattr(shape, "role", "") == "shade"]
     edges = sorted(90 * points[0][0] for points in shades)  # 720 degrees are 8 wide
     assert edges == pytest.approx([141.0056, 501.0056], abs=1e-3)
-    brackets = [shape["points"] for shape in drawn if shape.get("role") == "mark"]
+    brackets = [shape.points for shape in drawn if getattr(shape, "role", "") == "mark"]
     assert [90 * points[0][0] for points in brackets[:2]] == pytest.approx([117.1747, 508.0258], abs=1e-3)
-    texts = {shape["text"] for shape in drawn if shape["shape"] == "label"}
+    texts = {shape.text for shape in drawn if shape.shape == "label"}
     assert {"-23.83°, -6.892°", "12.62°, 6.839°"} <= texts
 
 
 def test_a_ring_stands_for_each_line() -> None:
     drawn = shapes("rings")
-    assert sum(shape["shape"] == "circle" for shape in drawn) == 2
-    rests = [shape["end"] - shape["start"] for shape in drawn if shape.get("role") == "outline"]
+    assert sum(shape.shape == "circle" for shape in drawn) == 2
+    rests = [shape.end - shape.start for shape in drawn if getattr(shape, "role", "") == "outline"]
     assert rests.count(pytest.approx(math.radians(160 / 2))) >= 2  # the dwell of either sheet: two are once round

@@ -15,10 +15,11 @@ from scipy.optimize import brentq
 
 from diecut_report.config.plugins import Discovery
 from diecut_report.machine.calculation import Calculation, Impossible
-from diecut_report.machine.figure_views import figures
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.damper import MECHANISM
 from diecut_report.press import Press
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.figure_views import figures
 from diecut_report.results.mechanism import mechanism_results
 from tests.configs import problems, saved
 from tests.machines import inputs, number
@@ -273,22 +274,22 @@ def test_beyond_the_greatest_force_no_length_helps() -> None:
 # --- figures, configs ------------------------------------------------------------------------------------------------
 
 
-def figure(calc: Calculation, name: str) -> dict[str, Any]:
+def figure(calc: Calculation, name: str) -> FigureRecord:
     """A figure's data by its id."""
-    return next(f for f in figures(calc) if f["id"] == name)
+    return next(f for f in figures(calc) if f.id == name)
 
 
 def test_the_shaded_areas_are_the_energies() -> None:
     calc = damper(drive={"force": 200})
-    fills = figure(calc, "force")["panels"][0]["fills"]
-    areas = [np.trapezoid(part["y"], part["x"]) for part in fills]
+    fills = figure(calc, "force").panels[0].fills
+    areas = [np.trapezoid(part.y, part.x) for part in fills]
     assert areas == pytest.approx([150, number(calc, "driving_work")], rel=1e-12)
 
 
 def test_the_pressed_block_is_drawn_with_its_length_and_its_volume() -> None:
     calc = damper()
-    shapes = figure(calc, "block")["shapes"]
-    free, _, pressed = (np.array(shape["outer"]) for shape in shapes if shape.get("role") == "section")
+    shapes = figure(calc, "block").shapes
+    free, _, pressed = (np.array(shape.outer) for shape in shapes if getattr(shape, "role", "") == "section")
     assert np.ptp(pressed[:, 0]) == pytest.approx(0.56 - number(calc, "deflection"), rel=1e-12)
     half = len(pressed) // 2
     volumes = []
@@ -300,26 +301,26 @@ def test_the_pressed_block_is_drawn_with_its_length_and_its_volume() -> None:
 
 
 def test_a_block_that_cannot_be_pressed_so_far_is_drawn_free_alone() -> None:
-    shapes = figure(damper(elastic_modulus="1 MPa"), "block")["shapes"]
-    assert any("no block can be pressed" in shape.get("text", "") for shape in shapes)
+    shapes = figure(damper(elastic_modulus="1 MPa"), "block").shapes
+    assert any("no block can be pressed" in getattr(shape, "text", "") for shape in shapes)
 
 
 @pytest.mark.parametrize("length", [{}, {"adopted_length": "100 mm"}, {"adopted_length": "5000 mm"}])
 def test_the_length_falls_with_the_square_of_the_stress_and_the_adopted_one_is_on_the_line(
     length: dict[str, Any],
 ) -> None:
-    panel = figure(damper(**length), "length")["panels"][0]
-    x, y = (np.array(panel["lines"][0][axis]) for axis in "xy")
+    panel = figure(damper(**length), "length").panels[0]
+    x, y = (np.array(numbers) for numbers in (panel.lines[0].x, panel.lines[0].y))
     assert y * x**2 == pytest.approx(5 / 9 * 1.2e6**2, rel=1e-12)
-    [mark] = panel["marks"]
-    assert mark["y"] * mark["x"] ** 2 == pytest.approx(5 / 9 * 1.2e6**2, rel=1e-12)
-    assert x[0] < mark["x"] < x[-1]
+    [mark] = panel.marks
+    assert mark.y * mark.x**2 == pytest.approx(5 / 9 * 1.2e6**2, rel=1e-12)
+    assert x[0] < mark.x < x[-1]
 
 
 def test_nothing_is_said_of_a_drive_that_is_not_given() -> None:
-    said = [figure["caption"] + str(figure.get("shapes", "")) for figure in figures(damper())]
+    said = [figure.caption + str(figure.shapes) for figure in figures(damper())]
     assert not any("drive" in text for text in said)
-    assert "by the drive too" in str(figure(damper(drive={"force": 50}), "block")["shapes"])
+    assert "by the drive too" in str(figure(damper(drive={"force": 50}), "block").shapes)
 
 
 CONFIG = """\

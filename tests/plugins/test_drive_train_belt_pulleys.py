@@ -154,9 +154,9 @@ def test_the_advised_pitch_puts_six_teeth_into_mesh() -> None:
 def test_the_figure_draws_the_cylinder_on_the_die_below() -> None:
     figures = {figure.id: figure.shapes for figure in mechanism_results(belt(OVER), {}).figures}
     shapes = figures["toothed_belt_layout"]
-    ground = next(s for s in shapes if s.get("role") == "ground")
-    assert [y for _, y in ground["points"]] == pytest.approx([0.150 - 0.105] * 2)
-    assert {"die", "cylinder, on pulley 4"} <= {s.get("text") for s in shapes}
+    ground = next(s for s in shapes if getattr(s, "role", "") == "ground")
+    assert [y for _, y in ground.points] == pytest.approx([0.150 - 0.105] * 2)
+    assert {"die", "cylinder, on pulley 4"} <= {getattr(s, "text", "") for s in shapes}
 
 
 def test_the_example_wraps_its_pulley_on_the_side_away_from_the_die() -> None:

@@ -9,8 +9,8 @@ from hypothesis import strategies as st
 from scipy.optimize import brentq
 
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.figure_views import MachineView
 from diecut_report.plugins.geneva_transport.drawing import disc_outline, wheel_outline
+from diecut_report.results.figure_views import MachineView
 from tests.examples import examples, few
 from tests.machines import number
 from tests.plugins.test_geneva_transport import SHEET, SLOTS, engaged, geneva, wheel_from_middle, with_slots

@@ -10,10 +10,11 @@ import numpy as np
 import pytest
 
 from diecut_report.machine.calculation import Calculation, Impossible
-from diecut_report.machine.figure_views import figures
 from diecut_report.machine.steps.run import calculate
 from diecut_report.plugins.knife_drive import MECHANISM
 from diecut_report.results.checks import check_results
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.figure_views import figures
 from tests.configs import EXAMPLES
 from tests.machines import inputs, made_possible, number
 from tests.plugins.test_knife_drive import DRIVES, INNER, LINKAGE, OUTER, PLANETARY, SLIDER, at, knife
@@ -151,16 +152,16 @@ def test_a_depth_beyond_stroke_and_signature_is_told_for_both() -> None:
     assert [key for key, _ in refused.value.reasons] == ["working_depth", "signature_length"]
 
 
-def drawn(calc: Calculation) -> dict[str, dict[str, Any]]:
-    return {figure["id"]: figure for figure in figures(calc)}
+def drawn(calc: Calculation) -> dict[str, FigureRecord]:
+    return {figure.id: figure for figure in figures(calc)}
 
 
 def test_the_working_stroke_is_shaded_from_contact_to_the_lowest_point() -> None:
     calc = knife(**PLANETARY, **SLIDER, **OUTER, working_depth=30)
     found = drawn(calc)
     for drive in DRIVES:
-        fills = found[f"{drive}_motion"]["panels"][1]["fills"][0]
-        shaded = np.array([x for x, y in zip(fills["x"], fills["y"], strict=True) if y is not None])
+        fills = found[f"{drive}_motion"].panels[1].fills[0]
+        shaded = np.array([x for x, y in zip(fills.x, fills.y, strict=True) if y is not None])
         lowest, angle = number(calc, f"{drive}_lowest_angle"), number(calc, f"{drive}_working_angle")
         back = np.mod(lowest - shaded + 1e-6, 2 * np.pi) - 1e-6
         assert back.min() == pytest.approx(0, abs=1e-9) and back.max() == pytest.approx(angle, abs=1e-9)
@@ -168,52 +169,50 @@ def test_the_working_stroke_is_shaded_from_contact_to_the_lowest_point() -> None
 
 
 def test_all_drives_stand_still_at_the_common_origin() -> None:
-    panel = drawn(knife(**EVERY))["from_lowest"]["panels"][0]
-    for line in panel["lines"][:3]:
-        assert np.interp(0.0, line["x"], line["y"]) == pytest.approx(0, abs=0.02)
-        assert np.interp(-0.5, line["x"], line["y"]) > 0.9
-    assert panel["lines"][3]["y"][0] == pytest.approx(0.08 * 2 * np.pi * 50000 / 3600)
+    panel = drawn(knife(**EVERY))["from_lowest"].panels[0]
+    for line in panel.lines[:3]:
+        assert np.interp(0.0, line.x, line.y) == pytest.approx(0, abs=0.02)
+        assert np.interp(-0.5, line.x, line.y) > 0.9
+    assert panel.lines[3].y[0] == pytest.approx(0.08 * 2 * np.pi * 50000 / 3600)
 
 
 def test_a_long_signature_does_not_stretch_the_comparison() -> None:
     for length, last in ((273, (0.273 - 0.04) / 0.08), (2000, None)):
-        panel = drawn(knife(**EVERY, signature_length=length))["from_lowest"]["panels"][0]
-        ends = {line["label"]: line["x"][-1] for line in panel["lines"]}
+        panel = drawn(knife(**EVERY, signature_length=length))["from_lowest"].panels[0]
+        ends = {line.label: line.x[-1] for line in panel.lines}
         assert ends["rollers"] == pytest.approx(last or ends["crank-rocker"])
-        assert ["off the table" in place["label"] for place in panel["verticals"]] == [False, True][
-            : 1 + (length == 273)
-        ]
+        assert ["off the table" in place.label for place in panel.verticals] == [False, True][: 1 + (length == 273)]
 
 
 def test_the_differences_of_the_first_order_form_are_drawn() -> None:
     calc = knife(**SLIDER)
-    exact, *errors = drawn(calc)["crank_slider_first_order"]["panels"]
-    assert [line["label"] for line in exact["lines"]] == ["exact", "first order"]
+    exact, *errors = drawn(calc)["crank_slider_first_order"].panels
+    assert [line.label for line in exact.lines] == ["exact", "first order"]
     for panel, name in zip(errors, ("displacement", "velocity", "acceleration"), strict=True):
-        assert np.abs(panel["lines"][0]["y"]).max() == pytest.approx(
+        assert np.abs(panel.lines[0].y).max() == pytest.approx(
             number(calc, f"crank_slider_{name}_difference"), rel=1e-3
         )
 
 
 def test_the_lines_over_the_stroke_pass_through_the_machines() -> None:
-    panel = drawn(knife(**EVERY))["over_stroke"]["panels"][0]
-    for line, mark in zip(panel["lines"], panel["marks"], strict=True):
-        assert np.interp(mark["x"], line["x"], line["y"]) == pytest.approx(mark["y"], rel=1e-6)
-        slopes = np.array(line["y"]) / np.array(line["x"])
+    panel = drawn(knife(**EVERY))["over_stroke"].panels[0]
+    for line, mark in zip(panel.lines, panel.marks, strict=True):
+        assert np.interp(mark.x, line.x, line.y) == pytest.approx(mark.y, rel=1e-6)
+        slopes = np.array(line.y) / np.array(line.x)
         np.testing.assert_allclose(slopes, slopes[0], rtol=1e-9)
 
 
 def test_the_table_holds_the_numbers_and_their_ratios() -> None:
-    boxes = drawn(knife(**EVERY))["comparison"]["shapes"]
-    cells = [line for box in boxes for line in box["lines"]]
+    boxes = drawn(knife(**EVERY))["comparison"].shapes
+    cells = [line for box in boxes for line in box.lines]
     assert "planetary drive" in cells and "crank-rocker" in cells
     assert "1000 m/s² (× 6.00)" in cells and "262.6 mm (× 4.74)" in cells
-    timed = [line for box in drawn(example())["comparison"]["shapes"] for line in box["lines"]]
+    timed = [line for box in drawn(example())["comparison"].shapes for line in box.lines]
     assert "42.56 ms of 72 ms" in timed
     assert "0.7894 (× 1.00)" in cells and "6815 m/s² (× 1.00)" in cells
     assert "crank-rocker is gentlest on the paper, and its acceleration is allowed" in " ".join(cells)
     assert "6.00 = 4.74 (stroke) × 1.27 (factor); mostly its stroke." in " ".join(cells)
-    alone = [line for box in drawn(knife(**PLANETARY))["comparison"]["shapes"] for line in box["lines"]]
+    alone = [line for box in drawn(knife(**PLANETARY))["comparison"].shapes for line in box.lines]
     assert "262.6 mm" in alone
 
 
@@ -222,8 +221,8 @@ def test_the_drawn_linkage_has_its_lengths_and_its_edge_travels_down_to_the_tabl
     keys: dict[str, Any],
 ) -> None:
     calc = knife(**keys)
-    chains = [np.array(s["points"]) for s in drawn(calc)["crank_rocker_drive"]["shapes"]
-              if s["shape"] == "polyline" and len(s["points"]) == 5]  # fmt: skip
+    chains = [np.array(s.points) for s in drawn(calc)["crank_rocker_drive"].shapes
+              if s.shape == "polyline" and len(s.points) == 5]  # fmt: skip
     assert len(chains) == 3
     for chain in chains:
         lengths = [float(np.hypot(*(two - one))) for one, two in pairwise(chain)]
@@ -236,8 +235,8 @@ def test_the_drawn_linkage_has_its_lengths_and_its_edge_travels_down_to_the_tabl
 
 @pytest.mark.parametrize("drive, links", [("planetary", [65.656, 65.656]), ("crank_slider", [35, 140, 80])])
 def test_the_drawn_straight_line_drives_have_their_lengths(drive: str, links: list[float]) -> None:
-    shapes = drawn(knife(**PLANETARY, **SLIDER))[f"{drive}_drive"]["shapes"]
-    chains = [np.array(s["points"]) for s in shapes if s["shape"] == "polyline" and len(s["points"]) == len(links) + 1]
+    shapes = drawn(knife(**PLANETARY, **SLIDER))[f"{drive}_drive"].shapes
+    chains = [np.array(s.points) for s in shapes if s.shape == "polyline" and len(s.points) == len(links) + 1]
     for chain in chains:
         assert [1e3 * float(np.hypot(*(b - a))) for a, b in pairwise(chain)] == pytest.approx(links)
     contact, _, lowest = (chain[-1] for chain in chains)

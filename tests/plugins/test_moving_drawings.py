@@ -13,8 +13,8 @@ import pytest
 from diecut_report.config.plugins import Discovery
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
-from diecut_report.machine.figure_views import FRAMES
 from diecut_report.mechanism.figures import Drawing
+from diecut_report.results.figure_views import FRAMES
 from tests.machines import drive, number
 from tests.plugins.followers import follower, integrated, law_stretches
 from tests.plugins.knives import knife as circular_knife

@@ -17,8 +17,9 @@ from scipy.optimize import brentq
 from diecut_report.config.plugins import Discovery
 from diecut_report.machine.calculation import Calculation
 from diecut_report.press import Press
+from diecut_report.results.figure_record import FigureRecord
 from diecut_report.results.mechanism import mechanism_results
-from diecut_report.results.mechanism_record import FigureRecord, ShownRecord
+from diecut_report.results.mechanism_record import ShownRecord
 from tests.configs import EXAMPLES
 from tests.examples import examples
 from tests.machines import number
@@ -275,7 +276,7 @@ def figure(calc: Calculation, name: str) -> FigureRecord:
 
 def test_the_printed_torque_stands_in_the_figure_of_the_sources_machine_alone() -> None:
     levels = [
-        [level["label"] for level in figure(platen(**change), "source").panels[0]["levels"]]
+        [level.label for level in figure(platen(**change), "source").panels[0].levels]
         for change in ({}, {"platen_mass": 300})
     ]
     assert levels == [["printed"], []]
@@ -283,19 +284,19 @@ def test_the_printed_torque_stands_in_the_figure_of_the_sources_machine_alone() 
 
 def test_the_figure_of_forces_adds_the_friction_of_the_guides_against_the_motion() -> None:
     calc = platen(**GUIDED)
-    lines = figure(calc, "forces").panels[0]["lines"]
-    phi = np.array(lines[0]["x"])
-    added = np.array(lines[1]["y"]) - np.array(lines[0]["y"])
+    lines = figure(calc, "forces").panels[0].lines
+    phi = np.array(lines[0].x)
+    added = np.array(lines[1].y) - np.array(lines[0].y)
     press = 2 * 0.1 * np.abs(at(calc, "force", phi) * 0.005 - MASS * 9.80665 * 0.02) / 0.4
     stands = (phi >= 0) & (phi < number(calc, "dwell_end_angle"))
     keep = np.abs(phi - number(calc, "dwell_end_angle")) > 1e-3
     np.testing.assert_allclose(added[keep], np.where(stands, 0, -np.sign(phi) * press)[keep], atol=1e-6)
-    assert len(figure(platen(), "forces").panels[0]["lines"]) == 1
+    assert len(figure(platen(), "forces").panels[0].lines) == 1
 
 
 def test_no_peak_is_marked_where_it_lies_outside_the_cut() -> None:
     panels = [figure(platen(platen_mass=m), name).panels[-1] for m in (306, 2e8) for name in ("source", "cutting")]
-    assert [[mark["label"] for mark in panel.get("marks", [])] for panel in panels] == [
+    assert [[mark.label for mark in panel.marks] for panel in panels] == [
         ["corrected", "eq. 14"], ["maximum"], [], []]  # fmt: skip
 
 
@@ -306,11 +307,11 @@ def test_all_figures_are_drawn_for_a_machine_of_other_proportions() -> None:
 
 
 def test_the_figure_over_the_thickness_has_the_peaks_of_single_machines() -> None:
-    lines = figure(platen(), "thickness").panels[0]["lines"]
+    lines = figure(platen(), "thickness").panels[0].lines
     for i in (0, 40, 92):
-        single = platen(material_thickness=lines[0]["x"][i] * 1e3)
-        assert lines[0]["y"][i] == pytest.approx(number(single, "torque_max"), rel=1e-9)
-        assert lines[1]["y"][i] == pytest.approx(number(single, "torque_max_source"), rel=1e-9)
+        single = platen(material_thickness=lines[0].x[i] * 1e3)
+        assert lines[0].y[i] == pytest.approx(number(single, "torque_max"), rel=1e-9)
+        assert lines[1].y[i] == pytest.approx(number(single, "torque_max_source"), rel=1e-9)
 
 
 def test_the_example_is_the_sources_machine() -> None:

@@ -176,16 +176,12 @@ def test_the_outputs_of_the_method_are_there() -> None:
 def test_the_drawn_belt_is_a_closed_line_of_the_belt_s_length() -> None:
     calc = belt(IDLER)
     figures = {figure.id: figure.shapes for figure in mechanism_results(calc, {}).figures}
-    lines = [s for s in figures["toothed_belt_layout"] if s.get("role") == "link"]
-    runs = [np.array(s["points"]) for s in lines if s["shape"] == "polyline"]
-    arcs = [s for s in lines if s["shape"] == "arc"]
-    drawn = sum(float(np.hypot(*(b - a))) for a, b in runs) + sum(s["radius"] * (s["end"] - s["start"]) for s in arcs)
+    lines = [s for s in figures["toothed_belt_layout"] if getattr(s, "role", "") == "link"]
+    runs = [np.array(s.points) for s in lines if s.shape == "polyline"]
+    arcs = [s for s in lines if s.shape == "arc"]
+    drawn = sum(float(np.hypot(*(b - a))) for a, b in runs) + sum(s.radius * (s.end - s.start) for s in arcs)
     assert drawn == pytest.approx(number(calc, "toothed_belt_length"), rel=1e-12)
-    rims = [
-        np.add(s["center"], s["radius"] * np.array([np.cos(a), np.sin(a)]))
-        for s in arcs
-        for a in (s["start"], s["end"])
-    ]
+    rims = [np.add(s.center, s.radius * np.array([np.cos(a), np.sin(a)])) for s in arcs for a in (s.start, s.end)]
     ends = np.concatenate(runs)
     for rim in rims:
         assert np.min(np.hypot(*(ends - rim).T)) < 1e-12
@@ -193,7 +189,7 @@ def test_the_drawn_belt_is_a_closed_line_of_the_belt_s_length() -> None:
 
 def test_the_pulleys_are_drawn_with_their_numbers_and_wraps() -> None:
     figures = {figure.id: figure.shapes for figure in mechanism_results(belt(IDLER), {}).figures}
-    labels = [shape["label"] for shape in figures["toothed_belt_layout"] if shape["shape"] == "point"]
+    labels = [shape.text for shape in figures["toothed_belt_layout"] if shape.shape == "point"]
     assert labels == ["1: 196.0°, driving", "2: 196.0°", "3: 32.01°"]
 
 

@@ -164,15 +164,13 @@ def test_the_chart_of_all_sweeps_is_what_machines_with_them_do() -> None:
     """Stop and start ask for most where the sweep is narrow, the return where it is wide."""
     data = results(cam(dwell_angle="150 deg"), geneva())
     (chart,) = (figure for figure in data.figures if figure.id == "same_dwell")
-    stopping, returning = chart.panels[0]["lines"]
-    (speed,) = chart.panels[1]["lines"]
+    stopping, returning = chart.panels[0].lines
+    (speed,) = chart.panels[1].lines
     for place, governing in ((0, stopping), (20, stopping), (120, returning), (180, returning)):
-        built = dwelling(sector_stop_sweep=f"{governing['x'][place]!r} rad", n_points=36)
+        built = dwelling(sector_stop_sweep=f"{governing.x[place]!r} rad", n_points=36)
         peak = number(built, "gear_acceleration_peak") * 0.6**2 / (2 * np.pi)
-        assert (
-            governing["y"][place] == max(stopping["y"][place], returning["y"][place]) == pytest.approx(peak, rel=1e-9)
-        )
-        assert speed["y"][place] == pytest.approx(number(built, "gear_speed_ratio_peak"), rel=1e-9)
+        assert governing.y[place] == max(stopping.y[place], returning.y[place]) == pytest.approx(peak, rel=1e-9)
+        assert speed.y[place] == pytest.approx(number(built, "gear_speed_ratio_peak"), rel=1e-9)
 
 
 @examples(25)

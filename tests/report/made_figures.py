@@ -7,7 +7,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.results.mechanism_record import FigureRecord
+from diecut_report.results.figure_record import FigureRecord
 
 Data = dict[str, Any]
 Point = tuple[float, float]

@@ -17,7 +17,8 @@ from diecut_report.report.figures.diagram import STROKES, Diagram, legend
 from diecut_report.report.figures.labels import LabelLayout, PanelData, framed, pieces
 from diecut_report.report.figures.style import SizesSize, overlap, text_size
 from diecut_report.report.text import Catalogue
-from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
+from diecut_report.results.figure_record import FigureRecord, LevelRecord, PlotPanelRecord
+from diecut_report.results.mechanism_record import CurveRecord
 from tests.records import filled
 from tests.report.made_figures import CHARTS, block, chart, energy, laws, line, panel, wedge
 
@@ -130,9 +131,9 @@ def test_panels_of_the_same_lines_share_a_legend_in_rows() -> None:
 
 def test_a_panel_names_in_its_legend_only_what_the_first_does_not() -> None:
     figure = laws()
-    bounds = [{"value": 0.5, "label": "a bound whose long name has room nowhere among so many lines"}]
+    bounds = [LevelRecord(value=0.5, label="a bound whose long name has room nowhere among so many lines")]
     whole, bounded, last = figure.panels
-    bounded = bounded | {"levels": bounds, "lines": bounded["lines"][:5]}
+    bounded = bounded.with_(levels=bounds, lines=bounded.lines[:5])
     figure = figure.with_(panels=[whole, bounded, last])
     first, second, _ = (Diagram(each, 400, 20) for each in diagrams(figure, {}, WORDS))
     before = list(second.told)
@@ -241,16 +242,9 @@ def test_no_room_is_wasted_below_zero() -> None:
 def test_level_beyond_a_curve_is_seen() -> None:
     time = {"values": [0.0, 1.0, 2.0], "unit": "s", "display_unit": "s", "description": "Time", "symbol": "t"}
     force = filled(CurveRecord, {"values": [1.0, 2.0, 1.0], "unit": "N"})
-    level = {"value": 9.0, "label": "allowed"}
-    figure = {
-        "title": "Force",
-        "unit": "N",
-        "series": [{"curve": "f", "label": "F"}],
-        "levels": [level],
-        "marks": [],
-        "spans": [],
-    }
-    drawn = _of_curves(figure, {"f": force}, filled(CurveRecord, time), WORDS)
+    series, levels = [{"curve": "f", "label": "F"}], [{"value": 9.0, "label": "allowed"}]
+    own = PlotPanelRecord(title="Force", unit="N", series=series, levels=levels, marks=[], spans=[])
+    drawn = _of_curves(own, {"f": force}, filled(CurveRecord, time), WORDS)
     assert drawn.heights[0] < 0 < 9 < drawn.heights[1]
 
 

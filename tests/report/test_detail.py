@@ -25,7 +25,8 @@ from diecut_report.report.rendering import Rendering, render_html
 from diecut_report.report.scope import scope
 from diecut_report.report.text import number
 from diecut_report.results.document import document
-from diecut_report.results.mechanism_record import FigureRecord, MechanismRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import MechanismRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.results.press_run import compute
 from diecut_report.text.phrases import worded

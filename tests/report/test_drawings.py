@@ -25,7 +25,7 @@ from diecut_report.report.figures.drawing import (
 )
 from diecut_report.report.figures.style import MM, SizesSize, marked, overlap, text_size
 from diecut_report.report.text import Catalogue
-from diecut_report.results.mechanism_record import FigureRecord
+from diecut_report.results.figure_record import BoxRecord, FigureRecord
 from tests.examples import few
 from tests.report.made_figures import (
     DRAWINGS,
@@ -88,7 +88,7 @@ def test_arrow_between_the_middles_of_boxes_runs_from_edge_to_edge() -> None:
     boxes = [box((0, 0), (1, 1), "a"), box((3, 0), (1, 1), "b")]
     sheet = _sheet(drawing("x", "x", [*boxes, arrow((0, 0), (3, 0))], "1", schematic=True))
     [shaft] = sheet.axes.lines
-    half = filled(boxes[0], sheet.scale)[1][0] / 2
+    half = filled(sheet.shapes[0], sheet.scale)[1][0] / 2
     x = np.asarray(shaft.get_xdata())
     assert x[0] == pytest.approx(half)
     assert half < x[1] < 3 * sheet.scale.across - half
@@ -111,11 +111,11 @@ def test_way_out_of_a_box(start: Any, end: Any, left: Any) -> None:
 )
 def test_text_fits_its_box_and_can_be_read(figure: FigureRecord) -> None:
     sheet = _sheet(figure)
-    boxes = [shape for shape in figure.shapes if shape["shape"] == "box"]
+    boxes = [shape for shape in figure.shapes if isinstance(shape, BoxRecord)]
     for shape in boxes:
         lines, size = filled(shape, sheet.scale)
         assert (content(lines, sheet.scale.text) + PAD <= size + 1e-9).all()
-        assert " ".join(lines) == " ".join(shape["lines"])  # nothing is lost
+        assert " ".join(lines) == " ".join(shape.lines)  # nothing is lost
     assert sheet.scale.text in SIZES and min(SIZES) >= 6.5
 
 

@@ -17,7 +17,8 @@ from diecut_report.report.figures.charts import bars, polar
 from diecut_report.report.figures.drawing import hatching
 from diecut_report.report.figures.style import Labels, marked
 from diecut_report.report.text import Catalogue
-from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord
 from tests.records import filled
 from tests.report.made_results import typed
 
@@ -185,8 +186,9 @@ def test_bars_stand_in_rows_where_names_and_titles_leave_no_room_beside_each_oth
         one = {
             "bars": [{"label": f"{name} 1", "value": 5.0}, {"label": f"{name} 2", "value": 6.0}],
             "label": "Safety factors",
+            "unit": "1",
         }
-        return filled(FigureRecord, {"type": "bars", "unit": "1", "groups": [one] * 4})
+        return filled(FigureRecord, {"type": "bars", "groups": [one] * 4})
 
     def rows(name: str) -> int:
         return len({round(axes.get_position().y1, 3) for axes in bars(groups(name), {}, WORDS).axes})

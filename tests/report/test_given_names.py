@@ -69,4 +69,4 @@ def test_a_name_that_is_a_word_of_the_catalogue_is_not_translated(plain: Data) -
     one = typed({**plain, "mechanisms": {"cylinder": data}, "comparisons": {}})
     said = translated(one, catalogues).mechanisms["cylinder"]
     assert said.inputs["lines.0.name"].display.text == "drive"
-    assert said.figures[0].panels[0]["series"][0]["label"] == "drive"
+    assert said.figures[0].panels[0].series[0].label == "drive"

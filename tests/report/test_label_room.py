@@ -23,7 +23,8 @@ from diecut_report.report.figures.labels import AWAY, Across, LabelLayout, Line,
 from diecut_report.report.figures.style import SizesSize, load_fonts, text_size, wrapped
 from diecut_report.report.figures.style import style as style_of
 from diecut_report.report.text import Catalogue, translated
-from diecut_report.results.mechanism_record import CurveRecord, FigureRecord, MechanismRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import CurveRecord, MechanismRecord
 from diecut_report.results.model import ResultsRecord
 from diecut_report.text.catalogues import Catalogues
 from tests.configs import EXAMPLES

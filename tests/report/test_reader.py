@@ -27,7 +27,8 @@ from diecut_report.report.reader_data import (
 )
 from diecut_report.report.rendering import Rendering
 from diecut_report.report.text import Catalogue
-from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
+from diecut_report.results.figure_record import CircleRecord, FigureRecord, MovedRecord
+from diecut_report.results.mechanism_record import CurveRecord
 from tests.records import filled
 from tests.report.made_results import typed
 
@@ -220,11 +221,11 @@ def test_a_moving_drawing_has_the_numbers_of_its_shapes_at_each_place() -> None:
     pins = [[math.cos(a), math.sin(a)] for a in angles]
     spoke = {"shape": "polyline", "points": [[0.0, 0.0], [2.0, 0.0]], "closed": False, "role": "body"}
     pool = ReaderRows()
-    crank = _shape(
-        {"shape": "polyline", "role": "link", "closed": False, "moves": [[0.0, 0.0, *pin] for pin in pins]}, pool
-    )
-    wheel = _shape({"shape": "rigid", "shapes": [spoke], "moves": [[0.0, 5.0, a - math.pi / 2] for a in angles]}, pool)
-    still = _shape({"shape": "circle", "center": [1.0, 2.0], "radius": 0.123456789, "role": "ghost"}, pool)
+    moves = [[0.0, 0.0, *pin] for pin in pins]
+    crank = _shape(MovedRecord(shape="polyline", role="link", closed=False, moves=moves), pool)
+    moves = [[0.0, 5.0, a - math.pi / 2] for a in angles]
+    wheel = _shape(MovedRecord(shape="rigid", shapes=[spoke], moves=moves), pool)
+    still = _shape(CircleRecord(shape="circle", center=[1.0, 2.0], radius=0.123456789, role="ghost"), pool)
     assert [pool.rows[row] for row in crank["rows"]] == [[0], [0], [1, 0, -1], [0, 1, 0]]
     assert [pool.rows[row] for row in wheel["rows"]] == [[0], [5], [-90, 0, 90]]
     assert wheel["shapes"][0]["numbers"] == [0, 0, 2, 0] and still["numbers"] == [1, 2, 0.1235]
@@ -232,11 +233,8 @@ def test_a_moving_drawing_has_the_numbers_of_its_shapes_at_each_place() -> None:
 
 def test_a_moving_drawing_has_room_for_all_that_it_ever_reaches() -> None:
     spoke = {"shape": "polyline", "points": [[0.0, 0.0], [2.0, 0.0]], "closed": False, "role": "body"}
-    wheel = {
-        "shape": "rigid",
-        "shapes": [spoke],
-        "moves": [[1.0, 0.0, angle] for angle in np.linspace(0, 2 * math.pi, 73)],
-    }
-    roller = {"shape": "circle", "role": "mark", "moves": [[0.0, 3.0, 1.0], [0.0, 1.0, 1.0]]}
+    turns = [[1.0, 0.0, angle] for angle in np.linspace(0, 2 * math.pi, 73)]
+    wheel = MovedRecord(shape="rigid", shapes=[spoke], moves=turns)
+    roller = MovedRecord(shape="circle", role="mark", moves=[[0.0, 3.0, 1.0], [0.0, 1.0, 1.0]])
     left, top, width, height = _room([wheel, roller])
     assert np.allclose([left, top, width, height], [-1.18, -4.18, 4.36, 6.36])

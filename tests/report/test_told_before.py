@@ -10,7 +10,8 @@ from diecut_report.report.chapters.steps import Place, Placed, rows_of
 from diecut_report.report.chapters.tables import brought_together
 from diecut_report.report.model import Item, ListedNumbers, PrintedChapter
 from diecut_report.report.rendering import Rendering
-from diecut_report.results.mechanism_record import FigureRecord, ItemRecord, SectionRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import ItemRecord, SectionRecord
 from tests.records import filled
 from tests.report.made_results import typed
 

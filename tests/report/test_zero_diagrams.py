@@ -7,7 +7,8 @@ from typing import Any
 from diecut_report.report.chapters.repetition import without_zero_diagrams
 from diecut_report.report.chapters.steps import BEFORE, Place, Placed, told_once
 from diecut_report.report.text import Catalogue
-from diecut_report.results.mechanism_record import FigureRecord, MechanismRecord
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.mechanism_record import MechanismRecord
 from tests.records import filled
 
 WORDS = Catalogue("en")
@@ -34,7 +35,7 @@ def machine(*panels: dict[str, Any]) -> MechanismRecord:
 
 def test_a_diagram_that_is_zero_everywhere_is_a_sentence_of_the_caption() -> None:
     [figure] = without_zero_diagrams(machine(panel("Torque", "torque"), panel("Moment", "moment")), WORDS).figures
-    assert [each["title"] for each in figure.panels] == ["Moment"]
+    assert [each.title for each in figure.panels] == ["Moment"]
     assert figure.caption == "Over the shaft. Torque: 0 everywhere."
 
 

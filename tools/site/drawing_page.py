@@ -22,7 +22,7 @@ from diecut_report.api import (
 from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.style import SizesSize, drawn
 from diecut_report.report.text import Catalogue
-from diecut_report.results.mechanism_record import FigureRecord
+from diecut_report.results.figure_record import FigureRecord
 from tools.site.markup import html, plain
 
 WORDS = Catalogue("en")
@@ -96,6 +96,6 @@ def _gallery(each: Iterator[tuple[str, str, str, Sequence[Shape]]]) -> Iterator[
 
 def picture(key: str, title: str, shapes: Sequence[Shape]) -> str:
     """Return shapes as SVG, as a drawing of a report is drawn."""
-    shown = [dict(shape) for shape in shapes]
-    figure = FigureRecord(type="drawing", id="", title=title, caption="", shapes=shown, unit="mm", schematic=True)
+    told = {"type": "drawing", "id": "", "title": title, "caption": "", "unit": "mm", "schematic": True}
+    figure = FigureRecord(**told, shapes=[dict(shape) for shape in shapes])
     return drawn(partial(drawing, figure, {}, WORDS, SizesSize.HALF), title, key).text

@@ -11,10 +11,10 @@ from typing import Any, NamedTuple
 from diecut_report.quantities.formatting import is_nothing
 from diecut_report.report.equations import Equation, Equations
 from diecut_report.report.text import Catalogue, quantity
+from diecut_report.results.figure_record import FigureRecord, Panel
 from diecut_report.results.mechanism_record import (
     ConversionRecord,
     CurveRecord,
-    FigureRecord,
     ItemRecord,
     MechanismRecord,
     PartRecord,
@@ -292,9 +292,6 @@ def counted(rows: Mapping[str, QuantityRecord]) -> dict[str, int]:
 # Diagrams in which all is zero: a sentence says that, and nothing is drawn.
 
 
-NOTED = ("levels", "marks", "verticals", "fills")  # what a diagram may tell beside its lines
-
-
 def without_zero_diagrams(mechanism: MechanismRecord, words: Catalogue) -> MechanismRecord:
     """Return a mechanism whose figures draw what is not zero everywhere; what is stands as a sentence in the caption, or as a note."""
     figures: list[FigureRecord] = []
@@ -302,7 +299,7 @@ def without_zero_diagrams(mechanism: MechanismRecord, words: Catalogue) -> Mecha
     for figure in mechanism.figures:
         flat = [panel for panel in figure.panels if _is_flat(panel, mechanism.curves)]
         left = [panel for panel in figure.panels if panel not in flat]
-        told = words.say("zero_everywhere", names="; ".join(dict.fromkeys(panel["title"] for panel in flat)))
+        told = words.say("zero_everywhere", names="; ".join(dict.fromkeys(panel.title for panel in flat)))
         if flat and not left:
             notes.append((figure, ItemRecord(type="note", text=told)))
         elif flat:
@@ -312,13 +309,13 @@ def without_zero_diagrams(mechanism: MechanismRecord, words: Catalogue) -> Mecha
     return mechanism.with_(figures=figures, sections=_noted(mechanism.sections, notes))
 
 
-def _is_flat(panel: Mapping[str, Any], curves: Mapping[str, CurveRecord]) -> bool:
+def _is_flat(panel: Panel, curves: Mapping[str, CurveRecord]) -> bool:
     """Whether all lines of a diagram are zero, and nothing else stands in it."""
-    if not panel["title"] or any(panel.get(kind) for kind in NOTED):
+    if not panel.title or panel.levels or panel.marks or panel.verticals or panel.fills:
         return False
-    rows: list[Sequence[float | None]] = [curves[series["curve"]].values for series in panel.get("series", ())]
-    rows += [line["y"] for line in panel.get("lines", ())]
-    return bool(rows) and all(is_nothing(value, panel["unit"]) for row in rows for value in row if value is not None)
+    rows: list[Sequence[float | None]] = [curves[series.curve].values for series in panel.series]
+    rows += [line.y for line in panel.lines]
+    return bool(rows) and all(is_nothing(value, panel.unit) for row in rows for value in row if value is not None)
 
 
 def _noted(sections: Sequence[SectionRecord], notes: Sequence[tuple[FigureRecord, ItemRecord]]) -> list[SectionRecord]:

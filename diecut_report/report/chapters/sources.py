@@ -10,7 +10,7 @@ from diecut_report.results.record import TextRole
 
 PAPER = re.compile(r"\d{3}")
 BRACKETS = re.compile(r"\((\[\d+\])\)")  # about the brackets of a number
-CITING = (TextRole.TEXT, TextRole.SOURCE)
+CITING = (TextRole.TEXT, TextRole.DRAWN, TextRole.SOURCE)
 
 
 def numbered(results: ResultsRecord) -> ResultsRecord:

@@ -15,14 +15,8 @@ from diecut_report.report.chapters.value_tables import ValueRow, listed_row, val
 from diecut_report.report.equations import Equations
 from diecut_report.report.model import Heading, Item, ListedNumbers, PrintedSection, Step, gathered_notes
 from diecut_report.report.text import Catalogue, in_words, is_words, quantity
-from diecut_report.results.mechanism_record import (
-    FigureRecord,
-    ItemRecord,
-    MechanismRecord,
-    PlaceRecord,
-    SectionRecord,
-    ShownRecord,
-)
+from diecut_report.results.figure_record import FigureRecord, Panel
+from diecut_report.results.mechanism_record import ItemRecord, MechanismRecord, PlaceRecord, SectionRecord, ShownRecord
 from diecut_report.text.phrases import worded
 
 # Where the figures of a chapter stand: after the step that gives what they show, numbered in that order.
@@ -100,14 +94,8 @@ def rows_of(figures: list[Placed], *, paired: bool) -> list[Row]:
 
 def _is_narrow(figure: FigureRecord) -> bool:
     """Whether a figure can be drawn half as wide as a sheet: it has few diagrams, no bars, no scheme of boxes, no long legend, few names within."""
-    names = [
-        sum(len(line.get("label", "")) for key in ("lines", "fills", "series") for line in panel.get(key, ()))
-        for panel in figure.panels
-    ]
-    marked = [
-        sum(len(mark["label"]) + VALUE for mark in panel.get("marks", ()) if mark.get("label"))
-        for panel in figure.panels
-    ]
+    names = [sum(map(len, _labels(panel.lines, panel.fills, panel.series))) for panel in figure.panels]
+    marked = [sum(len(label) + VALUE for label in _labels(panel.marks)) for panel in figure.panels]
     is_large = len(figure.panels) >= MANY or _most_lines(figure) > MOST_LINES
     if figure.type == "bars" or figure.schematic or is_large:
         return False
@@ -117,17 +105,17 @@ def _is_narrow(figure: FigureRecord) -> bool:
 
 def _most_lines(figure: FigureRecord) -> int:
     """How many lines a diagram of the figure has that a legend names."""
-    named = [
-        sum(bool(line.get("label")) for key in ("lines", "series") for line in panel.get(key, ()))
-        for panel in figure.panels
-    ]
-    return max(named, default=0)
+    return max((len(_labels(panel.lines, panel.series)) for panel in figure.panels), default=0)
 
 
-def _notes(panel: Mapping[str, Any]) -> int:
+def _notes(panel: Panel) -> int:
     """How many names stand within a diagram, beside those of its lines."""
-    kinds = ("marks", "levels", "verticals", "fills")
-    return sum(bool(note.get("label")) for kind in kinds for note in panel.get(kind, ()))
+    return len(_labels(panel.marks, panel.levels, panel.verticals, panel.fills))
+
+
+def _labels(*parts: Sequence[Any]) -> list[str]:
+    """The names of parts of a diagram."""
+    return [each.label for several in parts for each in several if each.label]
 
 
 def _are_near(one: Place, other: Place) -> bool:
@@ -151,13 +139,9 @@ def row_item(row: Row) -> Item:
 
 def sketch(figures: list[Placed]) -> list[Placed]:
     """Return the one figure of a mechanism that a brief report shows: a drawing of few texts, if one can be to scale; others would be too small."""
-    drawn = [each for each in figures if each.figure.type == "drawing" and _texts(each.figure) <= SKETCHED_TEXTS]
+    drawn = [each for each in figures if each.figure.type == "drawing" and len(each.figure.texts) <= SKETCHED_TEXTS]
     to_scale = [each for each in drawn if not each.figure.schematic]
     return (to_scale or drawn)[:1]
-
-
-def _texts(figure: FigureRecord) -> int:
-    return sum("text" in shape or "label" in shape for shape in figure.shapes)
 
 
 UNPRINTED_RESIDUAL = "0"

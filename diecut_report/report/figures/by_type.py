@@ -11,7 +11,7 @@ import matplotlib as mpl
 from matplotlib.backends.backend_agg import FigureCanvasAgg
 from matplotlib.figure import Figure
 
-from diecut_report.report.figures.charts import bars, chart, plot, polar, tornado_of
+from diecut_report.report.figures.charts import bars, chart, polar, tornado_of
 from diecut_report.report.figures.drawing import drawing
 from diecut_report.report.figures.style import SizesSize, Svg, canvas, drawn, load_fonts, plain, style, text_size
 from diecut_report.report.model import Drawn
@@ -22,7 +22,7 @@ from diecut_report.results.mechanism_record import CurveRecord
 
 
 DRAW: dict[str, Callable[..., Any]] = {
-    "plot": plot,
+    "plot": chart,
     "chart": chart,
     "polar": polar,
     "bars": bars,
@@ -73,11 +73,15 @@ def raster(
     load_fonts()
     with mpl.rc_context(style(key)):  # type: ignore[arg-type]  # a plain dictionary is one too
         drawn = build(figure, curves, words, size)
-        FigureCanvasAgg(drawn)
-        content = io.BytesIO()
-        drawn.savefig(content, format="png", dpi=DENSITY, metadata={"Software": None}, facecolor="white")
         width, height = (float(side) * 72 for side in drawn.get_size_inches())
-    return Raster(content.getvalue(), width, height)
+        return Raster(_png(drawn), width, height)
+
+
+def _png(drawn: Figure) -> bytes:
+    FigureCanvasAgg(drawn)
+    content = io.BytesIO()
+    drawn.savefig(content, format="png", dpi=DENSITY, metadata={"Software": None}, facecolor="white")
+    return content.getvalue()
 
 
 def raster_of_text(text: str, width: float, height: float) -> Raster:
@@ -88,7 +92,4 @@ def raster_of_text(text: str, width: float, height: float) -> Raster:
         wide, high = text_size(plain(text), LARGEST)
         size = LARGEST * min(1.0, MARGIN * width / max(wide, 1.0), MARGIN * height / max(high, 1.0))
         drawn.text(0.5, 0.5, plain(text), size=size, ha="center", va="center")
-        FigureCanvasAgg(drawn)
-        content = io.BytesIO()
-        drawn.savefig(content, format="png", dpi=DENSITY, metadata={"Software": None}, facecolor="white")
-    return Raster(content.getvalue(), width, height)
+        return Raster(_png(drawn), width, height)

@@ -34,9 +34,17 @@ from diecut_report.report.figures.style import (
 )
 from diecut_report.report.model import TornadoFigure
 from diecut_report.report.text import Catalogue, displayed, joined, number, sentence, significant
-from diecut_report.results.mechanism_record import CurveRecord, FigureRecord
+from diecut_report.results.figure_record import (
+    BarGroupRecord,
+    ChartPanelRecord,
+    FigureRecord,
+    LevelRecord,
+    LineRecord,
+    MarkRecord,
+    PlotPanelRecord,
+)
+from diecut_report.results.mechanism_record import CurveRecord
 
-Data = Mapping[str, Any]
 Array = NDArray[Any]
 LEFT, RIGHT, TOP = 46.0, 10.0, 6.0  # points
 FOOT, NAMED_FOOT = 8.0, 34.0  # below a diagram: without and with its numbers and their title
@@ -49,32 +57,23 @@ MANY = 4
 PAGE = 650.0  # no chart is higher
 
 
-def plot(
-    figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue, size: SizesSize = SizesSize.LARGE
-) -> Figure:
-    """Curves of the results, over a common abscissa."""
-    return _sheet(diagrams(figure, curves, words), words, size)
-
-
 def chart(
     figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue, size: SizesSize = SizesSize.LARGE
 ) -> Figure:
-    """Lines that the figure brings itself, each diagram over what it likes."""
-    return _sheet(diagrams(figure, curves, words), words, size)
+    """The diagrams of a plot or a chart, one below the other; on a sheet that is to be saved many stand two by two."""
+    panels = diagrams(figure, curves, words)
+    is_low = size is SizesSize.LOW and len(panels) >= MANY
+    return _side_by_side(panels, words) if is_low else _column(panels, words, size)
 
 
 def diagrams(figure: FigureRecord, curves: Mapping[str, CurveRecord], words: Catalogue) -> list[PanelData]:
     """What the diagrams of a plot or a chart hold, from top to bottom."""
-    if figure.type == "plot":
-        return [_of_curves(panel, curves, curves[figure.abscissa], words) for panel in figure.panels]
-    return [_of_lines(panel, words) for panel in figure.panels]
-
-
-def _sheet(panels: list[PanelData], words: Catalogue, size: SizesSize) -> Figure:
-    """All diagrams, one below the other; on a sheet that is to be saved many stand two by two."""
-    return (
-        _side_by_side(panels, words) if size is SizesSize.LOW and len(panels) >= MANY else _column(panels, words, size)
-    )
+    return [
+        _of_lines(panel, words)
+        if isinstance(panel, ChartPanelRecord)
+        else _of_curves(panel, curves, curves[figure.abscissa], words)
+        for panel in figure.panels
+    ]
 
 
 def _side_by_side(panels: list[PanelData], words: Catalogue) -> Figure:
@@ -133,60 +132,62 @@ def _named_once(drawn: list[Diagram]) -> list[Diagram]:
     return [diagram.naming({key for key, i in kept.items() if i == index}) for index, diagram in enumerate(drawn)]
 
 
-def _of_curves(panel: Data, curves: Mapping[str, CurveRecord], over: CurveRecord, words: Catalogue) -> PanelData:
+def _of_curves(
+    panel: PlotPanelRecord, curves: Mapping[str, CurveRecord], over: CurveRecord, words: Catalogue
+) -> PanelData:
     """A panel of curves, over a whole turn where the abscissa is one."""
-    shown, across = panel["unit"], over.display_unit
+    shown, across = panel.unit, over.display_unit
     period = period_of(over)
     end = over.values[0] + period if period else over.values[-1]
     lines = []
-    for series in panel["series"]:
-        x, y = continuous(curves[series["curve"]], over, period)
-        lines.append(Line(x / unit(across).factor, y / unit(shown).factor, series["label"]))
+    for series in panel.series:
+        x, y = continuous(curves[series.curve], over, period)
+        lines.append(Line(x / unit(across).factor, y / unit(shown).factor, series.label))
     factor = unit(across).factor
     return PanelData(
-        title=panel["title"],
+        title=panel.title,
         unit=shown,
         across=Across(sentence(over.description), over.symbol, across, *(to_display(v, across) for v in (over.values[0], end))),
         lines=lines,
-        marks=[_mark(mark, across, shown, words) for mark in panel["marks"]],
-        levels=[_level(level, shown, words) for level in panel["levels"]],
-        spans=[SpanData(span["from"] / factor, span["to"] / factor, span["label"]) for span in panel["spans"]],
+        marks=[_mark(mark, across, shown, words) for mark in panel.marks],
+        levels=[_level(level, shown, words) for level in panel.levels],
+        spans=[SpanData(span.start / factor, span.end / factor, span.label) for span in panel.spans],
         zero=True,
-        limits=limits_of(panel.get("range"), shown),
+        limits=limits_of(panel.range, shown),
     )  # fmt: skip
 
 
-def _of_lines(panel: Data, words: Catalogue) -> PanelData:
+def _of_lines(panel: ChartPanelRecord, words: Catalogue) -> PanelData:
     """A panel of lines of its own, as far across as they reach."""
-    shown, over = panel["unit"], panel["x"]
-    across = over["unit"]
-    lines, fills = ([_line(line, across, shown) for line in panel[key]] for key in ("lines", "fills"))
-    marks = [_mark(mark, across, shown, words) for mark in panel["marks"]]
+    shown, over = panel.unit, panel.x
+    across = over.unit
+    lines, fills = ([_line(line, across, shown) for line in lines] for lines in (panel.lines, panel.fills))
+    marks = [_mark(mark, across, shown, words) for mark in panel.marks]
     factor = unit(across).factor
-    verticals = [Note(line["x"] / factor, 0.0, _phase(line["label"])) for line in panel["verticals"]]
+    verticals = [Note(line.x / factor, 0.0, _phase(line.label)) for line in panel.verticals]
     low, high = range_of([*(line.x for line in (*lines, *fills)), [note.x for note in (*marks, *verticals)]])
     return PanelData(
-        title=panel["title"],
+        title=panel.title,
         unit=shown,
-        across=Across(sentence(over["title"]), over["symbol"], across, low, high if high > low else low + 1),
+        across=Across(sentence(over.title), over.symbol, across, low, high if high > low else low + 1),
         lines=lines,
         fills=fills,
         marks=marks,
-        levels=[_level(level, shown, words) for level in panel["levels"]],
+        levels=[_level(level, shown, words) for level in panel.levels],
         verticals=verticals,
-        limits=limits_of(panel.get("range"), shown),
+        limits=limits_of(panel.range, shown),
     )
 
 
-def _line(line: Data, across: str, shown: str) -> Line:
-    x, y = (np.array([np.nan if v is None else v for v in line[key]], dtype=float) for key in ("x", "y"))
-    return Line(x / unit(across).factor, y / unit(shown).factor, line["label"])
+def _line(line: LineRecord, across: str, shown: str) -> Line:
+    x, y = (np.array(numbers, dtype=float) for numbers in (line.x, line.y))
+    return Line(x / unit(across).factor, y / unit(shown).factor, line.label)
 
 
-def _mark(mark: Data, across: str, shown: str, words: Catalogue) -> Note:
+def _mark(mark: MarkRecord, across: str, shown: str, words: Catalogue) -> Note:
     """A marked point: its name, its value, and its place."""
-    text = f"{marked(mark['label'])} {_value(mark['y'], shown, words)} ({_value(mark['x'], across, words)})"
-    return Note(mark["x"] / unit(across).factor, mark["y"] / unit(shown).factor, text if mark["label"] else "")
+    text = f"{marked(mark.label)} {_value(mark.y, shown, words)} ({_value(mark.x, across, words)})"
+    return Note(mark.x / unit(across).factor, mark.y / unit(shown).factor, text if mark.label else "")
 
 
 def _phase(name: str) -> str:
@@ -194,10 +195,10 @@ def _phase(name: str) -> str:
     return name if name and not set(name) - set("IVX") else marked(name)
 
 
-def _level(level: Data, shown: str, words: Catalogue) -> Note:
+def _level(level: LevelRecord, shown: str, words: Catalogue) -> Note:
     """A level: its name and its value."""
-    text = f"{marked(level['label'])} {_value(level['value'], shown, words)}"
-    return Note(0.0, level["value"] / unit(shown).factor, text)
+    text = f"{marked(level.label)} {_value(level.value, shown, words)}"
+    return Note(0.0, level.value / unit(shown).factor, text)
 
 
 def _value(value: float, shown: str, words: Catalogue) -> str:
@@ -210,39 +211,39 @@ def _value(value: float, shown: str, words: Catalogue) -> str:
 TALL, BESIDE, LEAST = 17.0, 14.0, 56.0  # of a bar with its room, beside a group, and the least width for bars, points
 
 
-def bars(figure: FigureRecord, _curves: Data, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
+def bars(figure: FigureRecord, _curves: Any, words: Catalogue, size: SizesSize = SizesSize.LARGE) -> Figure:
     """Horizontal bars in groups side by side, in rows where they have no room; what is subtracted is hatched."""
     groups, width = figure.groups, WIDTHS[size]
-    rows = _rows(groups, figure.unit, width)
-    below = 8 if all("range" not in group for group in groups) else 20
-    heights = [26 + TALL * max(len(group["bars"]) for group in row) + below for row in rows]
+    rows = _rows(groups, width)
+    below = 20 if any(group.range for group in groups) else 8
+    heights = [26 + TALL * max(len(group.bars) for group in row) + below for row in rows]
     height = 4 + sum(heights)
     sheet, top = canvas(width, height), height - 2
     names = [max(map(_names, column)) for column in zip_longest(*rows, fillvalue=rows[0][0])]
     for row, step in zip(rows, heights, strict=True):
         left = 0.0
         for group, named in zip(row, names, strict=False):
-            room, tall = _room(names, width), TALL * len(group["bars"])
+            room, tall = _room(names, width), TALL * len(group.bars)
             box = (left + named + 4) / width, (top - 22 - tall) / height, room / width, tall / height
-            _group(sheet.add_axes(box), width, group, group.get("unit") or figure.unit, words)
+            _group(sheet.add_axes(box), width, group, words)
             left += named + room + BESIDE
         top -= step
     return sheet
 
 
-def _rows(groups: Sequence[Data], shown: str, width: float) -> list[list[Data]]:
+def _rows(groups: Sequence[BarGroupRecord], width: float) -> list[list[BarGroupRecord]]:
     """The groups in as few rows as leave room for their bars and their titles."""
     for columns in range(len(groups), 1, -1):
         rows = [list(groups[start : start + columns]) for start in range(0, len(groups), columns)]
         room = _room([max(map(_names, column)) for column in zip_longest(*rows, fillvalue=groups[0])], width)
-        if all(max(LEAST, text_size(_title(group, group.get("unit") or shown))[0]) <= room for group in groups):
+        if all(max(LEAST, text_size(_title(group))[0]) <= room for group in groups):
             return rows
     return [[group] for group in groups]
 
 
-def _names(group: Data) -> float:
+def _names(group: BarGroupRecord) -> float:
     """How wide the names of a group's bars are, points."""
-    return max(text_size(plain(bar["label"]))[0] for bar in group["bars"]) + 8
+    return max(text_size(plain(bar.label))[0] for bar in group.bars) + 8
 
 
 def _room(names: Sequence[float], width: float) -> float:
@@ -250,12 +251,12 @@ def _room(names: Sequence[float], width: float) -> float:
     return (width - sum(names) - BESIDE * len(names)) / len(names)
 
 
-def _title(group: Data, shown: str) -> str:
-    return plain(group["label"]) + (f", {pretty(shown)}" if pretty(shown) else "")
+def _title(group: BarGroupRecord) -> str:
+    return plain(group.label) + (f", {pretty(group.unit)}" if pretty(group.unit) else "")
 
 
-def _group(axes: Axes, width: float, group: Data, shown: str, words: Catalogue) -> None:
-    values = [bar["value"] / unit(shown).factor for bar in group["bars"]]
+def _group(axes: Axes, width: float, group: BarGroupRecord, words: Catalogue) -> None:
+    values = [bar.value / unit(group.unit).factor for bar in group.bars]
     rows = np.arange(len(values))[::-1]
     last = len(values) - 1
     for index, (row, value) in enumerate(zip(rows, values, strict=True)):
@@ -263,13 +264,13 @@ def _group(axes: Axes, width: float, group: Data, shown: str, words: Catalogue) 
         axes.barh(
             row, value, 0.62, edgecolor=INK, linewidth=0.6, facecolor=colour, hatch="/////" if value < 0 else None
         )
-        text = displayed(group["bars"][index]["value"], shown, words["decimal"])
+        text = displayed(group.bars[index].value, group.unit, words["decimal"])
         axes.annotate(text, (max(value, 0), row), (3, 0), textcoords="offset points", va="center_baseline", size=8)
-    _across(axes, width, values, limits_of(group.get("range"), shown), words)
-    axes.set_yticks(rows, [plain(bar["label"]) for bar in group["bars"]], va="center_baseline")
+    _across(axes, width, values, limits_of(group.range, group.unit), words)
+    axes.set_yticks(rows, [plain(bar.label) for bar in group.bars], va="center_baseline")
     axes.set_ylim(-0.6, len(values) - 0.4)
     axes.axvline(0, color=INK, linewidth=0.8)
-    axes.set_title(_title(group, shown), pad=5)
+    axes.set_title(_title(group), pad=5)
     axes.grid(visible=False)
     axes.tick_params(axis="y", length=0)
     for side in ("top", "right", "bottom", "left"):
@@ -316,11 +317,11 @@ def polar(
         projection="polar",
     )
     for index, series in enumerate(figure.series):
-        x, y = through_pole(*continuous(curves[series["curve"]], over, period_of(over)))
+        x, y = through_pole(*continuous(curves[series.curve], over, period_of(over)))
         y = y / unit(figure.unit).factor
         for sign, shade in ((1, 0), (-1, 1)):
             colour, dashes, width = STROKES[(2 * index + shade) % len(STROKES)]
-            said = f"{marked(series['label'])}, {words['positive' if sign > 0 else 'negative']}"
+            said = f"{marked(series.label)}, {words['positive' if sign > 0 else 'negative']}"
             axes.plot(
                 x,
                 np.where(sign * y >= 0, np.abs(y), np.nan),

@@ -33,41 +33,56 @@ from diecut_report.report.figures.style import (
     text_size,
 )
 from diecut_report.report.text import Catalogue, joined, number, significant
-from diecut_report.results.mechanism_record import FigureRecord
+from diecut_report.results.figure_record import (
+    ArcRecord,
+    ArrowRecord,
+    BoxRecord,
+    CircleRecord,
+    DimensionRecord,
+    FigureRecord,
+    LabelRecord,
+    PointRecord,
+    PolylineRecord,
+    RadiusDimensionRecord,
+    RegionRecord,
+    Shape,
+)
 
 # Shapes of drawings as points: where they reach, circles and arcs, the strokes of hatched areas.
 
 
 Array = NDArray[Any]
-Shape = Mapping[str, Any]
 HATCH_STEP = 5.0  # points between the strokes
 
 
 def extent(shape: Shape) -> Array:
     """Points that bound a shape, in metres (texts are measured later)."""
     match shape:
-        case {"shape": "polyline", "points": points} | {"shape": "region", "outer": points}:
+        case PolylineRecord(points=points) | RegionRecord(outer=points):
             return np.asarray(points, dtype=float).reshape(-1, 2)
-        case {"shape": "circle"}:
+        case CircleRecord():
             return _round(shape, 0, 2 * np.pi)
-        case {"shape": "arc", "start": start, "end": end}:
-            return _round(shape, start, end)
-        case {"shape": "radius_dimension", "angle": angle}:
-            return _round(shape, angle, angle)
-        case {"shape": "dimension", "from": start, "to": end, "offset": offset}:
-            one, two = np.asarray(start, dtype=float), np.asarray(end, dtype=float)
+        case ArcRecord():
+            return _round(shape, shape.start, shape.end)
+        case RadiusDimensionRecord():
+            return _round(shape, shape.angle, shape.angle)
+        case DimensionRecord():
+            one, two = np.asarray(shape.start), np.asarray(shape.end)
             along = (two - one) / np.hypot(*(two - one))
-            line: Array = np.array([one, two]) + offset * np.array([-along[1], along[0]])
+            line: Array = np.array([one, two]) + shape.offset * np.array([-along[1], along[0]])
             return line
-        case {"shape": "arrow", "from": start, "to": end}:
-            return np.array([start, end], dtype=float)
-        case {"shape": "box", "center": center, "width": width, "height": height}:
-            return np.asarray(center, dtype=float) + 0.5 * np.array([[-width, -height], [width, height]])
-    return np.asarray(shape["at"], dtype=float).reshape(-1, 2)
+        case ArrowRecord():
+            return np.array([shape.start, shape.end])
+        case BoxRecord(width=width, height=height):
+            return np.asarray(shape.center) + 0.5 * np.array([[-width, -height], [width, height]])
+    return np.array([shape.at])
 
 
-def _round(shape: Shape, start: float, end: float) -> Array:
-    points: Array = np.asarray(shape["center"], dtype=float) + shape["radius"] * circular(start, end)
+Round = CircleRecord | ArcRecord | RadiusDimensionRecord
+
+
+def _round(shape: Round, start: float, end: float) -> Array:
+    points: Array = np.asarray(shape.center) + shape.radius * circular(start, end)
     return points
 
 
@@ -146,7 +161,7 @@ def scaled(shapes: Sequence[Shape], room: Array, *, schematic: bool) -> Scale:
     tall = float(np.clip(size[1] / size[0] / 1.1, 1.0, TALL))
     limits = room * np.array([1.0, tall]) / size
     scale = float(limits.min())
-    boxes = [shape for shape in shapes if shape["shape"] == "box"]
+    boxes = [shape for shape in shapes if isinstance(shape, BoxRecord)]
     needs = {text: needed(boxes, text) for text in SIZES}
     if not boxes or not schematic:
         fitting = [text for text in SIZES if (needs[text] <= scale).all()]
@@ -159,9 +174,9 @@ def scaled(shapes: Sequence[Shape], room: Array, *, schematic: bool) -> Scale:
     return Scale(float(across), float(upwards), text)
 
 
-def needed(boxes: Sequence[Shape], text: float) -> Array:
+def needed(boxes: Sequence[BoxRecord], text: float) -> Array:
     """The scales, across and upwards, at which the text of a size fits all boxes."""
-    scales = [(content(box["lines"], text) + PAD) / (box["width"], box["height"]) for box in boxes]
+    scales = [(content(box.lines, text) + PAD) / (box.width, box.height) for box in boxes]
     found: Array = np.max(scales, axis=0) if scales else np.zeros(2)
     return found
 
@@ -172,10 +187,10 @@ def content(lines: Sequence[str], text: float) -> Array:
     return np.array([wide, text * (1.08 + LINE * (len(lines) - 1)) if lines else 0.0])
 
 
-def filled(shape: Shape, scale: Scale) -> tuple[list[str], Array]:
+def filled(box: BoxRecord, scale: Scale) -> tuple[list[str], Array]:
     """A box on paper: its lines and its size; lines that are too wide are folded, and at last it grows about its text."""
-    size = np.array([shape["width"], shape["height"]]) * scale.both
-    lines = list(shape["lines"])
+    size = np.array([box.width, box.height]) * scale.both
+    lines: list[str] = [*box.lines]
     if (content(lines, scale.text) + PAD > size * (1 + 1e-9)).any():
         widest = content([part for line in lines for part in folded(line, 0.0, scale.text)], scale.text)[0]
         lines = [part for line in lines for part in folded(line, max(size[0] - PAD[0], widest), scale.text)]
@@ -223,7 +238,7 @@ class DrawingSheet:
     """A drawing in work: shapes in points, what texts must keep clear of, and the box that all of it needs."""
 
     def __init__(self, figure: FigureRecord, words: Catalogue, room: Array) -> None:
-        self.shapes: list[Shape] = [*figure.shapes]
+        self.shapes = figure.shapes
         self.unit: str = figure.unit
         self.schematic: bool = figure.schematic
         self.words = words
@@ -398,36 +413,32 @@ def _shares(figure: FigureRecord, size: SizesSize) -> tuple[float, ...]:
     """How large a drawing is tried: one with many texts is not made lower, nor is a scheme's sketch so small as others."""
     if size is SizesSize.SKETCH and figure.schematic:
         return SCHEMES
-    texts = sum(bool(shape.get("text") or shape.get("label")) for shape in figure.shapes)
-    return SHARES[SizesSize.LARGE if size is SizesSize.LOW and texts > MANY_TEXTS else size]
+    return SHARES[SizesSize.LARGE if size is SizesSize.LOW and len(figure.texts) > MANY_TEXTS else size]
 
 
-def _look(shape: Shape) -> dict[str, Any]:
+def _look(shape: PolylineRecord | CircleRecord | ArcRecord | ArrowRecord | BoxRecord) -> dict[str, Any]:
     """The look of a shape's role; ValueError where there is no such role."""
-    if shape["role"] not in ROLES:
-        raise ValueError(f"{shape['role']!r} is not a role of a {shape['shape']}; known: {', '.join(ROLES)}")
-    return ROLES[shape["role"]]
+    if shape.role not in ROLES:
+        raise ValueError(f"{shape.role!r} is not a role of a {shape.shape}; known: {', '.join(ROLES)}")
+    return ROLES[shape.role]
 
 
 class Shapes(DrawingSheet):
     """A sheet with a way to draw each kind of shape."""
 
     def draw(self, shape: Shape) -> None:
-        """Draw a shape; ValueError where nothing is known of its kind."""
-        way = getattr(self, f"_{shape['shape']}", None)
-        if way is None:
-            raise ValueError(f"{shape['shape']!r} is not a shape that can be drawn")
-        way(shape)
+        """Draw a shape."""
+        getattr(self, f"_{shape.shape}")(shape)
 
-    def _polyline(self, shape: Shape) -> None:
-        points = self._points(shape["points"])
-        if shape["closed"]:
+    def _polyline(self, shape: PolylineRecord) -> None:
+        points = self._points(shape.points)
+        if shape.closed:
             points = np.vstack([points, points[:1]])
-        if shape["role"] in ("body", "shade"):
+        if shape.role in ("body", "shade"):
             self.axes.fill(points[:, 0], points[:, 1], color=BODY, linewidth=0, zorder=1)
-        if shape["role"] != "shade":
+        if shape.role != "shade":
             self._line(points, **_look(shape))
-        if shape["role"] == "ground":
+        if shape.role == "ground":
             self._ground(points)
 
     def _ground(self, points: Array) -> None:
@@ -440,77 +451,78 @@ class Shapes(DrawingSheet):
         points = np.stack([starts, ends, np.full_like(starts, np.nan)], axis=1).reshape(-1, 2)
         self.axes.plot(points[:, 0], points[:, 1], **look)
 
-    def _circle(self, shape: Shape) -> None:
-        if shape["role"] == "body":
-            self.axes.fill(*self._bow(shape, 0.0, 2 * np.pi).T, color=BODY, linewidth=0, zorder=1)
-        self._arc({**shape, "start": 0.0, "end": 2 * np.pi})
+    def _circle(self, shape: CircleRecord) -> None:
+        bow = self._bow(shape, 0.0, 2 * np.pi)
+        if shape.role == "body":
+            self.axes.fill(*bow.T, color=BODY, linewidth=0, zorder=1)
+        self._line(bow, **_look(shape))
 
-    def _bow(self, shape: Shape, start: float, end: float) -> Array:
-        radius = shape["radius"] * self.scale.round
-        points: Array = self._points(shape["center"])[0] + radius * circular(start, end)
+    def _bow(self, shape: CircleRecord | ArcRecord, start: float, end: float) -> Array:
+        radius = shape.radius * self.scale.round
+        points: Array = self._points(shape.center)[0] + radius * circular(start, end)
         return points
 
-    def _arc(self, shape: Shape) -> None:
-        self._line(self._bow(shape, shape["start"], shape["end"]), **_look(shape))
+    def _arc(self, shape: ArcRecord) -> None:
+        self._line(self._bow(shape, shape.start, shape.end), **_look(shape))
 
-    def _region(self, shape: Shape) -> None:
-        loops = [self._points(loop) for loop in (shape["outer"], *shape["holes"])]
+    def _region(self, shape: RegionRecord) -> None:
+        loops = [self._points(loop) for loop in (shape.outer, *shape.holes)]
         loops = [np.vstack([loop, loop[:1]]) for loop in loops]
         outline = Path.make_compound_path(*(Path(loop, closed=True) for loop in loops))
         self.axes.add_patch(PathPatch(outline, facecolor="none", edgecolor=INK, linewidth=1.2, zorder=2.2))
         self._strokes(*hatching(loops), {"color": SOFT, "linewidth": 0.35, "zorder": 1.2})
         self.lines += [(loop, THICK) for loop in loops]
 
-    def _point(self, shape: Shape) -> None:
-        x, y = self._points(shape["at"])[0]
-        if shape["role"] == "mark":
+    def _point(self, shape: PointRecord) -> None:
+        x, y = self._points(shape.at)[0]
+        if shape.role == "mark":
             self.axes.plot([x], [y], "o", markersize=6, markerfacecolor="white", markeredgecolor=ACCENT, zorder=4)
             self.axes.plot([x], [y], "+", markersize=9, markeredgecolor=ACCENT, markeredgewidth=0.9, zorder=5)
         else:
-            self.axes.plot([x], [y], "o", markersize=6.5 if shape["role"] == "pivot" else 4.5, markerfacecolor="white",
+            self.axes.plot([x], [y], "o", markersize=6.5 if shape.role == "pivot" else 4.5, markerfacecolor="white",
                            markeredgecolor=INK, markeredgewidth=1.0, zorder=5)  # fmt: skip
-            if shape["role"] == "pivot":
+            if shape.role == "pivot":
                 self.axes.plot([x], [y], "o", markersize=1.8, color=INK, zorder=6)
         self.lines.append((np.array([[x - 4, y], [x + 4, y], [x, y - 4], [x, y + 4]]), THICK))
         self.boxes.append((x - 5, y - 5, x + 5, y + 5))
-        if shape.get("label"):
-            self._later(shape["label"], lambda size: labels.near(x, y, size), leader=(x, y))
+        if shape.text:
+            self._later(shape.text, lambda size: labels.near(x, y, size), leader=(x, y))
 
-    def _label(self, shape: Shape) -> None:
-        x, y = self._points(shape["at"])[0]
-        size = text_size(marked(shape["text"]))
-        middle, _ = next(labels.at(x, y, size, shape["anchor"]))
+    def _label(self, shape: LabelRecord) -> None:
+        x, y = self._points(shape.at)[0]
+        size = text_size(marked(shape.text))
+        middle, _ = next(labels.at(x, y, size, shape.anchor))
         self.wished.append((middle - size[0] / 2, middle + size[0] / 2))
-        self._later(shape["text"], lambda size: labels.at(x, y, size, shape["anchor"]))
+        self._later(shape.text, lambda size: labels.at(x, y, size, shape.anchor))
 
-    def _arrow(self, shape: Shape) -> None:
+    def _arrow(self, shape: ArrowRecord) -> None:
         """A straight arrow from box to box; its head has its size on paper, and is smaller only on a shorter arrow."""
-        tail, tip = self._outside(self._points(shape["from"])[0], self._points(shape["to"])[0])
+        tail, tip = self._outside(self._points(shape.start)[0], self._points(shape.end)[0])
         look, length = _look(shape), float(np.hypot(*(tip - tail)))
         if length == 0:
-            self._point({"at": shape["from"], "role": "joint", "label": shape.get("label")})
+            self._point(PointRecord(shape="point", at=shape.start, role="joint", text=shape.text))
             return
         along, head = (tip - tail) / length, min(HEAD + 2.2 * look["linewidth"], length)
         self._line(np.array([tail, tip - 0.8 * head * along]), **look | {"solid_capstyle": "butt"})
         self._head(tip, along, head, STOUT, look["color"], look.get("zorder", 2.6))
         self.lines.append((np.array([tip - head * along, tip]), THICK))
         self.boxes.append((*(tip - 3), *(tip + 3)))
-        if shape.get("label"):
-            self._later(shape["label"], lambda size: labels.by_arrow(tail, tip, size), leader=tuple((tail + tip) / 2))
+        if shape.text:
+            self._later(shape.text, lambda size: labels.by_arrow(tail, tip, size), leader=tuple((tail + tip) / 2))
 
     def _outside(self, tail: Array, tip: Array) -> tuple[Array, Array]:
         """An arrow without what lies in the boxes of its ends."""
         for shape in self.shapes:
-            if shape["shape"] == "box":
-                center, half = self._points(shape["center"])[0], filled(shape, self.scale)[1] / 2
+            if isinstance(shape, BoxRecord):
+                center, half = self._points(shape.center)[0], filled(shape, self.scale)[1] / 2
                 tail, tip = beyond(tail, tip, center, half), beyond(tip, tail, center, half)
         return tail, tip
 
-    def _box(self, shape: Shape) -> None:
+    def _box(self, shape: BoxRecord) -> None:
         """A box with lines of text."""
-        center, (lines, size) = self._points(shape["center"])[0], filled(shape, self.scale)
+        center, (lines, size) = self._points(shape.center)[0], filled(shape, self.scale)
         look = {"edgecolor" if key == "color" else key: value for key, value in _look(shape).items()}
-        face = BODY if shape["role"] == "body" else "white"
+        face = BODY if shape.role == "body" else "white"
         self.axes.add_patch(Rectangle(center - size / 2, *size, facecolor=face, **look | {"zorder": 4.2}))
         for index, line in enumerate(lines):
             y = center[1] + self.scale.text * LINE * ((len(lines) - 1) / 2 - index)
@@ -520,21 +532,21 @@ class Shapes(DrawingSheet):
         self.solid.append((*(center - size / 2 - 1.5), *(center + size / 2 + 1.5)))
         self.boxes.append(self.solid[-1])
 
-    def _radius_dimension(self, shape: Shape) -> None:
-        center, angle = self._points(shape["center"])[0], shape["angle"]
+    def _radius_dimension(self, shape: RadiusDimensionRecord) -> None:
+        center, angle = self._points(shape.center)[0], shape.angle
         along = np.array([np.cos(angle), np.sin(angle)])
-        radius = shape["radius"] * self.scale.round
+        radius = shape.radius * self.scale.round
         tip = center + radius * along
         self._line(np.array([center, tip]), **THIN_LINE)
         self._head(tip, along)
-        self._later(shape["text"], lambda size: labels.along_radius(center, along, radius, size))
+        self._later(shape.text, lambda size: labels.along_radius(center, along, radius, size))
 
-    def _dimension(self, shape: Shape) -> None:
-        start, end = self._points(shape["from"])[0], self._points(shape["to"])[0]
+    def _dimension(self, shape: DimensionRecord) -> None:
+        start, end = self._points(shape.start)[0], self._points(shape.end)[0]
         reach = float(np.hypot(*(end - start)))
         along = (end - start) / reach
-        aside = np.array([-along[1], along[0]]) * np.sign(shape["offset"])
-        away = abs(shape["offset"]) * self.scale.round
+        aside = np.array([-along[1], along[0]]) * np.sign(shape.offset)
+        away = abs(shape.offset) * self.scale.round
         one, two = start + away * aside, end + away * aside
         for foot, top in ((start, one), (end, two)):
             self.axes.plot(*zip(foot + 2.0 * aside, top + 3.0 * aside, strict=True), **THIN_LINE)
@@ -544,4 +556,4 @@ class Shapes(DrawingSheet):
         self._line(np.array([one - over, two + over]), **THIN_LINE)
         self._head(one, -along if inside else along)
         self._head(two, along if inside else -along)
-        self._later(shape["text"], lambda size: labels.by_line(one - over, two + over, aside, size))
+        self._later(shape.text, lambda size: labels.by_line(one - over, two + over, aside, size))

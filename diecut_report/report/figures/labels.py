@@ -224,7 +224,7 @@ class Frame(NamedTuple):
         return x0 + points[:, 0] / self.width * (x1 - x0), y0 + points[:, 1] / self.height * (y1 - y0)
 
 
-def limits_of(ends: Sequence[float | None] | None, shown: str) -> tuple[float | None, float | None] | None:
+def limits_of(ends: Sequence[float | None], shown: str) -> tuple[float | None, float | None] | None:
     """The range of an axis that is declared with what is drawn, in the unit that is shown; None where there is none."""
     if not ends:
         return None

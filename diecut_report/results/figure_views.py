@@ -2,15 +2,15 @@
 
 from __future__ import annotations
 
-import json
 import math
 from collections.abc import Callable, Iterable, Iterator, Mapping, Sequence
 from functools import partial
-from math import cos, isfinite, sin
+from math import cos, sin
 from pathlib import Path
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
+from pydantic import ValidationError
 
 from diecut_report.config.plugins import said
 from diecut_report.formulas import Array
@@ -33,63 +33,48 @@ from diecut_report.mechanism.figures import (
     Shape,
     View,
     circle,
-    plain,
+    level,
+    mark,
     point,
     polyline,
 )
 from diecut_report.mechanism.steps import Reduction, place_name
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.units import unit
+from diecut_report.results.figure_record import FigureRecord
+from diecut_report.results.record import Record
 from diecut_report.text.phrases import Phrase, phrase
 
 # What figures and exports may name, and what a fault in one of them costs: that one alone.
 
 
 Data = dict[str, Any]
-FLOATS = {float, np.float64}
+R = TypeVar("R", bound=Record)
 
 
 class Undrawable(ValueError):
     """Report that a figure or export asks for what is not there, in words."""
 
 
-def guarded(make: Callable[[], Data], lost: Data, place: str) -> Data:
-    """Return what ``make`` makes, or ``lost`` with what went wrong and where in the plugin."""
+def guarded(make: Callable[[], R], lost: Callable[[str], R], place: str) -> R:
+    """Return what ``make`` makes, or what ``lost`` makes of the words for what went wrong, and where in the plugin."""
     place = Path(place).name
     try:
-        made = make()
-        _plain(made)
-        return made
+        return make()
     except Undrawable as fault:
-        return lost | {"error": f"{fault} ({place})"}
+        return lost(f"{fault} ({place})")
+    except ValidationError as cause:
+        return lost(f"{_misfit(cause)} ({place})")
     except Exception as cause:
-        return lost | {"error": Phrase("{said}, asked for at {place}", said=said(cause), place=place)}
+        return lost(Phrase("{said}, asked for at {place}", said=said(cause), place=place))
 
 
-def _plain(made: Data) -> None:
-    """Check that it can stand in a results file."""
-    if _is_plain(made):
-        return
-    try:
-        json.dumps(made, allow_nan=False)
-    except (TypeError, ValueError) as fault:
-        raise Undrawable(
-            Phrase(
-                "it gives something that is not a finite number, text or list of these ({fault}); an absent "
-                "number in a line is None",
-                fault=fault,
-            )
-        ) from None
-
-
-def _is_plain(part: Any) -> bool:
-    """Whether a part is seen at once to be text, finite numbers, or lists of these; others are asked of the writer itself."""
-    kind = type(part)
-    if kind is dict:
-        return all(type(key) is str for key in part) and all(map(_is_plain, part.values()))
-    if kind is list or kind is tuple:
-        return isfinite(sum(part)) if part and set(map(type, part)) <= FLOATS else all(map(_is_plain, part))
-    return isfinite(part) if kind in FLOATS else part is None or isinstance(part, str) or kind in (bool, int)
+def _misfit(cause: ValidationError) -> Phrase:
+    """What cannot stand in a results file."""
+    fault = cause.errors(include_url=False)[0]
+    where = ".".join(map(str, fault["loc"]))
+    words = "{where}: {fault}; a figure holds finite numbers, texts and lists of these, and None for an absent number in a line"
+    return Phrase(words, where=where, fault=fault["msg"])
 
 
 def curve_named(calc: Calculation, name: str, abscissa: str | None = None) -> str:
@@ -386,13 +371,13 @@ class MachineView:
         return varied_curves(self.calc, inputs, names, points)
 
 
-def figures(calc: Calculation) -> list[dict[str, Any]]:
+def figures(calc: Calculation) -> list[FigureRecord]:
     """Return the figures whose needs are given; one that fails is kept with what went wrong (``error``).
 
     A chart to which this machine gives no panel is left out.
     """
     found = [_guarded(calc, figure) for figure in shown_figures(calc)]
-    return [made for made in found if made["type"] != "chart" or made["panels"]]
+    return [made for made in found if made.type != "chart" or made.panels]
 
 
 def shown_figures(calc: Calculation) -> list[Figure]:
@@ -400,18 +385,22 @@ def shown_figures(calc: Calculation) -> list[Figure]:
     return [figure for figure in calc.mechanism.figures if calc.given.issuperset(figure.needs)]
 
 
-def _guarded(calc: Calculation, figure: Figure) -> dict[str, Any]:
-    head = {"id": figure.id, "title": figure.title, "caption": figure.caption}
-    return guarded(lambda: _figure(calc, figure, head), head | {"type": "failed"}, figure.at)
+def _guarded(calc: Calculation, figure: Figure) -> FigureRecord:
+    head: Data = {"id": figure.id, "title": figure.title, "caption": figure.caption}
+    return guarded(
+        lambda: FigureRecord(**_figure(calc, figure, head)),
+        lambda error: FigureRecord(**head, type="failed", error=error),
+        figure.at,
+    )
 
 
-def _figure(calc: Calculation, figure: Figure, head: dict[str, Any]) -> dict[str, Any]:
+def _figure(calc: Calculation, figure: Figure, head: Data) -> Data:
     view = MachineView(calc)
     made = _made(calc, figure, head, view)
     return made | {"shows": _curves(figure)[1:] or list(view.asked)}
 
 
-def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: MachineView) -> dict[str, Any]:
+def _made(calc: Calculation, figure: Figure, head: Data, view: MachineView) -> Data:
     for curve in _curves(figure):
         curve_named(calc, curve, figure.abscissa)  # type: ignore[attr-defined]
     match figure:
@@ -434,12 +423,12 @@ def _made(calc: Calculation, figure: Figure, head: dict[str, Any], view: Machine
     raise TypeError(Phrase("{id} is not a known figure", id=figure.id))
 
 
-def _of_its_size(panel: dict[str, Any]) -> dict[str, Any]:
+def _of_its_size(panel: Data) -> Data:
     heights = (height for line in panel["lines"] for height in line["y"] if height is not None)
     return panel | {"unit": axis_unit(panel["unit"], heights)}
 
 
-def _moving(calc: Calculation, drawing: Drawing) -> dict[str, Any]:
+def _moving(calc: Calculation, drawing: Drawing) -> Data:
     """What moves in a drawing at places of its abscissa; what it asks for is told by the drawing itself."""
     if drawing.moving is None:
         return {}
@@ -488,27 +477,26 @@ def _curves(figure: Figure) -> list[str]:
     return []
 
 
-def _panel(panel: Panel, view: MachineView, abscissa: str) -> dict[str, Any]:
-    named: dict[str, tuple[Any, ...]] = {"levels": panel.levels, "marks": panel.marks, "spans": panel.spans}
-    made: dict[str, Any] = {"title": panel.title, "unit": panel.unit, "series": [vars(s) for s in panel.series]} | {
-        key: [plain(part, view) for part in parts] for key, parts in named.items()
-    }
-    made["marks"] = [
-        _on_curve(mark, shown, panel, view) for mark, shown in zip(panel.marks, made["marks"], strict=True)
-    ]
+def _panel(panel: Panel, view: MachineView, abscissa: str) -> Data:
+    made: Data = {
+        "title": panel.title, "unit": panel.unit, "series": [vars(each) for each in panel.series],
+        "levels": [level(view[each.value], each.label) for each in panel.levels],
+        "marks": [mark(view[each.x], _marked(each, panel, view), each.label) for each in panel.marks],
+        "spans": [{"from": view[each.start], "to": view[each.end], "label": each.label} for each in panel.spans],
+    }  # fmt: skip
     curves = [(one.label, view.heights(one.curve, abscissa)) for one in panel.series if panel.range]
     heights = (height for one in panel.series for height in view.heights(one.curve, abscissa))
     return _in_chosen_unit(view, declared(made, panel.range, view, curves), heights)
 
 
-def _on_curve(mark: Mark, shown: dict[str, Any], panel: Panel, view: MachineView) -> dict[str, Any]:
-    """A mark with the sign of the curve: the greatest size of a curve says nothing of the side on which it stands."""
-    step = view.calc.step_or_input(mark.y)
+def _marked(mark: Mark, panel: Panel, view: MachineView) -> float:
+    """The height of a mark with the sign of the curve: the greatest size of a curve says nothing of the side on which it stands."""
+    step, height = view.calc.step_or_input(mark.y), view[mark.y]
     if not isinstance(step, Reduction) or step.operation != "abs_max" or mark.x != place_name(step.id):
-        return shown
+        return height
     if step.of not in [one.curve for one in panel.series]:
-        return shown
-    return shown | {"y": math.copysign(shown["y"], _height(step.id, step.of, view))}
+        return height
+    return math.copysign(height, _height(step.id, step.of, view))
 
 
 def _height(size: str, curve: str, view: MachineView) -> float:
@@ -517,12 +505,12 @@ def _height(size: str, curve: str, view: MachineView) -> float:
     return float(calc.sampler_of(calc.axis[curve], x, calc.middle[place][:1], rows).over(curve)[0, 0])
 
 
-def _in_chosen_unit(view: MachineView, made: dict[str, Any], heights: Iterable[float]) -> dict[str, Any]:
+def _in_chosen_unit(view: MachineView, made: Data, heights: Iterable[float]) -> Data:
     first = made["series"][0]["curve"] if made["series"] else ""
     return made | {"unit": view.calc.chosen_units.of(first, made["unit"]) or axis_unit(made["unit"], heights)}
 
 
-def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, Any]:
+def _polar(figure: Polar, view: MachineView, head: Data) -> Data:
     made = {
         "type": "polar",
         "abscissa": figure.abscissa,
@@ -542,7 +530,7 @@ def _polar(figure: Polar, view: MachineView, head: dict[str, Any]) -> dict[str, 
     return ranged
 
 
-def _group(group: BarGroup, view: MachineView) -> dict[str, Any]:
+def _group(group: BarGroup, view: MachineView) -> Data:
     values = [(label, -view[name[1:]] if name[0] == "-" else view[name]) for label, name in group.bars]
     bars = [{"label": label, "value": value} for label, value in values]
     shown = axis_unit(group.unit, (value for _, value in values))
