@@ -86,7 +86,8 @@ def test_one_side_is_advised_as_far_as_all_holds_that_is_tried(machine: dict[str
 
 
 @pytest.mark.parametrize(
-    ("series", "told"), [((10, 15, 25, 30, 35), "at least 25 mm"), ((10, 15, 20, 30, 90, 95), "20 mm or 30 mm or 90 mm")]
+    ("series", "told"),
+    [((10, 15, 25, 30, 35), "at least 25 mm"), ((10, 15, 20, 30, 90, 95), "20 mm or 30 mm or 90 mm")],
 )
 def test_of_a_series_the_values_nearest_to_the_present_one_are_named(series: tuple[float, ...], told: str) -> None:
     machine = spring((Vary("width", series=series),))
