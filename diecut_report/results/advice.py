@@ -247,7 +247,8 @@ def _number(trials: Trials, wanted: Vary, place: VariedNumber) -> Way | None:
     line = TriedLine.of(trials, Ray([place], np.zeros(1), np.ones(1), grid, place.present))
     if line is None:
         return None
-    relation, near, far = (line.relation, *line.run) if listed.size else line.region(place.meta)
+    ends = line.run if line.rises else line.run[::-1]
+    relation, near, far = (line.relation, *ends) if listed.size else line.region(place.meta)
     change = (_listed_change if is_listed else _change)(line, place, relation, near, far)
     if change is None:
         return None

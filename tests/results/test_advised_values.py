@@ -2,11 +2,12 @@
 
 from __future__ import annotations
 
+from dataclasses import replace
 from typing import Annotated, Any, Literal
 
 import pytest
 
-from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Text
+from diecut_report.api import Chapter, Check, Inputs, Mechanism, Quantity, Text, Vary
 from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.checks import AdviceWay
 from diecut_report.results.advice import FACTORS
@@ -82,3 +83,20 @@ def test_one_side_is_advised_as_far_as_all_holds_that_is_tried(machine: dict[str
     assert f"Set width to {told}." in message(
         spring(("width",)), width=0.011, **{"damping": 1.0, "room": 100.0} | machine
     )
+
+
+@pytest.mark.parametrize(
+    ("series", "told"),
+    [((10, 15, 25, 30, 35), "at least 25 mm"), ((10, 15, 20, 30, 90, 95), "20 mm or 30 mm or 90 mm")],
+)
+def test_of_a_series_the_values_nearest_to_the_present_one_are_named(series: tuple[float, ...], told: str) -> None:
+    machine = spring((Vary("width", series=series),))
+    assert f"Set width to {told}." in message(machine, width=0.011, damping=0.0, room=100.0)
+
+
+def test_of_a_series_the_greatest_that_is_small_enough_is_named() -> None:
+    machine = spring((Vary("width", "down", (1, 2, 5, 8)),))
+    small = replace(
+        machine, checks=(replace(check("room", "width", "room", unit="mm"), advise=machine.checks[0].advise),)
+    )
+    assert "Set width to at most 5 mm." in message(small, width=0.011, damping=1.0, room=0.006)
