@@ -544,7 +544,7 @@ def _report_influence_tolerances(found: Tolerances) -> Data:
 
 def _chance_data(found: Chance) -> Data:
     return {
-        "check": found.check,
+        "check": str.__str__(found.check),  # the results hold no message there
         "held": found.held,
         "count": found.count,
         "probability": found.probability,

@@ -79,8 +79,6 @@ NUMBERS = (
          "outline", placed=False, kept=True),
     calc("a drawing with a point that is no number", "circle((0.0, 0.0), radius", "circle((0.0, np.nan), radius", "figure.*head",
          kept=True),
-    calc("a drawing with an array as a number", "circle((0.0, 0.0), radius", "circle((0.0, 0.0), np.array(radius)", "figure.*head",
-         kept=True),
     row("calc", "a shape that is a text", "    return [circle((0.0, 0.0)", '    return ["circle", circle((0.0, 0.0)', "figure.*head",
          placed=False, kept=True),
     calc("a drawing that asks a text of a number", 'view.text("head_diameter")', 'view.text("drum")', "figure.*head", "drum", kept=True),

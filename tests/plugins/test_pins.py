@@ -60,7 +60,7 @@ def test_pins_that_have_grown_as_the_report_says_hold(
     advised = [check.advice for name in PINS for check in thin.mechanisms[name].checks if check.status == "fail"]
     changes = [change for ((change,),) in advised]
     assert {change.key for change in changes} == {"sections.0.diameter"}
-    thick = press(tmp_path_factory, f"diameter: {max(change.value for change in changes)} mm", *LOADED)
+    thick = press(tmp_path_factory, f"diameter: {max(change.value[0] for change in changes)} mm", *LOADED)
     assert all(not failed(thick, name) for name in PINS)
 
 

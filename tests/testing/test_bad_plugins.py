@@ -72,7 +72,7 @@ DRAWN = {
         "return [polyline([(0, view['nope'])])]",
         "there is no number 'nope' in this machine",
     ),
-    "a figure of a shape that nobody knows": ("return [{'shape': 'cube'}]", "cannot be drawn"),
+    "a figure of a shape that nobody knows": ("return [{'shape': 'cube'}]", "'cube'"),
     "a figure that breaks": ("return 1 / 0", "ZeroDivisionError: division by zero"),
 }
 LATER = {"code": "return x", "step": COMPUTED, "draw": "return []", "head": "", "figures": ""}

@@ -97,5 +97,5 @@ def _gallery(each: Iterator[tuple[str, str, str, Sequence[Shape]]]) -> Iterator[
 def picture(key: str, title: str, shapes: Sequence[Shape]) -> str:
     """Return shapes as SVG, as a drawing of a report is drawn."""
     told = {"type": "drawing", "id": "", "title": title, "caption": "", "unit": "mm", "schematic": True}
-    figure = FigureRecord(**told, shapes=[dict(shape) for shape in shapes])
+    figure = FigureRecord.model_validate(told | {"shapes": [dict(shape) for shape in shapes]})
     return drawn(partial(drawing, figure, {}, WORDS, SizesSize.HALF), title, key).text
