@@ -14,7 +14,7 @@ from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
 from diecut_report.mechanism.figures import Figure
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, meta_of, nested
-from diecut_report.mechanism.mechanism import Mechanism, Profile
+from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import OneOf, Text
 from diecut_report.mechanism.steps import Step, has_own_names, names_ahead, read
 from diecut_report.text.phrases import Phrase, joined, phrase
@@ -47,11 +47,6 @@ def of_check(check: Check, text: str) -> Fault:
 def of_figure(figure: Figure, text: str) -> Fault:
     """Return what is wrong with a figure."""
     return Fault(figure.at, Phrase("figure {id}", id=figure.id), text)
-
-
-def of_export(profile: Profile, text: str) -> Fault:
-    """Return what is wrong with an export."""
-    return Fault(profile.at, Phrase("export {id}", id=profile.id), text)
 
 
 def short(place: str) -> str:

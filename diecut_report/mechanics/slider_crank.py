@@ -117,12 +117,6 @@ def inner_acceleration(
 
 
 @formula
-def inner_displacement_first_order(crank_angle: Any, crank_radius: Any, crank_ratio: Any) -> Any:
-    """u to the first order of λ."""
-    return crank_radius * (1 - np.cos(crank_angle) - crank_ratio / 2 * np.sin(crank_angle) ** 2)
-
-
-@formula
 def inner_arm_first_order(crank_angle: Any, crank_radius: Any, crank_ratio: Any) -> Any:
     """V/ω to the first order of λ."""
     return crank_radius * (np.sin(crank_angle) - crank_ratio / 2 * np.sin(2 * crank_angle))
@@ -132,12 +126,6 @@ def inner_arm_first_order(crank_angle: Any, crank_radius: Any, crank_ratio: Any)
 def inner_velocity_first_order(crank_angle: Any, crank_radius: Any, crank_ratio: Any, crank_speed: Any) -> Any:
     """V to the first order of λ."""
     return crank_speed * inner_arm_first_order(crank_angle, crank_radius, crank_ratio)
-
-
-@formula
-def inner_acceleration_first_order(crank_angle: Any, crank_radius: Any, crank_ratio: Any, crank_speed: Any) -> Any:
-    """W to the first order of λ."""
-    return crank_radius * crank_speed**2 * (np.cos(crank_angle) - crank_ratio * np.cos(2 * crank_angle))
 
 
 @formula

@@ -43,13 +43,3 @@ class Rendering:
         from diecut_report.report.office.workbook import workbook
 
         return workbook(self.material)
-
-
-def render_html(results: ResultsRecord) -> str:
-    """A results document as HTML."""
-    return Rendering(results).html()
-
-
-def render_pdf(results: ResultsRecord) -> bytes:
-    """A results document as PDF."""
-    return Rendering(results).pdf()

@@ -17,9 +17,3 @@ def inverse(frequency: Any) -> Any:
 def law_acceleration(rise: Any, rise_duration: Any, acceleration: Any) -> Any:
     """Acceleration of a rise by a law, of the law's acceleration."""
     return rise / rise_duration**2 * acceleration
-
-
-@formula
-def tuned_stiffness(stiffness: Any, wanted: Any, tuning_ratio: Any) -> Any:
-    """Stiffness with a wanted number of natural periods."""
-    return stiffness * (wanted / tuning_ratio) ** 2

@@ -158,9 +158,3 @@ def cutting_work(cutting_force_max: Any, material_thickness: Any) -> Any:
 def pin_pressure(force_max: Any, radius: Any, length: Any) -> Any:
     """Pressure on the projected area of one of two pins that share a force."""
     return force_max / (4 * radius * length)
-
-
-@formula
-def pin_length(force_max: Any, radius: Any, allowable_pin_pressure: Any) -> Any:
-    """Length of two pins that share a force at the allowed pressure."""
-    return force_max / (4 * radius * allowable_pin_pressure)

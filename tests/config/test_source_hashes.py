@@ -17,7 +17,7 @@ from diecut_report.config.plugins import Discovery
 from diecut_report.config.source_hashes import PACKAGE, plugin_hash, program_hash
 from diecut_report.errors import UserError
 from diecut_report.press import Press
-from diecut_report.report.rendering import render_html
+from diecut_report.report.rendering import Rendering
 from diecut_report.results.model import ResultsRecord
 from diecut_report.study.execution import worker
 from tests.configs import GOOD, HEAD, LEVER, SMALL, saved
@@ -123,7 +123,7 @@ def test_results_and_report_tell_the_hashes(tmp_path: Path, capfd: pytest.Captur
     assert list(found["program"]["extensions"]) == ["extend_laws"]
     digest = found["mechanisms"]["a"]["plugin_sha256"]
     assert digest == hash_of_lever(folder)
-    page = re.sub(r"<[^>]+>", " ", render_html(ResultsRecord.model_validate(found)))
+    page = re.sub(r"<[^>]+>", " ", Rendering(ResultsRecord.model_validate(found)).html())
     for told in (program_hash(), digest, found["program"]["extensions"]["extend_laws"]):
         assert re.search(rf"source\s+{told[:12]}\s", page)
 
@@ -156,7 +156,7 @@ def test_a_foreign_plugin_is_named_by_its_file_and_not_by_where_it_lies(tmp_path
         digest = found.mechanisms["a"].plugin_sha256
         assert found.mechanisms["a"].plugin_file == file and digest
         assert not found.mechanisms["clutch"].plugin_file  # comes with the program
-        page = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", render_html(found)))
+        page = re.sub(r"\s+", " ", re.sub(r"<[^>]+>", " ", Rendering(found).html()))
         assert (
             f"{file} , declarations and formulas checked source {digest[:12]}" in page
             and "secret place" not in page + json.dumps(found.data())

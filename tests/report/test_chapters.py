@@ -10,7 +10,7 @@ import pytest
 
 from diecut_report.report.model import Item, PrintedChapter
 from diecut_report.report.profile_files import CENTER, PITCH_CURVE, PROFILE, exports
-from diecut_report.report.rendering import Rendering, render_html
+from diecut_report.report.rendering import Rendering
 from tests.report.made_results import SOURCE, check, export, mechanism, sample, typed
 
 Data = dict[str, Any]
@@ -171,7 +171,7 @@ def test_check_of_a_comparison_may_govern(plain: Data) -> None:
 
 def test_comparison_without_checks_has_no_chapter_of_them(plain: Data) -> None:
     plain["comparisons"]["compared-cylinder-train"]["checks"] = []
-    page = render_html(typed(plain))
+    page = Rendering(typed(plain)).html()
     last = page[page.index('<h2 id="m-F">') :]
     assert "There are no checks." not in last and "Checks" not in _words(last)
 
@@ -183,7 +183,7 @@ def test_mechanism_without_checks_says_so(html: str) -> None:
 def test_comparison_between_three(plain: Data) -> None:
     plain["comparisons"]["compared-cylinder-train"]["between"] = ["cylinder", "drive", "train"]
     assert "Comparison of A Impression cylinder, B Cylinder drive and E Drive train" in _words(
-        render_html(typed(plain))
+        Rendering(typed(plain)).html()
     )
 
 
@@ -194,7 +194,7 @@ def test_figures_of_a_comparison_are_drawn(rendering: Rendering) -> None:
 def test_results_without_comparisons_have_none(plain: Data) -> None:
     del plain["comparisons"]
     plain["mechanisms"]["cylinder"]["checks"].append(check("more"))
-    page = render_html(typed(plain))
+    page = Rendering(typed(plain)).html()
     assert 'id="m-E"' in page and 'id="m-F"' not in page and "Comparison of" not in page
 
 

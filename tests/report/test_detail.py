@@ -21,7 +21,7 @@ from diecut_report.press import AskedReport, Press
 from diecut_report.report.chapters.steps import BEFORE, Place, placed, sketch
 from diecut_report.report.context import Material, _left_alone
 from diecut_report.report.pages import html
-from diecut_report.report.rendering import Rendering, render_html
+from diecut_report.report.rendering import Rendering
 from diecut_report.report.scope import scope
 from diecut_report.report.text import number
 from diecut_report.results.document import document
@@ -50,7 +50,7 @@ def pages() -> dict[str, str]:
         results = sample() | {"report": {"detail": detail}}
         for mechanism in (*results["mechanisms"].values(), *results["comparisons"].values()):
             mechanism["figures"] = []
-        found[detail] = render_html(typed(results))
+        found[detail] = Rendering(typed(results)).html()
     return found
 
 

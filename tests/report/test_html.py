@@ -11,7 +11,7 @@ from jinja2 import UndefinedError
 
 from diecut_report.report.pages import html
 from diecut_report.report.pages.html import SCRIPTS
-from diecut_report.report.rendering import Rendering, render_html
+from diecut_report.report.rendering import Rendering
 from diecut_report.results.model import ProgramRecord, ResultsRecord
 from diecut_report.results.record import Record
 from diecut_report.text.catalogues import UnknownLanguage
@@ -80,7 +80,7 @@ def test_broken_and_skipped_mechanisms_are_told(html: str) -> None:
 def test_a_press_with_nothing_but_a_name_has_no_empty_table(plain: dict[str, Any], html: str) -> None:
     assert '<table class="inputs press-data">' in html
     plain["press"]["fields"] = []
-    page = render_html(typed(plain))
+    page = Rendering(typed(plain)).html()
     assert 'press-data"' not in page and '<h2 id="press">' in page
     assert "The configuration gives only the name of the press." in page
 
@@ -118,7 +118,7 @@ def test_scripts_in_any_text_are_only_text(request: pytest.FixtureRequest, docum
         for row in [*mechanism.get("outputs", {}).values(), *mechanism.get("inputs", {}).values()]:
             row["symbol"] = BAD
     poisoned["program"]["name"] = "diecut-report"  # which no other program writes
-    page = render_html(typed(poisoned))
+    page = Rendering(typed(poisoned)).html()
     assert re.findall(r"<script[^>]*>", page) == [
         '<script type="application/json" id="reader-data">',
         *["<script>"] * len(SCRIPTS),
@@ -131,7 +131,7 @@ def test_missing_data_is_an_error_and_no_gap(plain: dict[str, Any]) -> None:
     results = typed(plain)
     lacking = results.with_(program=ProgramRecord.model_construct(name="diecut-report"))
     with pytest.raises(UndefinedError, match="version"):
-        render_html(lacking)
+        Rendering(lacking).html()
     told = results.data()
     del told["program"]["version"]
     with pytest.raises(ValueError, match=r"program\.version"):
@@ -140,7 +140,7 @@ def test_missing_data_is_an_error_and_no_gap(plain: dict[str, Any]) -> None:
 
 def test_optional_title_block_entries_may_be_missing(plain: dict[str, Any]) -> None:
     plain["project"] = {"title": "Bare"}
-    assert "<h1>Bare</h1>" in render_html(typed(plain))
+    assert "<h1>Bare</h1>" in Rendering(typed(plain)).html()
 
 
 def test_templates_have_no_words_of_their_own() -> None:

@@ -183,18 +183,6 @@ def time_constant(inertia: Any, stiffness_at_flywheel: Any) -> Any:
     return as_number(inertia / stiffness_at_flywheel)
 
 
-def next_synchronous_speed(speed: float, frequency: float = 50.0) -> float:
-    """Return the next synchronous speed above a rated one, with whole pairs of poles (rad/s; frequency of the mains in Hz).
-
-    ValueError where the speed is not below that of one pair.
-    """
-    most = 2 * np.pi * frequency
-    pairs = int(np.ceil(most / speed * (1 - 1e-9))) - 1
-    if pairs < 1:
-        raise ValueError(f"no synchronous speed at {frequency:g} Hz is above {speed:g} rad/s")
-    return float(most / pairs)
-
-
 def motor_response(load: PieceRows, period: Array, time_constant: Array) -> PieceRows:
     """Return the periodic torques of motors under loads over shares of their periods (s), all at the flywheel's shaft.
 

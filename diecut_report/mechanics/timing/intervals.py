@@ -109,11 +109,6 @@ def is_whole(intervals: Intervals, period: float) -> bool:
     return total_length(intervals) >= period * (1 - TOUCHING)
 
 
-def contains(intervals: Intervals, place: float, period: float) -> bool:
-    """Return whether a place of the circle lies in a set, edges included."""
-    return any(0 <= (place - start) % period <= end - start for start, end in intervals)
-
-
 # Lines: mechanisms that the main shaft drives at a fixed ratio, and the period that all of them have in common.
 
 
@@ -216,11 +211,6 @@ def margins_within(inner: Intervals, outer: Intervals, period: float) -> tuple[P
 def _pairs(inner: Interval, outer: Intervals, period: float) -> list[PairMargin]:
     shifted = ((start + k * period, end + k * period) for (start, end), k in product(outer, TURNS_APART))
     return [PairMargin(inner, each, inner[0] - each[0], each[1] - inner[1]) for each in shifted]
-
-
-def margins_apart(inner: Intervals, other: Intervals, period: float) -> tuple[PairMargin, ...]:
-    """Return for each interval of ``inner`` its margins in the greatest gap that ``other`` leaves it."""
-    return margins_within(inner, complement(other, period), period)
 
 
 def worst(margins: tuple[PairMargin, ...]) -> PairMargin | None:

@@ -22,7 +22,7 @@ BELT, BELT_EFFICIENCY, GEAR, GEAR_EFFICIENCY = 3.0, 0.95, 98 / 20, 0.97
 INERTIA = 1.150435
 FLYWHEEL_SPEED = RATED_SPEED / BELT
 STIFFNESS = engagement.stiffness_at_flywheel(
-    engagement.slip_stiffness(RATED, engagement.next_synchronous_speed(RATED_SPEED), RATED_SPEED), BELT, BELT_EFFICIENCY
+    engagement.slip_stiffness(RATED, 1500 * np.pi / 30, RATED_SPEED), BELT, BELT_EFFICIENCY
 )
 
 
@@ -135,19 +135,6 @@ def test_without_inertia_the_motor_follows_the_load() -> None:
     torque = load([cylinder])
     found = Response(torque, 0.0)
     assert found.rms == pytest.approx(torque.rms, rel=1e-4)
-
-
-@pytest.mark.parametrize(
-    "rated, synchronous", [(1450, 1500), (2900, 3000), (960, 1000), (1500, 3000), (1499, 1500), (20, 20.134)]
-)
-def test_the_synchronous_speed_is_the_next_one_above(rated: float, synchronous: float) -> None:
-    found = engagement.next_synchronous_speed(rated * np.pi / 30)
-    assert found * 30 / np.pi == pytest.approx(synchronous, abs=1e-3)
-
-
-def test_no_motor_at_the_mains_turns_faster_than_one_pair_of_poles() -> None:
-    with pytest.raises(ValueError, match="no synchronous speed at 50 Hz is above"):
-        engagement.next_synchronous_speed(3000 * np.pi / 30)
 
 
 def test_many_motors_at_once_are_each_alone() -> None:

@@ -187,8 +187,6 @@ def test_a_margin_is_what_an_interval_can_grow_within_the_other_set(one: Interva
             assert max(holds) == pytest.approx(pair.least)
         elif pair.least == -inf:
             assert not other or intervals.is_whole(one, WHOLE)
-    apart = intervals.margins_apart(one, other, WHOLE)
-    assert apart == intervals.margins_within(one, intervals.complement(other, WHOLE), WHOLE)
 
 
 def _is_inside(pair: tuple[float, float], other: Intervals) -> bool:
