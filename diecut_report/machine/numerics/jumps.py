@@ -184,10 +184,12 @@ class _Machines:
             row, k = _nonzero(side[:, 1:] != side[:, :-1])
             found = [(row, self.x[row, k], self.x[row, k + 1]), *self._hidden(condition, side, gap)]
             row, low, high = (np.concatenate(columns) for columns in zip(*found, strict=True))
-            before = self._side(condition, low[:, None], row) if len(row) else low[:, None]
-            low, high = numerics.first(lambda x, own: self._side(condition, x, row[own]) != before[own], low, high)
-            inner = (high - self.left[row] > self.near[row]) & (self.right[row] - low > self.near[row])
-            self.changes[condition.meaning] = row[inner], low[inner], high[inner]
+            if len(row):
+                before = self._side(condition, low[:, None], row)
+                low, high = numerics.first(lambda x, own: self._side(condition, x, row[own]) != before[own], low, high)
+                inner = (high - self.left[row] > self.near[row]) & (self.right[row] - low > self.near[row])
+                row, low, high = row[inner], low[inner], high[inner]
+            self.changes[condition.meaning] = row, low, high
         return self.changes[condition.meaning]
 
     def _hidden(self, condition: BranchCondition, side: Array, gap: Array) -> Iterator[Brackets]:
@@ -215,6 +217,8 @@ class _Machines:
         goes_on: Callable[[Array], bool] | None = None,
     ) -> tuple[Array, Array, Array]:  # fmt: skip
         """Where the size of a part of a condition is least near points of the grid."""
+        if not len(row):
+            return row, k, np.zeros(0)
         low, high = (self.x[row, each] for each in self._neighbours(k))
         place, _ = numerics.least(
             lambda x, own: size(self._value(condition, part, x, row[own])), low, high, goes_on=goes_on
@@ -283,17 +287,19 @@ def _lowest(values: Array) -> tuple[Array, Array]:
 def _dips(gap: Array, side: Array, intervals: int) -> tuple[Array, Array]:
     """Such points where the size of a gap is lower than beside it by as much as itself, without a change of the condition beside it."""
     size, last = np.abs(gap), gap.shape[1] - 1
-    row, k = _lowest(size)
+    is_half = np.zeros(size.shape, dtype=bool)
+    np.less_equal(2 * size[:, 1:], size[:, :-1], out=is_half[:, 1:])
+    is_half[:, :-1] |= 2 * size[:, :-1] <= size[:, 1:]
+    row, k = _nonzero(is_half)  # few, so that the rest is asked of these alone
     before, after = np.where(k > 0, k - 1, 1), np.where(k < last, k + 1, last - 1)
-    found = (2 * size[row, k] <= np.maximum(size[row, before], size[row, after])) & (
-        side[row, before] == side[row, after]
-    )
-    found &= side[row, k] == side[row, after]
+    here, *beside = size[row, k], size[row, before], size[row, after]
+    found = (here <= np.minimum(*beside)) & (here < np.maximum(*beside))
+    found &= (side[row, before] == side[row, after]) & (side[row, k] == side[row, after])
     row, k = row[found], k[found]
     for end, inwards in ((0, gap), (last, gap[:, ::-1])):
-        at_end = np.flatnonzero(k == end)
-        rising = _rises(inwards[row[at_end], :NEAR], intervals)
-        row, k = np.delete(row, at_end[rising]), np.delete(k, at_end[rising])
+        if len(at_end := np.flatnonzero(k == end)):
+            rising = at_end[_rises(inwards[row[at_end], :NEAR], intervals)]
+            row, k = np.delete(row, rising), np.delete(k, rising)
     return row, k
 
 
