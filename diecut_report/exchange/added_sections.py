@@ -8,6 +8,7 @@ revision may hold only what leaves no choice, written in one way: whoever writes
 from __future__ import annotations
 
 import re
+import zlib
 from collections.abc import Iterator
 from typing import Any, NamedTuple
 
@@ -16,7 +17,7 @@ import pikepdf
 MOST_REVISIONS, MOST_ADDED = 50, 100_000  # the latter objects in a revision
 LONGEST_END = 64  # bytes behind the end; a program looks for the last table in about a thousand
 LONGEST_GAP = 64  # bytes between the numbers of an object and what it is; more are not taken
-KEYS = {"/Type", "/Size", "/Index", "/W", "/ID", "/Prev", "/Length", "/Filter", "/DecodeParms"}  # with /Root and /Info
+KEYS = {"/Type", "/Size", "/Index", "/W", "/ID", "/Prev", "/Length", "/Filter"}  # with /Root and /Info
 _LINE = rb"(?:\r\n|\n|\r)"
 _START = re.compile(rb"[\r\n]startxref" + _LINE + rb"([1-9]\d{0,14})" + _LINE + rb"%%EOF")
 _TABLE = re.compile(rb"([1-9]\d{0,9}) 0 obj[\r\n ]*<<(.*?)>>[\r\n ]*stream\r?\n", re.DOTALL)
@@ -27,7 +28,7 @@ _NUMBER = rb"[0-9+.-]+"
 _HEAD = re.compile(  # a number may stand behind a comment; one with a backslash is a letter of a text
     rb"(?:(?:\A|[\r\n])%b*(?:%b)?|(?<![\\0-9+.-])%b%b+%b)%b*\Z" % (_GAP, _NUMBER, _NUMBER, _GAP, _NUMBER, _GAP)
 )
-_TRAILER = re.compile(rb"trailer" + _GAP + rb"*<<")
+WIDEST = (1, 8, 2)  # bytes of the columns of a table; a program that takes no more searches the file for objects
 
 BLANK, END = rb"[\t\n\f\r ]", rb"(?![^\t\n\f\r ()<>\[\]/%])"
 PARTS = rb"%b+|<<|>>|[\[\]]|<(?:[\dA-Fa-f]{2})*>|/[\w.+-]{1,127}%b|-?(?:0|[1-9]\d{0,9})(?:\.\d{1,10})?%b" % (
@@ -37,7 +38,7 @@ PARTS = rb"%b+|<<|>>|[\[\]]|<(?:[\dA-Fa-f]{2})*>|/[\w.+-]{1,127}%b|-?(?:0|[1-9]\
 )
 TEXT = rb"\((?:[^()\\\r]|\\[0-3][0-7]{2}|\\[nrtbf()\\])*\)"
 _TOKEN = re.compile(rb"(?:([1-9]\d{0,9}) 0 R%b|(true|false|stream|endobj)%b|%b|%b)" % (END, END, PARTS, TEXT), re.ASCII)
-_LENGTH = re.compile(rb"/Length%b+(\d+)%b" % (BLANK, END))
+_LENGTH = re.compile(rb"/Length%b+(\d+)%b(?!%b+\d+%b+R)" % (BLANK, END, BLANK, BLANK))
 _STREAM_END = re.compile(rb"[\r\n]*endstream%b+endobj%b*" % (BLANK, BLANK))
 
 
@@ -62,6 +63,7 @@ def revisions(before: bytes, after: bytes) -> Iterator[AddedRevision]:
     starts = list(_START.finditer(after, begin))
     last = starts[-1].end() if starts else begin
     _require(len(starts) <= MOST_REVISIONS and after.count(b"startxref", begin) == len(starts))
+    _require(b"trailer" not in after[begin:] and after.count(b"xref", begin) == len(starts))
     _require(len(after) - last <= LONGEST_END and not after[last:].strip(b"\r\n"))
     for start in starts:
         yield _revision(after[: start.end()], begin, start, former)
@@ -113,18 +115,20 @@ def _table(whole: bytes, place: int) -> tuple[int, Any, bytes]:
     number, told = int(found[1]), pikepdf.Object.parse(b"<<%b>>" % _REFERENCES.sub(b"", found[2]))
     _require(set(told.keys()) <= KEYS and told["/Type"] == "/XRef")
     _require(told.get("/Filter", "/FlateDecode") == "/FlateDecode")
-    rows = pikepdf.Dictionary(Predictor=12, Columns=sum(_whole_numbers(told["/W"])))
-    _require("/DecodeParms" not in told or told["/DecodeParms"] == rows)
-    with pikepdf.new() as pdf:
-        data = whole[found.end() : found.end() + int(told["/Length"])]
-        return number, told, pikepdf.Stream(pdf, data, told).read_bytes()
+    packed, unpacking = whole[found.end() : found.end() + int(told["/Length"])], zlib.decompressobj()
+    if "/Filter" not in told:
+        return number, told, packed
+    rows = unpacking.decompress(packed, sum(WIDEST) * MOST_ADDED)
+    _require(unpacking.eof and not unpacking.unused_data)
+    return number, told, rows
 
 
 def _entries(told: Any, data: bytes) -> dict[int, int]:
     """Where a table says that objects stand."""
     widths, index = _whole_numbers(told["/W"]), _whole_numbers(told.get("/Index", [0, told["/Size"]]))
     kinds, places, ends = (sum(widths[:count]) for count in (1, 2, 3))
-    _require(len(widths) == 3 and places > kinds and len(data) == ends * sum(index[1::2]) <= ends * MOST_ADDED)
+    _require(len(widths) == 3 and all(map(int.__le__, widths, WIDEST)) and places > kinds)
+    _require(len(data) == ends * sum(index[1::2]) <= ends * MOST_ADDED)
     numbers = [
         each for first, count in zip(index[::2], index[1::2], strict=True) for each in range(first, first + count)
     ]
@@ -144,9 +148,9 @@ def _entries(told: Any, data: bytes) -> dict[int, int]:
 
 
 def _has_other_objects(part: bytes, known: set[int]) -> bool:
-    """Whether a program that searches for objects, or for what tells of them, could find others than those that are known."""
+    """Whether a program that searches for objects could find others than those that are known."""
     others = (each.start() for each in _OBJECT.finditer(part) if each.start() not in known)
-    return bool(_TRAILER.search(part)) or any(_HEAD.search(part[max(at - LONGEST_GAP, 0) : at]) for at in others)
+    return any(_HEAD.search(part[max(at - LONGEST_GAP, 0) : at]) for at in others)
 
 
 def _type(found: Any) -> object:

@@ -5,15 +5,15 @@ from __future__ import annotations
 import io
 import re
 from collections.abc import Iterator, Set
-from decimal import Decimal
 from typing import Any, NamedTuple
 
 import pikepdf
 
 from diecut_report.exchange import pdf_attachments
-from diecut_report.exchange.added_sections import END, PARTS, TEXT, AddedRevision, revisions
+from diecut_report.exchange.added_sections import AddedRevision, revisions
 from diecut_report.exchange.carried import MOST_RESULTS
 from diecut_report.exchange.pdf_attachments import bounded
+from diecut_report.exchange.signature_drawing import drawings
 
 OF_FIELD = {"/V", "/AP", "/F", "/M"}  # what signing sets in a field: the signature, how it shows, its flags, its time
 OF_FORM = {"/SigFlags", "/Fields"}  # the fields may grow by document timestamps
@@ -21,24 +21,33 @@ OF_PROOFS = {"/DSS", "/Extensions"}  # what proves certificates, with the name o
 OF_ROOT = OF_PROOFS | {"/AcroForm", "/Version", "/Perms"}  # with what a signer allows
 OF_DSS = {"/Type", "/Certs", "/CRLs", "/OCSPs", "/VRI"}
 OF_TIMESTAMP = {"/Type", "/Subtype", "/FT", "/T", "/TU", "/V", "/Rect", "/F", "/P", "/M", "/Ff"}
-OF_DRAWING = {"/Type", "/Subtype", "/FormType", "/BBox", "/Matrix", "/Resources", "/Length", "/Filter"}
-OF_RESOURCES = {"/Font", "/ProcSet", "/ExtGState"}
-OF_STATE = {"/Type", "/CA", "/ca"}  # of which the latter tell how opaque it is
-LARGEST_BOX = 14_400  # points; beyond that programs round, each in its own way
-OPERATORS = rb"cm|re|gs|BT|ET|BMC|EMC|rg|RG|T[cdDfjJLmrswz*]|[fBbW]\*|[qQwJjMdmlcvyhSsfFBbnWgGkK]"
-"""Of paths, colours and text. With others, such as pictures within a drawing, programs differ in where it ends."""
+OF_DRAWING = {"/Type", "/Subtype", "/BBox", "/Resources", "/Length"}
+OF_SIGNATURE = {
+    "/Type",
+    "/Filter",
+    "/SubFilter",
+    "/ByteRange",
+    "/Contents",
+    "/M",
+    "/Name",
+    "/Reason",
+    "/Location",
+    "/ContactInfo",
+    "/Reference",
+}
+OF_PROOF = {"/Type", "/Cert", "/CRL", "/OCSP", "/TU", "/TS"}  # of one signature
+WRAPPED = re.compile(rb"q q (?:/BackgroundGS gs )?1 0 0 1 0 0 cm (.*) Q Q", re.DOTALL)
 FLAGS = (
     4 | 128 | 512
 )  # printed, locked, its contents locked; others let a field grow over the sheet where it is shown small
 FAULTS = (pikepdf.PasswordError, *pdf_attachments.FAULTS)
-_DRAWN = re.compile(rb"(?:(%b)%b|%b|%b)" % (OPERATORS, END, PARTS, TEXT), re.ASCII)
 
 
 def only_signed(before: bytes, after: bytes) -> bool:
     """Return whether all objects of a PDF are the same in a later one, but for fields that were free and are signed there.
 
-    Each added revision fills one field, adds a document timestamp, or what proves certificates. What it adds beside is reached from
-    there alone, and shows within the field's box, or not at all.
+    Each added revision fills one field, adds a document timestamp, or what proves certificates, and nothing that these do not take. A
+    signature shows what this program draws of its name, time and reason, or nothing.
     """
     bounded(MOST_RESULTS)
     try:
@@ -72,18 +81,42 @@ class _Changes(NamedTuple):
     def made(cls, old: pikepdf.Pdf, new: pikepdf.Pdf, revision: AddedRevision) -> _Changes:
         pairs = {number: (old.get_object(number, 0), new.get_object(number, 0)) for number in revision.placed}
         there = {number: pair for number, pair in pairs.items() if pair[0] is not None}  # type: ignore[redundant-expr]
-        return cls(old, new, there, pairs.keys() - there.keys())
+        return cls(old, new, there, pairs.keys() - there.keys() - {revision.table})
 
     def are_signing(self) -> bool:
-        fields = [number for number, (first, _) in self.changed.items() if _is_free_field(first)]
-        if len(fields) > 1 or any(number < int(self.old.trailer.Size) for number in self.added):
-            return False
-        of_root = OF_ROOT if fields or self._has_timestamp() else OF_PROOFS
-        return all(self._is_signing(number, *pair, of_root) for number, pair in self.changed.items())
+        fields = [pair[1] for pair in self.changed.values() if _is_free_field(pair[0])]
+        stamps = list(self.new.Root.get("/AcroForm", _NONE).get("/Fields", ()))[self._fields_before :]
+        of_root = OF_ROOT if fields or stamps else OF_PROOFS
+        taken = {found.objgen[0] for field in (*fields, *stamps) for found in (field, field["/V"])}
+        taken |= {field["/AP"]["/N"].objgen[0] for field in fields if "/AP" in field} | {
+            *_reached(self.new.Root.get("/DSS"))
+        }
+        return (
+            len(fields) <= 1
+            and self.added <= taken
+            and all(number >= int(self.old.trailer.Size) for number in self.added)
+            and all(self._is_signing(number, *pair, of_root) for number, pair in self.changed.items())
+            and self._are_proofs()
+        )
 
-    def _has_timestamp(self) -> bool:
-        before, after = (len(pdf.Root.get("/AcroForm", _NONE).get("/Fields", ())) for pdf in (self.old, self.new))
-        return after > before
+    @property
+    def _fields_before(self) -> int:
+        return len(self.old.Root.get("/AcroForm", _NONE).get("/Fields", ()))
+
+    def _are_proofs(self) -> bool:
+        """Whether what proves certificates is of that kind, and nothing that was there for something else."""
+        proofs, before = self.new.Root.get("/DSS", _NONE), {*_reached(self.old.Root.get("/DSS"))}
+        lists = [each for key, each in proofs.items() if key in ("/Certs", "/CRLs", "/OCSPs")]
+        for own in proofs.get("/VRI", _NONE).values():
+            lists += [each for key, each in own.items() if key not in ("/Type", "/TU", "/TS")]
+            if not set(own.keys()) <= OF_PROOF:
+                return False
+        data = [each for listed in lists for each in listed]
+        return (
+            set(proofs.keys()) <= OF_DSS
+            and {*_reached(proofs)} <= self.added | before
+            and all(isinstance(each, pikepdf.Stream) and set(each.keys()) <= {"/Length", "/Filter"} for each in data)
+        )
 
     def _is_signing(self, number: int, first: Any, second: Any, of_root: set[str]) -> bool:
         """Whether an object is the same, or changed as by a signature."""
@@ -97,24 +130,57 @@ class _Changes(NamedTuple):
             return False
         if first.objgen == self.old.Root.objgen:
             forms = (pdf.Root.get("/AcroForm", _NONE) for pdf in (self.old, self.new))
-            return _same_but(first, second, of_root) and self._is_form(*forms)
+            return _same_but(first, second, of_root) and self._is_form(*forms) and self._is_root(second)
         if first.objgen == self.old.Root.get("/DSS", _NONE).objgen:
-            return {*first.keys(), *second.keys()} <= OF_DSS
+            return True  # as it is now, it is judged with all that it takes
         if _is_free_field(first):
             return self._is_filled(first, second)
         if first.get("/Type") == "/Page":
             return _same_but(first, second, {"/Annots"}) and self._grown(first.get("/Annots"), second.get("/Annots"))
         return first.objgen == self.old.Root.get("/AcroForm", _NONE).objgen and self._is_form(first, second)
 
+    def _is_root(self, root: Any) -> bool:
+        """Whether the catalogue tells of its version and of what a signer allows, and of nothing else by it."""
+        allowed = list(root.get("/Perms", _NONE).items())
+        return (
+            b" R" not in root.get("/Extensions", _NONE).unparse(resolved=True)
+            and isinstance(root.get("/Version", pikepdf.Name("/1.7")), pikepdf.Name)
+            and all(key == "/DocMDP" and each["/Type"] == "/Sig" for key, each in allowed)
+        )
+
     def _is_filled(self, first: Any, second: Any) -> bool:
-        """Whether a free field got a signature that this revision adds, and shows it within its box."""
+        """Whether a free field got a signature that this revision adds, and shows what that says."""
         flags = int(second.get("/F", 0)) & ~int(first.get("/F", 0)) & ~FLAGS
-        is_shown_within = "/AP" not in second or _is_cut(second["/AP"])
-        return not flags and is_shown_within and self._is_added_signature(second) and _same_but(first, second, OF_FIELD)
+        if flags or not self._is_added_signature(second) or not _same_but(first, second, OF_FIELD):
+            return False
+        return "/AP" not in second or self._is_drawn(second["/AP"], second)
+
+    def _is_drawn(self, appearance: Any, field: Any) -> bool:
+        """Whether what a field shows is what this program draws of the signature."""
+        shown = appearance.get("/N")
+        if (
+            set(appearance.keys()) != {"/N"}
+            or not isinstance(shown, pikepdf.Stream)
+            or not set(shown.keys()) <= OF_DRAWING
+        ):
+            return False
+        x1, y1, x2, y2 = (float(each) for each in field["/Rect"])
+        width, height = abs(x2 - x1), abs(y2 - y1)
+        box = [abs(float(each) - wanted) for each, wanted in zip(shown["/BBox"], (0, height, width, 0), strict=True)]
+        found = WRAPPED.fullmatch(shown.read_bytes())
+        name, time, reason = (str(field["/V"].get(key, "")) for key in ("/Name", "/M", "/Reason"))
+        return (
+            shown.objgen[0] in self.added
+            and shown["/Subtype"] == "/Form"
+            and max(box) <= 1
+            and _takes_opacity(shown.get("/Resources", _NONE))
+            and found is not None
+            and found[1] in drawings(name, time, reason, width, height)
+        )
 
     def _is_added_signature(self, field: Any) -> bool:
         value = field.get("/V", _NONE)
-        return value.objgen[0] in self.added and "/ByteRange" in value
+        return value.objgen[0] in self.added and set(value.keys()) <= OF_SIGNATURE and "/ByteRange" in value
 
     def _is_form(self, first: Any, second: Any) -> bool:
         return _same_but(first, second, OF_FORM) and self._grown(first.get("/Fields"), second.get("/Fields"))
@@ -123,7 +189,9 @@ class _Changes(NamedTuple):
         """Whether a list is the same, but for document timestamps at its end."""
         if first is None and second is None:
             return True
-        a, b = (list(each) if isinstance(each, pikepdf.Array) else [] for each in (first, second))
+        if not isinstance(second, pikepdf.Array):
+            return False
+        a, b = list(first or ()), list(second)
         same = len(a) <= len(b) and all(
             x.objgen == y.objgen and x.unparse() == y.unparse() for x, y in zip(a, b, strict=False)
         )
@@ -136,7 +204,7 @@ class _Changes(NamedTuple):
         box = [float(each) for each in field["/Rect"]]
         is_field = field["/Subtype"] == "/Widget" and field["/FT"] == "/Sig"  # a note shows, however small its box
         is_dated = self._is_added_signature(field) and field["/V"]["/Type"] == "/DocTimeStamp"
-        return is_field and is_dated and box[:2] == box[2:]
+        return is_field and is_dated and len(box) == 4 and box[:2] == box[2:]
 
 
 def _is_free_field(found: Any) -> bool:
@@ -144,41 +212,26 @@ def _is_free_field(found: Any) -> bool:
     return bool(is_field and found.get("/FT") == "/Sig" and "/V" not in found)
 
 
-def _is_cut(appearance: Any) -> bool:
-    """Whether a field shows one drawing, which no program lets reach out of its box."""
-    drawing = appearance.get("/N")
-    if set(appearance.keys()) != {"/N"} or not isinstance(drawing, pikepdf.Stream):
-        return False
-    box = list[object](drawing["/BBox"])
-    corners = [float(each) for each in box if isinstance(each, int | Decimal)]
-    is_upright = [float(each) for each in drawing.get("/Matrix", (1, 0, 0, 1, 0, 0))] == [1, 0, 0, 1, 0, 0]
-    is_plain = set(drawing.keys()) <= OF_DRAWING and drawing.get("/Filter", "/FlateDecode") == "/FlateDecode"
-    is_box = len(corners) == len(box) == 4 and max(map(abs, corners)) <= LARGEST_BOX
-    return bool(
-        drawing["/Subtype"] == "/Form" and is_upright and is_plain
-        and is_box and min(abs(corners[0] - corners[2]), abs(corners[1] - corners[3])) >= 1
-        and _takes_plain(drawing.get("/Resources", _NONE)) and _is_balanced(drawing.read_bytes())
-    )  # fmt: skip
+def _takes_opacity(resources: Any) -> bool:
+    """Whether a drawing takes nothing but states that tell how opaque it is."""
+    states = [each for _, each in resources.get("/ExtGState", _NONE).items()]
+    return set(resources.keys()) <= {"/ExtGState"} and all(set(each.keys()) <= {"/CA", "/ca"} for each in states)
 
 
-def _takes_plain(resources: Any) -> bool:
-    """Whether a drawing takes letters that draw nothing else, and states that tell how opaque it is."""
-    fonts, states = ([each for _, each in resources.get(key, _NONE).items()] for key in ("/Font", "/ExtGState"))
-    return (
-        set(resources.keys()) <= OF_RESOURCES
-        and all(each.get("/Subtype") != "/Type3" for each in fonts)
-        and all(set(each.keys()) <= OF_STATE for each in states)
-    )
-
-
-def _is_balanced(drawn: bytes) -> bool:
-    """Whether a drawing takes back no more than it has saved: some programs would take back the box that cuts it."""
-    depth, at = 0, 0
-    while found := _DRAWN.match(drawn, at):
-        at, depth = found.end(), depth + {b"q": 1, b"Q": -1}.get(found[1], 0)
-        if depth < 0:
-            return False
-    return at == len(drawn) and depth == 0
+def _reached(found: Any, depth: int = 5) -> Iterator[int]:
+    """The numbers of the objects that something holds or is."""
+    if isinstance(found, pikepdf.Object) and depth:
+        if found.objgen[0]:
+            yield found.objgen[0]
+        parts = (
+            found.values()
+            if isinstance(found, pikepdf.Dictionary)
+            else found
+            if isinstance(found, pikepdf.Array)
+            else ()
+        )
+        for each in parts:
+            yield from _reached(each, depth - 1)
 
 
 def fault(content: bytes) -> str:

@@ -6,6 +6,7 @@ import io
 import logging
 from collections.abc import Iterator, Sequence
 from contextlib import contextmanager
+from datetime import UTC
 from pathlib import Path
 from typing import TYPE_CHECKING, Any, NamedTuple
 
@@ -87,7 +88,7 @@ def _all_judged(embedded: Sequence[Any], whole: bytes, roots: list[x509.Certific
 
 def _judged(signature: Any, status: Status, *, asks_trust: bool) -> Signature:
     named = f"{cell(signature.field_name)}: {_signer(signature, status)}"
-    if why := _why_not(status):
+    if why := _why_not(status) or _other_name(signature):
         return Signature(Phrase("{named}: {why}", named=named, why=why), False, end=status.end)
     since = phrase("nothing changed since") if status.is_last else phrase("since then others have signed")
     if not asks_trust:
@@ -109,6 +110,14 @@ def _why_not(status: Status) -> str:
     return status.weakness or status.outdated
 
 
+def _other_name(signature: Any) -> str:
+    """Why the name that a signature shows is not its signer's; "" where it is, or where it has none."""
+    shown, own = signature.sig_object.get("/Name"), signature.signer_cert.subject.native.get("common_name")
+    if not shown or not own or str(shown) == own:
+        return ""
+    return Phrase("it shows the name {shown}, and its certificate has another one", shown=cell(str(shown)))
+
+
 def _signer(signature: Any, status: Status) -> str:
     """Who signed, when, and why, as the signature has it; of a timestamp who tells the time."""
     found = signature.signer_cert.subject.native
@@ -118,7 +127,7 @@ def _signer(signature: Any, status: Status) -> str:
     parts = [
         name,
         firm,
-        f"{told:%Y-%m-%d %H:%M} UTC" if told else "",
+        f"{told.astimezone(UTC):%Y-%m-%d %H:%M} UTC" if told else "",
         reason,
         Phrase("time stamped {time} UTC", time=f"{status.time:%Y-%m-%d %H:%M}") if status.time else "",
     ]

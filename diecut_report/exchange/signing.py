@@ -22,20 +22,16 @@ from pyhanko.sign.signers import PdfSignatureMetadata, PdfSigner, SimpleSigner
 from pyhanko.stamp import StaticStampStyle
 from pyhanko_certvalidator.registry import SimpleCertificateStore
 
-from diecut_report.config.yaml import printable
 from diecut_report.errors import Problem, UserError, nearest
 from diecut_report.exchange.carried import MOST, form_of
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.pdf_faults import PDF_FAULTS
+from diecut_report.exchange.signature_drawing import drawing
 from diecut_report.exchange.signatures import silent
 from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.files import content, write_all
-from diecut_report.report.symbols import LINE, MILLIMETRE, drawn, fitted
 from diecut_report.text.phrases import Phrase, phrase
 
-SMALLEST, LARGEST = 2.5, 8.0  # points of the letters in a field
-PAD = 1.0  # points between a field's edge and its letters
-LIFTED = 0.3  # of a line: its baseline above its lower edge
 NONE_FREE = phrase(
     "This PDF has no free field for a signature: an earlier version or another program made it, or all have signed it."
 )
@@ -78,7 +74,7 @@ def sign(asked: Signing, key: SigningKey, tell: Callable[[str], None], judge: Ca
             field = _chosen(list(_free_fields(Additions(io.BytesIO(whole)))), asked)
         judge()
         with silent():
-            signed = _signed(whole, field, asked, key)
+            signed = with_signature(Additions(io.BytesIO(whole)), field, asked.reason, key)
     except (PdfError, SigningError, *PDF_FAULTS) as error:
         words = Phrase("The PDF cannot be signed: {error}. Give the file as the program wrote it.", error=error)
         raise UserError(Problem(words, str(asked.report))) from error
@@ -92,15 +88,16 @@ def _free_fields(writer: Additions) -> dict[str, Any]:
     return {name: widget.get_object() for name, _, widget in enumerate_sig_fields(writer.prev, filled_status=False)}
 
 
-def _signed(whole: bytes, field: str, asked: Signing, key: SigningKey) -> bytes:
-    writer = Additions(io.BytesIO(whole))
+def with_signature(writer: Additions, field: str, reason: str | None, key: SigningKey) -> bytes:
+    """Return a PDF with a signature in a field that is free; PdfError or SigningError where that is not possible."""
     now = datetime.now(UTC)
     x1, y1, x2, y2 = (float(each) for each in _free_fields(writer)[field]["/Rect"])
-    told = f"{key.name}, {now:%Y-%m-%d %H:%M} UTC" + (f", {asked.reason}" if asked.reason else "")
+    size = abs(x2 - x1), abs(y2 - y1)
+    shown = drawing(key.name, now, reason, *size)
     form = PdfSignatureMetadata(
-        field_name=field, md_algorithm="sha256", name=key.name, reason=asked.reason, subfilter=SigSeedSubFilter.PADES
+        field_name=field, md_algorithm="sha256", name=key.name, reason=reason, subfilter=SigSeedSubFilter.PADES
     )
-    signer = PdfSigner(form, _signer(key), stamp_style=_appearance(printable(told), abs(x2 - x1), abs(y2 - y1)))
+    signer = PdfSigner(form, _signer(key), stamp_style=_appearance(shown, *size))
     made: Any = signer.sign_pdf(writer, existing_fields_only=True)
     content: bytes = made.getvalue()
     return content
@@ -135,15 +132,7 @@ def _signer(key: SigningKey) -> SimpleSigner:
     return SimpleSigner(signing_cert=own, signing_key=keys.PrivateKeyInfo.load(secret), cert_registry=chain)
 
 
-def _appearance(text: str, width: float, height: float) -> StaticStampStyle:
-    """The text in the field, as outlines: no font is needed that the document has not embedded."""
-    room = width - 2 * PAD, height - 2 * PAD
-    lines, size = fitted(text, room[0] / MILLIMETRE, room[1] / MILLIMETRE, LARGEST, SMALLEST)
-    top = (height + len(lines) * size * LINE) / 2
-    drawing = [
-        f"q {size:.3f} 0 0 {size:.3f} {PAD:.3f} {top - (number + 1 - LIFTED) * size * LINE:.3f} cm {drawn(line)} Q"
-        for number, line in enumerate(lines)
-    ]
+def _appearance(drawn: bytes, width: float, height: float) -> StaticStampStyle:
     layout = SimpleBoxLayoutRule(AxisAlignment.ALIGN_MIN, AxisAlignment.ALIGN_MIN, Margins(0, 0, 0, 0))
-    picture = RawContent("\n".join(drawing).encode(), box=BoxConstraints(width=width, height=height))
+    picture = RawContent(drawn, box=BoxConstraints(width=width, height=height))
     return StaticStampStyle(border_width=0, background=picture, background_layout=layout)

@@ -383,7 +383,8 @@ class _Report:
             self.contents, self.painted = sheet.Contents.objgen[0], _stream(OVER)
             self.written = _stream(sheet.Contents.read_raw_bytes(), b"/Filter /FlateDecode")
             former, signature = field.unparse(resolved=True).removesuffix(b">>"), b"/V %d 0 R >>" % self.value
-            self.signed = re.sub(rb"(?<=/N )\d+ 0 R", b"%d 0 R" % self.size, former) + signature
+            self.signed = re.sub(rb"/AP <<[^>]*>>", b"", former) + signature
+            self.shown = re.sub(rb"(?<=/N )\d+ 0 R", b"%d 0 R" % self.size, former) + signature
             self.as_it_was, second = sheet.unparse(resolved=True), pdf.Root.AcroForm.Fields[1]
             self.second = second.objgen[0]
             self.signed_too = second.unparse(resolved=True).removesuffix(b">>") + signature
@@ -394,12 +395,13 @@ class _Report:
         self,
         objects: dict[int, bytes] | None = None,
         *,
-        drawing: bytes = DRAWING,
+        drawing: bytes = b"",
         hidden: bytes = b"",
         told: bytes = b"",
         start: bytes = START,
         packed: bytes = b"",
         over: bytes = OVER,
+        more: bytes = b"",
     ) -> bytes:
         """The report with its first field signed, these objects, some that no table names, and more that the table tells.
 
@@ -410,7 +412,10 @@ class _Report:
             told_of_it = b"/Type /ObjStm /N 1 /First %d %b" % (len(head), packed)
             objects = {holder: _stream(head + self.as_it_was, told_of_it)}
         whole, places = self.content + hidden, dict[int, int]()
-        own = {self.field: self.signed, self.size: _stream(over, drawing), self.value: SIGNATURE}
+        own = {self.field: self.signed, self.value: SIGNATURE}
+        own |= {self.size + 1: more} if more else {}
+        if drawing:
+            own |= {self.field: self.shown, self.size: _stream(over, drawing)}
         for number, written in (own | (objects or {})).items():
             places[number] = len(whole) + 1
             whole += b"\n%d 0 obj\n%b\nendobj\n" % (number, written)
@@ -498,6 +503,13 @@ def _signed_again(content: bytes) -> bytes:
     return later.revision({report.second: report.signed_too, report.number_of_root: proofs})
 
 
+def _hidden_trailer(content: bytes) -> bytes:
+    """A signature whose reason is a trailer for some programs, behind a comment."""
+    report = _Report(content)
+    said = b"/Reason (\ntrailer %%\n<</Root %d 0 R>>\n) >>" % report.number_of_root
+    return report.revision({report.value: SIGNATURE.removesuffix(b">>") + said})
+
+
 def _of_revision(**options: Any) -> Callable[[bytes], bytes]:
     return lambda content: _Report(content).revision(**options)
 
@@ -526,7 +538,13 @@ OF_REVISION = (
     Forgery("a part of a sheet that refers to another generation of an object: nothing for some, something for others",
             _sheet_with(b"/Contents ", b"/CropBox 9 1 R /Contents "), PAGES),
     Forgery("a number so long that some programs read its beginning", _sheet_with(b"/Contents ", b"/Contents " + 300 * b"0"), PAGES),
-    Forgery("a drawing of a signature that takes back the box that cuts it", _of_revision(over=b"Q " + OVER), PAGES),
+    Forgery("a drawing of a signature that takes back the box that cuts it", _of_revision(drawing=DRAWING, over=b"Q " + OVER), PAGES),
+    Forgery("a drawing of a signature that saves what it takes back only for some programs", _of_revision(
+        drawing=DRAWING, over=b"[ q ] Q " + OVER), PAGES),
+    Forgery("a drawing of a signature that says something else than the signature, within its box", _of_revision(
+        drawing=DRAWING, over=b"0 0 9 9 re f"), PAGES),
+    Forgery("another catalogue, which a program finds that searches the file", _hidden_trailer, PAGES),
+    Forgery("an object that nothing takes which is added", _of_revision(more=b"<< /Type /Catalog /Pages 1 0 R >>"), PAGES),
     Forgery("a drawing of a signature that is moved, by numbers that programs round", _of_revision(
         drawing=DRAWING + b" /Matrix [1 0 0 1 9999999999 -9999999999]"), PAGES),
     Forgery("where the last table stands, in letters that some programs do not take", _of_revision(start=b"startxref\x0b\n%d\n%%%%EOF\n"), PAGES),

@@ -31,7 +31,8 @@ from pyhanko_certvalidator.registry import SimpleCertificateStore
 from diecut_report.exchange import signature_status
 from diecut_report.exchange.later_changes import only_signed
 from diecut_report.exchange.signatures import signatures
-from diecut_report.exchange.signing import Additions
+from diecut_report.exchange.signing import Additions, with_signature
+from diecut_report.exchange.signing_keys import SigningKey
 from diecut_report.press import CalculatedPress, Press
 from diecut_report.text.phrases import cell
 from tests.configs import SMALL, saved
@@ -306,8 +307,18 @@ def test_what_is_added_beside_a_signature_is_found(small_report: Path, forgery: 
 
 def test_a_reason_in_any_words_is_no_object(small_report: Path, private: ec.EllipticCurvePrivateKey) -> None:
     whole = (small_report / "small.pdf").read_bytes()
-    reason = "Revision 7, 5 objections (trailer: 0 obj)"
-    assert only_signed(whole, signed_elsewhere(whole, private, certified(private), reason=reason))
+    key = SigningKey(Path("key.p12"), private, certified(private))
+    for reason in ("Revision 7, 5 objections (0 obj) \\ Перевірено", None):
+        assert only_signed(whole, with_signature(Additions(io.BytesIO(whole)), "approved", reason, key))
+    assert not only_signed(whole, signed_elsewhere(whole, private, certified(private)))  # which draws something else
+
+
+def test_a_signature_in_the_name_of_another_does_not_hold(
+    small_report: Path, private: ec.EllipticCurvePrivateKey
+) -> None:
+    whole = (small_report / "small.pdf").read_bytes()
+    (found,) = signatures(signed_elsewhere(whole, private, certified(private), name="Somebody else"))
+    assert not found.holds and "it shows the name Somebody else" in found.words
 
 
 @pytest.mark.parametrize(("flags", "holds"), [(4 | 128, True), (4 | 8, False), (4 | 16, False)])
@@ -320,7 +331,8 @@ def test_a_signed_field_does_not_grow_over_its_sheet(
     field = next(each for each in fields if each["/T"] == "approved")
     field["/F"] = NumberObject(flags)
     writer.update_container(field)
-    assert only_signed(whole, signed_elsewhere(writer, private, certified(private))) is holds
+    key = SigningKey(Path("key.p12"), private, certified(private))
+    assert only_signed(whole, with_signature(writer, "approved", None, key)) is holds
 
 
 WEAK: dict[str, tuple[Callable[[], Private], dict[str, Any], dict[str, int], str]] = {
