@@ -113,7 +113,7 @@ class RollingBearing(Inputs):
 
     bearings: Annotated[list[Bearing], Text("Bearings")]
     reliability: Annotated[float, Quantity("R", "%", "Reliability of the life", listed=RELIABILITIES)] = 90
-    required_life: Annotated[float, Quantity("[L]", "h", "Required life", gt=0, plausible=("1 s", "1e7 h"))] = 20000
+    required_life: Annotated[float, Quantity("[L]", "h", "Required life", gt=0, plausible=("100 h", "1e6 h"))] = 20000
     required_static_safety: Annotated[
         float | None,
         Quantity("[s_0]", "1", "Required static safety factor; default: 1 for ball, 1.5 for roller bearings", gt=0),

@@ -28,6 +28,10 @@ CHECKS = (
           severity="warn", needs=("speed",), demand_label="twice the speed", limit_label="critical speed", tolerance=ROUNDING, source="Shigley 7-6",
           consequence="the shaft runs too near to its critical speed; a shorter shaft has a higher one.",
           advise=(Vary("speed", "down"), *THICKER)),
+    Check(id="at_rest", check_class="function", title="Shaft at rest", demand="standing_speed", limit=0.0, unit="rpm", only_with=("speed",),
+          demand_label="speed", limit_label="by rotation", source="input",
+          consequence="what has a speed turns: its fatigue and its critical speed are not those of a shaft that stands; write turning for "
+                      "rotation, or remove speed."),
     Check(id="deflection", check_class="function", title="Deflection", demand="deflection_max", limit="allowable_deflection", unit="um",
           needs=("allowable_deflection",), demand_label="maximum deflection", limit_label="allowed", tolerance=ROUNDING, source="input",
           consequence="what runs on the shaft leaves its place.", advise=THICKER),

@@ -188,6 +188,11 @@ _number(critical, "critical_speed_dunkerley", "n_D", "rpm", "Critical speed by D
 critical.computed("turns", "k_n", "1", "Shaft rotates; otherwise it stands or oscillates",
                   lambda rotation, length: np.full(length.shape, isinstance(rotation, str) and rotation == "turning"), ("rotation", "length"),
                   "by rotation", output=False)
+critical.computed("stands", "k_0", "1", "Shaft stands; otherwise it rotates or oscillates",
+                  lambda rotation, length: np.full(length.shape, isinstance(rotation, str) and rotation == "none"), ("rotation", "length"),
+                  "by rotation", output=False)
+critical.value("standing_speed", "n_0", "rpm", "Speed of a shaft that stands by rotation", lambda speed: speed,
+               exists=lambda stands: stands > 0, source="input", needs=("speed",), output=False)
 critical.value("turning_limit", "n_k", "rpm", "Critical speed with which the speed of a rotating shaft is compared",
                lambda critical_speed: critical_speed,
                exists=lambda turns: turns > 0, source="Shigley 7-6", output=False)

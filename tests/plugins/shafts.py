@@ -76,7 +76,7 @@ LAYSHAFT: dict[str, Any] = {
     ],
     "n_points": 72,
 }  # fmt: skip
-STANDING: dict[str, Any] = CRANKSHAFT | {
+STANDING: dict[str, Any] = {key: value for key, value in CRANKSHAFT.items() if key != "speed"} | {
     "rotation": "none",
     "notches": [],
     "loads": [

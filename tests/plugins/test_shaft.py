@@ -355,6 +355,7 @@ def test_a_shaft_that_does_not_turn_is_held_against_no_critical_speed() -> None:
     """Neither with a speed nor, as one that is not given, without."""
     assert checks(shaft(CRANKSHAFT, speed=60))["critical_speed"] == "pass"
     assert "critical_speed" not in checks(shaft(STANDING)) and "critical_speed" not in checks(shaft(STANDING, speed=60))
+    assert "at_rest" not in checks(shaft(CRANKSHAFT)) and "at_rest" not in checks(shaft(STANDING))
 
 
 def test_a_fillet_beyond_the_charts_and_a_wide_bore_warn() -> None:
@@ -470,3 +471,8 @@ def test_the_named_steel_judges_as_its_typed_strengths_do() -> None:
 def test_a_steel_beyond_its_sizes_is_refused() -> None:
     with pytest.raises(Impossible, match="known up to 100 mm"):
         of_steel("C45E+QT", 2)
+
+
+def test_a_shaft_that_stands_has_no_speed() -> None:
+    """A word makes neither the fatigue milder nor the critical speed go away: what has a speed turns."""
+    assert checks(shaft(STANDING, speed=1500))["at_rest"] == "fail"

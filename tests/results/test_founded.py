@@ -82,6 +82,15 @@ def test_many_machines_are_judged_as_each_alone(tmp_path: Path) -> None:
         made.release()
 
 
+@pytest.mark.parametrize(("typed", "status"), [({}, "not_checked"), ({"basis": "measured"}, "pass")])
+@pytest.mark.parametrize(("key", "check"), [("life_factor_h_1", "pitting_1"), ("life_factor_f_2", "root_2")])
+def test_a_life_factor_that_is_only_typed_proves_nothing(
+    tmp_path: Path, key: str, check: str, typed: dict[str, str], status: str
+) -> None:
+    assert judged(tmp_path, gears(), check)["status"] == "pass"
+    assert judged(tmp_path, gears(**{key: {"value": 1.4, **typed}}), check)["status"] == status
+
+
 def test_a_factor_that_varies_is_typed_in_all_machines(tmp_path: Path) -> None:
     typed = {key: {"value": value, "basis": "assumed"} for key, value in DEFAULTS.items()}
     config = load_config(saved(tmp_path, HEAD + f"  a: {gears(**typed)!r}\n"), Discovery())

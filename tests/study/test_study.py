@@ -9,6 +9,7 @@ import numpy as np
 import pytest
 import yaml
 
+from diecut_report.cli.main import main
 from diecut_report.config.plugins import Discovery
 from diecut_report.errors import PluginError
 from diecut_report.study.definition.schema import study_schema
@@ -485,3 +486,14 @@ def test_the_example_meets_the_schema() -> None:
 )
 def test_an_editor_marks_what_the_program_refuses(values: str, sample: str, rest: str, where: str) -> None:
     assert schema_faults(varied(values, sample=sample, rest=rest)) == [where]
+
+
+def test_a_word_in_place_of_a_number_does_not_vary(tmp_path: Path, capfd: pytest.CaptureFixture[str]) -> None:
+    assert main(["new", "shaft", "-o", str(tmp_path / "base.yaml"), "--quiet"]) == 0
+    vary = "vary: {mechanisms.crankshaft.rotation: [none, turning]}"
+    study = saved(tmp_path, f"schema_version: 1\nbase: base.yaml\nsample: {{method: grid}}\n{vary}\n", "words.yaml")
+    assert main(["validate", str(study)]) == 2
+    told = capfd.readouterr().err
+    assert (
+        "words.yaml:4:41: vary.mechanisms.crankshaft.rotation.0: is “none”, which stands in place of a number" in told
+    )

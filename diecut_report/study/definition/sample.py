@@ -168,6 +168,10 @@ class SampleReader:
             self.problems.append(place.problem(("value",), Phrase("{words}.", words=words)))
             return None
         block = self._validated(form, {"value": given}, place)
+        if block and asked.unit is not None and isinstance(block.value, str):
+            told = "is {given}, which stands in place of a number: a study varies numbers. Write a study for each word, with it in the base."
+            self.problems.append(place.problem(("value",), Phrase(told, given=quoted(given))))
+            return None
         return stored_value(block.value) if block else None
 
     def _range(self, asked: Input, given: dict[str, Any]) -> Variable | None:
