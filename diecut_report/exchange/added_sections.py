@@ -14,7 +14,11 @@ from typing import Any, NamedTuple
 
 import pikepdf
 
-MOST_REVISIONS, MOST_ADDED = 50, 100_000  # the latter objects in a revision
+MOST_REVISIONS, MOST_ADDED, MOST_BYTES = (
+    50,
+    100_000,
+    5_000_000,
+)  # the latter two of a revision: objects, and what they take
 LONGEST_END = 64  # bytes behind the end; a program looks for the last table in about a thousand
 LONGEST_GAP = 64  # bytes between the numbers of an object and what it is; more are not taken
 KEYS = {"/Type", "/Size", "/Index", "/W", "/ID", "/Prev", "/Length", "/Filter"}  # with /Root and /Info
@@ -36,7 +40,7 @@ PARTS = rb"%b+|<<|>>|[\[\]]|<(?:[\dA-Fa-f]{2})*>|/[\w.+-]{1,127}%b|-?(?:0|[1-9]\
     END,
     END,
 )
-TEXT = rb"\((?:[^()\\\r]|\\[0-3][0-7]{2}|\\[nrtbf()\\])*\)"
+TEXT = rb"\((?:[^()\\\r]++|\\[0-3][0-7]{2}|\\[nrtbf()\\])*+\)"
 _TOKEN = re.compile(rb"(?:([1-9]\d{0,9}) 0 R%b|(true|false|stream|endobj)%b|%b|%b)" % (END, END, PARTS, TEXT), re.ASCII)
 _LENGTH = re.compile(rb"/Length%b+(\d+)%b(?!%b+\d+%b+R)" % (BLANK, END, BLANK, BLANK))
 _STREAM_END = re.compile(rb"[\r\n]*endstream%b+endobj%b*" % (BLANK, BLANK))
@@ -73,12 +77,13 @@ def revisions(before: bytes, after: bytes) -> Iterator[AddedRevision]:
 def _revision(whole: bytes, begin: int, start: re.Match[bytes], former: int) -> AddedRevision:
     """The last revision of a file, which has what was added from ``begin`` on."""
     place, part = int(start[1]), whole[begin : start.start()]
+    _require(len(part) <= MOST_BYTES)
     number, told, data = _table(whole, place)
     _require(begin <= place and told["/Prev"] == former)
     placed = _entries(told, data)
     _require(placed.get(number) == place == max(placed.values()))
     places = sorted(at - begin for at in placed.values())
-    _require(not part[: places[0]].strip(b"\r\n"))
+    _require(places[0] >= 0 and not part[: places[0]].strip(b"\r\n"))
     named = set[int]()
     for at, end in zip(places, [*places[1:], len(part)], strict=True):
         named |= _named(part[at:end])

@@ -151,7 +151,7 @@ class _Changes(NamedTuple):
     def _is_filled(self, first: Any, second: Any) -> bool:
         """Whether a free field got a signature that this revision adds, and shows what that says."""
         flags = int(second.get("/F", 0)) & ~int(first.get("/F", 0)) & ~FLAGS
-        if flags or not self._is_added_signature(second) or not _same_but(first, second, OF_FIELD):
+        if flags or not self._is_added_signature(second, "/Sig") or not _same_but(first, second, OF_FIELD):
             return False
         return "/AP" not in second or self._is_drawn(second["/AP"], second)
 
@@ -178,9 +178,14 @@ class _Changes(NamedTuple):
             and found[1] in drawings(name, time, reason, width, height)
         )
 
-    def _is_added_signature(self, field: Any) -> bool:
+    def _is_added_signature(self, field: Any, kind: str) -> bool:
         value = field.get("/V", _NONE)
-        return value.objgen[0] in self.added and set(value.keys()) <= OF_SIGNATURE and "/ByteRange" in value
+        return (
+            value.get("/Type") == kind
+            and value.objgen[0] in self.added
+            and set(value.keys()) <= OF_SIGNATURE
+            and "/ByteRange" in value
+        )
 
     def _is_form(self, first: Any, second: Any) -> bool:
         return _same_but(first, second, OF_FORM) and self._grown(first.get("/Fields"), second.get("/Fields"))
@@ -203,8 +208,14 @@ class _Changes(NamedTuple):
             return False
         box = [float(each) for each in field["/Rect"]]
         is_field = field["/Subtype"] == "/Widget" and field["/FT"] == "/Sig"  # a note shows, however small its box
-        is_dated = self._is_added_signature(field) and field["/V"]["/Type"] == "/DocTimeStamp"
+        names = {_plain(each) for each in self.old.Root.get("/AcroForm", _NONE).get("/Fields", ())}
+        is_dated = self._is_added_signature(field, "/DocTimeStamp") and _plain(field) not in names
         return is_field and is_dated and len(box) == 4 and box[:2] == box[2:]
+
+
+def _plain(field: Any) -> str:
+    """The name of a field as somebody reads it."""
+    return str(field.get("/T", "")).strip().casefold()
 
 
 def _is_free_field(found: Any) -> bool:

@@ -12,6 +12,7 @@ from diecut_report.report.symbols import LINE, MILLIMETRE, drawn, fitted
 SMALLEST, LARGEST = 2.5, 8.0  # points of the letters in a field
 PAD = 1.0  # points between a field's edge and its letters
 LIFTED = 0.3  # of a line: its baseline above its lower edge
+MOST_LETTERS = 1000
 TIME = re.compile(r"D:(\d{14})(?:Z|([+-])(\d\d)'(\d\d)'?)")
 
 
@@ -30,7 +31,7 @@ def drawing(name: str, time: datetime, reason: str | None, width: float, height:
 def drawings(name: str, time: str, reason: str | None, width: float, height: float) -> Iterator[bytes]:
     """Give what a signature with these entries may show; ValueError where its time is none. It is drawn before its time is taken."""
     found = TIME.fullmatch(time)
-    if found is None:
+    if found is None or len(name) + len(reason or "") > MOST_LETTERS:
         raise ValueError
     away = timedelta(hours=int(found[3] or 0), minutes=int(found[4] or 0)) * (-1 if found[2] == "-" else 1)
     told = datetime.strptime(found[1], "%Y%m%d%H%M%S").replace(tzinfo=timezone(away)).astimezone(UTC)

@@ -112,8 +112,12 @@ def _why_not(status: Status) -> str:
 
 def _other_name(signature: Any) -> str:
     """Why the name that a signature shows is not its signer's; "" where it is, or where it has none."""
-    shown, own = signature.sig_object.get("/Name"), signature.signer_cert.subject.native.get("common_name")
-    if not shown or not own or str(shown) == own:
+    from cryptography import x509
+
+    from diecut_report.exchange.signing_keys import name_of
+
+    shown = signature.sig_object.get("/Name")
+    if shown is None or str(shown) == name_of(x509.load_der_x509_certificate(signature.signer_cert.dump())):
         return ""
     return Phrase("it shows the name {shown}, and its certificate has another one", shown=cell(str(shown)))
 

@@ -38,8 +38,13 @@ class SigningKey:
     @property
     def name(self) -> str:
         """Whose certificate it is."""
-        found = self.certificate.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
-        return str(found[0].value) if found else self.certificate.subject.rfc4514_string()
+        return name_of(self.certificate)
+
+
+def name_of(certificate: x509.Certificate) -> str:
+    """Return the name by which a certificate's owner signs."""
+    found = certificate.subject.get_attributes_for_oid(NameOID.COMMON_NAME)
+    return str(found[0].value) if found else certificate.subject.rfc4514_string()
 
 
 def signing_key(key: Path, certificates: Path | None, ask: Ask) -> SigningKey:

@@ -510,6 +510,12 @@ def _hidden_trailer(content: bytes) -> bytes:
     return report.revision({report.value: SIGNATURE.removesuffix(b">>") + said})
 
 
+def _stamped(content: bytes) -> bytes:
+    """A field that somebody signs, with a document timestamp in it."""
+    report = _Report(content)
+    return report.revision({report.value: SIGNATURE.replace(b"/Sig", b"/DocTimeStamp")})
+
+
 def _of_revision(**options: Any) -> Callable[[bytes], bytes]:
     return lambda content: _Report(content).revision(**options)
 
@@ -543,6 +549,7 @@ OF_REVISION = (
         drawing=DRAWING, over=b"[ q ] Q " + OVER), PAGES),
     Forgery("a drawing of a signature that says something else than the signature, within its box", _of_revision(
         drawing=DRAWING, over=b"0 0 9 9 re f"), PAGES),
+    Forgery("a document timestamp in the field of somebody who signs", _stamped, PAGES),
     Forgery("another catalogue, which a program finds that searches the file", _hidden_trailer, PAGES),
     Forgery("an object that nothing takes which is added", _of_revision(more=b"<< /Type /Catalog /Pages 1 0 R >>"), PAGES),
     Forgery("a drawing of a signature that is moved, by numbers that programs round", _of_revision(
