@@ -37,9 +37,8 @@ OF_SIGNATURE = {
 }
 OF_PROOF = {"/Type", "/Cert", "/CRL", "/OCSP", "/TU", "/TS"}  # of one signature
 WRAPPED = re.compile(rb"q q (?:/BackgroundGS gs )?1 0 0 1 0 0 cm (.*) Q Q", re.DOTALL)
-FLAGS = (
-    4 | 128 | 512
-)  # printed, locked, its contents locked; others let a field grow over the sheet where it is shown small
+FLAGS = 4 | 128 | 512
+"""Printed, locked, its contents locked; others let a field grow over the sheet where it is shown small."""
 FAULTS = (pikepdf.PasswordError, *pdf_attachments.FAULTS)
 
 
@@ -95,7 +94,7 @@ class _Changes(NamedTuple):
             len(fields) <= 1
             and self.added <= taken
             and all(number >= int(self.old.trailer.Size) for number in self.added)
-            and all(self._is_signing(number, *pair, of_root) for number, pair in self.changed.items())
+            and all(self._is_signing(*pair, of_root) for pair in self.changed.values())
             and self._are_proofs()
         )
 
@@ -118,7 +117,7 @@ class _Changes(NamedTuple):
             and all(isinstance(each, pikepdf.Stream) and set(each.keys()) <= {"/Length", "/Filter"} for each in data)
         )
 
-    def _is_signing(self, number: int, first: Any, second: Any, of_root: set[str]) -> bool:
+    def _is_signing(self, first: Any, second: Any, of_root: set[str]) -> bool:
         """Whether an object is the same, or changed as by a signature."""
         if isinstance(first, pikepdf.Stream) or isinstance(second, pikepdf.Stream):
             return False
@@ -132,7 +131,9 @@ class _Changes(NamedTuple):
             forms = (pdf.Root.get("/AcroForm", _NONE) for pdf in (self.old, self.new))
             return _same_but(first, second, of_root) and self._is_form(*forms) and self._is_root(second)
         if first.objgen == self.old.Root.get("/DSS", _NONE).objgen:
-            return True  # as it is now, it is judged with all that it takes
+            return bool(
+                first.objgen == self.new.Root.get("/DSS", _NONE).objgen
+            )  # with all that it takes it is judged there
         if _is_free_field(first):
             return self._is_filled(first, second)
         if first.get("/Type") == "/Page":
