@@ -36,6 +36,8 @@ ROUGH: dict[str, tuple[str, Any]] = {
 SMOOTH: dict[str, tuple[str, Any]] = {
     "steep": ("mm", lambda arm, angle, place: arm * np.tanh(1e4 * as_number(angle - place))),
     "narrow": ("mm", lambda arm, angle, place: arm / (1e-6 + as_number(angle - place) ** 2)),
+    "a narrow step": ("mm", lambda arm, angle, place: arm * np.arctan(1e6 * as_number(angle - place))),
+    "a narrow turn": ("mm", lambda arm, angle, place: arm / np.sqrt(1e-10 + as_number(angle - place) ** 2) ** 0.1),
     "a corner": ("mm", lambda arm, angle, place: arm * np.abs(as_number(angle - place))),
     "upright": ("mm", lambda arm, angle, place: arm * np.sqrt(np.abs(as_number(angle - place)))),
     "nearly upright": ("mm", lambda arm, angle, place: arm * np.abs(as_number(angle - place)) ** 0.1),
@@ -64,7 +66,7 @@ def test_a_rough_place_is_refused_with_its_place(name: str, place: float) -> Non
         curves(calculated(*ROUGH[name], place))
     told = str(caught.value)
     assert told.startswith(
-        "Rough (rough, test_rough_places.py:55) jumps or has a pole inside a smooth piece, near φ = "
+        "Rough (rough, test_rough_places.py:57) jumps or has a pole inside a smooth piece, near φ = "
     )
     found = float(told.partition("φ = ")[2].partition("°")[0])
     assert np.tan(np.radians(found)) == pytest.approx(

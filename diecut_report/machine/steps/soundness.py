@@ -88,10 +88,11 @@ INSET, WIDE = (
 )  # shares: of a piece, that its ends are left out by; of the period, of pieces that are looked at
 STAYS, APART = 0.5, 0.05  # of a difference: a jump keeps it however near, and what is beside it changes by far less
 GROWS, STILL = 1e3, 4.0  # times the greatest size seen first, and two looks before: a pole
-TENTHS, GOES_ON = (
-    10.0 ** -np.arange(3, 8),
+TENTHS = 10.0 ** -np.arange(3, 8)  # shares of a piece
+GOES_ON, SLOW = (
     0.9,
-)  # shares of a piece: with each tenth of the distance a logarithm moves by as much
+    4.0,
+)  # times: with each tenth of the distance a logarithm moves by as much, a slow pole by a little more
 LEAST = 1e-9  # of the sizes in the formula: a difference that is not rounding
 
 
@@ -194,7 +195,8 @@ def _endless(calc: Calculation, curve: str, x: Array, middles: Array, values: Ar
     for reach in (x[row, -1] - x[row, 0]) * TENTHS * [[-1], [1]]:
         moved = np.diff(_values(calc, curve, place + reach[None], middles[[row]])[0])
         is_within = x[row, 0] <= place + reach[0] <= x[row, -1]
-        if is_within and (moved[1:] / moved[:-1] > GOES_ON).all():
+        factors = moved[1:] / moved[:-1]
+        if is_within and GOES_ON < factors.min() and factors.max() < SLOW:  # towards a narrow bend by 10 or 100
             return place if abs(moved[0]) > LEAST * _scale(calc, curve, x, middles) else None
     return None
 
