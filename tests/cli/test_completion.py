@@ -66,14 +66,14 @@ def test_a_file_with_faults_gives_what_can_be_read_of_it_and_no_message(complete
 
 
 @pytest.mark.nightly
-def test_bash_takes_the_script_of_the_readme() -> None:
+def test_bash_takes_the_script_of_the_documents() -> None:
     folder = Path(sys.executable).parent
     script = (
         'eval "$(_DIECUT_REPORT_COMPLETE=bash_source diecut-report)"\n'
         'COMP_WORDS=(diecut-report new drive); COMP_CWORD=2; _diecut_report_completion diecut-report; echo "${COMPREPLY[@]}"'
     )
-    readme = (Path(__file__).parents[2] / "README.md").read_text("utf-8")
-    assert script.splitlines()[0] in readme
+    commands = (Path(__file__).parents[2] / "docs/commands.md").read_text("utf-8")
+    assert script.splitlines()[0] in commands
     done = subprocess.run(
         ["bash", "-c", script],
         env={"PATH": f"{folder}:/usr/bin:/bin"},

@@ -25,7 +25,7 @@ class Part(NamedTuple):
 
 
 PARTS = (
-    Part("Using it", ("questions", "live", "studies", "results", "results-file", "reports-and-revisions", "office-files",
+    Part("Using it", ("configuration", "commands", "questions", "live", "studies", "results", "results-file", "reports-and-revisions", "office-files",
                       "house-style", "own-tables", "limits", "mending-a-press", "python", "own-repository")),
     Part("Examples", ("gallery/index", "reports")),
     Part("Writing a mechanism", ("tutorial", "how-to/index", "plugins", "reference/index")),
