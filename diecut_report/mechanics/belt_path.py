@@ -66,12 +66,6 @@ def turns(sum_of_wraps: Any) -> Any:
 
 
 @formula
-def arc(radius: Any, wrap: Any) -> Any:
-    """Length of belt on a pulley."""
-    return radius * wrap
-
-
-@formula
 def open_belt_length(center_distance: Any, small: Any, large: Any) -> Any:
     """Length of an open belt over two pulleys: runs, half turns, and the angle of the runs to the line of centres."""
     runs = 2 * np.sqrt(center_distance**2 - (large - small) ** 2)

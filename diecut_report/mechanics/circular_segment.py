@@ -26,18 +26,6 @@ def chord(radius: Any, height: Any) -> Any:
 
 
 @formula
-def chord_of_angle(radius: Any, half_angle: Any) -> Any:
-    """Length of the chord from the central angle."""
-    return 2 * radius * np.sin(half_angle)
-
-
-@formula
-def arc_length(radius: Any, half_angle: Any) -> Any:
-    """Length of the arc."""
-    return 2 * radius * half_angle
-
-
-@formula
 def arc_length_huygens(radius: Any, height: Any) -> Any:
     """Huygens' approximation of the arc's length, from its chord and height."""
     return np.sqrt((24 * height * radius + 4 * height**2) / 3)
@@ -53,12 +41,6 @@ def area(radius: Any, half_angle: Any) -> Any:
 def first_moment(chord: Any) -> Any:
     """Area times the distance of its centroid from the circle's centre."""
     return chord**3 / 12
-
-
-@formula
-def centroid_distance(chord: Any, area: Any) -> Any:
-    """Distance of the segment's centroid from the circle's centre."""
-    return chord**3 / (12 * area)
 
 
 @formula

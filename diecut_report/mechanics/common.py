@@ -53,18 +53,6 @@ def sum_of(first: Any, second: Any) -> Any:
 
 
 @formula
-def twice(quantity: Any) -> Any:
-    """Twice the quantity."""
-    return 2 * quantity
-
-
-@formula
-def smaller_of(first: Any, second: Any) -> Any:
-    """The smaller of two quantities."""
-    return np.minimum(first, second)
-
-
-@formula
 def product(first: Any, second: Any) -> Any:
     """Product of two quantities."""
     return first * second
@@ -95,9 +83,3 @@ def rounded_up(quantity: Any, step: Any) -> Any:
 def enclosed_angle(one_side: Any, other_side: Any, opposite_side: Any) -> Any:
     """Angle between two sides of a triangle (law of cosines)."""
     return arccos((one_side**2 + other_side**2 - opposite_side**2) / (2 * one_side * other_side))
-
-
-@formula
-def third_side(one_side: Any, other_side: Any, enclosed: Any) -> Any:
-    """Side of a triangle opposite the angle that two others enclose (law of cosines)."""
-    return np.sqrt(one_side**2 + other_side**2 - 2 * one_side * other_side * np.cos(enclosed))

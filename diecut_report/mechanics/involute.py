@@ -33,12 +33,6 @@ def transverse_pressure_angle(pressure_angle: Any, helix_angle: Any) -> Any:
 
 
 @formula
-def base_helix_angle(pressure_angle: Any, helix_angle: Any) -> Any:
-    """Helix angle at the base cylinder."""
-    return np.arcsin(np.sin(helix_angle) * np.cos(pressure_angle))
-
-
-@formula
 def working_involute(alpha: Any, pressure_angle: Any, shift_1: Any, shift_2: Any, teeth_1: Any, teeth_2: Any) -> Any:
     """Involute function of the working pressure angle of a pair without backlash; ``alpha`` is the transverse angle."""
     return involute(alpha) + 2 * np.tan(pressure_angle) * (shift_1 + shift_2) / (teeth_1 + teeth_2)

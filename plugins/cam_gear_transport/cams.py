@@ -24,9 +24,8 @@ OTHER_ARM = (
 def _one_side(number: str) -> Steps:
     steps = Steps()
     steps.require(f"arm_{number}_side", bind(loads.stays_on_one_side, lowest=f"arm_{number}_lowest", highest=f"arm_{number}_highest"),
-                  key=f"arm_angle_{number}",
-                  message=f"is {{arm_angle_{number}}}; the arm would swing from {{arm_{number}_lowest}} to {{arm_{number}_highest}} "
-                          f"across {OTHER_ARM}")
+        key=f"arm_angle_{number}",
+        message=f"is {{arm_angle_{number}}}; the arm would swing from {{arm_{number}_lowest}} to {{arm_{number}_highest}} across {OTHER_ARM}")
     return steps
 
 
@@ -34,35 +33,33 @@ def _swing(number: str) -> Steps:
     """Between which directions an arm swings."""
     steps = Steps()
     steps.value(f"arm_{number}_lowest", f"ψ_min,{number}", "deg", f"Direction of arm {number} at the start of phase I",
-                bind(loads.lowest_direction, arm_angle=f"arm_angle_{number}"), source="geometry", output=False)
+        bind(loads.lowest_direction, arm_angle=f"arm_angle_{number}"), source="geometry", output=False)
     steps.value(f"arm_{number}_highest", f"ψ_max,{number}", "deg", f"Direction of arm {number} at the end of phase III",
-                bind(loads.highest_direction, lowest=f"arm_{number}_lowest"), source="geometry", output=False)
+        bind(loads.highest_direction, lowest=f"arm_{number}_lowest"), source="geometry", output=False)
     return steps
 
 
 rocker = Chapter("Rocker on the cams",
-                 text="The rocker is fixed to the sector; the rollers on its arms run on two fixed cams, each profile lying on the O₁ side of "
-                      "its roller. ψ is the direction of an arm from the outward line O₁O₃, w the ratio of the rocker's speed to the disc's, γ″ "
-                      "the second derivative of the sector's angle with respect to the disc's.", needs=CAMS, absent=NO_CAMS)
+    text="The rocker is fixed to the sector; the rollers on its arms run on two fixed cams, each profile lying on the O₁ side of its roller. ψ is "
+        "the direction of an arm from the outward line O₁O₃, w the ratio of the rocker's speed to the disc's, γ″ the second derivative of the "
+        "sector's angle with respect to the disc's.", needs=CAMS, absent=NO_CAMS)
 rocker.value("sector_rate_change", "γ″", "1", "Ratio of the sector's acceleration to the square of the disc's speed",
-             lambda sector_acceleration, cycles_per_hour: as_number(sector_acceleration / (2 * np.pi * cycles_per_hour) ** 2), source="kinematics",
-             output=False)
+    lambda sector_acceleration, cycles_per_hour: as_number(sector_acceleration / (2 * np.pi * cycles_per_hour) ** 2), source="kinematics",
+    output=False)
 rocker.require("sweep_leaves_arms", lambda sector_sweep: sector_sweep < np.pi, key="sector_dwell_sweep",
-               message="makes the whole sweep of the sector {sector_sweep}; it must be less than 180°, or no arm can stay on one side of the line "
-                       "O₁O₃")
+    message="makes the whole sweep of the sector {sector_sweep}; it must be less than 180°, or no arm can stay on one side of the line O₁O₃")
 rocker.value("least_arm_angle", "χ_min", "deg", "Minimum angle of an arm to the left of O₁O₃", lambda sector_stop_sweep: sector_stop_sweep / 2,
-             source="geometry", output=False)
+    source="geometry", output=False)
 rocker.value("greatest_arm_angle", "χ_max", "deg", "Maximum angle of an arm to the left of O₁O₃",
-             lambda sector_sweep, sector_stop_sweep: np.pi - sector_sweep + sector_stop_sweep / 2, source="geometry", output=False)
+    lambda sector_sweep, sector_stop_sweep: np.pi - sector_sweep + sector_stop_sweep / 2, source="geometry", output=False)
 rocker.words("arm_angles_best", arms.angles_at_the_ends, ("center_distance", "arm_length", "sector_dwell_sweep", "sector_sweep"))
 rocker.add(_swing("1"))
 rocker.add(_swing("2"))
 rocker.add(_one_side("1"))
 rocker.add(_one_side("2"))
-rocker.require("arms_on_both_sides",
-               lambda arm_1_lowest, arm_1_highest, arm_2_lowest, arm_2_highest:
-                   (np.sin(arm_1_lowest) * np.sin(arm_2_lowest) < 0) | (np.sin(arm_1_highest) * np.sin(arm_2_highest) < 0), key="arm_angle_2",
-               message=f"is {{arm_angle_2}}, which puts both arms (the other at {{arm_angle_1}}) on one side of {OTHER_ARM}")
+rocker.require("arms_on_both_sides", lambda arm_1_lowest, arm_1_highest, arm_2_lowest, arm_2_highest:
+        (np.sin(arm_1_lowest) * np.sin(arm_2_lowest) < 0) | (np.sin(arm_1_highest) * np.sin(arm_2_highest) < 0), key="arm_angle_2",
+    message=f"is {{arm_angle_2}}, which puts both arms (the other at {{arm_angle_1}}) on one side of {OTHER_ARM}")
 
 
 def _path(number: str) -> dict[str, str]:
@@ -90,7 +87,7 @@ def _profile(number: str) -> Steps:
         steps.value(f"cam_{number}_{name}", symbol, unit, f"{description}, cam {number}", bind(formula, **takes), output=output, source="geometry")
 
     steps.value(f"arm_{number}_direction", f"ψ_{number}", "deg", f"Direction of arm {number}",
-                bind(common.sum_of, first=f"arm_angle_{number}", second="sector_angle"), output=False, source="geometry")
+        bind(common.sum_of, first=f"arm_angle_{number}", second="sector_angle"), output=False, source="geometry")
     curve("pitch_x", f"x_p{number}", "mm", "Pitch curve x", cam.pitch_x)
     curve("pitch_y", f"y_p{number}", "mm", "Pitch curve y", cam.pitch_y)
     curve("path", f"l_{number}", "mm", "Travel of the roller's centre per radian of the disc", cam.roller_path, output=False)
@@ -107,48 +104,46 @@ def _extremes(number: str) -> Steps:
     """What a cam is judged by."""
     steps = Steps()
     steps.reduction(f"cam_{number}_pressure_angle_max", f"δ_max,{number}", "deg", f"Maximum pressure angle of cam {number}", "max",
-                    of=f"cam_{number}_pressure_angle", source="this method")
+        of=f"cam_{number}_pressure_angle", source="this method")
     steps.reduction(f"cam_{number}_curvature_greatest", f"κ_max,{number}", "1/m", f"Maximum curvature of pitch curve {number}, convex", "max",
-                    of=f"cam_{number}_curvature", source="geometry", output=False)
+        of=f"cam_{number}_curvature", source="geometry", output=False)
     steps.reduction(f"cam_{number}_curvature_least", f"κ_min,{number}", "1/m",
-                    f"Minimum curvature of pitch curve {number}, negative where it is concave", "min", of=f"cam_{number}_curvature",
-                    source="geometry",
-                    output=False)
+        f"Minimum curvature of pitch curve {number}, negative where it is concave", "min", of=f"cam_{number}_curvature", source="geometry",
+        output=False)
     steps.reduction(f"cam_{number}_tangent_min", f"q_min,{number}", "mm", f"Minimum distance of O₁ from the tangents of pitch curve {number}", "min",
-                    of=f"cam_{number}_tangent_distance", source="geometry", output=False)
+        of=f"cam_{number}_tangent_distance", source="geometry", output=False)
     steps.value(f"cam_{number}_curvature_min", f"ρ_min,{number}", "mm", f"Minimum radius of curvature of pitch curve {number} where it is convex",
-                bind(cam.least_radius, greatest_curvature=f"cam_{number}_curvature_greatest"), source="geometry")
+        bind(cam.least_radius, greatest_curvature=f"cam_{number}_curvature_greatest"), source="geometry")
     steps.value(f"cam_{number}_profile_radius_min", f"ρ_c,{number}", "mm",
-                f"Minimum radius of profile {number} where it is convex; negative: undercut",
-                bind(cam.profile_radius, pitch_radius=f"cam_{number}_curvature_min"), source="geometry")
+        f"Minimum radius of profile {number} where it is convex; negative: undercut",
+        bind(cam.profile_radius, pitch_radius=f"cam_{number}_curvature_min"), source="geometry")
     steps.value(f"cam_{number}_hollow_radius_min", f"ρ_h,{number}", "mm",
-                f"Minimum radius of profile {number} where it is concave: upper limit for the grinding wheel",
-                bind(cam.hollow_radius, least_curvature=f"cam_{number}_curvature_least"), source="geometry",
-                exists=bind(cam.is_hollow, least_curvature=f"cam_{number}_curvature_least"))
+        f"Minimum radius of profile {number} where it is concave: upper limit for the grinding wheel",
+        bind(cam.hollow_radius, least_curvature=f"cam_{number}_curvature_least"), source="geometry",
+        exists=bind(cam.is_hollow, least_curvature=f"cam_{number}_curvature_least"))
     return steps
 
 
 def _cam(number: str) -> Chapter:
     chapter = Chapter(f"Cam {number}",
-                      text="The pitch curve is the path of the roller's centre; the profile is offset from it by the roller's radius, towards "
-                           "O₁. Curvature is positive where the pitch curve is convex, its centre of curvature being on the O₁ side: there the "
-                           "profile's radius is ρ − r, and where ρ < r the profile is undercut. Where the pitch curve is concave the profile's "
-                           "radius is |ρ| + r, whatever the roller.", needs=CAMS, absent=NO_CAMS)
+        text="The pitch curve is the path of the roller's centre; the profile is offset from it by the roller's radius, towards O₁. Curvature is "
+            "positive where the pitch curve is convex, its centre of curvature being on the O₁ side: there the profile's radius is ρ − r, and where "
+            "ρ < r the profile is undercut. Where the pitch curve is concave the profile's radius is |ρ| + r, whatever the roller.", needs=CAMS,
+        absent=NO_CAMS)
     chapter.add(_profile(number))
     chapter.add(_extremes(number))
     return chapter
 
 
 both = Chapter("Both cams",
-               text="A roller touches its profile at one point only if, in addition, the tangents of the pitch curve keep more than r from O₁: "
-                    "then profile and pitch curve go round O₁ without reversing.", needs=CAMS, absent=NO_CAMS)
+    text="A roller touches its profile at one point only if, in addition, the tangents of the pitch curve keep more than r from O₁: then profile "
+        "and pitch curve go round O₁ without reversing.", needs=CAMS, absent=NO_CAMS)
 both.value("pressure_angle_max", "δ_max", "deg", "Maximum pressure angle of both cams",
-           lambda cam_1_pressure_angle_max, cam_2_pressure_angle_max: np.maximum(cam_1_pressure_angle_max, cam_2_pressure_angle_max),
-           source="this method")
+    lambda cam_1_pressure_angle_max, cam_2_pressure_angle_max: np.maximum(cam_1_pressure_angle_max, cam_2_pressure_angle_max), source="this method")
 both.value("curvature_min", "ρ_min", "mm", "Minimum radius of curvature of both pitch curves where convex",
-           lambda cam_1_curvature_min, cam_2_curvature_min: np.minimum(cam_1_curvature_min, cam_2_curvature_min), source="geometry")
+    lambda cam_1_curvature_min, cam_2_curvature_min: np.minimum(cam_1_curvature_min, cam_2_curvature_min), source="geometry")
 both.value("tangent_distance_min", "q_min", "mm", "Minimum distance of O₁ from the tangents of both pitch curves",
-           lambda cam_1_tangent_min, cam_2_tangent_min: np.minimum(cam_1_tangent_min, cam_2_tangent_min), source="geometry")
+    lambda cam_1_tangent_min, cam_2_tangent_min: np.minimum(cam_1_tangent_min, cam_2_tangent_min), source="geometry")
 both.words("arms_that_fit", arms.arms_that_fit, arms.TAKES, lacks=("module",))
 both.words("arms_that_fit", arms.arms_that_fit, (*arms.TAKES, "module"), needs=("module",))
 
@@ -157,41 +152,40 @@ def _loaded(number: str) -> Steps:
     """Force and pressure of a roller."""
     steps = Steps()
     steps.value(f"carried_moment_{number}", f"M_c{number}", "N*m", f"Moment of cam {number} about O₃",
-                bind(loads.carried_moment, arm_direction=f"arm_{number}_direction"), source="statics", output=False)
+        bind(loads.carried_moment, arm_direction=f"arm_{number}_direction"), source="statics", output=False)
     steps.value(f"roller_force_{number}", f"F_{number}", "N", f"Force of cam {number} on its roller",
-                bind(loads.roller_force, carried_moment=f"carried_moment_{number}", pressure_angle=f"cam_{number}_pressure_angle"), source="statics")
+        bind(lambda carried_moment, arm_length, pressure_angle: carried_moment / (arm_length * np.cos(pressure_angle)),
+            carried_moment=f"carried_moment_{number}", pressure_angle=f"cam_{number}_pressure_angle"), source="statics")
     steps.value(f"effective_radius_{number}", f"R_e{number}", "mm", f"Effective radius of roller and profile {number}",
-                bind(cam.effective_radius, curvature=f"cam_{number}_curvature"), source="Hertz", output=False, needs=("roller_width",))
-    steps.value(f"bearing_radius_{number}", f"R_b{number}", "mm", "Effective radius, at least a thousandth of the roller's radius (profile "
-                                                                  f"{number})",
-                bind(loads.bearing_radius, effective_radius=f"effective_radius_{number}"), source="Hertz", output=False, needs=("roller_width",))
+        bind(cam.effective_radius, curvature=f"cam_{number}_curvature"), source="Hertz", output=False, needs=("roller_width",))
+    steps.value(f"bearing_radius_{number}", f"R_b{number}", "mm",
+        f"Effective radius, at least a thousandth of the roller's radius (profile {number})",
+        bind(lambda effective_radius, roller_radius: np.maximum(effective_radius, roller_radius / 1000),
+            effective_radius=f"effective_radius_{number}"), source="Hertz", output=False, needs=("roller_width",))
     steps.value(f"contact_pressure_{number}", f"p_H{number}", "MPa", f"Contact pressure of roller and cam {number}",
-                bind(contact.contact_pressure, force=f"roller_force_{number}", effective_radius=f"bearing_radius_{number}",
-                length="roller_width"), source="Hertz", needs=("roller_width",))
+        bind(contact.contact_pressure, force=f"roller_force_{number}", effective_radius=f"bearing_radius_{number}", length="roller_width"),
+        source="Hertz", needs=("roller_width",))
     steps.reduction(f"cam_{number}_roller_force_peak", f"F_max,{number}", "N", f"Maximum force on roller {number}", "max",
-                    of=f"roller_force_{number}", source="statics")
+        of=f"roller_force_{number}", source="statics")
     steps.reduction(f"cam_{number}_contact_pressure_max", f"p_H{number},max", "MPa", f"Maximum contact pressure of roller and cam {number}", "max",
-                    of=f"contact_pressure_{number}", needs=("roller_width",), source="Hertz")
+        of=f"contact_pressure_{number}", needs=("roller_width",), source="Hertz")
     return steps
 
 
 loads_chapter = Chapter("Forces on the rollers",
-                        text="About O₃ the rocker is in equilibrium under the reaction of the teeth, the sector's inertia and one roller: a cam "
-                             "can only push outwards, so the cam of the left arm turns the sector clockwise and that of the right arm "
-                             "counter-clockwise. The force acts normal to the profile, at the pressure angle from the roller's direction of "
-                             "motion. A preload of the rollers is not included.", needs=(*CAMS, *TORQUE),
-                        absent="not calculated: {missing} not given")
-loads_chapter.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃", loads.rocker_moment, source="statics",
-                    output=False)
+    text="About O₃ the rocker is in equilibrium under the reaction of the teeth, the sector's inertia and one roller: a cam can only push outwards, "
+        "so the cam of the left arm turns the sector clockwise and that of the right arm counter-clockwise. The force acts normal to the profile, "
+        "at the pressure angle from the roller's direction of motion. A preload of the rollers is not included.", needs=(*CAMS, *TORQUE),
+    absent="not calculated: {missing} not given")
+loads_chapter.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃", loads.rocker_moment, source="statics", output=False)
 loads_chapter.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz",
-                    needs=("roller_width",))
+    needs=("roller_width",))
 loads_chapter.add(_loaded("1"))
 loads_chapter.add(_loaded("2"))
 loads_chapter.value("roller_force_peak", "F_max", "N", "Maximum force on a roller",
-                    lambda cam_1_roller_force_peak, cam_2_roller_force_peak: np.maximum(cam_1_roller_force_peak, cam_2_roller_force_peak),
-                    source="statics")
+    lambda cam_1_roller_force_peak, cam_2_roller_force_peak: np.maximum(cam_1_roller_force_peak, cam_2_roller_force_peak), source="statics")
 loads_chapter.value("contact_pressure", "p_H,max", "MPa", "Maximum contact pressure of a roller",
-                    lambda cam_1_contact_pressure_max, cam_2_contact_pressure_max: np.maximum(cam_1_contact_pressure_max, cam_2_contact_pressure_max),
-                    source="Hertz", needs=("roller_width",))
+    lambda cam_1_contact_pressure_max, cam_2_contact_pressure_max: np.maximum(cam_1_contact_pressure_max, cam_2_contact_pressure_max), source="Hertz",
+    needs=("roller_width",))
 
 SECTIONS = (rocker, _cam("1"), _cam("2"), both, loads_chapter)

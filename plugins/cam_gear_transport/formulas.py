@@ -16,12 +16,6 @@ def teeth_together(center_distance: Any, module: Any) -> Any:
 
 
 @formula
-def is_whole(number: Any) -> Any:
-    """Whether a number is whole, rounding apart."""
-    return abs(number - np.round(number)) <= 1e-9 * number
-
-
-@formula
 def gear_teeth(teeth_together: Any, sweep: Any, dwell_angle: Any) -> Any:
     """Whole teeth of the gear for the wanted sweep."""
     return np.round(teeth_together * sweep / (sweep + dwell_angle))
@@ -103,12 +97,6 @@ def stopping_share(disc_angle: Any, dwell_angle: Any, time_stop: Any) -> Any:
 def share_since(disc_angle: Any, start: Any, time: Any) -> Any:
     """Share of a rise's time since its start."""
     return (disc_angle - start) / (2 * np.pi * time)
-
-
-@formula
-def rolled_angle(disc_angle: Any, sector_dwell_sweep: Any, dwell_angle: Any) -> Any:
-    """Sector angle in the dwell."""
-    return sector_dwell_sweep * disc_angle / dwell_angle
 
 
 @formula

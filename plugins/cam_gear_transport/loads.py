@@ -35,18 +35,6 @@ def carried_moment(rocker_moment: Any, arm_direction: Any) -> Any:
 
 
 @formula
-def roller_force(carried_moment: Any, arm_length: Any, pressure_angle: Any) -> Any:
-    """Force of the cam on the roller, square to the profile."""
-    return carried_moment / (arm_length * np.cos(pressure_angle))
-
-
-@formula
-def bearing_radius(effective_radius: Any, roller_radius: Any) -> Any:
-    """Effective radius, not below a thousandth of the roller's: a profile that ends in a point has none."""
-    return np.maximum(effective_radius, roller_radius / 1000)
-
-
-@formula
 def lowest_direction(arm_angle: Any, sector_stop_sweep: Any) -> Any:
     """Direction of an arm at the start of phase I."""
     return arm_angle - sector_stop_sweep / 2

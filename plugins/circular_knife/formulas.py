@@ -10,12 +10,6 @@ from diecut_report.api import formula
 
 
 @formula
-def reach(edge_radius: Any, eccentricity: Any, depth: Any) -> Any:
-    """Distance from the axis to which the edge gets at a depth: the edge's centre then stands on the line to that point."""
-    return np.sqrt((edge_radius + eccentricity) ** 2 - depth**2)
-
-
-@formula
 def lowest_passes(eccentricity: Any, depth: Any, edge_radius: Any) -> Any:
     """Distance from the axis at which the edge's lowest point passes a depth; zero where it never does."""
     return np.sqrt(eccentricity**2 - np.minimum((depth - edge_radius) ** 2, eccentricity**2))
@@ -49,12 +43,6 @@ def past_centre(angle: Any, distance: Any, eccentricity: Any, depth: Any, edge_r
 
 
 @formula
-def from_centre_squared(angle: Any, distance: Any, eccentricity: Any, depth: Any) -> Any:
-    """Square of the distance of a point of the counter-knife from the edge's centre."""
-    return (distance - eccentricity * np.cos(angle)) ** 2 + (depth - eccentricity * np.sin(angle)) ** 2
-
-
-@formula
 def is_clear_of(smaller: Any, greater: Any, edge_radius: Any) -> Any:
     """Whether one distance is below another by more than a millionth of the edge's radius, or there is no other one at all."""
     return (smaller + 1e-6 * edge_radius < greater) | (greater != greater)
@@ -75,46 +63,10 @@ def edge_slope(angle: Any, depth: Any, eccentricity: Any, edge_radius: Any) -> A
 
 
 @formula
-def holds(flag: Any) -> Any:
-    """Whether a flag is set."""
-    return flag == 1
-
-
-@formula
-def cut_speed(speed: Any, eccentricity: Any, angle: Any, shear_angle: Any) -> Any:
-    """Speed of the cutting point along the counter-knife."""
-    return speed * eccentricity * np.cos(angle + shear_angle) / np.sin(shear_angle)
-
-
-@formula
 def sliding_ratio(edge_radius: Any, eccentricity: Any, angle: Any, shear_angle: Any) -> Any:
     """Tangential to normal speed of the edge at the cutting point."""
     direction = angle + shear_angle
     return (edge_radius + eccentricity * np.sin(direction)) / (eccentricity * np.cos(direction))
-
-
-@formula
-def expulsion_angle(friction: Any) -> Any:
-    """Shear angle from which edge and counter-knife push the board out between them."""
-    return 2 * np.arctan(friction)
-
-
-@formula
-def least_shear_angle() -> Any:
-    """Least shear angle of practice, 2°."""
-    return 2 * np.pi / 180
-
-
-@formula
-def greatest_shear_angle() -> Any:
-    """Greatest shear angle of practice, 20°."""
-    return 20 * np.pi / 180
-
-
-@formula
-def upper_side_governs(greatest: Any, upper: Any, lower: Any, least: Any) -> Any:
-    """Whether a range comes nearer to its upper limit than to its lower one."""
-    return greatest / upper >= lower / least
 
 
 @formula
@@ -142,21 +94,9 @@ def thrust(shear_resistance: Any, thickness: Any) -> Any:
 
 
 @formula
-def useful_torque(eccentricity: Any, working_force: Any, thrust: Any, angle: Any) -> Any:
-    """Torque of the forces on the edge, which all point to the edge's centre."""
-    return eccentricity * (working_force * np.cos(angle) - thrust * np.sin(angle))
-
-
-@formula
 def friction_torque(
     friction: Any, force: Any, shear_angle: Any, edge_radius: Any, eccentricity: Any, angle: Any
 ) -> Any:
     """Torque of the friction along the edge: what presses on the edge times the way that the edge slides for each radian."""
     pressed = force / np.cos(shear_angle)
     return friction * pressed * (edge_radius + eccentricity * np.sin(angle + shear_angle))
-
-
-@formula
-def guillotine_force(shear_resistance: Any, thickness: Any, cut_length: Any) -> Any:
-    """Force of a straight blade that cuts the whole length at once."""
-    return shear_resistance * thickness * cut_length

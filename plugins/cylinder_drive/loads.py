@@ -64,12 +64,6 @@ def power(torque: Any, crank_speed: Any) -> Any:
 
 
 @formula
-def kinetic_energy(reduced_inertia: Any, velocity: Any, cylinder_radius: Any) -> Any:
-    """Kinetic energy of the rolling cylinder at a speed of its axis."""
-    return reduced_inertia * (velocity / cylinder_radius) ** 2 / 2
-
-
-@formula
 def clear_rotation(half_angle: Any, carriage_clearance: Any, cylinder_radius: Any) -> Any:
     """Rotation from the flat's lowest position at which its lower edge still leaves the clearance."""
     return half_angle - arccos(1 - carriage_clearance / cylinder_radius)
@@ -85,12 +79,6 @@ def elapsed(start: Any, end: Any, crank_speed: Any) -> Any:
 def length_of(ratio: Any, crank_length: Any) -> Any:
     """Length of a link."""
     return ratio * crank_length
-
-
-@formula
-def rocker_torque(sector_ratio: Any, total_moment: Any) -> Any:
-    """Torque at the rocker without losses."""
-    return sector_ratio * total_moment
 
 
 @formula
@@ -115,12 +103,6 @@ def far_swing(contact_rotation: Any, sector_ratio: Any, swing_angle: Any) -> Any
 def touches_board(contact_rotation: Any, sector_ratio: Any, swing_angle: Any) -> Any:
     """Whether the flat clears the board, and the cylinder turns beyond it."""
     return (contact_rotation > 0) & (contact_rotation < sector_ratio * swing_angle)
-
-
-@formula
-def never_leaves(contact_swing_far: Any, swing_angle: Any) -> Any:
-    """Whether the cylinder touches the board up to the inner end of its stroke."""
-    return contact_swing_far >= swing_angle
 
 
 @formula

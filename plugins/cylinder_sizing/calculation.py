@@ -9,13 +9,12 @@ import numpy as np
 from diecut_report.api import Chapter, arccos, as_angle, as_number, bind, case, formula
 from diecut_report.mechanics import circular_segment as segment
 from diecut_report.mechanics import common
-from diecut_report.plugins.cylinder_sizing import beam
 
 # fmt: off
 
 size = Chapter("Radius",
-               text="The unrolled circumference is the working length plus the arc of the segment: 2πR = l_1 + l_2 (002 eq. 1). The closed-form "
-                    "approximation uses Huygens' arc; the adopted radius is checked against the exact one.")
+    text="The unrolled circumference is the working length plus the arc of the segment: 2πR = l_1 + l_2 (002 eq. 1). The closed-form approximation "
+        "uses Huygens' arc; the adopted radius is checked against the exact one.")
 
 
 @formula
@@ -25,111 +24,99 @@ def radius_by_huygens(working_length: Any, segment_height: Any) -> Any:
     return (6 * segment_height + 3 * np.pi * working_length + root) / (6 * np.pi**2)
 
 
-size.value("segment_height_limit", "h_lim", "mm", "Segment height from which no radius exists",
-           lambda working_length: working_length / np.pi, output=False)
+size.value("segment_height_limit", "h_lim", "mm", "Segment height from which no radius exists", lambda working_length: working_length / np.pi,
+    output=False)
 size.require("radius_exists", lambda segment_height, segment_height_limit: segment_height < segment_height_limit, key="segment_height",
-             message="is {segment_height}, but no cylinder with a working length of {working_length} has a segment that high: "
-             "h < l_1/π = {segment_height_limit} is needed; make the segment lower or the working length greater")
+    message="is {segment_height}, but no cylinder with a working length of {working_length} has a segment that high: h < l_1/π = "
+        "{segment_height_limit} is needed; make the segment lower or the working length greater")
 size.value("radius_closed_form", "R_cf", "mm", "Radius by the closed-form approximation", radius_by_huygens, source="002 eq. 6", digits=6)
-size.root("radius_exact", "R_ex", "mm", "Exact radius",
-          lambda radius_exact, working_length, segment_height:
-              radius_exact * (1 - np.cos(np.pi - as_angle(working_length / (2 * radius_exact)))) - segment_height,
-          low=lambda working_length, segment_height: np.maximum(segment_height, working_length / (2 * np.pi)),
-          high=lambda working_length: working_length / np.pi,
-          left=lambda radius_exact, working_length: 2 * np.pi * radius_exact - working_length,
-          right=lambda radius_exact, segment_height: 2 * radius_exact * arccos((radius_exact - segment_height) / radius_exact),
-          source="002 eq. 1", digits=6)
+size.root("radius_exact", "R_ex", "mm", "Exact radius", lambda radius_exact, working_length, segment_height:
+        radius_exact * (1 - np.cos(np.pi - as_angle(working_length / (2 * radius_exact)))) - segment_height,
+    low=lambda working_length, segment_height: np.maximum(segment_height, working_length / (2 * np.pi)),
+    high=lambda working_length: working_length / np.pi, left=lambda radius_exact, working_length: 2 * np.pi * radius_exact - working_length,
+    right=lambda radius_exact, segment_height: 2 * radius_exact * arccos((radius_exact - segment_height) / radius_exact), source="002 eq. 1",
+    digits=6)
 size.value("radius_closed_form_error", "e_cf", "%", "Error of the closed-form approximation against the exact radius",
-           lambda radius_closed_form, radius_exact: radius_closed_form / radius_exact - 1)
+    lambda radius_closed_form, radius_exact: radius_closed_form / radius_exact - 1)
 size.value("closed_form_error_size", "|e_cf|", "%", "Absolute value of this error", lambda radius_closed_form_error: abs(radius_closed_form_error),
-           output=False)
+    output=False)
 size.value("radius", "R", "mm", "Adopted radius: as given", bind(common.same, quantity="inputs.radius"), needs=("radius",), source="input")
 size.value("radius", "R", "mm", "Adopted radius: the exact one rounded up to the step",
-           bind(common.rounded_up, quantity="radius_exact", step="radius_step"), lacks=("radius",))
+    bind(common.rounded_up, quantity="radius_exact", step="radius_step"), lacks=("radius",))
 size.require("segment_below_radius", lambda segment_height, radius: segment_height < radius, key="segment_height",
-             message="is {segment_height}, but the segment must be lower than the radius: h < R = {radius}")
+    message="is {segment_height}, but the segment must be lower than the radius: h < R = {radius}")
 size.require("bore_below_radius", lambda bore_radius, radius: bore_radius < radius, key="bore_radius",
-             message="is {bore_radius}, but the bore must be narrower than the cylinder: 0 ≤ R_b < R = {radius}")
+    message="is {bore_radius}, but the bore must be narrower than the cylinder: 0 ≤ R_b < R = {radius}")
 
 
 flat = Chapter("Segment and flat", text="All geometry uses the adopted radius.")
 flat.value("chord", "c", "mm", "Chord: width of the flat", bind(segment.chord, height="segment_height"), source="002 eq. 3; 000 eq. 16")
 flat.value("half_angle", "α", "deg", "Half the central angle of the segment", bind(segment.half_angle, height="segment_height"), output=False)
 flat.value("segment_angle", "2α", "deg", "Central angle of the segment", lambda half_angle: 2 * half_angle)
-flat.value("arc_length", "l_2", "mm", "Arc of the segment, exactly", segment.arc_length, source="002 eq. 1")
+flat.value("arc_length", "l_2", "mm", "Arc of the segment, exactly", lambda radius, half_angle: 2 * radius * half_angle, source="002 eq. 1")
 flat.value("arc_length_huygens", "l_2H", "mm", "Arc of the segment by Huygens", bind(segment.arc_length_huygens, height="segment_height"),
-           source="002 eq. 2, 4; 000 eq. 15")
+    source="002 eq. 2, 4; 000 eq. 15")
 flat.value("segment_area", "A", "mm**2", "Area of the segment", segment.area, source="000, before eq. 17")
 flat.value("centroid_distance", "ρ", "mm", "Distance of the segment's centroid from the axis",
-           bind(segment.centroid_distance, area="segment_area"), source="000 eq. 17")
-flat.value("flat_distance", "d", "mm", "Distance of the flat from the axis", lambda radius, segment_height: radius - segment_height,
-           output=False)
-flat.value("wall_at_flat", "w", "mm", "Wall between bore and flat",
-           lambda radius, segment_height, bore_radius: radius - segment_height - bore_radius)
+    lambda chord, segment_area: chord**3 / (12 * segment_area), source="000 eq. 17")
+flat.value("flat_distance", "d", "mm", "Distance of the flat from the axis", lambda radius, segment_height: radius - segment_height, output=False)
+flat.value("wall_at_flat", "w", "mm", "Wall between bore and flat", lambda radius, segment_height, bore_radius: radius - segment_height - bore_radius)
 flat.choice("wall_verdict", "w", "1", "Condition of the wall",
-            case("the bore breaks through the flat", "the bore reaches the flat", lambda flat_distance, bore_radius: flat_distance <= bore_radius),
-            case("the wall is closed, but thinner than required", "the wall is less than the required one",
-                 lambda wall_at_flat, min_wall: wall_at_flat < min_wall),
-            case("the wall is thick enough", "the wall is at least the required one"), output=False)
+    case("the bore breaks through the flat", "the bore reaches the flat", lambda flat_distance, bore_radius: flat_distance <= bore_radius),
+    case("the wall is closed, but thinner than required", "the wall is less than the required one",
+        lambda wall_at_flat, min_wall: wall_at_flat < min_wall), case("the wall is thick enough", "the wall is at least the required one"),
+    output=False)
 flat.value("cutting_arc_fraction", "κ", "1", "Fraction of the circumference that is not flat", lambda half_angle: 1 - half_angle / np.pi)
 
 overlap = Chapter("Overlap of bore and segment",
-                  text="Where the bore reaches beyond the flat, bore and segment share a smaller segment of the bore's circle; it is subtracted "
-                       "only once.")
+    text="Where the bore reaches beyond the flat, bore and segment share a smaller segment of the bore's circle; it is subtracted only once.")
 overlap.choice("overlap_half_angle", "α_b", "deg", "Half the angle of the bore beyond the flat",
-               case(lambda flat_distance, bore_radius: arccos(flat_distance / bore_radius), "the bore breaks through the flat",
-                    lambda flat_distance, bore_radius: flat_distance < bore_radius),
-               case(lambda: 0, "the bore stays behind the flat: no overlap"), output=False)
+    case(lambda flat_distance, bore_radius: arccos(flat_distance / bore_radius), "the bore breaks through the flat",
+        lambda flat_distance, bore_radius: flat_distance < bore_radius), case(lambda: 0, "the bore stays behind the flat: no overlap"), output=False)
 overlap.value("overlap_chord", "c_b", "mm", "Width of the opening in the flat",
-              bind(segment.chord_of_angle, radius="bore_radius", half_angle="overlap_half_angle"), output=False)
-overlap.value("overlap_area", "A_b", "mm**2", "Area of the overlap",
-              bind(segment.area, radius="bore_radius", half_angle="overlap_half_angle"), output=False)
+    lambda bore_radius, overlap_half_angle: 2 * bore_radius * np.sin(overlap_half_angle), output=False)
+overlap.value("overlap_area", "A_b", "mm**2", "Area of the overlap", bind(segment.area, radius="bore_radius", half_angle="overlap_half_angle"),
+    output=False)
 
 masses = Chapter("Masses")
 masses.value("solid_mass", "m′", "kg", "Mass of the full cylinder",
-             lambda radius, generatrix_length, density: as_number(np.pi) * radius**2 * generatrix_length * density, source="000 eq. 13, 17")
+    lambda radius, generatrix_length, density: as_number(np.pi) * radius**2 * generatrix_length * density, source="000 eq. 13, 17")
 masses.value("segment_mass", "m_1", "kg", "Mass of the segment",
-             lambda segment_area, generatrix_length, density: segment_area * generatrix_length * density, source="000 eq. 14")
+    lambda segment_area, generatrix_length, density: segment_area * generatrix_length * density, source="000 eq. 14")
 masses.value("bore_mass", "m_2", "kg", "Mass removed by the bore",
-             lambda bore_radius, generatrix_length, density: as_number(np.pi) * bore_radius**2 * generatrix_length * density,
-             source="000, after eq. 16")
+    lambda bore_radius, generatrix_length, density: as_number(np.pi) * bore_radius**2 * generatrix_length * density, source="000, after eq. 16")
 masses.value("overlap_mass", "m_12", "kg", "Mass of the overlap",
-             lambda overlap_area, generatrix_length, density: overlap_area * generatrix_length * density, source="this method")
+    lambda overlap_area, generatrix_length, density: overlap_area * generatrix_length * density, source="this method")
 masses.value("mass", "m", "kg", "Mass of the cylinder",
-             lambda solid_mass, segment_mass, bore_mass, overlap_mass: solid_mass - segment_mass - bore_mass + overlap_mass,
-             source="000 eq. 13, overlap once only")
+    lambda solid_mass, segment_mass, bore_mass, overlap_mass: solid_mass - segment_mass - bore_mass + overlap_mass,
+    source="000 eq. 13, overlap once only")
 
 inertia = Chapter("Moment of inertia and unbalance",
-                  text="The moment of inertia about the cylinder's axis is exact; the result of the source's formula is given for comparison.")
+    text="The moment of inertia about the cylinder's axis is exact; the result of the source's formula is given for comparison.")
 inertia.value("inertia_solid", "I_s", "kg*m**2", "Inertia of the full cylinder",
-              lambda density, generatrix_length, radius: density * generatrix_length * np.pi * radius**4 / 2, output=False)
+    lambda density, generatrix_length, radius: density * generatrix_length * np.pi * radius**4 / 2, output=False)
 inertia.value("segment_polar", "J_1", "cm**4", "Polar second moment of the segment about the axis",
-              bind(segment.polar_second_moment, distance="flat_distance"), output=False)
+    bind(segment.polar_second_moment, distance="flat_distance"), output=False)
 inertia.value("inertia_segment", "I_1", "kg*m**2", "Inertia of the segment",
-              lambda density, generatrix_length, segment_polar: density * generatrix_length * segment_polar, output=False)
+    lambda density, generatrix_length, segment_polar: density * generatrix_length * segment_polar, output=False)
 inertia.value("inertia_bore", "I_2", "kg*m**2", "Inertia removed by the bore",
-              lambda density, generatrix_length, bore_radius: density * generatrix_length * np.pi * bore_radius**4 / 2, output=False)
+    lambda density, generatrix_length, bore_radius: density * generatrix_length * np.pi * bore_radius**4 / 2, output=False)
 inertia.value("overlap_distance", "d_b", "mm", "Distance of the overlap's chord from the axis",
-              lambda bore_radius, overlap_half_angle: bore_radius * np.cos(overlap_half_angle), output=False)
+    lambda bore_radius, overlap_half_angle: bore_radius * np.cos(overlap_half_angle), output=False)
 inertia.value("overlap_polar", "J_12", "cm**4", "Polar second moment of the overlap about the axis",
-              bind(segment.polar_second_moment, radius="bore_radius", distance="overlap_distance", half_angle="overlap_half_angle"),
-              output=False)
+    bind(segment.polar_second_moment, radius="bore_radius", distance="overlap_distance", half_angle="overlap_half_angle"), output=False)
 inertia.value("inertia_overlap", "I_12", "kg*m**2", "Inertia of the overlap",
-              lambda density, generatrix_length, overlap_polar: density * generatrix_length * overlap_polar, output=False)
+    lambda density, generatrix_length, overlap_polar: density * generatrix_length * overlap_polar, output=False)
 inertia.value("inertia", "I", "kg*m**2", "Moment of inertia of the cylinder about its axis",
-              lambda inertia_solid, inertia_segment, inertia_bore, inertia_overlap:
-                  inertia_solid - inertia_segment - (inertia_bore - inertia_overlap),
-              source="exact; 000 eq. 17 corrected")
+    lambda inertia_solid, inertia_segment, inertia_bore, inertia_overlap: inertia_solid - inertia_segment - (inertia_bore - inertia_overlap),
+    source="exact; 000 eq. 17 corrected")
 inertia.value("inertia_source", "I_000", "kg*m**2", "The same by the source's formula",
-              lambda solid_mass, bore_mass, segment_mass, radius, bore_radius, centroid_distance:
-                  solid_mass * radius**2 / 2 - bore_mass * bore_radius**2 / 2 - segment_mass * centroid_distance**2,
-              source="000 eq. 17")
-inertia.value("static_unbalance", "me", "kg*m", "Static unbalance",
-              lambda density, generatrix_length, chord, overlap_chord:
-                  density * generatrix_length * (segment.first_moment(chord) - segment.first_moment(overlap_chord)),
-              source="this method")
+    lambda solid_mass, bore_mass, segment_mass, radius, bore_radius, centroid_distance:
+        solid_mass * radius**2 / 2 - bore_mass * bore_radius**2 / 2 - segment_mass * centroid_distance**2, source="000 eq. 17")
+inertia.value("static_unbalance", "me", "kg*m", "Static unbalance", lambda density, generatrix_length, chord, overlap_chord:
+        density * generatrix_length * (segment.first_moment(chord) - segment.first_moment(overlap_chord)), source="this method")
 inertia.value("center_of_mass_offset", "e", "mm", "Offset of the centre of mass, away from the flat",
-              lambda static_unbalance, mass: static_unbalance / mass, source="this method")
+    lambda static_unbalance, mass: static_unbalance / mass, source="this method")
 
 
 @formula
@@ -139,29 +126,31 @@ def second_moment_about_axis(radius: Any, bore_radius: Any, segment: Any, overla
 
 
 bending = Chapter("Bending under the line load", needs=("bearing_span",), absent="not calculated: bearing_span is not given",
-                  text="The section is weakest about one of its two principal axes, which are parallel and normal to the flat.")
+    text="The section is weakest about one of its two principal axes, which are parallel and normal to the flat.")
 bending.require("span_over_generatrix", lambda generatrix_length, bearing_span: generatrix_length <= bearing_span, key="bearing_span",
-                message="is {bearing_span}, but the bearings stand outside the generatrix: at least {generatrix_length} is needed")
+    message="is {bearing_span}, but the bearings stand outside the generatrix: at least {generatrix_length} is needed")
 bending.value("segment_second_moment", "I_x1", "cm**4", "Second moment of the segment about the diameter parallel to the flat",
-              segment.second_moment_along_chord, output=False)
+    segment.second_moment_along_chord, output=False)
 bending.value("overlap_second_moment", "I_x12", "cm**4", "Second moment of the overlap about the same diameter",
-              bind(segment.second_moment_along_chord, radius="bore_radius", half_angle="overlap_half_angle"), output=False)
+    bind(segment.second_moment_along_chord, radius="bore_radius", half_angle="overlap_half_angle"), output=False)
 bending.value("second_moment_parallel", "I_x", "cm**4", "Second moment about the centroid's axis parallel to the flat",
-              lambda radius, bore_radius, segment_second_moment, overlap_second_moment, mass, density, generatrix_length,
-                  center_of_mass_offset:
-                  second_moment_about_axis(radius, bore_radius, segment_second_moment, overlap_second_moment)
-                  - mass / (density * generatrix_length) * center_of_mass_offset**2, output=False)
+    lambda radius, bore_radius, segment_second_moment, overlap_second_moment, mass, density, generatrix_length,
+        center_of_mass_offset:
+        second_moment_about_axis(radius, bore_radius, segment_second_moment, overlap_second_moment)
+        - mass / (density * generatrix_length) * center_of_mass_offset**2, output=False)
 bending.value("second_moment_square", "I_y", "cm**4", "Second moment about the axis of symmetry, normal to the flat",
-              lambda inertia, density, generatrix_length, radius, bore_radius, segment_second_moment, overlap_second_moment:
-                  inertia / (density * generatrix_length)
-                  - second_moment_about_axis(radius, bore_radius, segment_second_moment, overlap_second_moment), output=False)
+    lambda inertia, density, generatrix_length, radius, bore_radius, segment_second_moment, overlap_second_moment:
+        inertia / (density * generatrix_length) - second_moment_about_axis(radius, bore_radius, segment_second_moment, overlap_second_moment),
+    output=False)
 bending.value("second_moment_min", "I_min", "cm**4", "Minimum second moment of the section",
-              lambda second_moment_parallel, second_moment_square: np.minimum(second_moment_parallel, second_moment_square))
+    lambda second_moment_parallel, second_moment_square: np.minimum(second_moment_parallel, second_moment_square))
 bending.value("bearing_load", "F_b", "kN", "Load on each bearing from the line load",
-              lambda line_load, generatrix_length: line_load * generatrix_length / 2)
+    lambda line_load, generatrix_length: line_load * generatrix_length / 2)
 bending.value("bending_moment", "M_b", "N*m", "Maximum bending moment",
-              lambda line_load, generatrix_length, bearing_span:
-                  line_load * generatrix_length * (2 * bearing_span - generatrix_length) / 8)
-bending.value("deflection", "f", "mm", "Bending deflection at mid-span, of a closed section", beam.deflection)
+    lambda line_load, generatrix_length, bearing_span: line_load * generatrix_length * (2 * bearing_span - generatrix_length) / 8)
+bending.value("deflection", "f", "mm", "Bending deflection at mid-span, of a closed section",
+    lambda line_load, generatrix_length, bearing_span, elastic_modulus, second_moment_min:
+        line_load * generatrix_length * (8 * bearing_span**3 - 4 * bearing_span * generatrix_length**2 + generatrix_length**3)
+        / (384 * elastic_modulus * second_moment_min))
 
 CHAPTERS = (size, flat, overlap, masses, inertia, bending)

@@ -36,12 +36,6 @@ def kinetic_energy(
 
 
 @formula
-def free_length(kinetic_energy: Any, elastic_modulus: Any, damper_count: Any, area: Any, allowable_stress: Any) -> Any:
-    """Length at which the dampers take up the energy with the allowable stress."""
-    return 2 * kinetic_energy * elastic_modulus / (damper_count * area * allowable_stress**2)
-
-
-@formula
 def whole_steps_above(length: Any, length_step: Any) -> Any:
     """The next multiple of the step, at least one."""
     return np.maximum(rounded_up(length, length_step), length_step)
@@ -65,12 +59,6 @@ def stiffness_borne(
 def force(stress: Any, area: Any) -> Any:
     """Force on one damper."""
     return stress * area
-
-
-@formula
-def deflection(peak_force: Any, adopted_length: Any, area: Any, elastic_modulus: Any) -> Any:
-    """Deflection of a block under a force."""
-    return peak_force * adopted_length / (area * elastic_modulus)
 
 
 @formula
@@ -104,12 +92,6 @@ def driven_deflection(driving_force: Any, stiffness: Any, kinetic_energy: Any) -
 
 
 @formula
-def driven_strain(driven_deflection: Any, adopted_length: Any) -> Any:
-    """Strain of a deflection."""
-    return driven_deflection / adopted_length
-
-
-@formula
 def driven_stop_time(reduced_mass: Any, stiffness: Any, driving_force: Any, velocity: Any) -> Any:
     """Time from contact to rest of a mass on a spring with a constant force behind it."""
     late = np.arctan(driving_force / (velocity * np.sqrt(stiffness * reduced_mass)))
@@ -120,12 +102,6 @@ def driven_stop_time(reduced_mass: Any, stiffness: Any, driving_force: Any, velo
 def stress_limit(allowable_stress: Any, elastic_modulus: Any, max_strain: Any) -> Any:
     """Stress that is allowed and strains the rubber within its linear law."""
     return np.minimum(allowable_stress, elastic_modulus * max_strain)
-
-
-@formula
-def force_limit(damper_count: Any, area: Any, stress_limit: Any) -> Any:
-    """Force from which no length helps: put on at once, it presses the dampers twice as much as at rest."""
-    return damper_count * area * stress_limit / 2
 
 
 @formula

@@ -79,18 +79,6 @@ def length_factor(length: Any, reference: Any) -> Any:
 
 
 @formula
-def number_of_belts(power: Any, power_per_belt: Any, wrap_factor: Any, length_factor: Any) -> Any:
-    """Least whole number of belts for a power."""
-    return np.maximum(1, np.ceil(power / (power_per_belt * wrap_factor * length_factor)))
-
-
-@formula
-def pull_to_carry(service_factor: Any, power: Any, speed: Any, torque: Any, diameter: Any) -> Any:
-    """Greatest pull: of the rated power with the service factor, or of the motor's greatest torque."""
-    return np.maximum(service_factor * power / speed, 2 * torque / diameter)
-
-
-@formula
 def tension_at_rest(pull: Any, tension_ratio: Any, count: Any, mass_per_length: Any, speed: Any) -> Any:
     """Tension of one belt at rest with which the pull is carried: half of both runs, and what the centrifugal force takes."""
     return pull * (tension_ratio + 1) / (2 * count * (tension_ratio - 1)) + mass_per_length * speed**2

@@ -99,14 +99,6 @@ def speed_at_die(velocity: Any, driven_radius: Any, cylinder_radius: Any) -> Any
 
 
 
-@formula
-def teeth_in_mesh(radius: Any, wrap: Any, pitch: Any) -> Any:
-    """Teeth along the wrap of a pulley."""
-    return radius * as_number(wrap) / pitch
-
-
-
-
 def alone(x: Any) -> Any:
     """For a single pulley the index of itself, else -1 for each."""
     return np.zeros_like(x, dtype=int) if x.shape[1] == 1 else np.full(x.shape, -1)
@@ -123,97 +115,91 @@ RADII = {"radius": "signed_radius", "next_radius": "next_signed_radius"}
 LAYOUT = (f"{PULLEYS}.x", f"{PULLEYS}.y", "signed_radius")
 
 speed = Chapter("Toothed belt: speed and driving pulley",
-                text="The carriage moves at V while the pulley fixed to the rolling cylinder turns with it: the belt is faster than the carriage "
-                     "by V·r_d/R on the side away from the die, and slower by as much on the die side.", needs=("toothed_belt",),
-                absent="not calculated: toothed_belt is not given")
+    text="The carriage moves at V while the pulley fixed to the rolling cylinder turns with it: the belt is faster than the carriage by V·r_d/R on "
+        "the side away from the die, and slower by as much on the die side.", needs=("toothed_belt",),
+    absent="not calculated: toothed_belt is not given")
 speed.value("belt_speed", "V_b", "m/s", "Speed of the toothed belt",
-            ByText("toothed_belt.engagement", {"away": speed_away, "die": speed_at_die}, **ROLLING), source="002 eq. 7–9")
+    ByText("toothed_belt.engagement", {"away": speed_away, "die": speed_at_die}, **ROLLING), source="002 eq. 7–9")
 speed.require("belt_moves", lambda belt_speed: belt_speed > 0, key="toothed_belt.driven_radius",
-              message="gives a belt speed of {belt_speed} with engagement: die; there the driven pulley must be smaller than the cylinder (or take "
-                      "engagement: away)")
+    message="gives a belt speed of {belt_speed} with engagement: die; there the driven pulley must be smaller than the cylinder (or take "
+        "engagement: away)")
 speed.value("driving_pulley_radius", "r_p", "mm", "Pitch radius of the belt's driving pulley, before rounding",
-            bind(lambda belt_speed, shaft_speed: belt_speed / shaft_speed, shaft_speed="toothed_belt.shaft_speed"), source="002 eq. 10", digits=6)
+    bind(lambda belt_speed, shaft_speed: belt_speed / shaft_speed, shaft_speed="toothed_belt.shaft_speed"), source="002 eq. 10", digits=6)
 speed.value("driving_pulley_teeth", "z_p", "1", "Teeth of the belt's driving pulley, the nearest whole number",
-            bind(lambda driving_pulley_radius, pitch: np.round(as_number(2 * np.pi) * driving_pulley_radius / pitch), pitch="toothed_belt.pitch"),
-            whole=True, source="this method")
+    bind(lambda driving_pulley_radius, pitch: np.round(as_number(2 * np.pi) * driving_pulley_radius / pitch), pitch="toothed_belt.pitch"), whole=True,
+    source="this method")
 speed.value("driving_pulley_pitch_radius", "r_pz", "mm", "Pitch radius of the driving pulley with whole teeth",
-            bind(lambda driving_pulley_teeth, pitch: driving_pulley_teeth * pitch / (2 * np.pi), pitch="toothed_belt.pitch"), source="geometry",
-            digits=6)
+    bind(lambda driving_pulley_teeth, pitch: driving_pulley_teeth * pitch / (2 * np.pi), pitch="toothed_belt.pitch"), source="geometry", digits=6)
 speed.require("pulley_has_teeth", lambda driving_pulley_teeth: driving_pulley_teeth >= 1, key="toothed_belt.pitch",
-              message="is more than twice the circumference of the driving pulley, whose radius is {driving_pulley_radius}; take a smaller pitch "
-                      "or a slower shaft")
+    message="is more than twice the circumference of the driving pulley, whose radius is {driving_pulley_radius}; take a smaller pitch or a slower "
+        "shaft")
 speed.value("driving_pulley_speed_error", "ε_b", "%", "Error of the belt speed due to whole teeth, at the given shaft_speed",
-            bind(lambda driving_pulley_teeth, pitch, shaft_speed, belt_speed:
-                     driving_pulley_teeth * pitch * shaft_speed / (2 * np.pi * belt_speed) - 1, pitch="toothed_belt.pitch",
-                 shaft_speed="toothed_belt.shaft_speed"), source="this method")
+    bind(lambda driving_pulley_teeth, pitch, shaft_speed, belt_speed: driving_pulley_teeth * pitch * shaft_speed / (2 * np.pi * belt_speed) - 1,
+        pitch="toothed_belt.pitch", shaft_speed="toothed_belt.shaft_speed"), source="this method")
 
 path = Chapter("Toothed belt: path over the pulleys",
-               text="The belt runs counter-clockwise over the pulleys in their order, with inside ones on its left (σ = 1) and outside ones on "
-                    "its right (σ = −1). Each pulley is listed with the span behind it; a prime marks the next pulley. The 10⁻⁹ in the wrap "
-                    "prevents a rounding error below zero from counting as a full turn.", needs=("toothed_belt", PULLEYS),
-               absent=f"not calculated: {PULLEYS} is not given")
+    text="The belt runs counter-clockwise over the pulleys in their order, with inside ones on its left (σ = 1) and outside ones on its right (σ = "
+        "−1). Each pulley is listed with the span behind it; a prime marks the next pulley. The 10⁻⁹ in the wrap prevents a rounding error below "
+        "zero from counting as a full turn.", needs=("toothed_belt", PULLEYS), absent=f"not calculated: {PULLEYS} is not given")
 path.clash("two_pulleys", alone, (f"{PULLEYS}.x",), key=PULLEYS, message="has one pulley; a belt needs at least two")
 path.lookup("pulley_side", "σ", "1", "Side of the pulley: inside 1, outside −1", {"inside": 1.0, "outside": -1.0}, by=f"{PULLEYS}.side",
-            source="this method", output=False)
+    source="this method", output=False)
 path.add(MARKS)
 path.value("signed_radius", "r_σ", "mm", "Radius, negative outside", bind(belt_path.signed, side="pulley_side", size=f"{PULLEYS}.radius"),
-           output=False, source="geometry", digits=6)
+    output=False, source="geometry", digits=6)
 path.neighbour("next_pulley_x", "x′", "mm", "Position of the next pulley along x", of=f"{PULLEYS}.x", digits=6, output=False)
 path.neighbour("next_pulley_y", "y′", "mm", "Position of the next pulley along y", of=f"{PULLEYS}.y", digits=6, output=False)
 path.neighbour("next_signed_radius", "r_σ′", "mm", "The next pulley's radius, negative outside", of="signed_radius", digits=6, output=False)
 path.value("pulley_distance", "d", "mm", "Distance to the next pulley", bind(belt_path.center_distance, **PLACES), output=False, source="geometry",
-           digits=6)
+    digits=6)
 path.require("tangents", bind(belt_path.has_tangent, center_distance="pulley_distance", **RADII), key=PULLEY,
-             message="pulleys {part} and {next} have no common tangent: their axes are only {pulley_distance} apart, so they touch or overlap, or "
-                     "one lies within the other; move them apart or make them smaller")
+    message="pulleys {part} and {next} have no common tangent: their axes are only {pulley_distance} apart, so they touch or overlap, or one lies "
+        "within the other; move them apart or make them smaller")
 path.clash("toothed_pulleys_apart", belt_path.overlapping, LAYOUT, key=PULLEY,
-           message="pulleys {part} and {other} overlap; move them apart or make them smaller")
+    message="pulleys {part} and {other} overlap; move them apart or make them smaller")
 path.clash("pulleys_counter_clockwise", belt_path.clockwise, LAYOUT, key=PULLEYS,
-           message="pulleys {part} to {other} are listed clockwise, so the signed wraps do not sum to 360°; reverse their order, so that the belt "
-                   "meets them counter-clockwise")
+    message="pulleys {part} to {other} are listed clockwise, so the signed wraps do not sum to 360°; reverse their order, so that the belt meets "
+        "them counter-clockwise")
 path.value("straight_runs", "l", "mm", "Span to the next pulley", bind(belt_path.run_length, center_distance="pulley_distance", **RADII),
-           source="geometry", digits=6)
+    source="geometry", digits=6)
 path.value("run_direction", "θ", "deg", "Direction of the span", bind(belt_path.run_direction, center_distance="pulley_distance", **PLACES, **RADII),
-           source="geometry", output=False)
+    source="geometry", output=False)
 path.neighbour("direction_before", "θ_before", "deg", "Direction of the span before the pulley", of="run_direction", shift=-1, output=False)
 path.value("wraps", "α", "deg", "Wrap of the pulley", bind(belt_path.wrap, side="pulley_side", direction="run_direction"), source="geometry",
-           numbered="wraps.{}", first=0)
+    numbered="wraps.{}", first=0)
 path.value("signed_wraps", "σα", "deg", "Wrap, negative outside", bind(belt_path.signed, side="pulley_side", size="wraps"), source="geometry",
-           output=False)
+    output=False)
 path.total("signed_wraps_sum", "α_Σ", "deg", "Sum of the signed wraps: one turn", "sum", of="signed_wraps", output=False)
 path.value("belt_turns", "n_b", "1", "Revolutions of the belt's direction along its path: 1 in a loop",
-           bind(belt_path.turns, sum_of_wraps="signed_wraps_sum"), output=False, source="geometry")
+    bind(belt_path.turns, sum_of_wraps="signed_wraps_sum"), output=False, source="geometry")
 path.total("greatest_wrap", "α_max", "deg", "Maximum wrap", "max", of="wraps", output=False)
 path.require("one_turn", lambda belt_turns, wraps, greatest_wrap: (belt_turns == 1) | (wraps < greatest_wrap), key=PULLEY,
-             message="the signed wraps (inside +, outside −) do not sum to 360°, one turn of the belt, but to {belt_turns} turns: it would have to "
-                     "run {wraps} around pulley {part}, which it does not touch. Move pulley {part} against the belt or leave it out, change its "
-                     "side, or list the pulleys in the order in which the belt meets them")
+    message="the signed wraps (inside +, outside −) do not sum to 360°, one turn of the belt, but to {belt_turns} turns: it would have to run "
+        "{wraps} around pulley {part}, which it does not touch. Move pulley {part} against the belt or leave it out, change its side, or list the "
+        "pulleys in the order in which the belt meets them")
 path.clash("runs_apart", belt_path.crossing, LAYOUT, key=PULLEY,
-           message="the straight runs behind pulleys {part} and {other} cross; move a pulley, or list them in the order in which the belt meets "
-                   "them")
+    message="the straight runs behind pulleys {part} and {other} cross; move a pulley, or list them in the order in which the belt meets them")
 path.clash("runs_clear", belt_path.pierced, LAYOUT, key=PULLEY,
-           message="the straight run behind pulley {other} passes through pulley {part}; move one of them, or give pulley {part} its place in the "
-                   "order in which the belt meets the pulleys")
+    message="the straight run behind pulley {other} passes through pulley {part}; move one of them, or give pulley {part} its place in the order in "
+        "which the belt meets the pulleys")
 
 length = Chapter("Toothed belt: length and teeth in mesh", needs=("toothed_belt", PULLEYS), absent=f"not calculated: {PULLEYS} is not given")
-length.value("belt_arcs", "s", "mm", "Arc length of the belt on the pulley", bind(belt_path.arc, radius=f"{PULLEYS}.radius", wrap="wraps"),
-             source="geometry",
-             output=False, digits=6)
+length.value("belt_arcs", "s", "mm", "Arc length of the belt on the pulley",
+    bind(lambda radius, wrap: radius * wrap, radius=f"{PULLEYS}.radius", wrap="wraps"), source="geometry", output=False, digits=6)
 length.total("straight_length", "Σl", "mm", "Total length of the spans", "sum", of="straight_runs", digits=6)
 length.total("arc_length", "Σs", "mm", "Total length of the arcs", "sum", of="belt_arcs", digits=6)
 length.value("toothed_belt_length", "L_b", "mm", "Length of the toothed belt's path",
-             lambda straight_length, arc_length: straight_length + arc_length, digits=7, source="002 eq. 11, in general")
+    lambda straight_length, arc_length: straight_length + arc_length, digits=7, source="002 eq. 11, in general")
 length.value("toothed_belt_teeth", "z_b", "1", "Number of teeth of the belt, the nearest whole number",
-             bind(lambda toothed_belt_length, pitch: np.round(toothed_belt_length / pitch), pitch="toothed_belt.pitch"), whole=True,
-             source="this method")
+    bind(lambda toothed_belt_length, pitch: np.round(toothed_belt_length / pitch), pitch="toothed_belt.pitch"), whole=True, source="this method")
 length.value("toothed_belt_take_up", "ΔL", "mm", "Difference of belt and path length: longer (+) or shorter (−); to be tensioned",
-             bind(lambda toothed_belt_teeth, pitch, toothed_belt_length: toothed_belt_teeth * pitch - toothed_belt_length,
-                  pitch="toothed_belt.pitch"),
-             source="this method")
+    bind(lambda toothed_belt_teeth, pitch, toothed_belt_length: toothed_belt_teeth * pitch - toothed_belt_length, pitch="toothed_belt.pitch"),
+    source="this method")
 length.value("teeth_in_mesh", "z_m", "1", "Number of teeth in mesh along the wrap",
-             bind(teeth_in_mesh, radius=f"{PULLEYS}.radius", wrap="wraps", pitch="toothed_belt.pitch"), source="this method")
+    bind(lambda radius, wrap, pitch: radius * as_number(wrap) / pitch, radius=f"{PULLEYS}.radius", wrap="wraps", pitch="toothed_belt.pitch"),
+    source="this method")
 length.total("teeth_in_mesh_min", "z_m,min", "1", "Minimum number of teeth in mesh of the toothed pulleys", "min", of="teeth_in_mesh",
-             among="has_teeth")
+    among="has_teeth")
 
 TOOTHED_BELT = (speed, path, length, listed)
 

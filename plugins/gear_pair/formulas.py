@@ -6,7 +6,7 @@ from typing import Any
 
 import numpy as np
 
-from diecut_report.api import as_angle, as_number, formula
+from diecut_report.api import as_number, formula
 from diecut_report.mechanics.involute import involute
 
 # --- geometry --------------------------------------------------------------------------------------------------------
@@ -43,12 +43,6 @@ def distance_coefficient(teeth_1: Any, teeth_2: Any, helix_angle: Any, alpha: An
 def reference_diameter(module: Any, teeth: Any, helix_angle: Any) -> Any:
     """Diameter of the reference circle."""
     return module * teeth / np.cos(helix_angle)
-
-
-@formula
-def working_diameter(distance: Any, teeth: Any, teeth_1: Any, teeth_2: Any) -> Any:
-    """Diameter of the working pitch circle."""
-    return 2 * distance * teeth / (teeth_1 + teeth_2)
 
 
 @formula
@@ -136,12 +130,6 @@ def half_tip_width(dedendum: Any, pressure_angle: Any, root_radius: Any) -> Any:
 
 
 @formula
-def tangent_offset(virtual_teeth: Any, half_tip_width: Any) -> Any:
-    """H: where the rounding's centre stands, less the direction of the tangent."""
-    return as_angle(2 / virtual_teeth * (as_number(np.pi) / 2 - half_tip_width)) - np.pi / 3
-
-
-@formula
 def root_chord(virtual_teeth: Any, theta: Any, center_height: Any, root_radius: Any) -> Any:
     """Chord of the root at the critical section, where tangents at 30° touch it."""
     return virtual_teeth * np.sin(np.pi / 3 - theta) + np.sqrt(3) * (center_height / np.cos(theta) - root_radius)
@@ -164,12 +152,6 @@ def single_contact_diameter(
     at_tip = np.sqrt((virtual_teeth + 2 * tip_height) ** 2 - base**2) / 2
     there = at_tip - as_number(np.pi) * np.cos(pressure_angle) * (virtual_contact_ratio - 1)
     return 2 * np.sqrt(there**2 + base**2 / 4)
-
-
-@formula
-def load_pressure_angle(virtual_teeth: Any, pressure_angle: Any, diameter: Any) -> Any:
-    """Pressure angle at that point."""
-    return np.arccos(virtual_teeth * np.cos(pressure_angle) / diameter)
 
 
 @formula
@@ -196,47 +178,9 @@ def stress_factor(root_chord: Any, load_arm: Any, notch_parameter: Any) -> Any:
 
 
 @formula
-def helix_factor_root(overlap_ratio: Any, helix_angle: Any) -> Any:
-    """Helix angle factor Y_β, up to 30°."""
-    return 1 - np.minimum(overlap_ratio, 1) * helix_angle / (2 * np.pi / 3)
-
-
-@formula
-def face_factor_root(face_factor: Any, slenderness: Any) -> Any:
-    """Face load factor of the root; ``slenderness`` is the face width to the tooth's height, 3 at least."""
-    return face_factor ** (slenderness**2 / (1 + slenderness + slenderness**2))
-
-
-@formula
-def nominal_root_stress(
-    force: Any, form_factor: Any, stress_factor: Any, helix_factor: Any, face_width: Any, module: Any
-) -> Any:
-    """Stress at the root of a pair without errors under the nominal load."""
-    return force * form_factor * stress_factor * helix_factor / (face_width * module)
-
-
-@formula
 def root_stress(nominal: Any, application: Any, dynamic: Any, face: Any, transverse: Any) -> Any:
     """Root stress with what raises it."""
     return nominal * application * dynamic * face * transverse
-
-
-@formula
-def root_safety(limit: Any, life: Any, notch: Any, alternating: Any, stress: Any) -> Any:
-    """Safety against breakage of the root; the limit of the tooth's own steel is twice that of the test gear, Y_ST = 2."""
-    return 2 * limit * life * notch * alternating / stress
-
-
-@formula
-def tangent_equation(theta: Any, offset: Any, virtual_teeth: Any, center_height: Any) -> Any:
-    """Zero where the tangent at the angle ``theta`` stands at 30° to the tooth's centre line."""
-    return theta + offset - as_angle(2 * center_height / virtual_teeth * np.tan(theta))
-
-
-@formula
-def has_section(offset: Any, virtual_teeth: Any, center_height: Any) -> Any:
-    """Whether this equation changes its sign between 0 and 60°."""
-    return (offset < 0) & (virtual_teeth * as_number(np.pi / 3 + offset) > 2 * np.sqrt(3) * center_height)
 
 
 @formula
@@ -244,9 +188,3 @@ def worse_notch(notch_parameter_1: Any, notch_parameter_2: Any) -> Any:
     """The parameter of the two that leaves the range 1 … 8, or comes nearest to its end."""
     least = np.minimum(notch_parameter_1, notch_parameter_2)
     return np.where(least < 1, least, np.maximum(notch_parameter_1, notch_parameter_2))
-
-
-@formula
-def touches(tip_angle: Any, teeth: Any) -> Any:
-    """Whether the flank reaches a base pitch down from its tip, to the inner point of single contact."""
-    return np.tan(tip_angle) > 2 * as_number(np.pi) / teeth

@@ -15,137 +15,138 @@ FACTORS = {"application": "application_factor", "dynamic": "dynamic_factor", "tr
 
 sizes = Chapter("Dimensions")
 for g, teeth in TEETH.items():
-    sizes.value(f"pitch_diameter_{g}", f"d_{g}", "mm", f"Reference diameter of gear {g}", bind(f.reference_diameter, teeth=teeth),
-                source=ISO_21771, digits=6)
+    sizes.value(f"pitch_diameter_{g}", f"d_{g}", "mm", f"Reference diameter of gear {g}", bind(f.reference_diameter, teeth=teeth), source=ISO_21771,
+        digits=6)
 sizes.value("reference_distance", "a_d", "mm", "Reference centre distance",
-            lambda pitch_diameter_1, pitch_diameter_2: (pitch_diameter_1 + pitch_diameter_2) / 2, source=ISO_21771, output=False, digits=6)
+    lambda pitch_diameter_1, pitch_diameter_2: (pitch_diameter_1 + pitch_diameter_2) / 2, source=ISO_21771, output=False, digits=6)
 sizes.value("center_distance", "a", "mm", "Centre distance: as given", bind(lambda given: given, given="inputs.center_distance"),
-            needs=GIVEN_DISTANCE, source="input", digits=6)
-sizes.value("center_distance", "a", "mm", "Centre distance without backlash",
-            lambda reference_distance, transverse_angle, working_pressure_angle:
-                reference_distance * np.cos(transverse_angle) / np.cos(working_pressure_angle), lacks=GIVEN_DISTANCE, source=ISO_21771, digits=6)
+    needs=GIVEN_DISTANCE, source="input", digits=6)
+sizes.value("center_distance", "a", "mm", "Centre distance without backlash", lambda reference_distance, transverse_angle, working_pressure_angle:
+        reference_distance * np.cos(transverse_angle) / np.cos(working_pressure_angle), lacks=GIVEN_DISTANCE, source=ISO_21771, digits=6)
 for g, teeth in TEETH.items():
     sizes.value(f"base_diameter_{g}", f"d_b{g}", "mm", f"Base diameter of gear {g}",
-                bind(lambda diameter, transverse_angle: diameter * np.cos(transverse_angle), diameter=f"pitch_diameter_{g}"), source=ISO_21771,
-                digits=6)
+        bind(lambda diameter, transverse_angle: diameter * np.cos(transverse_angle), diameter=f"pitch_diameter_{g}"), source=ISO_21771, digits=6)
     sizes.value(f"working_diameter_{g}", f"d_w{g}", "mm", f"Working pitch diameter of gear {g}",
-                bind(f.working_diameter, distance="center_distance", teeth=teeth), source=ISO_21771, digits=6)
+        bind(lambda distance, teeth, teeth_1, teeth_2: 2 * distance * teeth / (teeth_1 + teeth_2), distance="center_distance", teeth=teeth),
+        source=ISO_21771, digits=6)
     sizes.value(f"tip_diameter_{g}", f"d_a{g}", "mm", f"Tip diameter of gear {g}",
-                bind(lambda diameter, module, height: diameter + 2 * module * height, diameter=f"pitch_diameter_{g}", height=f"tip_height_{g}"),
-                source=ISO_21771, digits=6)
+        bind(lambda diameter, module, height: diameter + 2 * module * height, diameter=f"pitch_diameter_{g}", height=f"tip_height_{g}"),
+        source=ISO_21771, digits=6)
     sizes.value(f"root_diameter_{g}", f"d_f{g}", "mm", f"Root diameter of gear {g}",
-                bind(lambda diameter, module, dedendum, shift: diameter - 2 * module * (dedendum - shift), diameter=f"pitch_diameter_{g}",
-                     shift=f"shift_{g}"), source=ISO_21771, digits=6)
+        bind(lambda diameter, module, dedendum, shift: diameter - 2 * module * (dedendum - shift), diameter=f"pitch_diameter_{g}",
+            shift=f"shift_{g}"), source=ISO_21771, digits=6)
     sizes.require(f"root_circle_{g}", bind(lambda diameter: diameter > 0, diameter=f"root_diameter_{g}"), key="dedendum",
-                  message=f"is {{dedendum}}, with which nothing is left of the gear {g} within its roots; take a smaller dedendum or more teeth")
+        message=f"is {{dedendum}}, with which nothing is left of the gear {g} within its roots; take a smaller dedendum or more teeth")
 for g in TEETH:
     sizes.value(f"tip_clearance_{g}", f"c_{g}", "mm", f"Clearance between tip {g} and the root of the mating gear",
-                bind(lambda center_distance, tip, root: center_distance - (tip + root) / 2, tip=f"tip_diameter_{g}", root=f"root_diameter_{3 - g}"),
-                source=ISO_21771)
+        bind(lambda center_distance, tip, root: center_distance - (tip + root) / 2, tip=f"tip_diameter_{g}", root=f"root_diameter_{3 - g}"),
+        source=ISO_21771)
     sizes.value(f"tip_thickness_{g}", f"s_an{g}", "mm", f"Normal tooth thickness at tip {g}",
-                bind(f.tip_thickness, tip_diameter=f"tip_diameter_{g}", half_thickness=f"tip_half_angle_{g}",
-                     reference_diameter=f"pitch_diameter_{g}"), source=ISO_21771)
+        bind(f.tip_thickness, tip_diameter=f"tip_diameter_{g}", half_thickness=f"tip_half_angle_{g}", reference_diameter=f"pitch_diameter_{g}"),
+        source=ISO_21771)
     sizes.value(f"root_chord_{g}", f"s_Fn{g}", "mm", f"Tooth root chord of gear {g} at the critical section",
-                bind(lambda chord, module: chord * module, chord=f"chord_{g}"), source=f"{ROOT}, 6", digits=6)
+        bind(lambda chord, module: chord * module, chord=f"chord_{g}"), source=f"{ROOT}, 6", digits=6)
     sizes.value(f"root_radius_{g}", f"ρ_F{g}", "mm", f"Root fillet radius of gear {g} at the critical section",
-                bind(lambda fillet, module: fillet * module, fillet=f"fillet_{g}"), source=f"{ROOT}, 6", digits=6)
+        bind(lambda fillet, module: fillet * module, fillet=f"fillet_{g}"), source=f"{ROOT}, 6", digits=6)
 sizes.value("tip_clearance_least", "c_min", "mm", "Minimum tip clearance",
-            lambda tip_clearance_1, tip_clearance_2: np.minimum(tip_clearance_1, tip_clearance_2), source=ISO_21771, output=False)
+    lambda tip_clearance_1, tip_clearance_2: np.minimum(tip_clearance_1, tip_clearance_2), source=ISO_21771, output=False)
 sizes.value("tip_thickness_least", "s_an,min", "mm", "Minimum tip thickness",
-            lambda tip_thickness_1, tip_thickness_2: np.minimum(tip_thickness_1, tip_thickness_2), source=ISO_21771, output=False)
-sizes.value("tip_clearance_wanted", "c_w", "mm", "Minimum usual tip clearance", lambda module: 0.12 * module, source="practice",
-            output=False)
-sizes.value("tip_thickness_wanted", "s_w", "mm", "Minimum usual tip thickness", lambda module: 0.2 * module, source="practice",
-            output=False)
-sizes.value("face_width_wanted", "b_w", "mm", "Maximum usual face width", lambda pitch_diameter_1: 1.2 * pitch_diameter_1,
-            source="practice", output=False)
-sizes.value("base_pitch", "p_bt", "mm", "Transverse base pitch", lambda pitch_diameter_1, teeth_1, transverse_angle:
-            as_number(np.pi) * pitch_diameter_1 / teeth_1 * np.cos(transverse_angle), source=ISO_21771, digits=6)
-sizes.value("overlap_ratio", "ε_β", "1", "Overlap ratio", lambda face_width, helix_angle, module:
-            face_width * np.sin(helix_angle) / (as_number(np.pi) * module), source=ISO_21771, digits=6)
+    lambda tip_thickness_1, tip_thickness_2: np.minimum(tip_thickness_1, tip_thickness_2), source=ISO_21771, output=False)
+sizes.value("tip_clearance_wanted", "c_w", "mm", "Minimum usual tip clearance", lambda module: 0.12 * module, source="practice", output=False)
+sizes.value("tip_thickness_wanted", "s_w", "mm", "Minimum usual tip thickness", lambda module: 0.2 * module, source="practice", output=False)
+sizes.value("face_width_wanted", "b_w", "mm", "Maximum usual face width", lambda pitch_diameter_1: 1.2 * pitch_diameter_1, source="practice",
+    output=False)
+sizes.value("base_pitch", "p_bt", "mm", "Transverse base pitch",
+    lambda pitch_diameter_1, teeth_1, transverse_angle: as_number(np.pi) * pitch_diameter_1 / teeth_1 * np.cos(transverse_angle), source=ISO_21771,
+    digits=6)
+sizes.value("overlap_ratio", "ε_β", "1", "Overlap ratio",
+    lambda face_width, helix_angle, module: face_width * np.sin(helix_angle) / (as_number(np.pi) * module), source=ISO_21771, digits=6)
 sizes.value("contact_ratio_total", "ε_γ", "1", "Total contact ratio", lambda contact_ratio, overlap_ratio: contact_ratio + overlap_ratio,
-            source=ISO_21771)
+    source=ISO_21771)
 
 forces = Chapter("Forces", text="For the maximum torque. F_t acts at the reference circle and is used for the rating; the others act at the mesh.")
 forces.value("tangential_force", "F_t", "N", "Tangential force at the reference circle",
-             lambda torque_peak, pitch_diameter_1: 2 * torque_peak / pitch_diameter_1, source="ISO 6336-1")
+    lambda torque_peak, pitch_diameter_1: 2 * torque_peak / pitch_diameter_1, source="ISO 6336-1")
 forces.value("working_force", "F_tw", "N", "Tangential force at the working pitch circle",
-             lambda torque_peak, working_diameter_1: 2 * torque_peak / working_diameter_1, source=STATICS)
+    lambda torque_peak, working_diameter_1: 2 * torque_peak / working_diameter_1, source=STATICS)
 forces.value("radial_force", "F_r", "N", "Radial force, which separates the axes",
-             lambda working_force, working_pressure_angle: working_force * np.tan(working_pressure_angle), source=STATICS)
+    lambda working_force, working_pressure_angle: working_force * np.tan(working_pressure_angle), source=STATICS)
 forces.value("axial_force", "F_a", "N", "Axial force", lambda tangential_force, helix_angle: tangential_force * np.tan(helix_angle), source=STATICS)
 forces.value("normal_force", "F_bn", "N", "Force normal to the flanks",
-             lambda torque_peak, base_diameter_1, base_helix_angle: 2 * torque_peak / (base_diameter_1 * np.cos(base_helix_angle)), source=STATICS)
-forces.value("pitch_velocity", "v", "m/s", "Pitch line velocity", lambda speed, working_diameter_1: speed * working_diameter_1 / 2,
-             needs=("speed",), source="kinematics")
+    lambda torque_peak, base_diameter_1, base_helix_angle: 2 * torque_peak / (base_diameter_1 * np.cos(base_helix_angle)), source=STATICS)
+forces.value("pitch_velocity", "v", "m/s", "Pitch line velocity", lambda speed, working_diameter_1: speed * working_diameter_1 / 2, needs=("speed",),
+    source="kinematics")
 forces.value("power_peak", "P", "kW", "Power at the maximum torque", lambda torque_peak, speed: torque_peak * speed, needs=("speed",),
-             source="kinematics")
+    source="kinematics")
 
-pitting = Chapter("Pitting", text="Load at the pitch point, converted to the inner points of single pair tooth contact by Z_B and Z_D. Z_E is "
-                                  "for Poisson's ratio 0.3.")
-pitting.value("zone_factor", "Z_H", "1", "Zone factor",
-              bind(f.zone_factor, working_angle="working_pressure_angle", alpha="transverse_angle"), source=f"{PITTING}, 6")
+pitting = Chapter("Pitting",
+    text="Load at the pitch point, converted to the inner points of single pair tooth contact by Z_B and Z_D. Z_E is for Poisson's ratio 0.3.")
+pitting.value("zone_factor", "Z_H", "1", "Zone factor", bind(f.zone_factor, working_angle="working_pressure_angle", alpha="transverse_angle"),
+    source=f"{PITTING}, 6")
 pitting.value("elasticity", "E_Z", "MPa", "Square of the elasticity factor Z_E", f.elasticity, source=f"{PITTING}, 7", output=False)
 pitting.value("contact_ratio_factor", "Z_ε", "1", "Contact ratio factor", f.contact_ratio_factor, source=f"{PITTING}, 8")
 pitting.value("helix_factor", "Z_β", "1", "Helix angle factor", lambda helix_angle: 1 / np.sqrt(np.cos(helix_angle)),
-              source=f"{PITTING}, 9, corrigendum 2008", output=False)
+    source=f"{PITTING}, 9, corrigendum 2008", output=False)
 pitting.value("nominal_contact_stress", "σ_H0", "MPa", "Nominal contact stress at the pitch point",
-              bind(f.nominal_contact_stress, force="tangential_force", diameter="pitch_diameter_1"), source=f"{PITTING}, 5")
+    bind(f.nominal_contact_stress, force="tangential_force", diameter="pitch_diameter_1"), source=f"{PITTING}, 5")
 for g, teeth in TEETH.items():
     pitting.require(f"single_contact_exists_{g}",
-                    bind(f.touches, tip_angle=f"tip_angle_{g}", teeth=teeth), key="addendum",
-                    message=f"is {{addendum}}, with which the flank {g} ends before its inner point of single contact; take more shift, less "
-                            "dedendum and addendum, or more teeth")
+        bind(lambda tip_angle, teeth: np.tan(tip_angle) > 2 * as_number(np.pi) / teeth, tip_angle=f"tip_angle_{g}", teeth=teeth), key="addendum",
+        message=f"is {{addendum}}, with which the flank {g} ends before its inner point of single contact; take more shift, less dedendum and "
+            "addendum, or more teeth")
 for g, teeth in TEETH.items():
     mate = 3 - g
-    pitting.value(f"single_contact_{g}", f"M_{g}", "1", f"Ratio of the pressure at the inner point of single pair tooth contact of gear {g} to "
-                                                        "that at the pitch point",
-                  bind(f.single_contact, working_angle="working_pressure_angle", tip_angle=f"tip_angle_{g}", teeth=teeth,
-                       tip_angle_mate=f"tip_angle_{mate}", teeth_mate=TEETH[mate]), source=f"{PITTING}, 6", output=False)
+    pitting.value(f"single_contact_{g}", f"M_{g}", "1",
+        f"Ratio of the pressure at the inner point of single pair tooth contact of gear {g} to that at the pitch point",
+        bind(f.single_contact, working_angle="working_pressure_angle", tip_angle=f"tip_angle_{g}", teeth=teeth, tip_angle_mate=f"tip_angle_{mate}",
+            teeth_mate=TEETH[mate]), source=f"{PITTING}, 6", output=False)
     pitting.value(f"contact_factor_{g}", "Z_B" if g == 1 else "Z_D", "1", f"Single pair tooth contact factor of gear {g}",
-                  bind(f.contact_factor, single_contact=f"single_contact_{g}"), source=f"{PITTING}, 6")
+        bind(f.contact_factor, single_contact=f"single_contact_{g}"), source=f"{PITTING}, 6")
     pitting.value(f"contact_stress_{g}", f"σ_H{g}", "MPa", f"Contact stress of gear {g}",
-                  bind(f.contact_stress, nominal="nominal_contact_stress", contact_factor=f"contact_factor_{g}", face="face_load_factor", **FACTORS),
-                  source=f"{PITTING}, 5")
+        bind(f.contact_stress, nominal="nominal_contact_stress", contact_factor=f"contact_factor_{g}", face="face_load_factor", **FACTORS),
+        source=f"{PITTING}, 5")
     pitting.value(f"pitting_safety_{g}", f"S_H{g}", "1", f"Safety factor of gear {g} against pitting",
-                  bind(f.pitting_safety, limit=f"sigma_h_lim_{g}", life=f"life_factor_h_{g}", film="film_factor", stress=f"contact_stress_{g}"),
-                  source=f"{PITTING}, 5")
+        bind(f.pitting_safety, limit=f"sigma_h_lim_{g}", life=f"life_factor_h_{g}", film="film_factor", stress=f"contact_stress_{g}"),
+        source=f"{PITTING}, 5")
 
-root_stress = Chapter("Tooth root", text="Method B: the load acts at the outer point of single pair tooth contact, Y_ε does not occur; Y_B = "
-                                         "Y_DT = 1.")
+root_stress = Chapter("Tooth root",
+    text="Method B: the load acts at the outer point of single pair tooth contact, Y_ε does not occur; Y_B = Y_DT = 1.")
 root_stress.value("tooth_height", "h", "mm", "Tooth depth",
-                  lambda module, addendum, dedendum, tip_alteration: module * (addendum + dedendum + tip_alteration), source=ISO_21771, output=False)
+    lambda module, addendum, dedendum, tip_alteration: module * (addendum + dedendum + tip_alteration), source=ISO_21771, output=False)
 root_stress.value("face_to_height", "r", "1", "Ratio of face width to tooth depth, at least 3",
-                  lambda face_width, tooth_height: np.maximum(face_width / tooth_height, 3), source="ISO 6336-1", output=False)
+    lambda face_width, tooth_height: np.maximum(face_width / tooth_height, 3), source="ISO 6336-1", output=False)
 root_stress.value("face_load_root", "K_Fβ", "1", "Face load factor for tooth root stress",
-                  bind(f.face_factor_root, face_factor="face_load_factor", slenderness="face_to_height"), source="ISO 6336-1, 7")
-root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor for tooth root stress", f.helix_factor_root, source=f"{ROOT}, 8")
+    lambda face_load_factor, face_to_height: face_load_factor ** (face_to_height**2 / (1 + face_to_height + face_to_height**2)),
+    source="ISO 6336-1, 7")
+root_stress.value("helix_factor_root", "Y_β", "1", "Helix angle factor for tooth root stress",
+    lambda overlap_ratio, helix_angle: 1 - np.minimum(overlap_ratio, 1) * helix_angle / (2 * np.pi / 3), source=f"{ROOT}, 8")
 for g in TEETH:
     root_stress.value(f"nominal_root_stress_{g}", f"σ_F0{g}", "MPa", f"Nominal tooth root stress of gear {g}",
-                      bind(f.nominal_root_stress, force="tangential_force", form_factor=f"form_factor_{g}", stress_factor=f"stress_factor_{g}",
-                           helix_factor="helix_factor_root"), source=f"{ROOT}, 5")
+        bind(lambda force, form_factor, stress_factor, helix_factor, face_width, module:
+                force * form_factor * stress_factor * helix_factor / (face_width * module), force="tangential_force", form_factor=f"form_factor_{g}",
+            stress_factor=f"stress_factor_{g}", helix_factor="helix_factor_root"), source=f"{ROOT}, 5")
     root_stress.value(f"root_stress_{g}", f"σ_F{g}", "MPa", f"Tooth root stress of gear {g}",
-                      bind(f.root_stress, nominal=f"nominal_root_stress_{g}", face="face_load_root", **FACTORS), source=f"{ROOT}, 5")
+        bind(f.root_stress, nominal=f"nominal_root_stress_{g}", face="face_load_root", **FACTORS), source=f"{ROOT}, 5")
     root_stress.value(f"root_safety_{g}", f"S_F{g}", "1", f"Safety factor of gear {g} against tooth breakage",
-                      bind(f.root_safety, limit=f"sigma_f_lim_{g}", life=f"life_factor_f_{g}", notch="notch_size_factor",
-                           alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5")
+        bind(lambda limit, life, notch, alternating, stress: 2 * limit * life * notch * alternating / stress, limit=f"sigma_f_lim_{g}",
+            life=f"life_factor_f_{g}", notch="notch_size_factor", alternating="alternating_factor", stress=f"root_stress_{g}"), source=f"{ROOT}, 5")
 
 over_cycle = Chapter("Forces over the cycle", needs=("torque_curve",))
 over_cycle.value("tangential_force_curve", "F_tφ", "N", "Tangential force at the reference circle, with the sign of the torque",
-                 lambda torque_pinion_curve, pitch_diameter_1: 2 * torque_pinion_curve / pitch_diameter_1, source="ISO 6336-1")
+    lambda torque_pinion_curve, pitch_diameter_1: 2 * torque_pinion_curve / pitch_diameter_1, source="ISO 6336-1")
 over_cycle.value("nominal_contact_curve", "σ_H0φ", "MPa", "Nominal contact stress",
-                 bind(f.nominal_contact_stress, force="tangential_force_curve", diameter="pitch_diameter_1"), source=f"{PITTING}, 5", output=False)
+    bind(f.nominal_contact_stress, force="tangential_force_curve", diameter="pitch_diameter_1"), source=f"{PITTING}, 5", output=False)
 over_cycle.value("contact_stress_curve", "σ_H1φ", "MPa", "Contact stress of the pinion",
-                 bind(f.contact_stress, nominal="nominal_contact_curve", contact_factor="contact_factor_1", face="face_load_factor", **FACTORS),
-                 source=f"{PITTING}, 5")
+    bind(f.contact_stress, nominal="nominal_contact_curve", contact_factor="contact_factor_1", face="face_load_factor", **FACTORS),
+    source=f"{PITTING}, 5")
 
 sector = Chapter("Sector", needs=("sector",), absent="sector is not given: the wheel makes full revolutions",
-                 text="The maximum torque is assumed to act at any position in the mesh, on every tooth of the sector.")
+    text="The maximum torque is assumed to act at any position in the mesh, on every tooth of the sector.")
 sector.value("teeth_swept", "z_γ", "1", "Number of teeth swept by the swing",
-             bind(lambda swing, teeth_2: swing * teeth_2 / (2 * np.pi), swing="sector.swing"), source="kinematics", digits=6)
+    bind(lambda swing, teeth_2: swing * teeth_2 / (2 * np.pi), swing="sector.swing"), source="kinematics", digits=6)
 sector.value("teeth_needed", "z_n", "1", "Required number of teeth of the sector: those swept, those in mesh at the end, and one to spare",
-             lambda teeth_swept, contact_ratio: np.ceil(teeth_swept + contact_ratio) + 1, whole=True, source="this method")
+    lambda teeth_swept, contact_ratio: np.ceil(teeth_swept + contact_ratio) + 1, whole=True, source="this method")
 sector.value("pinion_rotation", "γ_1", "deg", "Rotation of the pinion", bind(lambda ratio, swing: ratio * swing, swing="sector.swing"),
-             source="kinematics", digits=6)
+    source="kinematics", digits=6)
 sector.require("teeth_fit", bind(lambda present, teeth_2: present <= teeth_2, present="sector.teeth_present"), key="sector.teeth_present",
-               needs=("sector.teeth_present",), message="is {sector.teeth_present}, more than the {teeth_2} of the full circle; give at most those")
+    needs=("sector.teeth_present",), message="is {sector.teeth_present}, more than the {teeth_2} of the full circle; give at most those")

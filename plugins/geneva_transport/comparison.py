@@ -54,93 +54,90 @@ class TransportComparison(Inputs):
 
 
 basis = Chapter("Basis of comparison",
-                text="Both drives make the same step S in the same time T, each with its own dwell. Velocities are related to the mean velocity "
-                     "S/T, accelerations to S/T²; so they hold for any step and any productivity.")
+    text="Both drives make the same step S in the same time T, each with its own dwell. Velocities are related to the mean velocity S/T, "
+        "accelerations to S/T²; so they hold for any step and any productivity.")
 basis.value("cycle_time", "T", "ms", "Cycle time of the cam-gear", lambda cycles_per_hour: 1 / cycles_per_hour, source="kinematics")
 basis.value("geneva_cycle_time", "T_g", "ms", "Time of a revolution of the Geneva drive's crank, as given there", formulas.cycle_time,
-            source="kinematics")
+    source="kinematics")
 basis.choice("cycle_basis", "→", "1", "Cycle time of the comparison",
-             case("both drives have it", "the cycle times are the same", bind(related.are_alike, one="cycle_time", other="geneva_cycle_time")),
-             case("the cam-gear's, for both drives", "the Geneva drive has another one"))
+    case("both drives have it", "the cycle times are the same", bind(related.are_alike, one="cycle_time", other="geneva_cycle_time")),
+    case("the cam-gear's, for both drives", "the Geneva drive has another one"))
 basis.choice("step_basis", "→", "1", "Step of the comparison",
-             case("both drives have it", "the steps are the same", bind(related.are_alike, one="cam_step", other="geneva_step")),
-             case("the cam-gear's, for both drives", "the Geneva drive has another one"), needs=("cam_step", "geneva_step"))
+    case("both drives have it", "the steps are the same", bind(related.are_alike, one="cam_step", other="geneva_step")),
+    case("the cam-gear's, for both drives", "the Geneva drive has another one"), needs=("cam_step", "geneva_step"))
 
 dwell = Chapter("Dwell")
 dwell.value("geneva_dwell", "κ_d", "1", "Geneva: dwell fraction of the cycle", formulas.dwell_fraction, source="geometry")
 dwell.value("cam_time_dwell", "t_c", "ms", "Cam-gear: time of the dwell", lambda dwell_share, cycle_time: dwell_share * cycle_time,
-            source="kinematics")
+    source="kinematics")
 dwell.value("geneva_time_dwell", "t_g", "ms", "Geneva: time of the dwell", lambda geneva_dwell, cycle_time: geneva_dwell * cycle_time,
-            source="kinematics")
+    source="kinematics")
 dwell.value("dwell_ratio", "q_d", "1", "Dwell, ratio of Geneva to cam-gear", lambda geneva_dwell, dwell_share: geneva_dwell / dwell_share,
-            source="kinematics")
+    source="kinematics")
 
 
 def _ratio(what: str, symbol: str, title: str) -> Steps:
     steps = Steps()
     steps.value(f"{what}_ratio", symbol, "1", f"{title}, ratio of Geneva to cam-gear",
-                bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"), source="kinematics")
+        bind(common.quotient, quantity=f"geneva_{what}_peak", by=f"cam_{what}_peak"), source="kinematics")
     return steps
 
 
 IN_SLOT = bind(formulas.holds, flag="engaged")
 
 motion_chapter = Chapter("Motion of the sheet over a cycle",
-                         text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle. k and s hold for a "
-                              "whole piece of the cycle and are shown in its middle, all other curves at the stated φ.")
+    text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle. k and s hold for a whole piece of the cycle "
+        "and are shown in its middle, all other curves at the stated φ.")
 motion_chapter.value("crank_ratio", "λ", "1", "Geneva: ratio of crank radius to centre distance", formulas.crank_ratio, source="geometry",
-                     output=False)
+    output=False)
 motion_chapter.value("engagement_half_angle", "α_e", "deg", "Geneva: half the angle of the engagement", formulas.engagement_half_angle,
-                     source="geometry", output=False)
+    source="geometry", output=False)
 motion_chapter.value("middle", "φ_m", "deg", "Cycle angle in the middle of both motions", lambda dwell_share: np.pi * (1 + dwell_share),
-                     source="kinematics", output=False)
+    source="kinematics", output=False)
 motion_chapter.value("geneva_entry", "φ_g1", "deg", "Cycle angle at the Geneva drive's entry",
-                     lambda middle, engagement_half_angle: middle - engagement_half_angle, source="kinematics", output=False)
+    lambda middle, engagement_half_angle: middle - engagement_half_angle, source="kinematics", output=False)
 motion_chapter.value("geneva_exit", "φ_g2", "deg", "Cycle angle at the Geneva drive's exit",
-                     lambda middle, engagement_half_angle: middle + engagement_half_angle, source="kinematics", output=False)
+    lambda middle, engagement_half_angle: middle + engagement_half_angle, source="kinematics", output=False)
 motion_chapter.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution, from the beginning of the cam-gear's dwell", 2 * np.pi,
-                        shown_at="geneva_acceleration_peak_at")
+    shown_at="geneva_acceleration_peak_at")
 motion_chapter.breakpoints("engagement", "cycle_angle", "geneva_entry", "geneva_exit")
 motion_chapter.choice("turns", "k", "1", "Nearest motion of the Geneva drive",
-                      case(lambda: 1, "the end of the previous motion", lambda cycle_angle, middle: cycle_angle < middle - np.pi),
-                      case(lambda: 0, "the motion of this cycle"), output=False, per_piece=True)
+    case(lambda: 1, "the end of the previous motion", lambda cycle_angle, middle: cycle_angle < middle - np.pi),
+    case(lambda: 0, "the motion of this cycle"), output=False, per_piece=True)
 motion_chapter.value("geneva_angle", "α", "deg", "Geneva: crank angle from the middle of the motion",
-                     lambda cycle_angle, middle, turns: cycle_angle - middle + 2 * np.pi * turns, source="kinematics", output=False)
+    lambda cycle_angle, middle, turns: cycle_angle - middle + 2 * np.pi * turns, source="kinematics", output=False)
 motion_chapter.choice("engaged", "s", "1", "Geneva drive's roller in a slot (1) or not (0)",
-                      case(lambda: 1, "the roller is in a slot",
-                           lambda geneva_angle, engagement_half_angle: abs(geneva_angle) <= engagement_half_angle),
-                      case(lambda: 0, "the locking disc holds the wheel"), output=False, per_piece=True)
+    case(lambda: 1, "the roller is in a slot", lambda geneva_angle, engagement_half_angle: abs(geneva_angle) <= engagement_half_angle),
+    case(lambda: 0, "the locking disc holds the wheel"), output=False, per_piece=True)
 motion_chapter.from_curve("cam_gear_speed", "ω_1", "rad", "Cam-gear: speed of the gear, per revolution of the disc", given="gear_speed",
-                          abscissa="cycle_angle", output=False)
+    abscissa="cycle_angle", output=False)
 motion_chapter.from_curve("cam_gear_acceleration", "ε_1", "rad/s**2", "Cam-gear: acceleration of the gear", given="gear_acceleration",
-                          abscissa="cycle_angle", output=False)
+    abscissa="cycle_angle", output=False)
 motion_chapter.value("cam_velocity", "v_c", "1", "Cam-gear: ratio of the sheet's velocity to the mean velocity S/T",
-                     lambda cam_gear_speed: cam_gear_speed / (2 * np.pi), source="kinematics")
+    lambda cam_gear_speed: cam_gear_speed / (2 * np.pi), source="kinematics")
 motion_chapter.value("cam_acceleration", "a_c", "1", "Cam-gear: sheet acceleration in units of S/T²",
-                     lambda cam_gear_acceleration, cycle_time: cam_gear_acceleration * cycle_time ** 2 / (2 * np.pi), source="kinematics")
+    lambda cam_gear_acceleration, cycle_time: cam_gear_acceleration * cycle_time ** 2 / (2 * np.pi), source="kinematics")
 motion_chapter.choice("geneva_velocity", "v_g", "1", "Geneva: ratio of the sheet's velocity to the mean velocity S/T",
-                      case(lambda slots, geneva_angle, crank_ratio: slots * formulas.speed_ratio(geneva_angle, crank_ratio),
-                           "the roller is in a slot", IN_SLOT), case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
+    case(lambda slots, geneva_angle, crank_ratio: slots * formulas.speed_ratio(geneva_angle, crank_ratio), "the roller is in a slot", IN_SLOT),
+    case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
 motion_chapter.choice("geneva_acceleration", "a_g", "1", "Geneva: sheet acceleration in units of S/T²",
-                      case(lambda slots, geneva_angle, crank_ratio:
-                               as_number(2 * np.pi) * slots * formulas.acceleration_ratio(geneva_angle, crank_ratio), "the roller is in a slot",
-                           IN_SLOT), case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
-motion_chapter.value("cam_power", "P_c", "1", "Cam-gear: power in units of m·S²/T³", lambda cam_velocity,
-                     cam_acceleration: cam_velocity * cam_acceleration,
-                     source="energy", output=False)
+    case(lambda slots, geneva_angle, crank_ratio: as_number(2 * np.pi) * slots * formulas.acceleration_ratio(geneva_angle, crank_ratio),
+        "the roller is in a slot", IN_SLOT), case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
+motion_chapter.value("cam_power", "P_c", "1", "Cam-gear: power in units of m·S²/T³",
+    lambda cam_velocity, cam_acceleration: cam_velocity * cam_acceleration, source="energy", output=False)
 motion_chapter.value("geneva_power", "P_g", "1", "Geneva: power in units of m·S²/T³",
-                     lambda geneva_velocity, geneva_acceleration: geneva_velocity * geneva_acceleration, source="energy", output=False)
+    lambda geneva_velocity, geneva_acceleration: geneva_velocity * geneva_acceleration, source="energy", output=False)
 for what, letter, told in (("velocity", "v", "velocity in units of S/T"), ("acceleration", "a", "acceleration in units of S/T²"),
                            ("power", "P", "power in units of m·S²/T³, and so torque")):
     for drive, name in (("cam", "Cam-gear"), ("geneva", "Geneva")):
         motion_chapter.reduction(f"{drive}_{what}_peak", f"{letter}_{drive[0]},max", "1", f"{name}: maximum {told}", "abs_max", of=f"{drive}_{what}",
-                                 source="kinematics")
+            source="kinematics")
 motion_chapter.value("geneva_jump", "a_g,e", "1", "Geneva: jump of the acceleration at entry and exit in units of S/T²",
-                     lambda slots: as_number(2 * np.pi) * slots * np.tan(np.pi / slots), source="kinematics")
+    lambda slots: as_number(2 * np.pi) * slots * np.tan(np.pi / slots), source="kinematics")
 motion_chapter.add(_ratio("velocity", "q_v", "Maximum velocity"))
 motion_chapter.add(_ratio("acceleration", "q_a", "Maximum acceleration"))
 motion_chapter.value("torque_ratio", "q_M", "1", "Maximum torque for the same mass, ratio of Geneva to cam-gear",
-                     lambda geneva_power_peak, cam_power_peak: geneva_power_peak / cam_power_peak, source="energy")
+    lambda geneva_power_peak, cam_power_peak: geneva_power_peak / cam_power_peak, source="energy")
 
 
 def _in_units(step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> Steps:
@@ -149,81 +146,79 @@ def _in_units(step: str, needs: tuple[str, ...], lacks: tuple[str, ...]) -> Step
     steps = Steps()
     for drive, name in drives:
         steps.value(f"{drive}_sheet_velocity_max", f"V_{drive[0]}", "m/s", f"{name}: maximum velocity of the sheet",
-                    bind(related.in_metres, relative=f"{drive}_velocity_peak", step=step), source="kinematics", needs=needs, lacks=lacks)
+            bind(lambda relative, step, cycle_time: relative * step / cycle_time, relative=f"{drive}_velocity_peak", step=step), source="kinematics",
+            needs=needs, lacks=lacks)
     for drive, name in drives:
         steps.value(f"{drive}_sheet_acceleration_max", f"a_s{drive[0]}", "m/s**2", f"{name}: maximum acceleration of the sheet",
-                    bind(related.in_metres_squared, relative=f"{drive}_acceleration_peak", step=step), source="kinematics", needs=needs, lacks=lacks)
+            bind(lambda relative, step, cycle_time: relative * step / cycle_time**2, relative=f"{drive}_acceleration_peak", step=step),
+            source="kinematics", needs=needs, lacks=lacks)
     for drive, name in drives:
         steps.value(f"{drive}_torque_peak", f"M_{drive[0]}", "N*m", f"{name}: maximum torque for the conveyor's mass alone",
-                    bind(related.in_newton_metres, relative=f"{drive}_power_peak", mass="conveyor_mass", step=step), source="energy",
-                    needs=(*needs, "conveyor_mass"), lacks=lacks)
+            bind(lambda relative, mass, step, cycle_time: relative * mass * (step / cycle_time) ** 2 / (2 * np.pi), relative=f"{drive}_power_peak",
+                mass="conveyor_mass", step=step), source="energy", needs=(*needs, "conveyor_mass"), lacks=lacks)
     return steps
 
 
 sheet = Chapter("Velocity, acceleration and torque",
-                text="With the step of the cam-gear, or of the Geneva drive where the cam-gear has none, and with the conveyor's mass of the "
-                     "cam-gear.")
+    text="With the step of the cam-gear, or of the Geneva drive where the cam-gear has none, and with the conveyor's mass of the cam-gear.")
 sheet.add(_in_units("cam_step", ("cam_step",), ()))
 sheet.add(_in_units("geneva_step", ("geneva_step",), ("cam_step",)))
 
 same_dwell = Chapter("Cam-gear with the Geneva drive's dwell",
-                     text="A cam-gear stepper with this dwell has little time to stop, return and start. The time for stop and start is lost to "
-                          "the return: a wide sweep shortens the return, a narrow one makes the stop abrupt. In between there is one sweep with "
-                          "the same acceleration in both.")
+    text="A cam-gear stepper with this dwell has little time to stop, return and start. The time for stop and start is lost to the return: a wide "
+        "sweep shortens the return, a narrow one makes the stop abrupt. In between there is one sweep with the same acceleration in both.")
 same_dwell.value("stop_sweep_limit", "γ_lim", "deg", "Sweep of stop and start that leaves a tenth of the cycle for the return",
-                 bind(related.stop_sweep_limit, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity",
-                 least_return=LEAST_RETURN), source="003 eq. 1–4")
+    bind(lambda geneva_dwell, dwell_sweep, peak_velocity, least_return:
+            (1 - least_return - geneva_dwell) * dwell_sweep / (peak_velocity * geneva_dwell), dwell_sweep="sector_dwell_sweep",
+        peak_velocity="law_peak_velocity", least_return=LEAST_RETURN), source="003 eq. 1–4")
 same_dwell.value("stop_sweep_best", "γ_b", "deg", "Sweep of stop and start with the lowest acceleration of the sheet",
-                 bind(related.stop_sweep_best, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"), source="003 eq. 1–4")
+    bind(related.stop_sweep_best, dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"), source="003 eq. 1–4")
 same_dwell.value("best_stop_time", "T_s", "1", "Fraction of the cycle for stop and start with this sweep",
-                 bind(related.time_of_stop, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
-                 peak_velocity="law_peak_velocity"), source="003 eq. 3")
-same_dwell.value("best_return_time", "T_r", "1", "Fraction of the cycle for the return with this sweep", bind(related.time_of_return,
-                                                                                                              time_of_stop="best_stop_time"),
-                 source="003 eq. 4")
+    bind(related.time_of_stop, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity"),
+    source="003 eq. 3")
+same_dwell.value("best_return_time", "T_r", "1", "Fraction of the cycle for the return with this sweep",
+    bind(related.time_of_return, time_of_stop="best_stop_time"), source="003 eq. 4")
 same_dwell.value("best_velocity", "v_b", "1", "Maximum velocity with this sweep in units of S/T",
-                 bind(related.velocity_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
-                 peak_velocity="law_peak_velocity", return_time="best_return_time"), source="003, after eq. 4")
+    bind(related.velocity_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_velocity="law_peak_velocity",
+        return_time="best_return_time"), source="003, after eq. 4")
 same_dwell.value("best_acceleration", "a_b", "1", "Maximum acceleration with this sweep in units of S/T²",
-                 bind(related.acceleration_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep",
-                 peak_acceleration="law_peak_acceleration", return_time="best_return_time"), source="motion laws")
+    bind(related.acceleration_of_return, stop_sweep="stop_sweep_best", dwell_sweep="sector_dwell_sweep", peak_acceleration="law_peak_acceleration",
+        return_time="best_return_time"), source="motion laws")
 same_dwell.value("best_acceleration_ratio", "q_b", "1", "Ratio of the Geneva drive's acceleration to this value",
-                 lambda geneva_acceleration_peak, best_acceleration: geneva_acceleration_peak / best_acceleration, source="kinematics")
+    lambda geneva_acceleration_peak, best_acceleration: geneva_acceleration_peak / best_acceleration, source="kinematics")
 
 GENEVA_HAS = "the Geneva drive has"
 JUMPS = "its acceleration jumps at entry and exit"
 ACCELERATIONS = {"geneva": "geneva_acceleration_peak", "cam": "cam_acceleration_peak"}
 
 verdict = Chapter("Verdict",
-                  text="Apart from the peaks, the acceleration of the Geneva drive jumps at entry and exit, which excites vibration of chain and "
-                       "sheet; the cam-gear has no jump if its law of motion has no acceleration at half its time.")
+    text="Apart from the peaks, the acceleration of the Geneva drive jumps at entry and exit, which excites vibration of chain and sheet; the "
+        "cam-gear has no jump if its law of motion has no acceleration at half its time.")
 verdict.choice("verdict", "→", "1", "Peak acceleration and dwell",
-               case(f"{GENEVA_HAS} lower peak acceleration and the same dwell, but {JUMPS}", "it accelerates the sheet less",
-                    bind(related.is_gentle_and_alike, **ACCELERATIONS)),
-               case(f"{GENEVA_HAS} lower peak acceleration and a longer dwell, but {JUMPS}", "it accelerates the sheet less",
-                    bind(related.is_gentle_and_long, **ACCELERATIONS)),
-               case(f"{GENEVA_HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}", "it accelerates the sheet less",
-                    lambda geneva_acceleration_peak, cam_acceleration_peak: geneva_acceleration_peak < cam_acceleration_peak),
-               case(f"{GENEVA_HAS} no lower peak acceleration and the same dwell, and {JUMPS}", "it does not accelerate the sheet less",
-                    bind(related.are_alike, one="geneva_dwell", other="dwell_share")),
-               case(f"{GENEVA_HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}", "it does not accelerate the sheet less",
-                    lambda geneva_dwell, dwell_share: geneva_dwell >= dwell_share),
-               case(f"{GENEVA_HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}", "the cam-gear is better in both"))
+    case(f"{GENEVA_HAS} lower peak acceleration and the same dwell, but {JUMPS}", "it accelerates the sheet less",
+        bind(related.is_gentle_and_alike, **ACCELERATIONS)),
+    case(f"{GENEVA_HAS} lower peak acceleration and a longer dwell, but {JUMPS}", "it accelerates the sheet less",
+        bind(related.is_gentle_and_long, **ACCELERATIONS)),
+    case(f"{GENEVA_HAS} lower peak acceleration, but a shorter dwell, and {JUMPS}", "it accelerates the sheet less",
+        lambda geneva_acceleration_peak, cam_acceleration_peak: geneva_acceleration_peak < cam_acceleration_peak),
+    case(f"{GENEVA_HAS} no lower peak acceleration and the same dwell, and {JUMPS}", "it does not accelerate the sheet less",
+        bind(related.are_alike, one="geneva_dwell", other="dwell_share")),
+    case(f"{GENEVA_HAS} a longer dwell, but no lower peak acceleration, and {JUMPS}", "it does not accelerate the sheet less",
+        lambda geneva_dwell, dwell_share: geneva_dwell >= dwell_share),
+    case(f"{GENEVA_HAS} no lower peak acceleration and a shorter dwell, and {JUMPS}", "the cam-gear is better in both"))
 verdict.choice("peaks_verdict", "→", "1", "Peak velocity and torque",
-               case(f"{GENEVA_HAS} lower peak velocity and torque", "both are below the cam-gear's",
-                    lambda velocity_ratio, torque_ratio: (velocity_ratio < 1) & (torque_ratio < 1)),
-               case(f"{GENEVA_HAS} lower peak velocity, but no lower torque", "its velocity is below the cam-gear's",
-                    lambda velocity_ratio: velocity_ratio < 1),
-               case(f"{GENEVA_HAS} lower peak torque, but no lower velocity", "its torque is below the cam-gear's",
-                    lambda torque_ratio: torque_ratio < 1),
-               case(f"{GENEVA_HAS} no lower peak velocity and torque", "neither is below the cam-gear's"))
+    case(f"{GENEVA_HAS} lower peak velocity and torque", "both are below the cam-gear's",
+        lambda velocity_ratio, torque_ratio: (velocity_ratio < 1) & (torque_ratio < 1)),
+    case(f"{GENEVA_HAS} lower peak velocity, but no lower torque", "its velocity is below the cam-gear's", lambda velocity_ratio: velocity_ratio < 1),
+    case(f"{GENEVA_HAS} lower peak torque, but no lower velocity", "its torque is below the cam-gear's", lambda torque_ratio: torque_ratio < 1),
+    case(f"{GENEVA_HAS} no lower peak velocity and torque", "neither is below the cam-gear's"))
 verdict.choice("dwell_verdict", "→", "1", "Can the cam-gear dwell as long as the Geneva drive?",
-               case("it does already", "its dwell is not shorter", lambda geneva_dwell, dwell_share: geneva_dwell <= dwell_share),
-               case("yes, with its sweep of stop and start", "the sweep leaves a tenth of the cycle for the return",
-                    lambda sector_stop_sweep, stop_sweep_limit: sector_stop_sweep <= stop_sweep_limit),
-               case("only with a smaller sweep of stop and start",
-                    "the present sweep leaves less than a tenth of the cycle for the return; γ_lim is the largest that leaves it, and γ_b gives "
-                    "the lowest acceleration"))
+    case("it does already", "its dwell is not shorter", lambda geneva_dwell, dwell_share: geneva_dwell <= dwell_share),
+    case("yes, with its sweep of stop and start", "the sweep leaves a tenth of the cycle for the return",
+        lambda sector_stop_sweep, stop_sweep_limit: sector_stop_sweep <= stop_sweep_limit),
+    case("only with a smaller sweep of stop and start",
+        "the present sweep leaves less than a tenth of the cycle for the return; γ_lim is the largest that leaves it, and γ_b gives the lowest "
+            "acceleration"))
 
 COMPARISON = Mechanism(
     kind="transport_comparison",

@@ -7,8 +7,6 @@ from __future__ import annotations
 
 from typing import Any
 
-import numpy as np
-
 from diecut_report.api import formula
 
 
@@ -16,30 +14,6 @@ from diecut_report.api import formula
 def are_alike(one: Any, other: Any) -> Any:
     """Whether two quantities are the same, rounding apart."""
     return abs(one - other) <= 1e-6 * abs(one)
-
-
-@formula
-def in_metres(relative: Any, step: Any, cycle_time: Any) -> Any:
-    """A velocity from the related one."""
-    return relative * step / cycle_time
-
-
-@formula
-def in_metres_squared(relative: Any, step: Any, cycle_time: Any) -> Any:
-    """An acceleration from the related one."""
-    return relative * step / cycle_time**2
-
-
-@formula
-def in_newton_metres(relative: Any, mass: Any, step: Any, cycle_time: Any) -> Any:
-    """Torque at a shaft that makes a turn a cycle."""
-    return relative * mass * (step / cycle_time) ** 2 / (2 * np.pi)
-
-
-@formula
-def stop_sweep_limit(geneva_dwell: Any, dwell_sweep: Any, peak_velocity: Any, least_return: Any) -> Any:
-    """Sweep of stop and start that leaves the return its least time, at the Geneva drive's dwell."""
-    return (1 - least_return - geneva_dwell) * dwell_sweep / (peak_velocity * geneva_dwell)
 
 
 @formula

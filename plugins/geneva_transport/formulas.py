@@ -22,33 +22,9 @@ def crank_ratio(slots: Any) -> Any:
 
 
 @formula
-def crank_radius(crank_ratio: Any, center_distance: Any) -> Any:
-    """Radius of the roller's path."""
-    return crank_ratio * center_distance
-
-
-@formula
 def wheel_radius(slots: Any, center_distance: Any) -> Any:
     """Distance of the roller from the wheel's axis at entry and exit."""
     return center_distance * np.cos(np.pi / slots)
-
-
-@formula
-def rim_radius(wheel_radius: Any, roller_radius: Any) -> Any:
-    """Radius of the wheel's rim with which both flanks of a slot reach to the roller's middle at entry."""
-    return np.sqrt(wheel_radius**2 + roller_radius**2)
-
-
-@formula
-def nearest_roller(center_distance: Any, crank_ratio: Any) -> Any:
-    """Distance of the roller from the wheel's axis in the middle of the motion."""
-    return center_distance * (1 - crank_ratio)
-
-
-@formula
-def slot_spacing(slots: Any, nearest_distance: Any) -> Any:
-    """Distance of the middles of two neighbouring slots' inner ends."""
-    return 2 * nearest_distance * np.sin(np.pi / slots)
 
 
 @formula
@@ -164,9 +140,3 @@ def travel_rate(ratio: Any, crank_speed: Any, travel_radius: Any) -> Any:
 def travel_acceleration(ratio: Any, crank_speed: Any, travel_radius: Any) -> Any:
     """Acceleration of the conveyor."""
     return ratio * crank_speed**2 * travel_radius
-
-
-@formula
-def crank_of_wheel(wheel: Any, crank_ratio: Any) -> Any:
-    """Crank angle from the middle of the motion at which the wheel stands at an angle from there, while it moves."""
-    return np.arcsin(np.sin(wheel) / crank_ratio) - wheel

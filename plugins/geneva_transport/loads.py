@@ -99,15 +99,3 @@ def corner_along(center_distance: Any, rim_radius: Any, corner_place: Any, crank
 def corner_to_hollow(corner_distance: Any, relief_distance: Any, corner_along: Any) -> Any:
     """Distance of the corner from the hollow's centre."""
     return np.sqrt(corner_distance**2 + relief_distance**2 - 2 * relief_distance * corner_along)
-
-
-@formula
-def corner_gap(corner_distance: Any, disc_radius: Any, relief_radius: Any, corner_to_hollow: Any) -> Any:
-    """Gap between the corner and the disc: to its arc, or to the hollow of its cut-out."""
-    return np.maximum(corner_distance - disc_radius, relief_radius - corner_to_hollow)
-
-
-@formula
-def overlap(gap: Any) -> Any:
-    """What a gap below zero overlaps, else zero."""
-    return (abs(gap) - gap) / 2

@@ -47,15 +47,15 @@ def _is_best(drive: DriveKind, *, allowed: bool = False) -> Binding:
     """The condition that a drive's peak is the least one (and one that the paper stands)."""
     own, best = f"{drive.key}_{PEAK}", f"best_{PEAK}"
     if allowed:
-        return bind(formulas.is_best_and_allowed, own=own, best=best, allowed=ALLOWED)
+        return bind(lambda own, best, allowed: (own <= best) & (best <= allowed), own=own, best=best, allowed=ALLOWED)
     return bind(common.is_at_most, smaller=own, greater=best)
 
 
 def _least(drives: Drives) -> Binding:
     peaks = [f"{drive.key}_{PEAK}" for drive in drives]
     if len(peaks) == 2:
-        return bind(common.smaller_of, first=peaks[0], second=peaks[1])
-    return bind(formulas.least_of_three, first=peaks[0], second=peaks[1], third=peaks[2])
+        return bind(lambda first, second: np.minimum(first, second), first=peaks[0], second=peaks[1])
+    return bind(lambda first, second, third: np.minimum(np.minimum(first, second), third), first=peaks[0], second=peaks[1], third=peaks[2])
 
 
 def _best(drives: Drives) -> Steps:
@@ -65,14 +65,14 @@ def _best(drives: Drives) -> Steps:
     words = {drive: f"the {drive.name} has the lowest acceleration" for drive in drives}
     steps = Steps()
     steps.value(f"best_{PEAK}", "a_m,best", "m/s**2", "Lowest of the maximum accelerations in the working stroke", _least(drives), output=False,
-                **given)
+        **given)
     steps.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper", *(case(d.key, words[d], _is_best(d)) for d in first),
-                 case(last.key, words[last]), **given)
+        case(last.key, words[last]), **given)
     for name, symbol, title, unit in COMPARED:
         if name != PEAK:
             steps.choice(f"best_{name}", _indexed(symbol, "best"), unit, f"{title}, best drive",
-                         *(case(bind(common.same, quantity=f"{d.key}_{name}"), words[d], _is_best(d)) for d in first),
-                         case(bind(common.same, quantity=f"{last.key}_{name}"), words[last]), output=False, **given)
+                *(case(bind(common.same, quantity=f"{d.key}_{name}"), words[d], _is_best(d)) for d in first),
+                case(bind(common.same, quantity=f"{last.key}_{name}"), words[last]), output=False, **given)
     return steps
 
 
@@ -82,9 +82,9 @@ def _ratios(drive: DriveKind) -> Steps:
     for name, symbol, title, _ in COMPARED:
         for pair, lacks in _with_another(drive):
             steps.value(f"{drive.key}_{name}_ratio", f"q_{symbol[0]}{symbol[2:]},{drive.letter}", "1", f"{title}: {drive.name} to best drive",
-                        bind(common.quotient, quantity=f"{drive.key}_{name}", by=f"best_{name}"),
-                        exists=bind(formulas.holds, flag=f"best_{name}") if name in MAY_VANISH else None,
-                        source="this method", needs=keys(pair), lacks=lacks)
+                bind(common.quotient, quantity=f"{drive.key}_{name}", by=f"best_{name}"),
+                exists=bind(formulas.holds, flag=f"best_{name}") if name in MAY_VANISH else None, source="this method", needs=keys(pair),
+                lacks=lacks)
     return steps
 
 
@@ -113,18 +113,17 @@ def _alone(drive: DriveKind) -> Steps:
     stands = bind(common.is_at_most, smaller=f"{drive.key}_{PEAK}", greater=ALLOWED)
     steps = Steps()
     steps.choice("best_drive", "→", "1", "Drive with the lowest acceleration of the paper",
-                 case(drive.key, "the only drive that is given, and its acceleration is allowed", stands),
-                 case(drive.key, "the only drive that is given, though its acceleration is above the allowed one"), **given)
+        case(drive.key, "the only drive that is given, and its acceleration is allowed", stands),
+        case(drive.key, "the only drive that is given, though its acceleration is above the allowed one"), **given)
     steps.choice("verdict", "→", "1", "Verdict",
-                 case(f"only the {drive.name} is given; its acceleration is allowed", "its acceleration is allowed", stands),
-                 case(f"only the {drive.name} is given; its acceleration is above the allowed one", "it is not allowed"), **given)
+        case(f"only the {drive.name} is given; its acceleration is allowed", "its acceleration is allowed", stands),
+        case(f"only the {drive.name} is given; its acceleration is above the allowed one", "it is not allowed"), **given)
     return steps
 
 
 SEVERAL = groups(least=2)
 
-best = Chapter("Comparison", text="The best drive is the one with the lowest maximum acceleration in the working stroke; ratios refer to its "
-                                  "values.")
+best = Chapter("Comparison", text="The best drive is the one with the lowest maximum acceleration in the working stroke; ratios refer to its values.")
 best.add(SIGNATURE_BEYOND_DEPTH)
 best.add(grips(drive) for drive in ALL)
 best.add(_alone(drive) for drive in ALL)
@@ -142,14 +141,13 @@ def _best_other() -> Steps:
     steps = Steps()
     for name, symbol, title, unit in OTHERS:
         steps.choice(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, best other drive",
-                     case(bind(common.same, quantity=f"{CRANK_SLIDER.key}_{name}"), "the crank-slider is the gentler one", is_slider),
-                     case(bind(common.same, quantity=f"{CRANK_ROCKER.key}_{name}"), "the crank-rocker is the gentler one"),
-                     needs=(PLANETARY.key, CRANK_SLIDER.key, CRANK_ROCKER.key), output=False)
+            case(bind(common.same, quantity=f"{CRANK_SLIDER.key}_{name}"), "the crank-slider is the gentler one", is_slider),
+            case(bind(common.same, quantity=f"{CRANK_ROCKER.key}_{name}"), "the crank-rocker is the gentler one"),
+            needs=(PLANETARY.key, CRANK_SLIDER.key, CRANK_ROCKER.key), output=False)
     for drive in (CRANK_SLIDER, CRANK_ROCKER):
         for name, symbol, title, unit in OTHERS:
-            steps.value(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, other drive",
-                        bind(common.same, quantity=f"{drive.key}_{name}"), needs=(PLANETARY.key, drive.key),
-                        lacks=lacking((PLANETARY, drive)), output=False)
+            steps.value(f"other_{name}", _indexed(symbol, "other"), unit, f"{title}, other drive", bind(common.same, quantity=f"{drive.key}_{name}"),
+                needs=(PLANETARY.key, drive.key), lacks=lacking((PLANETARY, drive)), output=False)
     return steps
 
 
@@ -161,25 +159,23 @@ def _of_planetary(lacks: tuple[str, ...], *pair: str) -> Steps:
 
     def ratio(name: str, symbol: str, title: str, of: str) -> None:
         steps.value(name, symbol, "1", f"{title}: planetary drive to best other drive",
-                    bind(common.quotient, quantity=f"{PLANETARY.key}_{of}", by=f"other_{of}"), source="this method", **given)
+            bind(common.quotient, quantity=f"{PLANETARY.key}_{of}", by=f"other_{of}"), source="this method", **given)
 
     ratio("acceleration_ratio_planetary", "q_W", "Maximum acceleration", PEAK)
     ratio("stroke_ratio_planetary", "q_H", "Stroke", "stroke")
     ratio("factor_ratio_planetary", "q_k", "Factor of the acceleration at the lowest point", "end_factor")
     steps.choice("reason", "→", "1", "Cause of the difference in the planetary drive's acceleration",
-                 case("mostly its stroke", "the strokes differ more than the factors of the drives",
-                      lambda stroke_ratio_planetary, factor_ratio_planetary:
-                          np.maximum(stroke_ratio_planetary, 1 / stroke_ratio_planetary)
-                          >= np.maximum(factor_ratio_planetary, 1 / factor_ratio_planetary)),
-                 case("mostly the kind of drive", "the factors of the drives differ more than the strokes"), **given)
+        case("mostly its stroke", "the strokes differ more than the factors of the drives", lambda stroke_ratio_planetary, factor_ratio_planetary:
+                np.maximum(stroke_ratio_planetary, 1 / stroke_ratio_planetary) >= np.maximum(factor_ratio_planetary, 1 / factor_ratio_planetary)),
+        case("mostly the kind of drive", "the factors of the drives differ more than the strokes"), **given)
     return steps
 
 
 why = Chapter("Why the drives differ",
-              text="At the lowest point the acceleration is a₀ = k·H·ω₁²/2: the stroke H times a factor k of the drive, which is 1 for the "
-                   "planetary drive and 1 + r/l for the crank-slider. With usual links the factors are near 1, so for equal strokes the drives "
-                   "differ little; a shorter stroke at the same working depth lowers the acceleration in proportion.", needs=(PLANETARY.key,),
-              absent="The planetary drive against the others: there is no block planetary.")
+    text="At the lowest point the acceleration is a₀ = k·H·ω₁²/2: the stroke H times a factor k of the drive, which is 1 for the planetary drive "
+        "and 1 + r/l for the crank-slider. With usual links the factors are near 1, so for equal strokes the drives differ little; a shorter stroke "
+        "at the same working depth lowers the acceleration in proportion.", needs=(PLANETARY.key,),
+    absent="The planetary drive against the others: there is no block planetary.")
 why.add(_best_other())
 why.add(_of_planetary((), PLANETARY.key, CRANK_SLIDER.key))
 why.add(_of_planetary((CRANK_SLIDER.key,), PLANETARY.key, CRANK_ROCKER.key))
@@ -188,14 +184,13 @@ why.add(_of_planetary((CRANK_SLIDER.key,), PLANETARY.key, CRANK_ROCKER.key))
 def _grip(drives: Drives) -> Steps:
     steps = Steps()
     steps.choice("grip_verdict", "→", "1", "More severe for the paper",
-                 case("the grip of the rollers, not the knife", "with the best drive the grip accelerates the signature more than the knife does",
-                      bind(common.is_below, smaller=f"best_{PEAK}", greater="best_grip_size")),
-                 case("the knife, not the grip of the rollers", "with the best drive the knife accelerates the signature at least as much"),
-                 needs=keys(drives), lacks=lacking(drives))
+        case("the grip of the rollers, not the knife", "with the best drive the grip accelerates the signature more than the knife does",
+            bind(common.is_below, smaller=f"best_{PEAK}", greater="best_grip_size")),
+        case("the knife, not the grip of the rollers", "with the best drive the knife accelerates the signature at least as much"),
+        needs=keys(drives), lacks=lacking(drives))
     return steps
 
 
 grip = Chapter("Knife and rollers",
-               text="No drive spares the signature the jump from the knife's speed, which falls to zero at the lowest point, to that of the "
-                    "rollers.")
+    text="No drive spares the signature the jump from the knife's speed, which falls to zero at the lowest point, to that of the rollers.")
 grip.add(_grip(drives) for drives in SEVERAL)

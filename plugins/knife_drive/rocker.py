@@ -4,7 +4,9 @@ from __future__ import annotations
 
 from typing import Any
 
-from diecut_report.api import Bound, Formula, Steps, Vary, bind
+import numpy as np
+
+from diecut_report.api import Bound, Formula, Steps, Vary, as_angle, bind
 from diecut_report.mechanics import common, four_bar
 from diecut_report.plugins.knife_drive import formulas, working
 from diecut_report.plugins.knife_drive.drives import GRIP, NO_SPEED
@@ -26,9 +28,8 @@ def _either(id: str, symbol: str, unit: str, description: str, outer: Bound | Fo
 
 def _ratio(name: str, symbol: str, link: str) -> Steps:
     steps = Steps()
-    steps.value(f"{link}_ratio", symbol, "1", f"{name}-to-crank ratio", bind(common.quotient, quantity=f"crank_rocker.{link}",
-                                                                             by="crank_rocker.crank"),
-                source="004 eq. 3", output=False)
+    steps.value(f"{link}_ratio", symbol, "1", f"{name}-to-crank ratio",
+        bind(common.quotient, quantity=f"crank_rocker.{link}", by="crank_rocker.crank"), source="004 eq. 3", output=False)
     return steps
 
 
@@ -39,22 +40,21 @@ def _speed_ratio(
     own: dict[str, Any] = {"output": False, "lacks": lacks}
     steps = Steps()
     steps.value(f"{place}diagonal", f"Δ_{letter}", "1", f"Distance of the crank pin from the rocker's pivot{when}, in crank lengths",
-                bind(four_bar.diagonal, crank_angle=at), source="004 eq. 3", **own)
+        bind(four_bar.diagonal, crank_angle=at), source="004 eq. 3", **own)
     steps.value(f"{place}diagonal_direction", f"γ_1{letter}", "deg", f"Direction from the rocker's pivot to the crank pin{when}",
-                bind(four_bar.diagonal_direction, crank_angle=at), source="004 eq. 3, over the full turn", **own)
+        bind(four_bar.diagonal_direction, crank_angle=at), source="004 eq. 3, over the full turn", **own)
     steps.value(f"{place}pin_angle", f"γ_2{letter}", "deg", f"Angle at the crank pin between diagonal and coupler{when}",
-                bind(four_bar.pin_angle, diagonal=f"{place}diagonal"), source="004 eq. 3", **own)
+        bind(four_bar.pin_angle, diagonal=f"{place}diagonal"), source="004 eq. 3", **own)
     steps.value(f"{place}transmission_angle", f"μ_{letter}", "deg", f"Transmission angle{when}",
-                bind(four_bar.transmission_angle, diagonal=f"{place}diagonal"), source="004 eq. 3", **own)
+        bind(four_bar.transmission_angle, diagonal=f"{place}diagonal"), source="004 eq. 3", **own)
     steps.value(f"{place}coupler_direction", f"δ_{letter}", "deg", f"Direction of the coupler{when}",
-                bind(four_bar.coupler_direction, diagonal_direction=f"{place}diagonal_direction", pin_angle=f"{place}pin_angle"), source="004 eq. 3",
-                **own)
+        bind(four_bar.coupler_direction, diagonal_direction=f"{place}diagonal_direction", pin_angle=f"{place}pin_angle"), source="004 eq. 3", **own)
     steps.value(f"{place}rocker_direction", f"γ_{letter}", "deg", f"Direction of the rocker{when}",
-                bind(four_bar.rocker_direction, coupler_direction=f"{place}coupler_direction",
-                transmission_angle=f"{place}transmission_angle"), source="004 eq. 3", **own)
+        bind(four_bar.rocker_direction, coupler_direction=f"{place}coupler_direction", transmission_angle=f"{place}transmission_angle"),
+        source="004 eq. 3", **own)
     steps.value(f"{place}rocker_speed_ratio", f"ω_3i{letter}", "1", f"Ratio of the rocker's angular speed to the crank's{when}",
-                bind(four_bar.rocker_speed_ratio, crank_angle=at, coupler_direction=f"{place}coupler_direction",
-                rocker_direction=f"{place}rocker_direction"), source="004 eq. 3", **own)
+        bind(four_bar.rocker_speed_ratio, crank_angle=at, coupler_direction=f"{place}coupler_direction", rocker_direction=f"{place}rocker_direction"),
+        source="004 eq. 3", **own)
     return steps
 
 
@@ -70,63 +70,65 @@ GEOMETRY.add(_ratio("Frame", "λ_1", "frame"))
 GEOMETRY.add(_ratio("Coupler", "λ_2", "coupler"))
 GEOMETRY.add(_ratio("Rocker", "λ_3", "rocker"))
 GEOMETRY.require("turns_fully", four_bar.is_crank_rocker, key="crank_rocker.crank",
-                 message="gives no crank-rocker: with crank = {crank_rocker.crank}, coupler = {crank_rocker.coupler}, rocker = "
-                         "{crank_rocker.rocker} and frame = {crank_rocker.frame} the crank must be the shortest link, and it and the longest one "
-                         "together shorter than the other two together (Grashof)",
-                 advise=(Vary("crank_rocker.crank", "down"), "crank_rocker.coupler", "crank_rocker.rocker", "crank_rocker.frame"))
+    message="gives no crank-rocker: with crank = {crank_rocker.crank}, coupler = {crank_rocker.coupler}, rocker = {crank_rocker.rocker} and frame = "
+        "{crank_rocker.frame} the crank must be the shortest link, and it and the longest one together shorter than the other two together (Grashof)",
+    advise=(Vary("crank_rocker.crank", "down"), "crank_rocker.coupler", "crank_rocker.rocker", "crank_rocker.frame"))
 GEOMETRY.value("outer_direction", "γ_3", "deg", "Direction of the rocker at its outer dead centre", four_bar.outer_rocker_direction,
-               source="law of cosines", output=False)
+    source="law of cosines", output=False)
 GEOMETRY.value("swing_angle", "ψ_s", "deg", "Swing of the rocker", four_bar.swing_angle, source="law of cosines")
 GEOMETRY.value("stroke", "H_", "mm", "Stroke of the edge along its arc", bind(common.product, first="swing_angle", second=ARM), source="004 eq. 3")
 GEOMETRY.add(working.reaches(working.CRANK_ROCKER))
 GEOMETRY.value("dead_center", "φ_d", "deg", "Crank angle of the outer dead centre", four_bar.outer_dead_center, source="law of cosines", output=False,
-               needs=OUTER)
+    needs=OUTER)
 GEOMETRY.add(_either("lowest_angle", "φ_0", "deg", "Crank angle of the lowest point (may exceed a full turn)",
-                     bind(formulas.turn_later, angle="dead_center"), four_bar.inner_dead_center, source="dead centre"))
+        bind(lambda angle: angle + 2 * np.pi, angle="dead_center"), four_bar.inner_dead_center, source="dead centre"))
 
 CURVES = Steps()
 CURVES.add(_speed_ratio("crank_angle"))
 CURVES.value("coupler_speed_ratio", "ω_2i", "1", "Ratio of the coupler's angular speed to the crank's", bind(four_bar.coupler_speed_ratio),
-             source="004 eq. 3, corrected", output=False)
+    source="004 eq. 3, corrected", output=False)
 CURVES.value("rocker_acceleration_ratio", "ε_3i", "1", "Ratio of the rocker's angular acceleration to the square of the crank's speed",
-             bind(four_bar.rocker_acceleration_ratio), source="004 eq. 3, corrected", output=False)
+    bind(four_bar.rocker_acceleration_ratio), source="004 eq. 3, corrected", output=False)
 CURVES.add(_either("rocker_angle", "δ_3", "deg", "Angle of the rocker from the dead centre of the lowest point",
-                   bind(common.difference, quantity="rocker_direction", less="outer_direction"), formulas.angle_from_inner, source="004 eq. 3",
-                   output=False))
+        bind(common.difference, quantity="rocker_direction", less="outer_direction"), formulas.angle_from_inner, source="004 eq. 3", output=False))
 CURVES.value("displacement", "S_", "mm", "Height of the edge above its lowest point, along its arc",
-             bind(common.product, first="rocker_angle", second=ARM), source="004 eq. 3")
+    bind(common.product, first="rocker_angle", second=ARM), source="004 eq. 3")
 CURVES.add(_rate("velocity", "V_", "Velocity of the edge along its arc", "rocker_speed_ratio"))
 CURVES.add(_either("acceleration", "a_", "m/s**2", "Acceleration of the edge along its arc",
-                   bind(formulas.edge_acceleration, acceleration_ratio="rocker_acceleration_ratio", knife_arm=ARM),
-                   bind(formulas.edge_acceleration_inner, acceleration_ratio="rocker_acceleration_ratio", knife_arm=ARM), source="004 eq. 3",
-                   source_symbol="W_"))
+        bind(lambda acceleration_ratio, crank_speed, knife_arm: acceleration_ratio * crank_speed**2 * knife_arm,
+            acceleration_ratio="rocker_acceleration_ratio", knife_arm=ARM),
+        bind(lambda acceleration_ratio, crank_speed, knife_arm: -acceleration_ratio * crank_speed**2 * knife_arm,
+            acceleration_ratio="rocker_acceleration_ratio", knife_arm=ARM), source="004 eq. 3", source_symbol="W_"))
 
 PLACES = Steps()
 PLACES.add(_either("table_direction", "γ_h", "deg", "Direction of the rocker with the edge at the table",
-                   bind(formulas.raised_direction, knife_arm=ARM), bind(formulas.lowered_direction, knife_arm=ARM), source="geometry", output=False))
+        bind(lambda outer_direction, working_depth, knife_arm: outer_direction + as_angle(working_depth / knife_arm), knife_arm=ARM),
+        bind(lambda outer_direction, swing_angle, working_depth, knife_arm: outer_direction + swing_angle - as_angle(working_depth / knife_arm),
+            knife_arm=ARM), source="geometry", output=False))
 PLACES.value("table_distance", "e_h", "1", "Distance of the rocker's joint from the crank's pivot there, in crank lengths",
-             bind(four_bar.joint_distance, rocker_direction="table_direction"), source="law of cosines", output=False)
+    bind(four_bar.joint_distance, rocker_direction="table_direction"), source="law of cosines", output=False)
 PLACES.add(_either("contact_angle", "φ_t", "deg", "Crank angle of the contact at the table",
-                   bind(four_bar.crank_angle_return, rocker_direction="table_direction", joint_distance="table_distance"),
-                   bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"), source="law of cosines"))
+        bind(four_bar.crank_angle_return, rocker_direction="table_direction", joint_distance="table_distance"),
+        bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"), source="law of cosines"))
 PLACES.add(_either("leave_angle", "φ_a", "deg", "Crank angle at which the edge is at the table again",
-                   bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"),
-                   bind(four_bar.crank_angle_return, rocker_direction="table_direction", joint_distance="table_distance"), source="law of cosines",
-                   output=False))
+        bind(four_bar.crank_angle_forward, rocker_direction="table_direction", joint_distance="table_distance"),
+        bind(four_bar.crank_angle_return, rocker_direction="table_direction", joint_distance="table_distance"), source="law of cosines",
+        output=False))
 PLACES.value("working_angle", "φ_w", "deg", "Crank angle of the working stroke", lambda lowest_angle, contact_angle: lowest_angle - contact_angle,
-             source="kinematics")
+    source="kinematics")
 PLACES.add(_speed_ratio("contact_angle", "contact_", "t", " at contact"))
 PLACES.add(_rate("contact_rate", "v_t", "Velocity of the edge as it meets the signature", "contact_rocker_speed_ratio", output=False))
 PLACES.add(_either("dead_span", "λ_d", "1", "Crank and coupler in line at the lowest point, in crank lengths",
-                   bind(formulas.longer_by_one, ratio="coupler_ratio"), bind(formulas.shorter_by_one, ratio="coupler_ratio"), source="geometry",
-                   output=False))
+        bind(lambda ratio: ratio + 1, ratio="coupler_ratio"), bind(lambda ratio: ratio - 1, ratio="coupler_ratio"), source="geometry", output=False))
 PLACES.value("dead_transmission_angle", "μ_0", "deg", "Transmission angle at the lowest point",
-             bind(common.enclosed_angle, one_side="dead_span", other_side="rocker_ratio",
-             opposite_side="frame_ratio"), source="law of cosines")
+    bind(common.enclosed_angle, one_side="dead_span", other_side="rocker_ratio", opposite_side="frame_ratio"), source="law of cosines")
 PLACES.add(_either("acceleration_end", "a_0", "m/s**2", "Acceleration of the edge at its lowest point",
-                   bind(formulas.end_acceleration_outer, knife_arm=ARM, dead_angle="dead_transmission_angle"),
-                   bind(formulas.end_acceleration_inner, knife_arm=ARM, dead_angle="dead_transmission_angle"), source="004 eq. 3 at the dead centre",
-                   source_symbol="W_0"))
+        bind(lambda knife_arm, crank_speed, coupler_ratio, rocker_ratio, dead_angle:
+                knife_arm * crank_speed**2 * (1 + 1 / coupler_ratio) / (rocker_ratio * np.sin(dead_angle)), knife_arm=ARM,
+            dead_angle="dead_transmission_angle"),
+        bind(lambda knife_arm, crank_speed, coupler_ratio, rocker_ratio, dead_angle:
+                knife_arm * crank_speed**2 * (1 - 1 / coupler_ratio) / (rocker_ratio * np.sin(dead_angle)), knife_arm=ARM,
+            dead_angle="dead_transmission_angle"), source="004 eq. 3 at the dead centre", source_symbol="W_0"))
 PLACES.add(GRIP)
 PLACES.add(_speed_ratio("grip_begin", "grip_", "g", " when gripping begins", NO_SPEED))
 PLACES.add(_rate("grip_rate", "v_g", "Velocity of the edge when gripping begins", "grip_rocker_speed_ratio", output=False, lacks=NO_SPEED))

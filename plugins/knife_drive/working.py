@@ -51,64 +51,64 @@ def lacking(drives: Drives) -> tuple[str, ...]:
 
 
 speeds = Chapter("Knife shaft and folding rollers",
-                 text="The crank angle of each drive has its own origin. Displacement, velocity and acceleration of the knife's edge count upwards.")
+    text="The crank angle of each drive has its own origin. Displacement, velocity and acceleration of the knife's edge count upwards.")
 speeds.require("any_drive", lambda: 0 >= 1, key="planetary",
-               message="no drive is given; give at least one of the blocks planetary, crank_slider and crank_rocker", lacks=DRIVES)
+    message="no drive is given; give at least one of the blocks planetary, crank_slider and crank_rocker", lacks=DRIVES)
 speeds.value("crank_speed", "ω_1", "rad/s", "Angular speed of the knife shaft",
-             lambda cylinder_rate, drive_ratio: 2 * np.pi * cylinder_rate * drive_ratio, source="kinematics")
+    lambda cylinder_rate, drive_ratio: 2 * np.pi * cylinder_rate * drive_ratio, source="kinematics")
 speeds.value("cycle_time", "T", "ms", "Time of a revolution of the knife shaft", lambda crank_speed: 2 * np.pi / crank_speed,
-             source="004, after Fig. 3")
-speeds.value("roller_velocity", "V_r", "m/s", "Surface speed of the rollers", formulas.roller_velocity, source="kinematics")
-speeds.value("grip_time", "t_g", "ms", "Time for the rollers to bring the signature to their speed",
-             bind(formulas.time_of_angle, angle="grip_angle"), source="004, after Fig. 3")
+    source="004, after Fig. 3")
+speeds.value("roller_velocity", "V_r", "m/s", "Surface speed of the rollers",
+    lambda roller_diameter, roller_ratio, cycle_time: np.pi * roller_diameter * roller_ratio / cycle_time, source="kinematics")
+speeds.value("grip_time", "t_g", "ms", "Time for the rollers to bring the signature to their speed", bind(formulas.time_of_angle, angle="grip_angle"),
+    source="004, after Fig. 3")
 speeds.value("roller_time", "t_r", "ms", "Time from the knife's lowest point until the trailing edge has left the table",
-             lambda signature_length, working_depth, roller_velocity: (signature_length - working_depth) / roller_velocity,
-             needs=("signature_length",), source="kinematics")
+    lambda signature_length, working_depth, roller_velocity: (signature_length - working_depth) / roller_velocity, needs=("signature_length",),
+    source="kinematics")
 speeds.value("signature_interval", "t_s", "ms", "Time between two signatures", lambda cycle_time, drive_ratio: cycle_time * drive_ratio / 2,
-             needs=("signature_length",), source="kinematics")
+    needs=("signature_length",), source="kinematics")
 speeds.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi, speed="crank_speed")
 
 WORKING = Steps()
 WORKING.value("working_time", "t_w", "ms", "Duration of the working stroke", bind(formulas.time_of_angle, angle="working_angle"), source="kinematics")
 WORKING.value("contact_velocity", "V_t", "m/s", "Speed of the edge as it meets the signature on the table", lambda contact_rate: abs(contact_rate),
-              source="kinematics")
+    source="kinematics")
 WORKING.breakpoints("working_ends", "crank_angle", "contact_angle", "lowest_angle")
 WORKING.choice("working", "s_", "1", "Knife leads the signature (1) or not (0)",
-               case(lambda: 1, "within the working stroke",
-                    lambda crank_angle, lowest_angle, working_angle:
-                        np.cos(crank_angle - lowest_angle + working_angle / 2) > np.cos(working_angle / 2)),
-               case(lambda: 0, "outside the working stroke"), output=False, per_piece=True)
+    case(lambda: 1, "within the working stroke",
+        lambda crank_angle, lowest_angle, working_angle: np.cos(crank_angle - lowest_angle + working_angle / 2) > np.cos(working_angle / 2)),
+    case(lambda: 0, "outside the working stroke"), output=False, per_piece=True)
 WORKING.choice("paper_acceleration", "a_p", "m/s**2", "Acceleration of the signature while the knife leads it",
-               case(lambda acceleration: acceleration, "within the working stroke", bind(formulas.holds, flag="working")),
-               case(lambda: 0, "outside the working stroke"), output=False)
+    case(lambda acceleration: acceleration, "within the working stroke", bind(formulas.holds, flag="working")),
+    case(lambda: 0, "outside the working stroke"), output=False)
 WORKING.reduction("acceleration_peak", "a_m", "m/s**2", "Maximum acceleration in the working stroke", "abs_max", of="paper_acceleration")
 WORKING.value("end_factor", "k_", "1", "Ratio of the acceleration at the lowest point to that of a harmonic motion of the same stroke, H·ω₁²/2",
-              lambda acceleration_end, stroke, crank_speed: 2 * acceleration_end / (stroke * as_number(crank_speed) ** 2), source="this method")
+    lambda acceleration_end, stroke, crank_speed: 2 * acceleration_end / (stroke * as_number(crank_speed) ** 2), source="this method")
 WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the signature when gripping begins", lambda grip_speed: grip_speed, source="input",
-              needs=("grip_speed",))
+    needs=("grip_speed",))
 WORKING.value("grip_velocity", "V_g", "m/s", "Speed of the edge when gripping begins", lambda grip_rate: abs(grip_rate), source="kinematics",
-              lacks=("grip_speed",))
+    lacks=("grip_speed",))
 WORKING.value("grip_acceleration", "a_g", "m/s**2", "Acceleration of the signature in the grip of the rollers",
-              lambda roller_velocity, grip_velocity, grip_time: (roller_velocity - grip_velocity) / grip_time, source="004, after Fig. 3")
+    lambda roller_velocity, grip_velocity, grip_time: (roller_velocity - grip_velocity) / grip_time, source="004, after Fig. 3")
 WORKING.value("grip_size", "a_s", "m/s**2", "Absolute acceleration in the grip of the rollers", lambda grip_acceleration: abs(grip_acceleration),
-              output=False)
+    output=False)
 WORKING.value("table_time", "t_t", "ms", "Time of the signature on the table, from contact on",
-              lambda working_time, roller_time: working_time + roller_time, source="kinematics", needs=("signature_length",))
+    lambda working_time, roller_time: working_time + roller_time, source="kinematics", needs=("signature_length",))
 
 
 SIGNATURE_BEYOND_DEPTH = Steps()
 SIGNATURE_BEYOND_DEPTH.require("signature_beyond_depth", lambda working_depth, signature_length: working_depth < signature_length,
-                               key="signature_length",
-                               message="is {signature_length}, but the knife alone takes {working_depth} of the signature (working_depth) below "
-                                       "the table; make signature_length greater than that", needs=("signature_length",))
+    key="signature_length",
+    message="is {signature_length}, but the knife alone takes {working_depth} of the signature (working_depth) below the table; make "
+        "signature_length greater than that", needs=("signature_length",))
 
 
 def reaches(drive: DriveKind) -> Steps:
     """The edge must rise above the table."""
     steps = Steps()
     steps.require("rises", lambda working_depth, stroke: working_depth <= stroke, key="working_depth",
-                  message=f"is {{working_depth}}, but the edge of the {drive.name} travels {{{drive.key}_stroke}} in all: it would never rise above "
-                          f"the table; make the depth at most {{{drive.key}_stroke:down}}, or the stroke greater with {drive.longer} in {drive.key}")
+        message=f"is {{working_depth}}, but the edge of the {drive.name} travels {{{drive.key}_stroke}} in all: it would never rise above the "
+            f"table; make the depth at most {{{drive.key}_stroke:down}}, or the stroke greater with {drive.longer} in {drive.key}")
     return steps
 
 
@@ -116,10 +116,8 @@ def grips(drive: DriveKind) -> Steps:
     """The rollers grip what the knife has pushed to them."""
     steps = Steps()
     steps.require(f"{drive.key}_grips", bind(common.is_at_most, smaller="grip_angle", greater=f"{drive.key}_working_angle"), key="grip_angle",
-                  message=f"is {{grip_angle}}, but the working stroke of the {drive.name} is {{{drive.key}_working_angle}}: the rollers "
-                          f"would grip before the knife meets the signature; make grip_angle at most {{{drive.key}_working_angle:down}}, "
-                          "or working_depth greater",
-                  needs=(drive.key,))
+        message=f"is {{grip_angle}}, but the working stroke of the {drive.name} is {{{drive.key}_working_angle}}: the rollers would grip before the "
+            f"knife meets the signature; make grip_angle at most {{{drive.key}_working_angle:down}}, or working_depth greater", needs=(drive.key,))
     return steps
 
 
@@ -135,7 +133,7 @@ def of_drive(drive: DriveKind, own: Iterable[Step]) -> Chapter:
     ):
         chapter.phase(f"{drive.key}_{name}", "working", f"{drive.name[0].upper()}{drive.name[1:]}: {words}", "crank_angle", span)
     chapter.phase(f"{drive.key}_clear", "window", f"{drive.name[0].upper()}{drive.name[1:]}: the edge is above the table", "crank_angle",
-                  rest_of=(f"{drive.key}_below",))
+        rest_of=(f"{drive.key}_below",))
     return chapter
 
 

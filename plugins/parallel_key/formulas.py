@@ -16,39 +16,9 @@ def key_force(torque: Any, shaft_diameter: Any, key_count: Any, key_share: Any) 
 
 
 @formula
-def pressure(force: Any, height: Any, length: Any, load_distribution_factor: Any) -> Any:
-    """Pressure on the height that bears, with the factor of its uneven spread over the length."""
-    return load_distribution_factor * force / (height * length)
-
-
-@formula
-def shear(force: Any, width: Any, length: Any) -> Any:
-    """Mean shear stress of the key."""
-    return force / (width * length)
-
-
-@formula
 def direction_factor(changes_of_flank: Any) -> Any:
     """Load direction factor by the changes of flank in the life (DIN 6892, method B)."""
     return np.minimum(1, 2 * np.maximum(changes_of_flank, 1) ** -0.1)
-
-
-@formula
-def allowed_pressure(factor: Any, support: Any, strength: Any) -> Any:
-    """Pressure that a part may take: its strength, with the factors of its support and its load."""
-    return factor * support * strength
-
-
-@formula
-def length_for(force: Any, height: Any, allowed: Any, load_distribution_factor: Any) -> Any:
-    """Bearing length at which the pressure is the allowed one."""
-    return load_distribution_factor * force / (height * allowed)
-
-
-@formula
-def length_for_shear(force: Any, width: Any, allowed: Any) -> Any:
-    """Bearing length at which the shear stress is the allowed one."""
-    return force / (width * allowed)
 
 
 @formula

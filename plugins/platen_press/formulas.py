@@ -56,28 +56,10 @@ def phase(crank_angle: Any, dwell_end_angle: Any, cutting_begin: Any) -> Any:
 
 
 @formula
-def is_phase(phase: Any, number: Any) -> Any:
-    """Whether it is one of the phases."""
-    return phase == number
-
-
-@formula
 def true_travel(platen_displacement: Any, material_thickness: Any, drive_deformation: Any) -> Any:
     """Distance of the platen from the dead centre of the unloaded drive while it cuts and the rods stretch."""
     share = material_thickness / (material_thickness + drive_deformation)
     return drive_deformation + platen_displacement * share
-
-
-@formula
-def true_velocity(platen_velocity_ideal: Any, material_thickness: Any, drive_deformation: Any) -> Any:
-    """Speed of the platen while it cuts and the rods stretch."""
-    return platen_velocity_ideal * material_thickness / (material_thickness + drive_deformation)
-
-
-@formula
-def stretch_in_cut(platen_displacement: Any, material_thickness: Any, drive_deformation: Any) -> Any:
-    """Stretch of the rods while the board is cut."""
-    return drive_deformation * (1 - platen_displacement / (material_thickness + drive_deformation))
 
 
 @formula
@@ -106,12 +88,6 @@ def guide_moment(force: Any, offset_force: Any, platen_mass: Any, offset_weight:
 
 
 @formula
-def guide_friction(friction_guide: Any, guide_moment: Any, guide_length: Any) -> Any:
-    """Friction of the guides under their two reactions."""
-    return 2 * friction_guide * abs(guide_moment) / guide_length
-
-
-@formula
 def weight_torque(
     friction_guide: Any, platen_mass: Any, offset_weight: Any, guide_length: Any, velocity_max: Any, crank_speed: Any
 ) -> Any:
@@ -136,12 +112,6 @@ def torque_as_printed(
 
 
 @formula
-def elastic_arm(standing_distance: Any, crank_radius: Any, dwell_end_angle: Any, rod_length: Any) -> Any:
-    """Arm of the rods' force where they have relaxed: its greatest."""
-    return standing_distance * crank_radius * np.sin(dwell_end_angle) / rod_length
-
-
-@formula
 def deformation_limit(rod_length: Any, crank_radius: Any, friction_arm: Any) -> Any:
     """Stretch of the drive at which the relaxed rods pass the shaft at the friction's arm."""
     along = rod_length - np.sqrt(crank_radius**2 - friction_arm**2)
@@ -152,9 +122,3 @@ def deformation_limit(rod_length: Any, crank_radius: Any, friction_arm: Any) -> 
 def cutting_work(cutting_force_max: Any, material_thickness: Any) -> Any:
     """Work of a force that grows in proportion to the travel through the board."""
     return cutting_force_max * material_thickness / 2
-
-
-@formula
-def pin_pressure(force_max: Any, radius: Any, length: Any) -> Any:
-    """Pressure on the projected area of one of two pins that share a force."""
-    return force_max / (4 * radius * length)

@@ -18,91 +18,83 @@ MOTOR = ("flywheel_torque", "output_speed", "flywheel_inertia", "flywheel_speed"
          "synchronous_speed")
 
 inertia = Chapter("Equivalent inertia at the crank",
-                  text="The inertia of equal kinetic energy; it is zero where the cylinder stands, and the unbalance makes it differ between the "
-                       "strokes.", needs=CYLINDER, absent="not calculated: there is no cylinder drive to use, or there are several")
+    text="The inertia of equal kinetic energy; it is zero where the cylinder stands, and the unbalance makes it differ between the strokes.",
+    needs=CYLINDER, absent="not calculated: there is no cylinder drive to use, or there are several")
 inertia.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi, shown_at="crank_inertia_max_at")
 inertia.from_curve("rotation", "θ", "deg", "Rotation of the cylinder", given="cylinder_rotation", abscissa="crank_angle", output=False)
 inertia.from_curve("speed", "ω_z", "rad/s", "Speed of the cylinder", given="cylinder_speed", abscissa="crank_angle", output=False)
 inertia.value("speed_ratio", "ω_31", "1", "Ratio of the cylinder's speed to the crank's", lambda speed, crank_speed: speed / crank_speed,
-              source="kinematics",
-              output=False)
+    source="kinematics", output=False)
 inertia.value("crank_inertia", "I_red", "kg*m**2", "Equivalent inertia at the crank",
-              bind(inertia_at_crank, rotation="rotation", speed_ratio="speed_ratio"), source="energy")
+    bind(inertia_at_crank, rotation="rotation", speed_ratio="speed_ratio"), source="energy")
 inertia.reduction("crank_inertia_mean", "I_m", "kg*m**2", "Mean equivalent inertia at the crank over a revolution, for the run-up", "mean",
-                  of="crank_inertia")
+    of="crank_inertia")
 inertia.reduction("crank_inertia_max", "I_max", "kg*m**2", "Maximum equivalent inertia at the crank", "max", of="crank_inertia")
 
 engagement = Chapter("Engagement of the clutch",
-                     text="From rest the net torque M′ accelerates the crank to ω(φ) = √(2M′(φ − φ₀)/I_red(φ)); the slip ends where this first "
-                          "reaches the speed of the driving side. The equal inertia is the constant one that would generate the same heat.",
-                     needs=ENGAGED,
-                     absent="not calculated: there is no clutch or no cylinder drive to use, or there are several")
+    text="From rest the net torque M′ accelerates the crank to ω(φ) = √(2M′(φ − φ₀)/I_red(φ)); the slip ends where this first reaches the speed of "
+        "the driving side. The equal inertia is the constant one that would generate the same heat.", needs=ENGAGED,
+    absent="not calculated: there is no clutch or no cylinder drive to use, or there are several")
 engagement.require("clutch_pulls", lambda clutch_load, clutch_torque: clutch_load < clutch_torque, key="clutch_load",
-                   message="is {clutch_load}, but the slipping clutch carries {clutch_torque} only: the driven side never comes up to speed; "
-                           "lower the load while engaging")
-engagement.value("net_torque", "M′", "N*m", "Accelerating torque", lambda clutch_torque, clutch_load: clutch_torque - clutch_load,
-                 source="mechanics")
+    message="is {clutch_load}, but the slipping clutch carries {clutch_torque} only: the driven side never comes up to speed; lower the load while "
+        "engaging")
+engagement.value("net_torque", "M′", "N*m", "Accelerating torque", lambda clutch_torque, clutch_load: clutch_torque - clutch_load, source="mechanics")
 engagement.prepared("slip", clutch.engagement, (*clutch.TAKES, "engagement_angle"), for_many=True)
 engagement.value("start_angle", "φ_0", "deg", "Crank angle of the engagement: as given", lambda engagement_angle: engagement_angle, source="input",
-                 needs=("engagement_angle",))
-engagement.computed("start_angle", "φ_0", "deg", "Crank angle of the engagement: the one with the most heat", lambda slip: slip.engagement_angle[:,
-                                                                                                                                                 None],
-                    ("slip",), "all crank angles tried", source="this method", lacks=("engagement_angle",))
+    needs=("engagement_angle",))
+engagement.computed("start_angle", "φ_0", "deg", "Crank angle of the engagement: the one with the most heat",
+    lambda slip: slip.engagement_angle[:, None], ("slip",), "all crank angles tried", source="this method", lacks=("engagement_angle",))
 engagement.computed("slip_time", "t_s", "ms", "Slip time", lambda slip: slip.time[:, None], ("slip",), "Gauss–Legendre", source="this method")
 engagement.computed("driven_angle", "Δφ", "deg", "Rotation of the crank during slip", lambda slip: slip.driven_angle[:, None], ("slip",),
-                    "root of equal speeds", source="this method")
+    "root of equal speeds", source="this method")
 engagement.value("lag_angle", "Δφ_l", "deg", "Additional rotation of the driving side",
-                 lambda clutch_speed, slip_time, driven_angle: clutch_speed * slip_time - driven_angle, source="kinematics")
+    lambda clutch_speed, slip_time, driven_angle: clutch_speed * slip_time - driven_angle, source="kinematics")
 engagement.value("slip_heat", "Q", "J", "Heat of the engagement, with the varying inertia",
-                 lambda clutch_torque, lag_angle: clutch_torque * lag_angle, source="energy")
+    lambda clutch_torque, lag_angle: clutch_torque * lag_angle, source="energy")
 engagement.value("equal_inertia", "I_eq", "kg*m**2", "Constant inertia that would generate the same heat",
-                 lambda slip_heat, net_torque, clutch_torque, clutch_speed: 2 * slip_heat * net_torque / (clutch_torque * clutch_speed**2),
-                 source="energy")
+    lambda slip_heat, net_torque, clutch_torque, clutch_speed: 2 * slip_heat * net_torque / (clutch_torque * clutch_speed**2), source="energy")
 
 coupling = Chapter("Clutch and offsets of the lines", needs=("timing", "clutch_drives", "clutch_torque"),
-                   absent="not calculated: clutch_drives is not given, or there is no clutch or no cyclogram to use")
+    absent="not calculated: clutch_drives is not given, or there is no clutch or no cyclogram to use")
 coupling.computed("lines_out_of_step", "N_c", "1", "Number of lines that lose synchronism with the others when the clutch engages",
-                  function=on_main_shaft.lines_out_of_step, takes=("clutch_drives", "single_position", "timing"),
-                  method="those driven through the clutch, unless these are all or it engages at one angle only", source="kinematics")
+    function=on_main_shaft.lines_out_of_step, takes=("clutch_drives", "single_position", "timing"),
+    method="those driven through the clutch, unless these are all or it engages at one angle only", source="kinematics")
 coupling.words("clutch_lines", on_main_shaft.listed, ("clutch_drives",))
 
 ends_chapter = Chapter("Speed before the ends of the travel", needs=TRAVEL,
-                       text="The drive brings the cylinder to rest by itself; dampers that are met before the ends absorb its remaining energy "
-                            "there.",
-                       absent="not calculated: there is no cylinder drive to use, or there are several")
+    text="The drive brings the cylinder to rest by itself; dampers that are met before the ends absorb its remaining energy there.",
+    absent="not calculated: there is no cylinder drive to use, or there are several")
 ends_chapter.require("contact_within_stroke", lambda contact_distance, stroke: contact_distance < stroke, key="contact_distance",
-                     message="is {contact_distance}, but the whole stroke is {stroke}; dampers are met shortly before its ends",
-                     needs=("contact_distance",))
+    message="is {contact_distance}, but the whole stroke is {stroke}; dampers are met shortly before its ends", needs=("contact_distance",))
 ends_chapter.computed("contact_speed_inner", "v_in", "m/s", "Speed at contact before the inner end", function=ends.inner_speed,
-                      takes=(*ends.INNER, "contact_distance"), method="nested search", source="kinematics", needs=("contact_distance",))
+    takes=(*ends.INNER, "contact_distance"), method="nested search", source="kinematics", needs=("contact_distance",))
 ends_chapter.computed("contact_speed_outer", "v_out", "m/s", "Speed at contact before the outer end", function=ends.outer_speed,
-                      takes=(*ends.INNER, "contact_distance"), method="nested search", source="kinematics", needs=("contact_distance",))
+    takes=(*ends.INNER, "contact_distance"), method="nested search", source="kinematics", needs=("contact_distance",))
 ends_chapter.value("contact_speed", "v_k", "m/s", "Higher speed at contact",
-                   bind(ends.greater, one="contact_speed_inner", other="contact_speed_outer"), source="kinematics", needs=("contact_distance",))
+    lambda contact_speed_inner, contact_speed_outer: np.maximum(contact_speed_inner, contact_speed_outer), source="kinematics",
+    needs=("contact_distance",))
 ends_chapter.choice("end_impacts", "z_e", "1/h", "Impacts at one end of the travel",
-                    case(lambda: 0, "dampers at the ends themselves are not met in any stroke", lambda contact_distance: contact_distance <= 0),
-                    case(lambda crank_speed: as_number(crank_speed) / as_number(2 * np.pi), "dampers before the ends are met in every revolution"),
-                    source="kinematics", needs=("contact_distance", "crank_speed"))
+    case(lambda: 0, "dampers at the ends themselves are not met in any stroke", lambda contact_distance: contact_distance <= 0),
+    case(lambda crank_speed: as_number(crank_speed) / as_number(2 * np.pi), "dampers before the ends are met in every revolution"),
+    source="kinematics", needs=("contact_distance", "crank_speed"))
 ends_chapter.computed("way_inner", "d_in", "mm", "Distance before the inner end at which the speed used in the dampers' calculation occurs",
-                      function=ends.inner_way, takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics",
-                      needs=("damper_velocity",))
+    function=ends.inner_way, takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics", needs=("damper_velocity",))
 ends_chapter.computed("way_outer", "d_out", "mm", "Distance before the outer end at which it occurs", function=ends.outer_way,
-                      takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics", needs=("damper_velocity",))
+    takes=(*ends.INNER, "damper_velocity"), method="nested search", source="kinematics", needs=("damper_velocity",))
 
 motor_chapter = Chapter("Motor behind its flywheel",
-                        text="With linear slip the motor follows the load as a first-order lag, M_m + τ·dM_m/dt = M_f: a flywheel shields it "
-                             "only if τ is long compared with the time of a stroke.", needs=MOTOR,
-                        absent="not calculated: there is no drive train with a torque curve to use, or there are several")
+    text="With linear slip the motor follows the load as a first-order lag, M_m + τ·dM_m/dt = M_f: a flywheel shields it only if τ is long compared "
+        "with the time of a stroke.", needs=MOTOR, absent="not calculated: there is no drive train with a torque curve to use, or there are several")
 motor_chapter.require("motor_slips", lambda motor_speed, synchronous_speed: motor_speed < synchronous_speed, key="motor_speed",
-                      message="is {motor_speed}, but a motor under load turns slower than its synchronous speed {synchronous_speed}")
+    message="is {motor_speed}, but a motor under load turns slower than its synchronous speed {synchronous_speed}")
 motor_chapter.value("load_period", "T_f", "ms", "Time after which the load repeats",
-                    lambda load_turns, output_speed: load_turns * as_number(2 * np.pi) / as_number(output_speed), source="kinematics")
+    lambda load_turns, output_speed: load_turns * as_number(2 * np.pi) / as_number(output_speed), source="kinematics")
 motor_chapter.value("slip_stiffness", "k", "N*m*s/rad", "Torque of the motor per unit of slip speed",
-                    bind(motor_slip.slip_stiffness, rated_torque="motor_rated_torque", rated_speed="motor_speed"), source="this method")
+    bind(motor_slip.slip_stiffness, rated_torque="motor_rated_torque", rated_speed="motor_speed"), source="this method")
 motor_chapter.value("flywheel_stiffness", "k_f", "N*m*s/rad", "The same at the flywheel's shaft",
-                    bind(motor_slip.stiffness_at_flywheel, ratio="belt_ratio", efficiency="belt_efficiency"), source="energy")
+    bind(motor_slip.stiffness_at_flywheel, ratio="belt_ratio", efficiency="belt_efficiency"), source="energy")
 motor_chapter.value("time_constant", "τ", "ms", "Time constant of the lag",
-                    bind(motor_slip.time_constant, inertia="flywheel_inertia", stiffness_at_flywheel="flywheel_stiffness"), source="this method")
+    bind(motor_slip.time_constant, inertia="flywheel_inertia", stiffness_at_flywheel="flywheel_stiffness"), source="this method")
 motor_chapter.prepared("response", motor.response, ("flywheel_torque", "load_turns", "load_period", "time_constant"), for_many=True)
 for name, symbol, words, function in (
     ("lagged_rms", "M_f,rms", "Root mean square torque of the motor at the flywheel's shaft", lambda response: response.rms[:, None]),
@@ -111,16 +103,15 @@ for name, symbol, words, function in (
                                                                                                                                                None])):
     motor_chapter.computed(name, symbol, "N*m", words, function, ("response",), "exponentials on smooth pieces", source="this method", output=False)
 motor_chapter.value("motor_torque_rms", "M_rms", "N*m", "Root mean square torque of the motor",
-                    lambda lagged_rms, belt_ratio, belt_efficiency: lagged_rms / (belt_ratio * belt_efficiency), source="energy")
+    lambda lagged_rms, belt_ratio, belt_efficiency: lagged_rms / (belt_ratio * belt_efficiency), source="energy")
 motor_chapter.value("motor_torque_max", "M_max", "N*m", "Maximum torque of the motor",
-                    lambda lagged_max, belt_ratio, belt_efficiency: lagged_max / (belt_ratio * belt_efficiency), source="energy")
+    lambda lagged_max, belt_ratio, belt_efficiency: lagged_max / (belt_ratio * belt_efficiency), source="energy")
 motor_chapter.value("motor_torque_min", "M_min", "N*m", "Minimum torque of the motor",
-                    lambda lagged_min, belt_ratio, belt_efficiency: lagged_min / (belt_ratio * belt_efficiency), source="energy")
+    lambda lagged_min, belt_ratio, belt_efficiency: lagged_min / (belt_ratio * belt_efficiency), source="energy")
 motor_chapter.value("motor_torque_peak", "M_peak", "N*m", "Maximum absolute torque of the motor",
-                    bind(ends.greater_size, one="motor_torque_max", other="motor_torque_min"), source="this method")
+    lambda motor_torque_max, motor_torque_min: np.maximum(abs(motor_torque_max), abs(motor_torque_min)), source="this method")
 motor_chapter.value("breakdown_torque", "M_br", "N*m", "Breakdown torque of the motor",
-                    lambda breakdown_ratio, motor_rated_torque: breakdown_ratio * motor_rated_torque, source="this method",
-                    needs=("breakdown_ratio",))
+    lambda breakdown_ratio, motor_rated_torque: breakdown_ratio * motor_rated_torque, source="this method", needs=("breakdown_ratio",))
 motor_chapter.value("speed_swing", "δ_a", "1", "Speed fluctuation of the flywheel: (maximum − minimum)/mean",
-                    lambda lagged_max, lagged_min, flywheel_stiffness, flywheel_speed:
-                        (lagged_max - lagged_min) / (flywheel_stiffness * flywheel_speed), source="this method")
+    lambda lagged_max, lagged_min, flywheel_stiffness, flywheel_speed: (lagged_max - lagged_min) / (flywheel_stiffness * flywheel_speed),
+    source="this method")

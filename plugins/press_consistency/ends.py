@@ -3,12 +3,11 @@
 from __future__ import annotations
 
 from collections.abc import Callable
-from typing import Any
 
 import numpy as np
 from numpy.typing import NDArray
 
-from diecut_report.api import Curve, formula
+from diecut_report.api import Curve
 from diecut_report.mechanics.numerics import first
 
 Array = NDArray[np.float64]
@@ -64,15 +63,3 @@ def _way_below(displacement: Curve, velocity: Curve, start: Array, end: Array, s
     angle = _first(lambda x: np.abs(_at(velocity, x)) < speed, low, high)
     way = np.abs(_at(displacement, end) - _at(displacement, angle))
     return np.where(fast.any(axis=1, keepdims=True), way, stroke)
-
-
-@formula
-def greater(one: Any, other: Any) -> Any:
-    """The greater of two."""
-    return np.maximum(one, other)
-
-
-@formula
-def greater_size(one: Any, other: Any) -> Any:
-    """The greater size of two, whatever their signs."""
-    return np.maximum(abs(one), abs(other))

@@ -84,12 +84,6 @@ TORSION = (  # the same (Peterson, chart 3.12)
 
 
 @formula
-def cubic(first: Any, second: Any, third: Any, fourth: Any, share: Any) -> Any:
-    """Peterson's charts as they are fitted: a cubic of z = 2 t/D, at least 1."""
-    return np.maximum(first + second * share + third * share**2 + fourth * share**3, 1)
-
-
-@formula
 def fatigue_factor(sensitivity: Any, concentration: Any) -> Any:
     """Fatigue notch factor (Shigley 6-32)."""
     return 1 + sensitivity * (concentration - 1)
