@@ -19,7 +19,7 @@ MECHANISM = Mechanism(
             "follow the radii, the phases, the motion of sector, gear and sheet, torque and forces, and the profiles of both cams.",
     inputs=CamGearTransport,
     example=EXAMPLE,
-    chapters=(rolling.rolling_chapter, rolling.phases, motion.sector, motion.gear, sheet.conveyor, sheet.rest, sheet.grippers, sheet.torques,
+    chapters=(rolling.rolling, rolling.phases, motion.sector, motion.gear, sheet.conveyor, sheet.rest, sheet.grippers, sheet.torques,
               *cams.SECTIONS),
     key_results=("radius_ratio", "gear_radius", "sector_radius", "time_dwell", "time_return", "angle_stop", "angle_start",
                  "gear_speed_ratio_peak", "gear_acceleration_peak", "sheet_step", "sheet_velocity_max", "sheet_acceleration_max",

@@ -172,20 +172,20 @@ def _loaded(number: str) -> Steps:
     return steps
 
 
-loads_chapter = Chapter("Forces on the rollers",
+forces = Chapter("Forces on the rollers",
     text="About O₃ the rocker is in equilibrium under the reaction of the teeth, the sector's inertia and one roller: a cam can only push outwards, "
         "so the cam of the left arm turns the sector clockwise and that of the right arm counter-clockwise. The force acts normal to the profile, "
         "at the pressure angle from the roller's direction of motion. A preload of the rollers is not included.", needs=(*CAMS, *TORQUE),
     absent="not calculated: {missing} not given")
-loads_chapter.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃", loads.rocker_moment, source="statics", output=False)
-loads_chapter.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz",
+forces.value("rocker_moment", "M_3", "N*m", "Moment of the cams on the rocker about O₃", loads.rocker_moment, source="statics", output=False)
+forces.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz",
     needs=("roller_width",))
-loads_chapter.add(_loaded("1"))
-loads_chapter.add(_loaded("2"))
-loads_chapter.value("roller_force_peak", "F_max", "N", "Maximum force on a roller",
+forces.add(_loaded("1"))
+forces.add(_loaded("2"))
+forces.value("roller_force_peak", "F_max", "N", "Maximum force on a roller",
     lambda cam_1_roller_force_peak, cam_2_roller_force_peak: np.maximum(cam_1_roller_force_peak, cam_2_roller_force_peak), source="statics")
-loads_chapter.value("contact_pressure", "p_H,max", "MPa", "Maximum contact pressure of a roller",
+forces.value("contact_pressure", "p_H,max", "MPa", "Maximum contact pressure of a roller",
     lambda cam_1_contact_pressure_max, cam_2_contact_pressure_max: np.maximum(cam_1_contact_pressure_max, cam_2_contact_pressure_max), source="Hertz",
     needs=("roller_width",))
 
-SECTIONS = (rocker, _cam("1"), _cam("2"), both, loads_chapter)
+SECTIONS = (rocker, _cam("1"), _cam("2"), both, forces)

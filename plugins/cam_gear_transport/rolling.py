@@ -14,36 +14,35 @@ from diecut_report.plugins.cam_gear_transport.inputs import MODULES
 
 LEAST_RETURN = 1e-6  # share of a turn: what is left below it is mostly rounding, and its speeds with it
 
-rolling_chapter = Chapter("Rolling of the sector on the gear",
+rolling = Chapter("Rolling of the sector on the gear",
     text="While the disc turns by φ_22, the sector turns on its pin by γ_32 and rolls off the same arc of the gear: φ_22·R_1 = γ_32·R_3. The gear, "
         "which is coaxial with the disc, therefore stands still.")
-rolling_chapter.value("teeth_together", "z_Σ", "1", "Number of teeth of gear and sector together, the sector counted as a full wheel",
+rolling.value("teeth_together", "z_Σ", "1", "Number of teeth of gear and sector together, the sector counted as a full wheel",
     formulas.teeth_together, source="geometry", output=False, needs=("module",), digits=6)
-rolling_chapter.value("center_distance_nearest", "R_2′", "mm", "Nearest radius of the pin with whole numbers of teeth",
+rolling.value("center_distance_nearest", "R_2′", "mm", "Nearest radius of the pin with whole numbers of teeth",
     lambda teeth_together, module: np.maximum(np.round(teeth_together), 2) * module / 2, output=False, source="geometry", needs=("module",),
     digits=10)
-rolling_chapter.require("whole_teeth", lambda teeth_together: abs(teeth_together - np.round(teeth_together)) <= 1e-9 * teeth_together,
-    key="center_distance",
+rolling.require("whole_teeth", lambda teeth_together: abs(teeth_together - np.round(teeth_together)) <= 1e-9 * teeth_together, key="center_distance",
     message="is {center_distance}, but with a module of {module} gear and sector would have 2·R₂/m = {teeth_together} teeth together, which must be "
         "a whole number; the nearest center_distance is {center_distance_nearest}", needs=("module",))
-rolling_chapter.value("gear_teeth", "z_1", "1", "Number of teeth of the gear", bind(formulas.gear_teeth, sweep="inputs.sector_dwell_sweep"),
-    whole=True, source="this method", needs=("module",))
-rolling_chapter.value("sector_wheel_teeth", "z_3", "1", "Number of teeth of the sector, counted as a full wheel", formulas.other_teeth, whole=True,
+rolling.value("gear_teeth", "z_1", "1", "Number of teeth of the gear", bind(formulas.gear_teeth, sweep="inputs.sector_dwell_sweep"), whole=True,
     source="this method", needs=("module",))
-rolling_chapter.require("some_teeth", lambda gear_teeth, sector_wheel_teeth: np.minimum(gear_teeth, sector_wheel_teeth) >= 1, key="module",
+rolling.value("sector_wheel_teeth", "z_3", "1", "Number of teeth of the sector, counted as a full wheel", formulas.other_teeth, whole=True,
+    source="this method", needs=("module",))
+rolling.require("some_teeth", lambda gear_teeth, sector_wheel_teeth: np.minimum(gear_teeth, sector_wheel_teeth) >= 1, key="module",
     message="is {module}, with which the gear would have {gear_teeth} and the sector {sector_wheel_teeth} teeth", needs=("module",),
     advise=(Vary("module", "down", MODULES), "sector_dwell_sweep", "dwell_angle"))
-rolling_chapter.value("sector_dwell_sweep", "γ_32", "deg", "Sweep of the sector during the dwell: as required by whole numbers of teeth",
+rolling.value("sector_dwell_sweep", "γ_32", "deg", "Sweep of the sector during the dwell: as required by whole numbers of teeth",
     formulas.sweep_of_teeth, source="003 eq. 1, for whole teeth", needs=("module",), digits=6)
-rolling_chapter.value("sector_dwell_sweep", "γ_32", "deg", "Sweep of the sector during the dwell: as given",
+rolling.value("sector_dwell_sweep", "γ_32", "deg", "Sweep of the sector during the dwell: as given",
     bind(lambda sector_dwell_sweep: sector_dwell_sweep, sector_dwell_sweep="inputs.sector_dwell_sweep"), source="input", lacks=("module",), digits=6)
-rolling_chapter.value("radius_ratio", "R_12", "1", "Ratio of gear radius to pin radius, R_1/R_2",
-    bind(formulas.radius_ratio, sweep="sector_dwell_sweep"), source="003 eq. 1")
-rolling_chapter.value("gear_radius", "R_1", "mm", "Pitch radius of the gear", formulas.gear_radius, source="003 eq. 1")
-rolling_chapter.value("sector_radius", "R_3", "mm", "Pitch radius of the sector", formulas.sector_radius, source="003 eq. 1")
-rolling_chapter.value("sector_sweep", "γ_Σ", "deg", "Total sweep of the sector",
+rolling.value("radius_ratio", "R_12", "1", "Ratio of gear radius to pin radius, R_1/R_2", bind(formulas.radius_ratio, sweep="sector_dwell_sweep"),
+    source="003 eq. 1")
+rolling.value("gear_radius", "R_1", "mm", "Pitch radius of the gear", formulas.gear_radius, source="003 eq. 1")
+rolling.value("sector_radius", "R_3", "mm", "Pitch radius of the sector", formulas.sector_radius, source="003 eq. 1")
+rolling.value("sector_sweep", "γ_Σ", "deg", "Total sweep of the sector",
     lambda sector_dwell_sweep, sector_stop_sweep: sector_dwell_sweep + sector_stop_sweep, source="003, Fig. 4")
-rolling_chapter.value("sector_teeth", "z_3′", "1", "Number of teeth of the sector: those of the swept arc, and one on each side",
+rolling.value("sector_teeth", "z_3′", "1", "Number of teeth of the sector: those of the swept arc, and one on each side",
     lambda sector_wheel_teeth, sector_sweep: np.ceil(sector_wheel_teeth * sector_sweep / (2 * np.pi)) + 2, whole=True, source="this method",
     needs=("module",))
 

@@ -6,6 +6,8 @@ from typing import Annotated, Any, ClassVar, Literal
 
 from diecut_report.api import POINTS, Block, FromPress, Inputs, MechanismInput, OneOf, Quantity, Text
 
+# fmt: off
+
 PHASE = "the phase of a line, as mechanism.phase, or mechanism.phase.k for its k-th interval alone, counted from 0"
 
 
@@ -30,19 +32,11 @@ class LineKeys(Block):
 
     mechanism: Annotated[Any, MechanismInput("Mechanism that is a line")]
     turns_per_sheet: Annotated[str, _turns("i", "the line")] = "1"
-    offset: Annotated[
-        float,
-        Quantity(
-            "Φ_0", "deg", "Main-shaft angle of the line's own zero; auto: the one with the largest margins",
-            ge=-3600, le=3600, plausible=("1e-6 deg", "3600 deg"), words=("auto",),
-        ),
-    ] = 0  # fmt: skip
-    path_efficiency: Annotated[
-        float, Quantity("η", "1", "Efficiency from the main shaft to the shaft of the line's torque", gt=0, le=1)
-    ] = 1
-    torque_curve: Annotated[
-        str, Text("Name of a torque curve of the line, such as `torque`, if not the default of its kind")
-    ] = ""
+    offset: Annotated[float,
+        Quantity("Φ_0", "deg", "Main-shaft angle of the line's own zero; auto: the one with the largest margins", ge=-3600, le=3600,
+            plausible=("1e-6 deg", "3600 deg"), words=("auto",))] = 0
+    path_efficiency: Annotated[float, Quantity("η", "1", "Efficiency from the main shaft to the shaft of the line's torque", gt=0, le=1)] = 1
+    torque_curve: Annotated[str, Text("Name of a torque curve of the line, such as `torque`, if not the default of its kind")] = ""
     passing: Annotated[list[Passage], Text("Stations that the sheet passes")] = []  # noqa: RUF012
 
 
@@ -53,13 +47,9 @@ class InterlockKeys(Block):
     phase: Annotated[str, Text(f"What must be contained: {PHASE}")]
     within: Annotated[str, Text(f"What it must lie within: {PHASE}")] = ""
     apart_from: Annotated[str, Text(f"What it must lie apart from: {PHASE}")] = ""
-    margin: Annotated[
-        float,
-        Quantity(
-            "m", "deg", "Required margin at both ends, as a main-shaft angle or a time", ge=0, le=360, or_unit="ms",
-            plausible=("1e-6 deg", "360 deg"),
-        ),
-    ] = 0  # fmt: skip
+    margin: Annotated[float,
+        Quantity("m", "deg", "Required margin at both ends, as a main-shaft angle or a time", ge=0, le=360, or_unit="ms",
+            plausible=("1e-6 deg", "360 deg"))] = 0
 
 
 class StationKeys(Block):
@@ -67,13 +57,9 @@ class StationKeys(Block):
 
     cylinder: Annotated[Any, MechanismInput("Drive of the cylinder, one of the lines")]
     transport: Annotated[Any, MechanismInput("Sheet transport, one of the lines")]
-    carriage_stop: Annotated[
-        float, Quantity("x_s", "mm", "Position of the middle of a carriage along the feed, from the middle of the die")
-    ]
+    carriage_stop: Annotated[float, Quantity("x_s", "mm", "Position of the middle of a carriage along the feed, from the middle of the die")]
     carriage_width: Annotated[float, Quantity("w_c", "mm", "Length of a carriage along the feed", ge=0)]
-    forward_direction: Annotated[
-        Literal["with", "against"], Text("Direction of the forward stroke relative to the feed")
-    ]
+    forward_direction: Annotated[Literal["with", "against"], Text("Direction of the forward stroke relative to the feed")]
 
 
 class FrictionKeys(Block):
@@ -85,22 +71,15 @@ class FrictionKeys(Block):
     torque: Annotated[float | None, Quantity("M_f", "N*m", "Torque at its own shaft", ge=0)] = None
     power: Annotated[float | None, Quantity("P_f", "kW", "Power", ge=0)] = None
     turns_per_sheet: Annotated[str, _turns("i_f", "the consumer")] = "1"
-    path_efficiency: Annotated[
-        float, Quantity("η_f", "1", "Efficiency from the main shaft to its shaft", gt=0, le=1)
-    ] = 1
+    path_efficiency: Annotated[float, Quantity("η_f", "1", "Efficiency from the main shaft to its shaft", gt=0, le=1)] = 1
 
 
 class Cyclogram(Inputs):
     """Keys of ``cyclogram``."""
 
-    productivity: Annotated[
-        float | None,
-        Quantity("n", "1/h", "Sheets per hour", gt=0, press=FromPress("press.productivity")),
-    ] = None
+    productivity: Annotated[float | None, Quantity("n", "1/h", "Sheets per hour", gt=0, press=FromPress("press.productivity"))] = None
     lines: Annotated[list[LineKeys], Text("Mechanisms that the main shaft drives")]
     interlocks: Annotated[list[InterlockKeys], Text("Interlocks: what must lie within, or apart from, what")]
-    station: Annotated[
-        StationKeys | None, Text("Position of the carriages when they stand; required for the exact clearance")
-    ] = None
+    station: Annotated[StationKeys | None, Text("Position of the carriages when they stand; required for the exact clearance")] = None
     friction: Annotated[list[FrictionKeys], Text("Consumers of constant torque")] = []  # noqa: RUF012
     n_points: Annotated[int, POINTS] = 720

@@ -37,18 +37,17 @@ shaft.prepared("timing", timing_of, ("productivity", "stretches", *(f"lines.{key
 shaft.value("sheet_time", "T_s", "ms", "Time per sheet, one revolution of the main shaft", lambda productivity: 1 / productivity, source="kinematics")
 shaft.value("main_shaft_speed", "ω_m", "rpm", "Speed of the main shaft", lambda productivity: 2 * np.pi * productivity, source="kinematics")
 shaft.computed("sheets_per_period", "N_s", "1", "Sheets in the common period", lambda timing: float(timing.common), TIMING,
-               "least common multiple of the periods of all phases", digits=6)
+    "least common multiple of the periods of all phases", digits=6)
 shaft.value("main_period", "P", "deg", "Common period of the main shaft", lambda sheets_per_period: 2 * np.pi * sheets_per_period)
 shaft.value("period_time", "T_P", "ms", "Time of the common period", lambda sheets_per_period, sheet_time: sheets_per_period * sheet_time)
 shaft.computed("line_turns", "i_k", "1", "Revolutions of each line per sheet",
-               lambda timing: np.array([[float(each.line.turns) for each in timing.lines]]), TIMING, "as given", over="lines", output=False)
+    lambda timing: np.array([[float(each.line.turns) for each in timing.lines]]), TIMING, "as given", over="lines", output=False)
 shaft.computed("line_offset", "Φ_k", "deg", "Main-shaft angle of each line's zero",
-               lambda timing: np.array([[each.line.offset for each in timing.lines]]), TIMING,
-               "as given; an automatic one maximises the minimum slack of all interlocks", over="lines", digits=6)
-shaft.computed("is_moved", "k_a", "1", "Solution of the offset of a line", lambda timing: timing.moved is not None, TIMING, "as given",
-               output=False)
+    lambda timing: np.array([[each.line.offset for each in timing.lines]]), TIMING,
+    "as given; an automatic one maximises the minimum slack of all interlocks", over="lines", digits=6)
+shaft.computed("is_moved", "k_a", "1", "Solution of the offset of a line", lambda timing: timing.moved is not None, TIMING, "as given", output=False)
 shaft.computed("offset_found", "Φ_f", "deg", "Solved offset: main-shaft angle of the zero of that line", _found, TIMING,
-               "where the minimum slack of all interlocks is largest", digits=6, exists=lambda is_moved: is_moved > 0)
+    "where the minimum slack of all interlocks is largest", digits=6, exists=lambda is_moved: is_moved > 0)
 shaft.listing("main_phases", "Phases on the main shaft", listings.PHASES, listings.phases, TIMING)
 shaft.words("line_name", lambda timing: tuple(each.name for each in timing.lines), TIMING, each_part=True)
 
@@ -61,8 +60,9 @@ def _slack(timing: Timing) -> Any:
     return timing.row(pair.least - timing.required(each) for pair, each in zip(timing.worst, timing.final, strict=True))
 
 
-interlocks = Chapter("Interlocks", text="A phase lies within another with the margins at its start and at its end; a negative margin is the "
-                                        "overlap. Of several intervals the one with the smallest margin is given.")
+interlocks = Chapter("Interlocks",
+    text="A phase lies within another with the margins at its start and at its end; a negative margin is the overlap. Of several intervals the one "
+        "with the smallest margin is given.")
 for name, symbol, words, function in (
     ("margin_start", "m_1", "Margin at the start", _worst("start")),
     ("margin_end", "m_2", "Margin at the end", _worst("end")),
@@ -76,9 +76,8 @@ for name, symbol, words, of in (("margin_start_time", "t_1", "Margin at the star
                                 ("margin_end_time", "t_2", "Margin at the end, as a time", "margin_end")):
     interlocks.value(name, symbol, "ms", words, bind(lambda angle, main_shaft_speed: angle / main_shaft_speed, angle=of))
 interlocks.value("length_demand", "l_d", "deg", "Required length, margins included",
-                 lambda held_length, margin_required: held_length + 2 * margin_required, output=False)
-interlocks.value("length_available", "l_v", "deg", "Available length", lambda held_length, margin_least: held_length + 2 * margin_least,
-                 output=False)
+    lambda held_length, margin_required: held_length + 2 * margin_required, output=False)
+interlocks.value("length_available", "l_v", "deg", "Available length", lambda held_length, margin_least: held_length + 2 * margin_least, output=False)
 interlocks.total("best_margin", "g_min", "deg", "Minimum slack of all interlocks", "min", of="slack")
 interlocks.value("best_margin_time", "t_g", "ms", "Minimum slack as a time", bind(common.quotient, quantity="best_margin", by="main_shaft_speed"))
 
@@ -87,39 +86,37 @@ def _limit(timing: Timing) -> float:
     return timing.limit.value or 0.0
 
 
-interlocks.computed("is_limited", "k_n", "1", "Margins of time limit the productivity", lambda timing: timing.limit.value is not None,
-                    TIMING, "a margin is a time, and is kept at some speed", output=False)
-interlocks.computed("productivity_limit", "n_max", "1/h",
-                    "Maximum productivity that the margins of time allow; for information only", _limit, TIMING,
-                    "angles remain, times take a larger angle the faster the shaft turns; torques and accelerations are not considered", digits=5,
-                    exists=lambda is_limited: is_limited > 0)
-interlocks.computed("is_feasible", "k_Φ", "1", "The solved offset keeps all margins",
-                    lambda timing: bool(timing.best and timing.best.feasible), TIMING, PHASES, output=False)
+interlocks.computed("is_limited", "k_n", "1", "Margins of time limit the productivity", lambda timing: timing.limit.value is not None, TIMING,
+    "a margin is a time, and is kept at some speed", output=False)
+interlocks.computed("productivity_limit", "n_max", "1/h", "Maximum productivity that the margins of time allow; for information only", _limit, TIMING,
+    "angles remain, times take a larger angle the faster the shaft turns; torques and accelerations are not considered", digits=5,
+    exists=lambda is_limited: is_limited > 0)
+interlocks.computed("is_feasible", "k_Φ", "1", "The solved offset keeps all margins", lambda timing: bool(timing.best and timing.best.feasible),
+    TIMING, PHASES, output=False)
 interlocks.computed("offset_feasible_start", "Φ_a", "deg", "Lower limit of the offsets around the solved one that keep all margins",
-                    lambda timing: timing.feasible[0], TIMING, PHASES, digits=6, exists=lambda is_feasible: is_feasible > 0)
+    lambda timing: timing.feasible[0], TIMING, PHASES, digits=6, exists=lambda is_feasible: is_feasible > 0)
 interlocks.computed("offset_feasible_end", "Φ_b", "deg", "Upper limit of the offsets around the solved one that keep all margins",
-                    lambda timing: timing.feasible[1], TIMING, PHASES, digits=6,
-                    exists=lambda is_feasible: is_feasible > 0)
+    lambda timing: timing.feasible[1], TIMING, PHASES, digits=6, exists=lambda is_feasible: is_feasible > 0)
 interlocks.computed("rate_error", "Δn", "1", "Relative deviation of each line's own rate from that of the press",
-                    lambda timing: np.array([timing.rate_errors]), TIMING,
-                    "own revolutions per second divided by revolutions per sheet, compared with the productivity", over="lines", output=False)
+    lambda timing: np.array([timing.rate_errors]), TIMING,
+    "own revolutions per second divided by revolutions per sheet, compared with the productivity", over="lines", output=False)
 interlocks.total("worst_rate_error", "Δn_max", "1", "Maximum of these deviations", "max", of="rate_error", output=False)
 
 
 interlocks.computed("is_window", "k_w", "1", "A single interval per period contains it, so that a length can be given",
-                    lambda timing: np.isfinite([timing.needed_lengths]), TIMING, PHASES, over="interlocks", output=False)
+    lambda timing: np.isfinite([timing.needed_lengths]), TIMING, PHASES, over="interlocks", output=False)
 interlocks.computed("needed_length", "l_n", "deg", "Required length of the containing phase, for the interlock alone at its best offset",
-                    lambda timing: np.nan_to_num([timing.needed_lengths]), TIMING, "length of the one interval less twice the largest slack",
-                    over="interlocks", exists=lambda is_window: is_window > 0)
+    lambda timing: np.nan_to_num([timing.needed_lengths]), TIMING, "length of the one interval less twice the largest slack", over="interlocks",
+    exists=lambda is_window: is_window > 0)
 interlocks.listing("margins", "Margins of each interval", listings.MARGINS, listings.margins, TIMING)
 interlocks.listing("offsets", "Offsets that keep all margins", listings.OFFSETS, listings.offsets, TIMING)
 interlocks.listing("lacking", "Not checked", listings.LACKING, listings.lacking, ("timing", "station.transport"))
 interlocks.words("interlock_verdict", verdicts, TIMING, each_part=True)
 
 station = Chapter("Clearance of the carriages", needs=("station",), absent="not calculated: station is not given",
-                  text="The minimum height over all carriages, standing and moving, from the shape of the cylinder with its flat.")
+    text="The minimum height over all carriages, standing and moving, from the shape of the cylinder with its flat.")
 station.prepared("clearance", clearance_of, ("timing", "main_period", *(f"lines.{key}" for key in LINES), *(f"station.{key}" for key in STATION)),
-                 for_many=True)
+    for_many=True)
 station.prepared("least", lambda given: given["clearance"].least, ("clearance",), for_many=True)
 CLEARANCE = "search over the common period, refined to 1e-13 of it"
 
@@ -141,62 +138,58 @@ def _needed(cylinder: GivenMechanism) -> Any:
 
 
 station.computed("is_below", "k_Y", "1", "A carriage is below the cylinder at some time", _is_below, ("least",), "minimum height over the period",
-                 output=False)
+    output=False)
 station.computed("clearance_least", "Y_min", "mm", "Minimum clearance height for the carriages", _least, ("least",), CLEARANCE,
-                 exists=lambda is_below: is_below > 0)
+    exists=lambda is_below: is_below > 0)
 station.computed("clearance_angle", "Φ_Y", "deg", "Main-shaft angle of this minimum", lambda least: least.angle[:, None], ("least",), CLEARANCE,
-                 exists=lambda is_below: is_below > 0)
-station.computed("carriage_clearance", "c_r", "mm", "Clearance required by the carriages",
-                 _needed, ("station.cylinder",), "as given in the cylinder's drive")
+    exists=lambda is_below: is_below > 0)
+station.computed("carriage_clearance", "c_r", "mm", "Clearance required by the carriages", _needed, ("station.cylinder",),
+    "as given in the cylinder's drive")
 
 interlocks.fact("rates_agree", bind(common.is_at_most, smaller="worst_rate_error", greater=LARGEST_RATE_ERROR),
-                "not calculated: a line runs at another rate than the press, so nothing can be summed over the main shaft")
+    "not calculated: a line runs at another rate than the press, so nothing can be summed over the main shaft")
 
 motions = Chapter("Motions over the main shaft", needs=("rates_agree",))
 motions.prepared("motions", motions_of, ("timing", "main_period", *(f"lines.{key}" for key in LINES)), for_many=True)
 motions.abscissa("main_angle", "Φ", "deg", "Main-shaft angle", "main_period", speed="main_shaft_speed", intervals=16)
 OWN = "from the line's own calculation"
 motions.part_curves("way", "s", "mm", "Displacement of the line", lambda motions: motions.ways.names,
-                    lambda motions, *asked: motions.ways.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
+    lambda motions, *asked: motions.ways.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
 motions.computed("moving_lines", "N_E", "1", "Number of lines whose kinetic energy is known", lambda motions: float(len(motions.energies.names)),
-                 ("motions",),
-                 "as given", output=False)
+    ("motions",), "as given", output=False)
 motions.fact("energy_known", lambda moving_lines: moving_lines > 0, "not calculated: moving masses are not known for any line")
 motions.computed_curve("clearance_over", "Y", "mm", "Minimum height over all carriages; the cylinder's radius where none is below it",
-                       lambda clearance, *asked: clearance.over(*asked), "clearance", "main_angle", "shape of the cylinder with its flat",
-                       needs=("station",))
+    lambda clearance, *asked: clearance.over(*asked), "clearance", "main_angle", "shape of the cylinder with its flat", needs=("station",))
 
 energies = Chapter("Kinetic energies", needs=("rates_agree", "energy_known"))
 energies.part_curves("kinetic_energy", "E", "J", "Kinetic energy of the line", lambda motions: motions.energies.names,
-                    lambda motions, *asked: motions.energies.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
+    lambda motions, *asked: motions.energies.one(*asked), "motions", "main_angle", OWN, joints=lambda motions: motions.joints)
 energies.computed_curve("kinetic_energy_total", "E_Σ", "J", "Total kinetic energy of all lines for which it is known",
-                       lambda motions, *asked: motions.energies.total(*asked), "motions", "main_angle",
-                        "sum of the lines' kinetic energies", joints=lambda motions: motions.joints)
+    lambda motions, *asked: motions.energies.total(*asked), "motions", "main_angle", "sum of the lines' kinetic energies",
+    joints=lambda motions: motions.joints)
 energies.reduction("kinetic_energy_max", "E_max", "J", "Maximum kinetic energy of all lines together", "max", of="kinetic_energy_total")
 energies.reduction("kinetic_energy_mean", "E_m", "J", "Mean kinetic energy of all lines together", "mean", of="kinetic_energy_total")
 energies.reduction("kinetic_energy_range", "ΔE_k", "J", "Range of the kinetic energy of all lines together", "range", of="kinetic_energy_total",
-                   output=False)
+    output=False)
 energies.computed("kinetic_energy_ranges", "ΣΔE_k", "J", "Sum of the ranges of the kinetic energies of the lines", lambda motions: motions.ranges,
-                 ("motions",), "searched over a revolution of each line", output=False)
+    ("motions",), "searched over a revolution of each line", output=False)
 energies.value("energy_exchange", "E_e", "J", "Energy exchanged between drives",
-              lambda kinetic_energy_ranges, kinetic_energy_range: np.maximum(kinetic_energy_ranges - kinetic_energy_range, 0))
+    lambda kinetic_energy_ranges, kinetic_energy_range: np.maximum(kinetic_energy_ranges - kinetic_energy_range, 0))
 
 torques = Chapter("Sum of the torques at the main shaft", needs=("rates_agree", "takes_torque"),
-                  text="The torque of a line is i·M/η at the main shaft where the shaft drives the line, and i·M·η where the line drives the "
-                       "shaft.")
-motions.prepared("sum", torques_of, ("timing", "main_period", "main_shaft_speed", *(f"lines.{key}" for key in LINES),
-                                     *(f"friction.{key}" for key in FRICTION)), for_many=True)
+    text="The torque of a line is i·M/η at the main shaft where the shaft drives the line, and i·M·η where the line drives the shaft.")
+motions.prepared("sum", torques_of,
+    ("timing", "main_period", "main_shaft_speed", *(f"lines.{key}" for key in LINES), *(f"friction.{key}" for key in FRICTION)), for_many=True)
 motions.words("torque_missing", lambda sum: ", ".join(sum.without) or "none", SUM)
 motions.computed("consumers", "N_c", "1", "Number of consumers whose torque is known", lambda sum: float(len(sum.consumers)), SUM, "as given",
-                 output=False)
+    output=False)
 motions.fact("takes_torque", lambda consumers: consumers > 0, "not calculated: no line has a known torque, and no friction is given")
 torques.part_curves("line_torque", "M", "N*m", "Torque of the line at the main shaft", lambda sum: sum.together.names,
-                    lambda sum, *asked: sum.together.one(*asked), "sum", "main_angle", OWN, joints=lambda sum: sum.joints)
-torques.computed_curve("main_shaft_torque", "M_Σ", "N*m", "Torque at the main shaft",
-                       lambda sum, *asked: sum.together.total(*asked), "sum", "main_angle",
-                       "sum of the torques of all lines, each from its own calculation", joints=lambda sum: sum.joints)
+    lambda sum, *asked: sum.together.one(*asked), "sum", "main_angle", OWN, joints=lambda sum: sum.joints)
+torques.computed_curve("main_shaft_torque", "M_Σ", "N*m", "Torque at the main shaft", lambda sum, *asked: sum.together.total(*asked), "sum",
+    "main_angle", "sum of the torques of all lines, each from its own calculation", joints=lambda sum: sum.joints)
 torques.computed_curve("greatest_torque", "M_g", "N*m", "Torque of the largest consumer alone", lambda sum, *asked: sum.of_greatest(*asked), "sum",
-                       "main_angle", "the consumer with the largest mean torque at the main shaft")
+    "main_angle", "the consumer with the largest mean torque at the main shaft")
 torques.reduction("torque_peak", "M_peak", "N*m", "Maximum absolute torque", "abs_max", of="main_shaft_torque")
 torques.reduction("torque_max", "M_max", "N*m", "Maximum driving torque", "max", of="main_shaft_torque")
 torques.reduction("torque_min", "M_min", "N*m", "Maximum braking torque", "min", of="main_shaft_torque")
@@ -210,17 +203,17 @@ for name, symbol, unit, words, figure in (
     ("greatest_fluctuation", "ΔE_g", "J", "Range of the excess energy of the largest consumer alone", "fluctuation"),
 ):
     torques.computed(name, symbol, unit, words, lambda sum, figure=figure: sum.figure_of_greatest(figure), SUM,
-                     "Gauss–Legendre between the breakpoints; extremes within each smooth piece")
+        "Gauss–Legendre between the breakpoints; extremes within each smooth piece")
 torques.value("greatest_peak", "M_g,peak", "N*m", "Maximum absolute torque of the largest consumer alone",
-              lambda greatest_max, greatest_min: np.maximum(greatest_max, -greatest_min))
+    lambda greatest_max, greatest_min: np.maximum(greatest_max, -greatest_min))
 torques.value("power_mean", "P_mean", "kW", "Mean power at the main shaft", lambda torque_mean, main_shaft_speed: torque_mean * main_shaft_speed)
 torques.value("power_peak", "P_peak", "kW", "Peak power at the main shaft", lambda torque_peak, main_shaft_speed: torque_peak * main_shaft_speed)
 torques.value("greatest_power_mean", "P_g,mean", "kW", "Mean power of the largest consumer alone",
-              lambda greatest_mean, main_shaft_speed: greatest_mean * main_shaft_speed)
+    lambda greatest_mean, main_shaft_speed: greatest_mean * main_shaft_speed)
 torques.value("greatest_power_peak", "P_g,peak", "kW", "Peak power of the largest consumer alone",
-              lambda greatest_peak, main_shaft_speed: greatest_peak * main_shaft_speed)
+    lambda greatest_peak, main_shaft_speed: greatest_peak * main_shaft_speed)
 torques.value("torque_excess", "ΔM", "N*m", "Torque in excess of its mean", lambda main_shaft_torque, torque_mean: main_shaft_torque - torque_mean,
-              output=False)
+    output=False)
 torques.accumulated("excess_energy", "E_x", "J", "Energy taken in excess of the mean, from the start of the period", of="torque_excess")
 torques.reduction("energy_fluctuation", "ΔE", "J", "Range of the excess energy over the common period", "range", of="excess_energy")
 for name, symbol, words, quantity, by in (
@@ -232,4 +225,4 @@ for name, symbol, words, quantity, by in (
 ):
     torques.value(name, symbol, "1", words, bind(common.quotient, quantity=quantity, by=by), exists=bind(common.is_positive, quantity=by))
 torques.value("torque_curve_turns", "N_t", "1", "Revolutions of the main shaft spanned by the torque curve",
-              lambda sheets_per_period: sheets_per_period)
+    lambda sheets_per_period: sheets_per_period)

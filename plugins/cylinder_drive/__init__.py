@@ -20,7 +20,7 @@ MECHANISM = Mechanism(
             "crank.",
     inputs=CylinderDrive,
     example=EXAMPLE,
-    chapters=(linkage.linkage_chapter, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
+    chapters=(linkage.linkage, linkage.stroke, linkage.cutting, linkage.kinematics, forces.moments, forces.torque, forces.energy,
               timing.contact, forces.clearance, timing.phases, forces.teeth, forces.joints),
     key_results=("swing_angle", "sector_ratio", "stroke", "velocity_max", "acceleration_max", "cutting_moment", "crank_torque_peak",
                  "crank_torque_mean", "crank_torque_rms", "power_mean", "power_peak", "clearance_outer_time", "clearance_inner_time",

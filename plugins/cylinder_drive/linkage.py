@@ -6,7 +6,7 @@ import numpy as np
 
 from diecut_report.api import Bound, Chapter, Formula, Steps, as_angle, bind, case
 from diecut_report.mechanics import common, four_bar
-from diecut_report.plugins.cylinder_drive import motion
+from diecut_report.plugins.cylinder_drive import loads
 
 # fmt: off
 
@@ -24,31 +24,27 @@ def _cutting_edge(name: str, symbol: str, description: str, dead_center: Bound, 
     return steps
 
 
-linkage_chapter = Chapter("Linkage and its dead centres",
+linkage = Chapter("Linkage and its dead centres",
     text="Lengths are relative to the crank. The crank angle is counted from the frame line O₁O₃, counter-clockwise.")
-linkage_chapter.value("grashof_demand", "Σ_1", "1", "Sum of the shortest and longest links, in crank lengths",
+linkage.value("grashof_demand", "Σ_1", "1", "Sum of the shortest and longest links, in crank lengths",
     lambda frame_ratio, coupler_ratio, rocker_ratio: 1 + np.maximum(frame_ratio, np.maximum(coupler_ratio, rocker_ratio)), output=False)
-linkage_chapter.value("grashof_limit", "Σ_2", "1", "Sum of the other two links, in crank lengths",
-    lambda frame_ratio, coupler_ratio, rocker_ratio:
+linkage.value("grashof_limit", "Σ_2", "1", "Sum of the other two links, in crank lengths", lambda frame_ratio, coupler_ratio, rocker_ratio:
         frame_ratio + coupler_ratio + rocker_ratio - np.maximum(frame_ratio, np.maximum(coupler_ratio, rocker_ratio)), output=False)
-linkage_chapter.require("crank_rocker", four_bar.is_crank_rocker, key="rocker_ratio",
+linkage.require("crank_rocker", four_bar.is_crank_rocker, key="rocker_ratio",
     message="gives no crank-rocker: with frame_ratio = {frame_ratio}, coupler_ratio = {coupler_ratio} and rocker_ratio = {rocker_ratio} the crank "
         "(1) must be the shortest link, and it and the longest one ({grashof_demand} together) shorter than the other two together "
         "({grashof_limit}) (Grashof); change the ratios so that both hold")
-linkage_chapter.value("outer_direction", "γ_3", "deg", "Direction of the rocker at its outer dead centre", four_bar.outer_rocker_direction,
+linkage.value("outer_direction", "γ_3", "deg", "Direction of the rocker at its outer dead centre", four_bar.outer_rocker_direction,
     source="000 eq. 5", output=False)
-linkage_chapter.value("swing_angle", "δ_max", "deg", "Swing of the rocker", four_bar.swing_angle, source="000 eq. 5, both dead centres", digits=6)
-linkage_chapter.value("dead_center_outer", "φ_out", "deg", "Crank angle of the outer dead centre", four_bar.outer_dead_center, source="closed form",
-    digits=6)
-linkage_chapter.value("dead_center_inner", "φ_in", "deg", "Crank angle of the inner dead centre", four_bar.inner_dead_center, source="closed form",
-    digits=6)
-linkage_chapter.value("time_ratio", "k_t", "1", "Time ratio of the forward to the return stroke",
+linkage.value("swing_angle", "δ_max", "deg", "Swing of the rocker", four_bar.swing_angle, source="000 eq. 5, both dead centres", digits=6)
+linkage.value("dead_center_outer", "φ_out", "deg", "Crank angle of the outer dead centre", four_bar.outer_dead_center, source="closed form", digits=6)
+linkage.value("dead_center_inner", "φ_in", "deg", "Crank angle of the inner dead centre", four_bar.inner_dead_center, source="closed form", digits=6)
+linkage.value("time_ratio", "k_t", "1", "Time ratio of the forward to the return stroke",
     lambda dead_center_outer, dead_center_inner: (dead_center_inner - dead_center_outer) / (2 * np.pi - (dead_center_inner - dead_center_outer)))
-linkage_chapter.value("transmission_angle_min", "μ_1", "deg", "Minimum transmission angle, at φ = 0", four_bar.least_transmission_angle,
+linkage.value("transmission_angle_min", "μ_1", "deg", "Minimum transmission angle, at φ = 0", four_bar.least_transmission_angle, source="000 eq. 4")
+linkage.value("transmission_angle_max", "μ_2", "deg", "Maximum transmission angle, at φ = 180°", four_bar.greatest_transmission_angle,
     source="000 eq. 4")
-linkage_chapter.value("transmission_angle_max", "μ_2", "deg", "Maximum transmission angle, at φ = 180°", four_bar.greatest_transmission_angle,
-    source="000 eq. 4")
-linkage_chapter.value("transmission_angle_worst", "μ_w", "deg", "Worst transmission angle; for an obtuse angle its supplement",
+linkage.value("transmission_angle_worst", "μ_w", "deg", "Worst transmission angle; for an obtuse angle its supplement",
     lambda transmission_angle_min, transmission_angle_max: np.minimum(transmission_angle_min, np.pi - transmission_angle_max), output=False)
 
 stroke = Chapter("Sector ratio and stroke")
@@ -56,7 +52,7 @@ stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: as given",
     bind(lambda sector_ratio: sector_ratio, sector_ratio="inputs.sector_ratio"), source="input", needs=("sector_ratio",), digits=6)
 stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: the full swing turns the cylinder by one revolution",
     lambda swing_angle: 2 * np.pi / swing_angle, lacks=("sector_ratio",), digits=6)
-stroke.value("stroke", "S_max", "mm", "Stroke of the cylinder's axis", bind(motion.rolled, angle="swing_angle"), source="000 eq. 8")
+stroke.value("stroke", "S_max", "mm", "Stroke of the cylinder's axis", bind(loads.rolled, angle="swing_angle"), source="000 eq. 8")
 stroke.value("stroke_error", "Δθ", "deg", "Deviation of the rotation over the stroke from one revolution",
     lambda sector_ratio, swing_angle: abs(sector_ratio * swing_angle - 2 * np.pi), output=False)
 
@@ -116,7 +112,7 @@ kinematics.value("coupler_speed_ratio", "ω_2i", "1", "Ratio of the coupler's an
     source="000, after eq. 7", output=False)
 kinematics.value("rocker_acceleration_ratio", "ε_3i", "1", "Ratio of the rocker's angular acceleration to the square of the crank's speed",
     four_bar.rocker_acceleration_ratio, source="000 eq. 7", output=False)
-kinematics.value("displacement", "S", "mm", "Displacement of the cylinder", bind(motion.rolled, angle="rocker_angle"), source="000 eq. 8")
+kinematics.value("displacement", "S", "mm", "Displacement of the cylinder", bind(loads.rolled, angle="rocker_angle"), source="000 eq. 8")
 kinematics.value("velocity", "V", "m/s", "Velocity of the cylinder",
     lambda rocker_speed_ratio, crank_speed, sector_ratio, cylinder_radius: rocker_speed_ratio * crank_speed * sector_ratio * cylinder_radius,
     source="000 eq. 9")

@@ -1,4 +1,4 @@
-"""Formulas of the drive's moments, torque, energy, clearance and forces."""
+"""Formulas of the drive's motion, moments, torque, energy, clearance and forces."""
 
 from __future__ import annotations
 
@@ -7,6 +7,12 @@ from typing import Any
 import numpy as np
 
 from diecut_report.api import GRAVITY, arccos, formula
+
+
+@formula
+def rolled(angle: Any, sector_ratio: Any, cylinder_radius: Any) -> Any:
+    """Rolled length, speed or acceleration of the cylinder from the rocker's angle or its derivative."""
+    return angle * sector_ratio * cylinder_radius
 
 
 @formula

@@ -24,7 +24,7 @@ MECHANISM = Mechanism(
             "from the torque over a revolution, and, where there is one, the toothed belt that rolls the cylinder.",
     inputs=DriveTrain,
     example=EXAMPLE,
-    chapters=(chain.speeds, vbelt.vbelt_chapter, chain.efficiency, chain.turn, chain.powers, chain.balance, motor.motor_chapter, vbelt.count,
+    chapters=(chain.speeds, vbelt.vbelt, chain.efficiency, chain.turn, chain.powers, chain.balance, motor.motor, vbelt.count,
               vbelt.tensions, motor.flywheel, motor.run_up, *TOOTHED_BELT),
     key_results=("output_speed", "driven_diameter", "vbelt_standard_length", "center_distance", "vbelt_count", "power_required",
                  "motor_power", "energy_fluctuation", "flywheel_inertia", "flywheel_diameter", "flywheel_mass", "run_up_time",

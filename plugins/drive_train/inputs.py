@@ -7,6 +7,8 @@ from typing import Any, Literal
 from diecut_report.api import POINTS, Annotated, Block, CurveInput, Inputs, Quantity, Text
 from diecut_report.plugins.drive_train.toothed_belt import ToothedBelt
 
+# fmt: off
+
 Section = Literal["SPZ", "SPA", "SPB", "SPC"]  # those with confirmed standard lengths
 
 
@@ -16,123 +18,58 @@ class GearPair(Block):
     driver_teeth: Annotated[int, Quantity("z_1", "1", "Number of teeth of the driving gear", ge=12, integer=True)]
     driven_teeth: Annotated[int, Quantity("z_2", "1", "Number of teeth of the driven gear", ge=12, integer=True)]
     efficiency: Annotated[float, Quantity("η_k", "1", "Efficiency of the pair", gt=0, le=1)] = 0.97
-    form: Annotated[
-        Literal["spur", "bevel"], Text("Type of the pair: parallel shafts, or shafts crossing at a right angle")
-    ] = "spur"
+    form: Annotated[Literal["spur", "bevel"], Text("Type of the pair: parallel shafts, or shafts crossing at a right angle")] = "spur"
 
 
 class VBelt(Block):
     """The V-belt drive from the motor's shaft to the flywheel's."""
 
     section: Annotated[Section, Text("Section of the V-belt (ISO 4184)")] = "SPA"
-    driver_diameter: Annotated[
-        float, Quantity("d_1", "mm", "Datum diameter of the motor pulley, not less than the section's minimum", gt=0)
-    ]
-    center_distance: Annotated[
-        float, Quantity("a_0", "mm", "Wanted centre distance of the shafts; it is corrected for a standard belt", gt=0)
-    ]
+    driver_diameter: Annotated[float, Quantity("d_1", "mm", "Datum diameter of the motor pulley, not less than the section's minimum", gt=0)]
+    center_distance: Annotated[float, Quantity("a_0", "mm", "Wanted centre distance of the shafts; it is corrected for a standard belt", gt=0)]
     efficiency: Annotated[float, Quantity("η_b", "1", "Efficiency of the V-belt", gt=0, le=1)] = 0.95
-    groove_friction: Annotated[
-        float,
-        Quantity(
-            "μ_g",
-            "1",
-            "Effective coefficient of friction in the grooves, μ/sin(half the groove angle), for the belt tension; 0.5123 gives tensions of 5 : "
-            "1 at half a turn of wrap, the usual reserve against slip",
-            gt=0,
-            le=2,
-        ),
-    ] = 0.5123
-    service_factor: Annotated[
-        float,
-        Quantity(
-            "c_2",
-            "1",
-            "Service factor on the motor's power: light 1.1, medium 1.2, heavy duty 1.3 at up to 16 hours per day (Optibelt)",
-            ge=1,
-            le=2,
-        ),
-    ] = 1.3
-    count: Annotated[
-        int | None,
-        Quantity("z_g", "1", "Number of belts mounted, if not the minimum number", ge=1, le=32, integer=True),
-    ] = None
-    tension: Annotated[
-        float | None,
-        Quantity("F_Tg", "N", "Static tension of one belt as set; default: the required tension", gt=0),
-    ] = None
+    groove_friction: Annotated[float,
+        Quantity("μ_g", "1",
+            "Effective coefficient of friction in the grooves, μ/sin(half the groove angle), for the belt tension; 0.5123 gives tensions "
+                "of 5 : 1 at half a turn of wrap, the usual reserve against slip", gt=0, le=2)] = 0.5123
+    service_factor: Annotated[float,
+        Quantity("c_2", "1", "Service factor on the motor's power: light 1.1, medium 1.2, heavy duty 1.3 at up to 16 hours per day (Optibelt)",
+            ge=1, le=2)] = 1.3
+    count: Annotated[int | None, Quantity("z_g", "1", "Number of belts mounted, if not the minimum number", ge=1, le=32, integer=True)] = None
+    tension: Annotated[float | None, Quantity("F_Tg", "N", "Static tension of one belt as set; default: the required tension", gt=0)] = None
 
 
 class DriveTrain(Inputs):
     """Keys of ``drive_train``."""
 
     motor_speed: Annotated[float, Quantity("n_m", "rpm", "Speed of the motor under load", gt=0)]
-    output_speed: Annotated[
-        float, Quantity("n_0", "rpm", "Required speed of the output shaft, normally the crank shaft", gt=0)
-    ]
-    torque_mean: Annotated[
-        float,
-        Quantity(
-            "M_mean", "N*m", "Mean torque at the output shaft; if a torque curve is given, its mean is used", ge=0
-        ),
-    ]
+    output_speed: Annotated[float, Quantity("n_0", "rpm", "Required speed of the output shaft, normally the crank shaft", gt=0)]
+    torque_mean: Annotated[float, Quantity("M_mean", "N*m", "Mean torque at the output shaft; if a torque curve is given, its mean is used", ge=0)]
     torque_peak: Annotated[float, Quantity("M_peak", "N*m", "Maximum absolute torque at the output shaft", ge=0)]
-    torque_curve: Annotated[
-        Any | None,
-        CurveInput(
-            "M",
-            "N*m",
+    torque_curve: Annotated[Any | None,
+        CurveInput("M", "N*m",
             "Torque over the revolutions of the output shaft after which it repeats, negative where the load drives; required for sizing a "
-            "flywheel",
-        ),
-    ] = None
-    torque_curve_turns: Annotated[
-        int,
-        Quantity("k_T", "1", "Revolutions of the output shaft that torque_curve spans", ge=1, le=64, integer=True),
-    ] = 1
+                "flywheel")] = None
+    torque_curve_turns: Annotated[int, Quantity("k_T", "1", "Revolutions of the output shaft that torque_curve spans", ge=1, le=64, integer=True)] = 1
     gears: Annotated[list[GearPair], Text("Gear pairs between the flywheel's shaft and the output shaft")] = []  # noqa: RUF012
     vbelt: Annotated[VBelt, Text("V-belt from the motor to the flywheel's shaft")]
-    speed_fluctuation: Annotated[
-        float,
-        Quantity("δ", "1", "Acceptable speed fluctuation of the flywheel: (maximum − minimum)/mean", gt=0, lt=1),
-    ] = 0.1
-    power_per_belt: Annotated[
-        float | None,
-        Quantity(
-            "P_0",
-            "kW",
+    speed_fluctuation: Annotated[float,
+        Quantity("δ", "1", "Acceptable speed fluctuation of the flywheel: (maximum − minimum)/mean", gt=0, lt=1)] = 0.1
+    power_per_belt: Annotated[float | None,
+        Quantity("P_0", "kW",
             "Power rating of one belt, from the manufacturer's table for pulley and speed at half a turn of wrap and the reference length; "
-            "required for the number of belts",
-            gt=0,
-        ),
-    ] = None
+                "required for the number of belts", gt=0)] = None
     flywheel_material: Annotated[Literal["steel", "cast_iron"], Text("Material of the flywheel")] = "steel"
     reserve_factor: Annotated[float, Quantity("k_r", "1", "Reserve factor on the motor's power", ge=1)] = 1.2
-    synchronous_speed: Annotated[
-        float | None,
-        Quantity("n_s", "rpm", "Synchronous speed of the motor; default: the next above motor_speed at 50 Hz", gt=0),
-    ] = None
-    breakdown_ratio: Annotated[
-        float, Quantity("k_b", "1", "Ratio of breakdown torque to rated torque of the motor", ge=1)
-    ] = 2.2
-    run_up_torque_ratio: Annotated[
-        float, Quantity("k_a", "1", "Ratio of mean run-up torque to rated torque of the motor", gt=0)
-    ] = 1.6
-    run_up_load: Annotated[
-        float,
-        Quantity("k_l", "1", "Fraction of the mean torque that loads the motor during run-up (0: disengaged)", ge=0),
-    ] = 1.0
-    motor_inertia: Annotated[
-        float | None, Quantity("J_m", "kg*m**2", "Moment of inertia of the motor's rotor and pulley", ge=0)
-    ] = None
-    load_inertia: Annotated[
-        float | None,
-        Quantity(
-            "J_l", "kg*m**2", "Moment of inertia that runs up with the output shaft, referred to that shaft", ge=0
-        ),
-    ] = None
-    allowable_run_up_time: Annotated[
-        float, Quantity("[t_a]", "s", "Maximum run-up time permitted by the motor's protection (trip class 10)", gt=0)
-    ] = 10
+    synchronous_speed: Annotated[float | None,
+        Quantity("n_s", "rpm", "Synchronous speed of the motor; default: the next above motor_speed at 50 Hz", gt=0)] = None
+    breakdown_ratio: Annotated[float, Quantity("k_b", "1", "Ratio of breakdown torque to rated torque of the motor", ge=1)] = 2.2
+    run_up_torque_ratio: Annotated[float, Quantity("k_a", "1", "Ratio of mean run-up torque to rated torque of the motor", gt=0)] = 1.6
+    run_up_load: Annotated[float, Quantity("k_l", "1", "Fraction of the mean torque that loads the motor during run-up (0: disengaged)", ge=0)] = 1.0
+    motor_inertia: Annotated[float | None, Quantity("J_m", "kg*m**2", "Moment of inertia of the motor's rotor and pulley", ge=0)] = None
+    load_inertia: Annotated[float | None,
+        Quantity("J_l", "kg*m**2", "Moment of inertia that runs up with the output shaft, referred to that shaft", ge=0)] = None
+    allowable_run_up_time: Annotated[float,
+        Quantity("[t_a]", "s", "Maximum run-up time permitted by the motor's protection (trip class 10)", gt=0)] = 10
     toothed_belt: Annotated[ToothedBelt | None, Text("Toothed belt that rolls the cylinder")] = None
     n_points: Annotated[int, POINTS] = 720

@@ -17,17 +17,16 @@ RIM_SPEEDS = {"steel": 60.0, "cast_iron": 35.0}  # m/s
 
 # fmt: off
 
-motor_chapter = Chapter("Motor")
-motor_chapter.value("power_required", "P_req", "kW", "Required motor power, including the reserve",
+motor = Chapter("Motor")
+motor.value("power_required", "P_req", "kW", "Required motor power, including the reserve",
     lambda shaft_1_power, reserve_factor: shaft_1_power * reserve_factor, source="this method")
-motor_chapter.pick("motor_power", "P_r", "kW", "Rated power of the motor", "above", of="power_required", series=RATINGS, beyond="last",
-    source="IEC 60072-1")
-motor_chapter.value("motor_rated_torque", "M_r", "N*m", "Rated torque of the motor", lambda motor_power, shaft_1_speed: motor_power / shaft_1_speed,
+motor.pick("motor_power", "P_r", "kW", "Rated power of the motor", "above", of="power_required", series=RATINGS, beyond="last", source="IEC 60072-1")
+motor.value("motor_rated_torque", "M_r", "N*m", "Rated torque of the motor", lambda motor_power, shaft_1_speed: motor_power / shaft_1_speed,
     source="mechanics")
-motor_chapter.value("motor_peak_torque", "M_1,peak", "N*m", "Peak torque of the output, referred to the motor",
+motor.value("motor_peak_torque", "M_1,peak", "N*m", "Peak torque of the output, referred to the motor",
     lambda torque_peak, gear_ratio_total, vbelt_ratio_actual, efficiency_total:
         torque_peak / (gear_ratio_total * vbelt_ratio_actual * efficiency_total), source="this method", lacks=("torque_curve",))
-motor_chapter.value("motor_breakdown_torque", "M_br", "N*m", "Breakdown torque of the motor",
+motor.value("motor_breakdown_torque", "M_br", "N*m", "Breakdown torque of the motor",
     lambda breakdown_ratio, motor_rated_torque: breakdown_ratio * motor_rated_torque, source="this method", lacks=("torque_curve",))
 
 flywheel = Chapter("Flywheel",

@@ -26,56 +26,55 @@ RATIO_TOO_GREAT = (
     "{motor_speed} to output_speed = {inputs.output_speed} it is {total_ratio}, of which the gears have {gear_ratio_total}"
 )
 
-vbelt_chapter = Chapter("V-belt",
+vbelt = Chapter("V-belt",
     text="The belt length follows exactly from its two spans and two arcs. The nearest standard length corrects the centre distance. Radii are "
         "those of the datum line.")
-vbelt_chapter.lookup("least_driver_diameter", "d_min", "mm", "Minimum datum diameter of the section's pulleys",
-    standard_table("vbelt_least_diameter"), by="vbelt.section", source="ISO 4183", output=False)
-vbelt_chapter.value("vbelt_speed", "v", "m/s", "Speed of the belt", bind(belts.rim_speed, speed="shaft_1_speed", diameter="vbelt.driver_diameter"),
+vbelt.lookup("least_driver_diameter", "d_min", "mm", "Minimum datum diameter of the section's pulleys", standard_table("vbelt_least_diameter"),
+    by="vbelt.section", source="ISO 4183", output=False)
+vbelt.value("vbelt_speed", "v", "m/s", "Speed of the belt", bind(belts.rim_speed, speed="shaft_1_speed", diameter="vbelt.driver_diameter"),
     source="kinematics")
-vbelt_chapter.value("small_radius", "r_1", "mm", "Radius of the smaller pulley",
+vbelt.value("small_radius", "r_1", "mm", "Radius of the smaller pulley",
     bind(lambda driver_diameter, driven_diameter: np.minimum(driver_diameter, driven_diameter) / 2, driver_diameter="vbelt.driver_diameter"),
     output=False)
-vbelt_chapter.value("large_radius", "r_2", "mm", "Radius of the larger pulley",
+vbelt.value("large_radius", "r_2", "mm", "Radius of the larger pulley",
     bind(lambda driver_diameter, driven_diameter: np.maximum(driver_diameter, driven_diameter) / 2, driver_diameter="vbelt.driver_diameter"),
     output=False)
-vbelt_chapter.value("least_center_distance", "a_min", "mm", "Centre distance at which the pulleys touch",
+vbelt.value("least_center_distance", "a_min", "mm", "Centre distance at which the pulleys touch",
     lambda small_radius, large_radius: small_radius + large_radius, output=False)
-vbelt_chapter.lookup("shortest_belt", "L_min", "mm", "Shortest standard belt of the section",
+vbelt.lookup("shortest_belt", "L_min", "mm", "Shortest standard belt of the section",
     {name: series.values[0] for name, series in belts.LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
-vbelt_chapter.lookup("longest_belt", "L_max", "mm", "Longest standard belt of the section",
+vbelt.lookup("longest_belt", "L_max", "mm", "Longest standard belt of the section",
     {name: series.values[-1] for name, series in belts.LENGTHS.items()}, by="vbelt.section", source="ISO 4184", output=False)
-vbelt_chapter.require("ratio_leaves_room", bind(belts.ratio_leaves_room, least="least_center_distance", **RATIO), key="gears",
-    message=RATIO_TOO_GREAT, advise=("gears.driven_teeth",))
-vbelt_chapter.require("driver_large_enough",
+vbelt.require("ratio_leaves_room", bind(belts.ratio_leaves_room, least="least_center_distance", **RATIO), key="gears", message=RATIO_TOO_GREAT,
+    advise=("gears.driven_teeth",))
+vbelt.require("driver_large_enough",
     bind(lambda least_driver_diameter, driver_diameter: least_driver_diameter <= driver_diameter, driver_diameter="vbelt.driver_diameter"),
     key="vbelt.driver_diameter",
     message="is {vbelt.driver_diameter}, but a belt of section {vbelt.section} needs pulleys of {least_driver_diameter} or more: take a larger "
         "pulley or a smaller section", advise=(Vary("vbelt.driver_diameter", "up", belts.PULLEYS),))
-vbelt_chapter.require("pulleys_apart", bind(belts.has_room, least="least_center_distance", **RATIO), key="vbelt.center_distance",
+vbelt.require("pulleys_apart", bind(belts.has_room, least="least_center_distance", **RATIO), key="vbelt.center_distance",
     message="is {vbelt.center_distance}, but pulleys of {vbelt.driver_diameter} and {driven_diameter} overlap up to {least_center_distance:up}",
     advise=DISTANCE)
-vbelt_chapter.value("vbelt_length", "L_0", "mm", "Belt length at the wanted centre distance",
+vbelt.value("vbelt_length", "L_0", "mm", "Belt length at the wanted centre distance",
     bind(belt_path.open_belt_length, center_distance="vbelt.center_distance", **PULLEYS), source="geometry")
-vbelt_chapter.require("ratio_leaves_belt", bind(belts.ratio_leaves_belt, **RANGE), key="gears", message=RATIO_TOO_GREAT,
-    advise=("gears.driven_teeth",))
-vbelt_chapter.require("belt_exists", bind(belts.has_belt, **RANGE), key="vbelt.center_distance",
+vbelt.require("ratio_leaves_belt", bind(belts.ratio_leaves_belt, **RANGE), key="gears", message=RATIO_TOO_GREAT, advise=("gears.driven_teeth",))
+vbelt.require("belt_exists", bind(belts.has_belt, **RANGE), key="vbelt.center_distance",
     message="is {vbelt.center_distance}; that takes a belt of {vbelt_length}, but section {vbelt.section} has standard lengths of {shortest_belt} … "
         "{longest_belt}", advise=DISTANCE)
-vbelt_chapter.pick("vbelt_standard_length", "L", "mm", "Standard length of the belt", "nearest", of="vbelt_length", series=belts.LENGTHS,
-    source="ISO 4184", by="vbelt.section")
-vbelt_chapter.value("least_belt", "L_t", "mm", "Belt length with the pulleys touching",
+vbelt.pick("vbelt_standard_length", "L", "mm", "Standard length of the belt", "nearest", of="vbelt_length", series=belts.LENGTHS, source="ISO 4184",
+    by="vbelt.section")
+vbelt.value("least_belt", "L_t", "mm", "Belt length with the pulleys touching",
     bind(belt_path.open_belt_length, center_distance="least_center_distance", **PULLEYS), output=False)
-vbelt_chapter.require("standard_belt_fits", lambda least_belt, vbelt_standard_length: least_belt < vbelt_standard_length, key="vbelt.center_distance",
+vbelt.require("standard_belt_fits", lambda least_belt, vbelt_standard_length: least_belt < vbelt_standard_length, key="vbelt.center_distance",
     message="is {vbelt.center_distance}; the nearest standard belt, {vbelt_standard_length} long, draws the pulleys into each other "
         "({least_belt:up} is the least)", advise=DISTANCE)
-vbelt_chapter.root("center_distance", "a", "mm", "Centre distance, corrected for the standard belt",
+vbelt.root("center_distance", "a", "mm", "Centre distance, corrected for the standard belt",
     bind(belts.length_left_over, belt="vbelt_standard_length", **PULLEYS), low=lambda least_center_distance: least_center_distance,
     high=lambda vbelt_standard_length: vbelt_standard_length / 2, left=bind(belt_path.run_length, radius="small_radius", next_radius="large_radius"),
     right=bind(belts.run_left_by_arcs, belt="vbelt_standard_length", **PULLEYS), source="geometry")
-vbelt_chapter.value("vbelt_wrap", "β_1", "deg", "Wrap on the smaller pulley", bind(belt_path.wrap_small, **PULLEYS), source="geometry")
-vbelt_chapter.value("vbelt_wrap_large", "β_2", "deg", "Wrap on the larger pulley", bind(belt_path.wrap_large, wrap_small="vbelt_wrap"),
-    source="geometry", output=False)
+vbelt.value("vbelt_wrap", "β_1", "deg", "Wrap on the smaller pulley", bind(belt_path.wrap_small, **PULLEYS), source="geometry")
+vbelt.value("vbelt_wrap_large", "β_2", "deg", "Wrap on the larger pulley", bind(belt_path.wrap_large, wrap_small="vbelt_wrap"), source="geometry",
+    output=False)
 
 REFERENCE_LENGTHS = {"SPZ": 1600, "SPA": 2500, "SPB": 3550, "SPC": 5600}  # mm
 MASSES = {"SPZ": 0.07, "SPA": 0.12, "SPB": 0.20, "SPC": 0.37}  # kg/m

@@ -20,7 +20,7 @@ MECHANISM = Mechanism(
             "single rise.",
     inputs=ElasticFollower,
     example=EXAMPLE,
-    chapters=(motion.drive, motion.times, motion.by_law, motion.by_curve, response.response_chapter, response.settling, response.peaks_chapter,
+    chapters=(motion.drive, motion.times, motion.by_law, motion.by_curve, response.response, response.settling, response.extremes,
               response.compared),
     key_results=("natural_frequency", "tuning_ratio", "peak_ratio", "residual_ratio", "acceleration_peak", "acceleration_rigid", "overshoot",
                  "torque_peak", "recommended_law"),

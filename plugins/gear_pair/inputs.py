@@ -6,14 +6,14 @@ from typing import Any, ClassVar, Literal
 
 from diecut_report.api import POINTS, Annotated, Block, CurveInput, FromTable, Inputs, OneOf, Quantity, Text
 
+# fmt: off
+
 
 class Sector(Block):
     """Keys of the block ``sector``: the wheel is a part of a full circle and swings."""
 
     swing: Annotated[float, Quantity("γ", "deg", "Swing of the sector, from end to end", gt=0, lt=360)]
-    teeth_present: Annotated[int | None, Quantity("z_p", "1", "Number of teeth of the sector", ge=1, integer=True)] = (
-        None
-    )
+    teeth_present: Annotated[int | None, Quantity("z_p", "1", "Number of teeth of the sector", ge=1, integer=True)] = None
 
 
 OF_MATERIAL = ("sigma_h_lim", "sigma_f_lim", "elastic_modulus")
@@ -33,146 +33,51 @@ class ExternalGearPair(Inputs):
         for gear in (1, 2)
     )
 
-    module: Annotated[
-        float | None,
-        Quantity(
-            "m_n", "mm", "Normal module; if omitted, the smallest module of ISO 54 that is sufficient is selected", gt=0
-        ),
-    ] = None
+    module: Annotated[float | None,
+        Quantity("m_n", "mm", "Normal module; if omitted, the smallest module of ISO 54 that is sufficient is selected", gt=0)] = None
     teeth_1: Annotated[int, Quantity("z_1", "1", "Number of teeth of the pinion", ge=5, integer=True)]
-    teeth_2: Annotated[
-        int,
-        Quantity(
-            "z_2",
-            "1",
-            "Number of teeth of the wheel, not fewer; for a sector that of the full circle",
-            ge=5,
-            integer=True,
-        ),
-    ]
+    teeth_2: Annotated[int, Quantity("z_2", "1", "Number of teeth of the wheel, not fewer; for a sector that of the full circle", ge=5, integer=True)]
     face_width: Annotated[float, Quantity("b", "mm", "Common face width, the smaller of the two", gt=0)]
     helix_angle: Annotated[float, Quantity("β", "deg", "Helix angle at the reference circle", ge=0, le=30)] = 0
     pressure_angle: Annotated[float, Quantity("α_n", "deg", "Normal pressure angle", ge=14.5, le=25)] = 20
     shift_1: Annotated[float, Quantity("x_1", "1", "Profile shift coefficient of the pinion", ge=-1, le=1.5)] = 0
-    shift_2: Annotated[
-        float | None,
-        Quantity(
-            "x_2",
-            "1",
-            "Profile shift coefficient of the wheel; default: 0 without center_distance",
-            ge=-1,
-            le=1.5,
-        ),
-    ] = None
-    center_distance: Annotated[
-        float | None, Quantity("a", "mm", "Centre distance; determines the wheel's profile shift", gt=0)
-    ] = None
-    addendum: Annotated[float, Quantity("h_aP", "1", "Addendum factor of the basic rack (ISO 53, profile A)", gt=0)] = (
-        1.0
-    )
-    dedendum: Annotated[float, Quantity("h_fP", "1", "Dedendum factor of the basic rack (ISO 53, profile A)", gt=0)] = (
-        1.25
-    )
-    root_radius: Annotated[
-        float, Quantity("ρ_fP", "1", "Root fillet radius factor of the basic rack (ISO 53, profile A)", gt=0)
-    ] = 0.38
-    keep_clearance: Annotated[bool, Text("Tips shortened so that the tip clearance remains that of the basic rack")] = (
-        False
-    )
-    torque: Annotated[
-        float | None,
-        Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is used as torque_curve"),
-    ] = None
-    torque_curve: Annotated[
-        Any | None, CurveInput("T_φ", "N*m", "Torque over a cycle, signed, in the place of torque")
-    ] = None
+    shift_2: Annotated[float | None,
+        Quantity("x_2", "1", "Profile shift coefficient of the wheel; default: 0 without center_distance", ge=-1, le=1.5)] = None
+    center_distance: Annotated[float | None, Quantity("a", "mm", "Centre distance; determines the wheel's profile shift", gt=0)] = None
+    addendum: Annotated[float, Quantity("h_aP", "1", "Addendum factor of the basic rack (ISO 53, profile A)", gt=0)] = 1.0
+    dedendum: Annotated[float, Quantity("h_fP", "1", "Dedendum factor of the basic rack (ISO 53, profile A)", gt=0)] = 1.25
+    root_radius: Annotated[float, Quantity("ρ_fP", "1", "Root fillet radius factor of the basic rack (ISO 53, profile A)", gt=0)] = 0.38
+    keep_clearance: Annotated[bool, Text("Tips shortened so that the tip clearance remains that of the basic rack")] = False
+    torque: Annotated[float | None, Quantity("T", "N*m", "Torque, signed; a reference to a curve over a cycle is used as torque_curve")] = None
+    torque_curve: Annotated[Any | None, CurveInput("T_φ", "N*m", "Torque over a cycle, signed, in the place of torque")] = None
     torque_on: Annotated[Literal["pinion", "wheel"], Text("Gear on which the torque acts")] = "pinion"
-    speed: Annotated[
-        float | None, Quantity("n_1", "rpm", "Speed of the pinion; required for pitch line velocity and power", gt=0)
-    ] = None
-    application_factor: Annotated[
-        float | None,
-        Quantity("K_A", "1", "Application factor; default 1.25 (1 where a torque curve includes the dynamics)", ge=1),
-    ] = None
+    speed: Annotated[float | None, Quantity("n_1", "rpm", "Speed of the pinion; required for pitch line velocity and power", gt=0)] = None
+    application_factor: Annotated[float | None,
+        Quantity("K_A", "1", "Application factor; default 1.25 (1 where a torque curve includes the dynamics)", ge=1)] = None
     dynamic_factor: Annotated[float | None, Quantity("K_V", "1", "Dynamic factor; default 1.1", ge=1)] = None
-    face_load_factor: Annotated[
-        float | None, Quantity("K_Hβ", "1", "Face load factor for contact stress; default 1.3", ge=1)
-    ] = None
-    transverse_load_factor: Annotated[
-        float | None,
-        Quantity("K_Hα", "1", "Transverse load factor; default 1 for spur and 1.2 for helical teeth", ge=1),
-    ] = None
-    material_1: Annotated[
-        str | None,
-        Text("Material of the pinion: an entry of gear_materials in a table of your own, in place of its limits"),
-    ] = None
-    material_2: Annotated[
-        str | None,
-        Text("Material of the wheel: an entry of gear_materials in a table of your own, in place of its limits"),
-    ] = None
-    sigma_h_lim_1: Annotated[
-        float, Quantity("σ_Hlim1", "MPa", "Allowable contact stress number of the pinion (ISO 6336-5)", gt=0)
-    ]
-    sigma_h_lim_2: Annotated[
-        float, Quantity("σ_Hlim2", "MPa", "Allowable contact stress number of the wheel (ISO 6336-5)", gt=0)
-    ]
-    sigma_f_lim_1: Annotated[
-        float,
-        Quantity(
-            "σ_Flim1", "MPa", "Nominal bending stress number of the pinion (ISO 6336-5; σ_FE is twice this)", gt=0
-        ),
-    ]
-    sigma_f_lim_2: Annotated[
-        float,
-        Quantity("σ_Flim2", "MPa", "Nominal bending stress number of the wheel (ISO 6336-5; σ_FE is twice this)", gt=0),
-    ]
-    elastic_modulus_1: Annotated[float, Quantity("E_1", "GPa", "Modulus of elasticity of the pinion (steel)", gt=0)] = (
-        206
-    )
-    elastic_modulus_2: Annotated[float, Quantity("E_2", "GPa", "Modulus of elasticity of the wheel (steel)", gt=0)] = (
-        206
-    )
-    life_factor_h_1: Annotated[
-        float, Quantity("Z_NT1", "1", "Life factor of the pinion for contact stress", ge=0.85, le=1.6)
-    ] = 1
-    life_factor_h_2: Annotated[
-        float, Quantity("Z_NT2", "1", "Life factor of the wheel for contact stress", ge=0.85, le=1.6)
-    ] = 1
-    life_factor_f_1: Annotated[
-        float, Quantity("Y_NT1", "1", "Life factor of the pinion for tooth root stress", ge=0.85, le=2.5)
-    ] = 1
-    life_factor_f_2: Annotated[
-        float, Quantity("Y_NT2", "1", "Life factor of the wheel for tooth root stress", ge=0.85, le=2.5)
-    ] = 1
-    film_factor: Annotated[
-        float,
-        Quantity(
-            "Z_LRvWX",
-            "1",
-            "Product of the factors for lubricant film, roughness, speed, work hardening and size",
-            ge=0.5,
-            le=1.3,
-        ),
-    ] = 1
-    notch_size_factor: Annotated[
-        float,
-        Quantity("Y_δRX", "1", "Product of the factors for notch sensitivity, roughness and size", ge=0.5, le=1.3),
-    ] = 1
-    alternating_factor: Annotated[
-        float | None,
-        Quantity(
-            "Y_M",
-            "1",
-            "Mean stress influence factor; default 0.7 where the torque reverses, otherwise 1",
-            gt=0,
-            le=1,
-        ),
-    ] = None
-    required_pitting_safety: Annotated[
-        float, Quantity("S_Hmin", "1", "Required safety factor against pitting", ge=1)
-    ] = 1.0
-    required_root_safety: Annotated[
-        float, Quantity("S_Fmin", "1", "Required safety factor against tooth breakage", ge=1)
-    ] = 1.4
+    face_load_factor: Annotated[float | None, Quantity("K_Hβ", "1", "Face load factor for contact stress; default 1.3", ge=1)] = None
+    transverse_load_factor: Annotated[float | None,
+        Quantity("K_Hα", "1", "Transverse load factor; default 1 for spur and 1.2 for helical teeth", ge=1)] = None
+    material_1: Annotated[str | None,
+        Text("Material of the pinion: an entry of gear_materials in a table of your own, in place of its limits")] = None
+    material_2: Annotated[str | None, Text("Material of the wheel: an entry of gear_materials in a table of your own, in place of its limits")] = None
+    sigma_h_lim_1: Annotated[float, Quantity("σ_Hlim1", "MPa", "Allowable contact stress number of the pinion (ISO 6336-5)", gt=0)]
+    sigma_h_lim_2: Annotated[float, Quantity("σ_Hlim2", "MPa", "Allowable contact stress number of the wheel (ISO 6336-5)", gt=0)]
+    sigma_f_lim_1: Annotated[float, Quantity("σ_Flim1", "MPa", "Nominal bending stress number of the pinion (ISO 6336-5; σ_FE is twice this)", gt=0)]
+    sigma_f_lim_2: Annotated[float, Quantity("σ_Flim2", "MPa", "Nominal bending stress number of the wheel (ISO 6336-5; σ_FE is twice this)", gt=0)]
+    elastic_modulus_1: Annotated[float, Quantity("E_1", "GPa", "Modulus of elasticity of the pinion (steel)", gt=0)] = 206
+    elastic_modulus_2: Annotated[float, Quantity("E_2", "GPa", "Modulus of elasticity of the wheel (steel)", gt=0)] = 206
+    life_factor_h_1: Annotated[float, Quantity("Z_NT1", "1", "Life factor of the pinion for contact stress", ge=0.85, le=1.6)] = 1
+    life_factor_h_2: Annotated[float, Quantity("Z_NT2", "1", "Life factor of the wheel for contact stress", ge=0.85, le=1.6)] = 1
+    life_factor_f_1: Annotated[float, Quantity("Y_NT1", "1", "Life factor of the pinion for tooth root stress", ge=0.85, le=2.5)] = 1
+    life_factor_f_2: Annotated[float, Quantity("Y_NT2", "1", "Life factor of the wheel for tooth root stress", ge=0.85, le=2.5)] = 1
+    film_factor: Annotated[float,
+        Quantity("Z_LRvWX", "1", "Product of the factors for lubricant film, roughness, speed, work hardening and size", ge=0.5, le=1.3)] = 1
+    notch_size_factor: Annotated[float,
+        Quantity("Y_δRX", "1", "Product of the factors for notch sensitivity, roughness and size", ge=0.5, le=1.3)] = 1
+    alternating_factor: Annotated[float | None,
+        Quantity("Y_M", "1", "Mean stress influence factor; default 0.7 where the torque reverses, otherwise 1", gt=0, le=1)] = None
+    required_pitting_safety: Annotated[float, Quantity("S_Hmin", "1", "Required safety factor against pitting", ge=1)] = 1.0
+    required_root_safety: Annotated[float, Quantity("S_Fmin", "1", "Required safety factor against tooth breakage", ge=1)] = 1.4
     sector: Annotated[Sector | None, Text("The wheel is an oscillating sector")] = None
     n_points: Annotated[int, POINTS] = 360

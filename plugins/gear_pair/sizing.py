@@ -60,15 +60,15 @@ def _value(step: Value, known: dict[str, Any]) -> Any:
 
 # fmt: off
 
-module = Chapter("Module", text="The rating below is evaluated with each module of the preferred series; the smallest one with which flank and "
-                                "root of both gears reach their required safety factors is selected.")
+module = Chapter("Module",
+    text="The rating below is evaluated with each module of the preferred series; the smallest one with which flank and root of both gears reach "
+        "their required safety factors is selected.")
 module.computed("module_least", "m_min", "mm", "Smallest sufficient preferred module", function=least_module, takes=TAKES,
-                method="the safety factors for pitting and tooth root below, with each module of ISO 54, series I, in turn; 0 where none is "
-                       "sufficient",
-                lacks=GIVEN_DISTANCE, output=False)
+    method="the safety factors for pitting and tooth root below, with each module of ISO 54, series I, in turn; 0 where none is sufficient",
+    lacks=GIVEN_DISTANCE, output=False)
 module.require("module_exists", lambda module_least: module_least > 0, key="face_width", lacks=("module",),
-               message="is {face_width}, with which no module of ISO 54 carries the torque; better steel or a smaller torque helps",
-               advise=(Vary("face_width", "up"),))
+    message="is {face_width}, with which no module of ISO 54 carries the torque; better steel or a smaller torque helps",
+    advise=(Vary("face_width", "up"),))
 module.pick("module", "m_n", "mm", "Normal module: the smallest sufficient one", "above", of="module_least", series=MODULES, lacks=("module",),
-            source="ISO 54")
+    source="ISO 54")
 module.value("module", "m_n", "mm", "Normal module: as given", bind(lambda given: given, given="inputs.module"), needs=("module",), source="input")

@@ -36,9 +36,7 @@ class TransportComparison(Inputs):
 
     dwell_share: Annotated[float, Quantity("T_2", "1", "Cam-gear: dwell fraction of the cycle")]
     sector_dwell_sweep: Annotated[float, Quantity("γ_32", "deg", "Cam-gear: sweep of the sector in the dwell")]
-    sector_stop_sweep: Annotated[
-        float, Quantity("γ_3(3+1)", "deg", "Cam-gear: sweep of the sector while it stops and starts")
-    ]
+    sector_stop_sweep: Annotated[float, Quantity("γ_3(3+1)", "deg", "Cam-gear: sweep of the sector while it stops and starts")]
     motion_law: Annotated[str, Text("Cam-gear: law of motion")]
     law_peak_velocity: Annotated[float, Quantity("B", "1", "Cam-gear: peak velocity of the law")]
     law_peak_acceleration: Annotated[float, Quantity("A", "1", "Cam-gear: peak acceleration of the law")]
@@ -85,58 +83,57 @@ def _ratio(what: str, symbol: str, title: str) -> Steps:
 
 IN_SLOT = bind(formulas.holds, flag="engaged")
 
-motion_chapter = Chapter("Motion of the sheet over a cycle",
+motion = Chapter("Motion of the sheet over a cycle",
     text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle. k and s hold for a whole piece of the cycle "
         "and are shown in its middle, all other curves at the stated φ.")
-motion_chapter.value("crank_ratio", "λ", "1", "Geneva: ratio of crank radius to centre distance", formulas.crank_ratio, source="geometry",
+motion.value("crank_ratio", "λ", "1", "Geneva: ratio of crank radius to centre distance", formulas.crank_ratio, source="geometry", output=False)
+motion.value("engagement_half_angle", "α_e", "deg", "Geneva: half the angle of the engagement", formulas.engagement_half_angle, source="geometry",
     output=False)
-motion_chapter.value("engagement_half_angle", "α_e", "deg", "Geneva: half the angle of the engagement", formulas.engagement_half_angle,
-    source="geometry", output=False)
-motion_chapter.value("middle", "φ_m", "deg", "Cycle angle in the middle of both motions", lambda dwell_share: np.pi * (1 + dwell_share),
-    source="kinematics", output=False)
-motion_chapter.value("geneva_entry", "φ_g1", "deg", "Cycle angle at the Geneva drive's entry",
+motion.value("middle", "φ_m", "deg", "Cycle angle in the middle of both motions", lambda dwell_share: np.pi * (1 + dwell_share), source="kinematics",
+    output=False)
+motion.value("geneva_entry", "φ_g1", "deg", "Cycle angle at the Geneva drive's entry",
     lambda middle, engagement_half_angle: middle - engagement_half_angle, source="kinematics", output=False)
-motion_chapter.value("geneva_exit", "φ_g2", "deg", "Cycle angle at the Geneva drive's exit",
+motion.value("geneva_exit", "φ_g2", "deg", "Cycle angle at the Geneva drive's exit",
     lambda middle, engagement_half_angle: middle + engagement_half_angle, source="kinematics", output=False)
-motion_chapter.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution, from the beginning of the cam-gear's dwell", 2 * np.pi,
+motion.abscissa("cycle_angle", "φ", "deg", "Cycle angle, one revolution, from the beginning of the cam-gear's dwell", 2 * np.pi,
     shown_at="geneva_acceleration_peak_at")
-motion_chapter.breakpoints("engagement", "cycle_angle", "geneva_entry", "geneva_exit")
-motion_chapter.choice("turns", "k", "1", "Nearest motion of the Geneva drive",
+motion.breakpoints("engagement", "cycle_angle", "geneva_entry", "geneva_exit")
+motion.choice("turns", "k", "1", "Nearest motion of the Geneva drive",
     case(lambda: 1, "the end of the previous motion", lambda cycle_angle, middle: cycle_angle < middle - np.pi),
     case(lambda: 0, "the motion of this cycle"), output=False, per_piece=True)
-motion_chapter.value("geneva_angle", "α", "deg", "Geneva: crank angle from the middle of the motion",
+motion.value("geneva_angle", "α", "deg", "Geneva: crank angle from the middle of the motion",
     lambda cycle_angle, middle, turns: cycle_angle - middle + 2 * np.pi * turns, source="kinematics", output=False)
-motion_chapter.choice("engaged", "s", "1", "Geneva drive's roller in a slot (1) or not (0)",
+motion.choice("engaged", "s", "1", "Geneva drive's roller in a slot (1) or not (0)",
     case(lambda: 1, "the roller is in a slot", lambda geneva_angle, engagement_half_angle: abs(geneva_angle) <= engagement_half_angle),
     case(lambda: 0, "the locking disc holds the wheel"), output=False, per_piece=True)
-motion_chapter.from_curve("cam_gear_speed", "ω_1", "rad", "Cam-gear: speed of the gear, per revolution of the disc", given="gear_speed",
+motion.from_curve("cam_gear_speed", "ω_1", "rad", "Cam-gear: speed of the gear, per revolution of the disc", given="gear_speed",
     abscissa="cycle_angle", output=False)
-motion_chapter.from_curve("cam_gear_acceleration", "ε_1", "rad/s**2", "Cam-gear: acceleration of the gear", given="gear_acceleration",
-    abscissa="cycle_angle", output=False)
-motion_chapter.value("cam_velocity", "v_c", "1", "Cam-gear: ratio of the sheet's velocity to the mean velocity S/T",
+motion.from_curve("cam_gear_acceleration", "ε_1", "rad/s**2", "Cam-gear: acceleration of the gear", given="gear_acceleration", abscissa="cycle_angle",
+    output=False)
+motion.value("cam_velocity", "v_c", "1", "Cam-gear: ratio of the sheet's velocity to the mean velocity S/T",
     lambda cam_gear_speed: cam_gear_speed / (2 * np.pi), source="kinematics")
-motion_chapter.value("cam_acceleration", "a_c", "1", "Cam-gear: sheet acceleration in units of S/T²",
+motion.value("cam_acceleration", "a_c", "1", "Cam-gear: sheet acceleration in units of S/T²",
     lambda cam_gear_acceleration, cycle_time: cam_gear_acceleration * cycle_time ** 2 / (2 * np.pi), source="kinematics")
-motion_chapter.choice("geneva_velocity", "v_g", "1", "Geneva: ratio of the sheet's velocity to the mean velocity S/T",
+motion.choice("geneva_velocity", "v_g", "1", "Geneva: ratio of the sheet's velocity to the mean velocity S/T",
     case(lambda slots, geneva_angle, crank_ratio: slots * formulas.speed_ratio(geneva_angle, crank_ratio), "the roller is in a slot", IN_SLOT),
     case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
-motion_chapter.choice("geneva_acceleration", "a_g", "1", "Geneva: sheet acceleration in units of S/T²",
+motion.choice("geneva_acceleration", "a_g", "1", "Geneva: sheet acceleration in units of S/T²",
     case(lambda slots, geneva_angle, crank_ratio: as_number(2 * np.pi) * slots * formulas.acceleration_ratio(geneva_angle, crank_ratio),
         "the roller is in a slot", IN_SLOT), case(lambda: 0, "the locking disc holds the wheel"), source="kinematics")
-motion_chapter.value("cam_power", "P_c", "1", "Cam-gear: power in units of m·S²/T³",
-    lambda cam_velocity, cam_acceleration: cam_velocity * cam_acceleration, source="energy", output=False)
-motion_chapter.value("geneva_power", "P_g", "1", "Geneva: power in units of m·S²/T³",
+motion.value("cam_power", "P_c", "1", "Cam-gear: power in units of m·S²/T³", lambda cam_velocity, cam_acceleration: cam_velocity * cam_acceleration,
+    source="energy", output=False)
+motion.value("geneva_power", "P_g", "1", "Geneva: power in units of m·S²/T³",
     lambda geneva_velocity, geneva_acceleration: geneva_velocity * geneva_acceleration, source="energy", output=False)
 for what, letter, told in (("velocity", "v", "velocity in units of S/T"), ("acceleration", "a", "acceleration in units of S/T²"),
                            ("power", "P", "power in units of m·S²/T³, and so torque")):
     for drive, name in (("cam", "Cam-gear"), ("geneva", "Geneva")):
-        motion_chapter.reduction(f"{drive}_{what}_peak", f"{letter}_{drive[0]},max", "1", f"{name}: maximum {told}", "abs_max", of=f"{drive}_{what}",
+        motion.reduction(f"{drive}_{what}_peak", f"{letter}_{drive[0]},max", "1", f"{name}: maximum {told}", "abs_max", of=f"{drive}_{what}",
             source="kinematics")
-motion_chapter.value("geneva_jump", "a_g,e", "1", "Geneva: jump of the acceleration at entry and exit in units of S/T²",
+motion.value("geneva_jump", "a_g,e", "1", "Geneva: jump of the acceleration at entry and exit in units of S/T²",
     lambda slots: as_number(2 * np.pi) * slots * np.tan(np.pi / slots), source="kinematics")
-motion_chapter.add(_ratio("velocity", "q_v", "Maximum velocity"))
-motion_chapter.add(_ratio("acceleration", "q_a", "Maximum acceleration"))
-motion_chapter.value("torque_ratio", "q_M", "1", "Maximum torque for the same mass, ratio of Geneva to cam-gear",
+motion.add(_ratio("velocity", "q_v", "Maximum velocity"))
+motion.add(_ratio("acceleration", "q_a", "Maximum acceleration"))
+motion.value("torque_ratio", "q_M", "1", "Maximum torque for the same mass, ratio of Geneva to cam-gear",
     lambda geneva_power_peak, cam_power_peak: geneva_power_peak / cam_power_peak, source="energy")
 
 
@@ -227,7 +224,7 @@ COMPARISON = Mechanism(
     summary="Both drives of the sheet conveyor for the same step and cycle time, each with its own dwell: velocity and acceleration of the "
             "sheet, torque for the same mass, dwell, and what the cam-gear would need for the Geneva drive's dwell.",
     inputs=TransportComparison,
-    chapters=(basis, dwell, motion_chapter, sheet, same_dwell, verdict),
+    chapters=(basis, dwell, motion, sheet, same_dwell, verdict),
     key_results=("verdict", "peaks_verdict", "dwell_verdict", "dwell_ratio", "velocity_ratio", "acceleration_ratio", "torque_ratio",
                  "stop_sweep_limit", "stop_sweep_best"),
     figures=FIGURES,

@@ -30,15 +30,15 @@ torque.reduction("energy_turn", "E_Σ", "J", "Work of the torque over a revoluti
 torque.value("energy_residual", "r_E", "1", "Ratio of the work over a revolution to the energy of a step",
     lambda energy_turn, kinetic_energy_max: abs(energy_turn) / kinetic_energy_max, source="energy", output=False)
 
-contact_chapter = Chapter("Contact of roller and slot",
+hertz = Chapter("Contact of roller and slot",
     text="A cylindrical roller on the plane flank of the slot, both of the same material; the load is uniform over the roller's width.",
     needs=("driven_inertia", "roller_width"), absent="not calculated: {missing} not given")
-contact_chapter.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz")
-contact_chapter.value("contact_pressure", "p_H", "MPa", "Maximum contact pressure",
+hertz.value("effective_modulus", "E*", "GPa", "Effective modulus of the contact", contact.effective_modulus_alike, source="Hertz")
+hertz.value("contact_pressure", "p_H", "MPa", "Maximum contact pressure",
     bind(contact.contact_pressure, force="roller_force_peak", effective_radius="roller_radius", length="roller_width"), source="Hertz")
-contact_chapter.value("contact_half_width", "b_H", "mm", "Half width of the contact",
+hertz.value("contact_half_width", "b_H", "mm", "Half width of the contact",
     bind(contact.contact_half_width, force="roller_force_peak", effective_radius="roller_radius", length="roller_width"), source="Hertz")
-contact_chapter.value("roller_width_min", "b_min", "mm", "Roller width at the allowable pressure",
+hertz.value("roller_width_min", "b_min", "mm", "Roller width at the allowable pressure",
     bind(contact.required_length, force="roller_force_peak", effective_radius="roller_radius", allowable_pressure="allowable_contact_pressure"),
     source="Hertz", needs=("allowable_contact_pressure",))
 

@@ -8,6 +8,8 @@ import numpy as np
 
 from diecut_report.api import POINTS, Annotated, FromPress, Inputs, Quantity, formula
 
+# fmt: off
+
 
 @formula
 def one_sheet_a_turn(productivity: Any) -> Any:
@@ -21,117 +23,42 @@ class GenevaTransport(Inputs):
     slots: Annotated[int, Quantity("z", "1", "Number of slots of the wheel", ge=3, le=18, integer=True)] = 6
     center_distance: Annotated[float, Quantity("C", "mm", "Centre distance of crank and wheel", gt=0)]
     roller_radius: Annotated[float, Quantity("ρ", "mm", "Radius of the crank roller", gt=0)]
-    crank_speed: Annotated[
-        float | None,
-        Quantity(
-            "ω_1",
-            "rpm",
-            "Speed of the crank; one sheet per revolution",
-            gt=0,
-            press=FromPress("press.productivity", one_sheet_a_turn),
-        ),
-    ] = None
-    gear_ratio: Annotated[
-        float, Quantity("u", "1", "Revolutions of the sprocket per revolution of the wheel", gt=0)
-    ] = 1
-    sprocket_teeth: Annotated[
-        int | None,
-        Quantity(
-            "z_s",
-            "1",
-            "Number of teeth of the conveyor's sprocket; required with chain_pitch for the sheet's motion",
-            gt=0,
-            integer=True,
-        ),
-    ] = None
+    crank_speed: Annotated[float | None,
+        Quantity("ω_1", "rpm", "Speed of the crank; one sheet per revolution", gt=0, press=FromPress("press.productivity", one_sheet_a_turn))] = None
+    gear_ratio: Annotated[float, Quantity("u", "1", "Revolutions of the sprocket per revolution of the wheel", gt=0)] = 1
+    sprocket_teeth: Annotated[int | None,
+        Quantity("z_s", "1", "Number of teeth of the conveyor's sprocket; required with chain_pitch for the sheet's motion", gt=0,
+            integer=True)] = None
     chain_pitch: Annotated[float | None, Quantity("p", "mm", "Pitch of the conveyor's chain", gt=0)] = None
-    allowable_sheet_acceleration: Annotated[
-        float | None, Quantity("[a]", "m/s**2", "Allowable acceleration of the sheet", gt=0)
-    ] = None
-    grammage: Annotated[
-        float | None,
-        Quantity(
-            "m_A", "g/m**2", "Mass of the board per unit area; required with gripper_force for the grip check", gt=0
-        ),
-    ] = None
-    sheet_length: Annotated[
-        float | None,
-        Quantity(
-            "L_s",
-            "mm",
-            "Length of the sheet",
-            gt=0,
-            press=FromPress("press.sheet.length", optional=True),
-        ),
-    ] = None
-    sheet_width: Annotated[
-        float | None,
-        Quantity(
-            "B_s",
-            "mm",
-            "Width of the sheet",
-            gt=0,
-            press=FromPress("press.sheet.width", optional=True),
-        ),
-    ] = None
-    gripper_force: Annotated[
-        float | None, Quantity("[F_g]", "N", "Total force with which the grippers hold a sheet", gt=0)
-    ] = None
-    rest_tolerance: Annotated[
-        float | None,
-        Quantity(
-            "e_r",
-            "mm",
-            "Tolerance on the sheet's position within which it counts as at rest; required for that phase",
-            gt=0,
-        ),
-    ] = None
-    driven_inertia: Annotated[
-        float | None,
-        Quantity(
-            "J",
-            "kg*m**2",
-            "Moment of inertia of everything that the wheel moves, referred to its shaft (a conveyor of mass m adds "
-            "m·(z_s·p·u/2π)²); required for torque and roller force",
-            gt=0,
-        ),
-    ] = None
-    roller_width: Annotated[
-        float | None,
-        Quantity("b", "mm", "Contact width of the roller on the slot; required for the contact pressure", gt=0),
-    ] = None
+    allowable_sheet_acceleration: Annotated[float | None, Quantity("[a]", "m/s**2", "Allowable acceleration of the sheet", gt=0)] = None
+    grammage: Annotated[float | None,
+        Quantity("m_A", "g/m**2", "Mass of the board per unit area; required with gripper_force for the grip check", gt=0)] = None
+    sheet_length: Annotated[float | None,
+        Quantity("L_s", "mm", "Length of the sheet", gt=0, press=FromPress("press.sheet.length", optional=True))] = None
+    sheet_width: Annotated[float | None,
+        Quantity("B_s", "mm", "Width of the sheet", gt=0, press=FromPress("press.sheet.width", optional=True))] = None
+    gripper_force: Annotated[float | None, Quantity("[F_g]", "N", "Total force with which the grippers hold a sheet", gt=0)] = None
+    rest_tolerance: Annotated[float | None,
+        Quantity("e_r", "mm", "Tolerance on the sheet's position within which it counts as at rest; required for that phase", gt=0)] = None
+    driven_inertia: Annotated[float | None,
+        Quantity("J", "kg*m**2",
+            "Moment of inertia of everything that the wheel moves, referred to its shaft (a conveyor of mass m adds m·(z_s·p·u/2π)²); "
+                "required for torque and roller force", gt=0)] = None
+    roller_width: Annotated[float | None,
+        Quantity("b", "mm", "Contact width of the roller on the slot; required for the contact pressure", gt=0)] = None
     elastic_modulus: Annotated[float, Quantity("E", "GPa", "Elastic modulus of roller and wheel", gt=0)] = 210
     poisson_ratio: Annotated[float, Quantity("ν", "1", "Poisson's ratio of roller and wheel", ge=0, lt=0.5)] = 0.3
-    allowable_contact_pressure: Annotated[
-        float | None, Quantity("[p_H]", "MPa", "Allowable contact pressure between roller and slot", gt=0)
-    ] = None
+    allowable_contact_pressure: Annotated[float | None, Quantity("[p_H]", "MPa", "Allowable contact pressure between roller and slot", gt=0)] = None
     allowable_torque: Annotated[float | None, Quantity("[M]", "N*m", "Allowable torque at the crank", gt=0)] = None
-    locking_radius: Annotated[
-        float | None,
-        Quantity(
-            "r_l",
-            "mm",
-            "Radius of the wheel's locking arcs; default: the arm between arc and slot is as thick as the roller",
-            gt=0,
-        ),
-    ] = None
-    locking_clearance: Annotated[
-        float, Quantity("j", "mm", "Radial clearance of the locking disc in the wheel's arcs", ge=0)
-    ] = 0.1
-    cover_angle: Annotated[
-        float | None,
-        Quantity(
-            "φ_h",
-            "deg",
+    locking_radius: Annotated[float | None,
+        Quantity("r_l", "mm", "Radius of the wheel's locking arcs; default: the arm between arc and slot is as thick as the roller", gt=0)] = None
+    locking_clearance: Annotated[float, Quantity("j", "mm", "Radial clearance of the locking disc in the wheel's arcs", ge=0)] = 0.1
+    cover_angle: Annotated[float | None,
+        Quantity("φ_h", "deg",
             "Minimum crank angle from the wheel's exit, and to its entry, while the sheet must rest; required for the play during the dwell",
-            gt=0,
-            lt=180,
-        ),
-    ] = None
-    allowable_sheet_play: Annotated[
-        float | None,
-        Quantity("[Δx]", "mm", "Allowable play of the sheet while it must rest: the register tolerance", gt=0),
-    ] = None
+            gt=0, lt=180)] = None
+    allowable_sheet_play: Annotated[float | None,
+        Quantity("[Δx]", "mm", "Allowable play of the sheet while it must rest: the register tolerance", gt=0)] = None
     n_points: Annotated[int, POINTS] = 720
 
 

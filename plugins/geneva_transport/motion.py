@@ -72,38 +72,38 @@ def _moving(name: str, symbol: str, unit: str, description: str, moving: Case, r
 IN_SLOT = bind(formulas.holds, flag="engaged")
 MOVING, RESTING = "the roller is in a slot", "the locking disc holds the wheel"
 
-motion_chapter = Chapter("Motion over a revolution of the crank",
+motion = Chapter("Motion over a revolution of the crank",
     text="The crank angle is measured from the middle of the motion, so that the revolution begins and ends within an engagement; α′ is measured "
         "from the middle of the current engagement. The wheel turns in the opposite direction to the crank; its angle is counted in its own "
         "direction. s and n hold for a whole piece of the revolution and are shown in its middle, all other curves at the stated α.")
-motion_chapter.abscissa("crank_angle", "α", "deg", "Crank angle from the middle of the motion", 2 * np.pi, shown_at="acceleration_peak_at",
+motion.abscissa("crank_angle", "α", "deg", "Crank angle from the middle of the motion", 2 * np.pi, shown_at="acceleration_peak_at",
     speed="crank_speed")
-motion_chapter.breakpoints("engagement", "crank_angle", "engagement_half_angle", "entry_angle")
-motion_chapter.phase("moving", "moving", "Motion of wheel and sheet", "crank_angle", ("entry_angle", "engagement_half_angle"))
-motion_chapter.phase("dwell", "rest", "Dwell of wheel and sheet", "crank_angle", rest_of=("moving",))
-motion_chapter.choice("engaged", "s", "1", "Roller in a slot (1) or not (0)",
+motion.breakpoints("engagement", "crank_angle", "engagement_half_angle", "entry_angle")
+motion.phase("moving", "moving", "Motion of wheel and sheet", "crank_angle", ("entry_angle", "engagement_half_angle"))
+motion.phase("dwell", "rest", "Dwell of wheel and sheet", "crank_angle", rest_of=("moving",))
+motion.choice("engaged", "s", "1", "Roller in a slot (1) or not (0)",
     case(lambda: 1, MOVING,
         lambda crank_angle, entry_angle, engagement_half_angle: (crank_angle <= engagement_half_angle) | (crank_angle >= entry_angle)),
     case(lambda: 0, RESTING), output=False, per_piece=True)
-motion_chapter.choice("turns", "n", "1", "Number of completed steps of the wheel",
+motion.choice("turns", "n", "1", "Number of completed steps of the wheel",
     case(lambda: 1, "the roller has entered the next slot", lambda crank_angle, entry_angle: crank_angle >= entry_angle),
     case(lambda: 0, "the roller has not yet entered the next slot"), output=False, per_piece=True)
-motion_chapter.value("middle_angle", "α′", "deg", "Crank angle from the middle of the present engagement",
+motion.value("middle_angle", "α′", "deg", "Crank angle from the middle of the present engagement",
     lambda crank_angle, turns: crank_angle - 2 * np.pi * turns, output=False, source="kinematics")
-motion_chapter.add(_moving("wheel_angle", "ψ", "deg", "Angle of the wheel from its position in the middle of its motion",
+motion.add(_moving("wheel_angle", "ψ", "deg", "Angle of the wheel from its position in the middle of its motion",
         case(bind(formulas.wheel_angle, angle="middle_angle"), MOVING, IN_SLOT), case(lambda step_angle: step_angle / 2, RESTING), output=True))
-motion_chapter.add(_moving("speed_ratio", "ω_21", "1", "Ratio of the wheel's angular speed to the crank's",
+motion.add(_moving("speed_ratio", "ω_21", "1", "Ratio of the wheel's angular speed to the crank's",
         case(bind(formulas.speed_ratio, angle="middle_angle"), MOVING, IN_SLOT), case(lambda: 0, RESTING), output=False))
-motion_chapter.add(_moving("acceleration_ratio", "ε_21", "1", "Ratio of the wheel's angular acceleration to the square of the crank's speed",
+motion.add(_moving("acceleration_ratio", "ε_21", "1", "Ratio of the wheel's angular acceleration to the square of the crank's speed",
         case(bind(formulas.acceleration_ratio, angle="middle_angle"), MOVING, IN_SLOT), case(lambda: 0, RESTING), output=False))
-motion_chapter.reduction("acceleration_peak", "ε_21,max", "1", "Maximum ratio of the wheel's acceleration to the square of the crank's speed", "max",
+motion.reduction("acceleration_peak", "ε_21,max", "1", "Maximum ratio of the wheel's acceleration to the square of the crank's speed", "max",
     of="acceleration_ratio", source="kinematics")
-motion_chapter.value("wheel_speed", "ω_2", "rad/s", "Angular speed of the wheel", bind(formulas.rate, ratio="speed_ratio"), source="kinematics")
-motion_chapter.value("wheel_acceleration", "ε_2", "rad/s**2", "Angular acceleration of the wheel",
-    bind(formulas.rate_of_rate, ratio="acceleration_ratio"), source="kinematics")
-motion_chapter.value("wheel_speed_max", "ω_2,max", "rad/s", "Maximum angular speed of the wheel", bind(formulas.rate, ratio="speed_ratio_peak"),
+motion.value("wheel_speed", "ω_2", "rad/s", "Angular speed of the wheel", bind(formulas.rate, ratio="speed_ratio"), source="kinematics")
+motion.value("wheel_acceleration", "ε_2", "rad/s**2", "Angular acceleration of the wheel", bind(formulas.rate_of_rate, ratio="acceleration_ratio"),
     source="kinematics")
-motion_chapter.value("wheel_acceleration_max", "ε_2,max", "rad/s**2", "Maximum angular acceleration of the wheel",
+motion.value("wheel_speed_max", "ω_2,max", "rad/s", "Maximum angular speed of the wheel", bind(formulas.rate, ratio="speed_ratio_peak"),
+    source="kinematics")
+motion.value("wheel_acceleration_max", "ε_2,max", "rad/s**2", "Maximum angular acceleration of the wheel",
     bind(formulas.rate_of_rate, ratio="acceleration_peak"), source="kinematics")
 
 conveyor = Chapter("Motion of the sheet", needs=CONVEYOR_NEEDS, absent="not calculated: {missing} not given")

@@ -39,20 +39,20 @@ def of_shaft(column: str) -> Callable[[Any], Any]:
 
 dimensions = Chapter("Dimensions")
 dimensions.require("in_table", lambda shaft_diameter: (shaft_diameter > LEAST_SHAFT) & (shaft_diameter <= GREATEST_SHAFT), key="shaft_diameter",
-                   lacks=GIVEN,
-                   message="is {shaft_diameter}, for which the table of DIN 6885-1 has no key: it goes from above 10 to 200 mm; give width, height, "
-                           "depth_shaft and depth_hub")
+    lacks=GIVEN,
+    message="is {shaft_diameter}, for which the table of DIN 6885-1 has no key: it goes from above 10 to 200 mm; give width, height, depth_shaft "
+        "and depth_hub")
 for name, (symbol, column, words) in DIMENSIONS.items():
     dimensions.computed(name, symbol, "mm", words, function=of_shaft(column), takes=("shaft_diameter",), lacks=GIVEN, source="DIN 6885-1",
-                        method="the row of the table whose range of diameters holds the shaft, its upper end included")
+        method="the row of the table whose range of diameters holds the shaft, its upper end included")
     dimensions.value(name, symbol, "mm", f"{words}: as given", bind(lambda given: given, given=f"inputs.{name}"), needs=GIVEN, source="input")
 dimensions.value("height_shaft", "h_W", "mm", "Bearing height in the shaft", lambda depth_shaft, chamfer: depth_shaft - chamfer, source="geometry",
-                 output=False)
+    output=False)
 dimensions.value("height_hub", "h_N", "mm", "Bearing height in the hub", lambda height, depth_shaft, chamfer: height - depth_shaft - chamfer,
-                 source="geometry", output=False)
+    source="geometry", output=False)
 dimensions.value("height_key", "h_P", "mm", "Smaller bearing height, which governs the pressure on the key",
-                 lambda height_shaft, height_hub: np.minimum(height_shaft, height_hub), source="geometry", output=False)
+    lambda height_shaft, height_hub: np.minimum(height_shaft, height_hub), source="geometry", output=False)
 dimensions.require("key_stands_out", lambda height, depth_shaft: depth_shaft < height, key="depth_shaft", needs=GIVEN,
-                   message="is {depth_shaft}, in which a key of height {height} sinks whole; take a keyway that is less deep")
+    message="is {depth_shaft}, in which a key of height {height} sinks whole; take a keyway that is less deep")
 dimensions.require("bears", lambda height_key: height_key > 0, key="chamfer",
-                   message="is {chamfer}, which leaves no height to bear of the {height} high key; take a smaller chamfer")
+    message="is {chamfer}, which leaves no height to bear of the {height} high key; take a smaller chamfer")

@@ -95,41 +95,41 @@ contact.value("torque_dead_center", "M_0", "N*m", "Torque at the dead centre, wi
 contact.value("torque_relaxing", "M_1", "N*m", "Torque just after the dead centre, where the platen stands",
     lambda cutting_force_max, friction_arm: cutting_force_max * friction_arm, source="001 eq. 17")
 
-motion_chapter = Chapter("Motion over a revolution of the crank",
+motion = Chapter("Motion over a revolution of the crank",
     text="The ideal displacement is that of an inextensible drive. The first-order form of the source is given beside the exact speed; the "
         "calculation uses the exact one.")
-motion_chapter.abscissa("crank_angle", "φ", "deg", "Crank angle from the inner dead centre", 2 * np.pi, shown_at="torque_max_at", speed="crank_speed")
-motion_chapter.value("cutting_begin", "φ_b", "deg", "Crank angle at which cutting begins",
-    lambda cutting_start_angle: 2 * np.pi - cutting_start_angle, output=False)
-motion_chapter.breakpoints("phases", "crank_angle", "dwell_end_angle", "cutting_begin")
-motion_chapter.phase("cutting", "working", "The board is cut and the rods elongate", "crank_angle", ("cutting_begin", 0))
-motion_chapter.phase("relaxing", "working", "The platen stands on the die and the rods relax", "crank_angle", (0, "dwell_end_angle"))
-motion_chapter.phase("pressing", "working", "Pressing", "crank_angle", union=("cutting", "relaxing"))
-motion_chapter.phase("open", "window", "The platen is off the board", "crank_angle", rest_of=("pressing",))
-motion_chapter.value("phase", "j", "1", "Phase: 1 the rods relax, 2 free travel, 3 cutting", formulas.phase, output=False, per_piece=True)
-motion_chapter.value("rod_angle", "β", "deg", "Angle of the rods to the guides", bind(slider_crank.inner_coupler_angle, crank_ratio="lambda_ratio"),
+motion.abscissa("crank_angle", "φ", "deg", "Crank angle from the inner dead centre", 2 * np.pi, shown_at="torque_max_at", speed="crank_speed")
+motion.value("cutting_begin", "φ_b", "deg", "Crank angle at which cutting begins", lambda cutting_start_angle: 2 * np.pi - cutting_start_angle,
+    output=False)
+motion.breakpoints("phases", "crank_angle", "dwell_end_angle", "cutting_begin")
+motion.phase("cutting", "working", "The board is cut and the rods elongate", "crank_angle", ("cutting_begin", 0))
+motion.phase("relaxing", "working", "The platen stands on the die and the rods relax", "crank_angle", (0, "dwell_end_angle"))
+motion.phase("pressing", "working", "Pressing", "crank_angle", union=("cutting", "relaxing"))
+motion.phase("open", "window", "The platen is off the board", "crank_angle", rest_of=("pressing",))
+motion.value("phase", "j", "1", "Phase: 1 the rods relax, 2 free travel, 3 cutting", formulas.phase, output=False, per_piece=True)
+motion.value("rod_angle", "β", "deg", "Angle of the rods to the guides", bind(slider_crank.inner_coupler_angle, crank_ratio="lambda_ratio"),
     source="001, after eq. 6", output=False)
-motion_chapter.value("platen_displacement", "u", "mm", "Displacement of the platen from the dead centre, ideal",
+motion.value("platen_displacement", "u", "mm", "Displacement of the platen from the dead centre, ideal",
     bind(slider_crank.inner_displacement, coupler_angle="rod_angle"), source="loop")
-motion_chapter.value("travel_rate", "u′", "mm", "Ideal travel of the platen per radian of the crank, V/ω",
+motion.value("travel_rate", "u′", "mm", "Ideal travel of the platen per radian of the crank, V/ω",
     bind(slider_crank.inner_arm, coupler_angle="rod_angle"), source="loop", output=False)
-motion_chapter.value("platen_velocity_ideal", "V", "m/s", "Speed of the platen away from the die, ideal",
+motion.value("platen_velocity_ideal", "V", "m/s", "Speed of the platen away from the die, ideal",
     lambda crank_speed, travel_rate: crank_speed * travel_rate, source="loop")
-motion_chapter.value("platen_velocity_first_order", "V_1", "m/s", "The same, first-order in λ",
+motion.value("platen_velocity_first_order", "V_1", "m/s", "The same, first-order in λ",
     bind(slider_crank.inner_velocity_first_order, crank_ratio="lambda_ratio"), source="001 eq. 2")
-motion_chapter.value("first_order_error", "ΔV", "m/s", "Difference of exact and first-order speed",
+motion.value("first_order_error", "ΔV", "m/s", "Difference of exact and first-order speed",
     lambda platen_velocity_ideal, platen_velocity_first_order: platen_velocity_ideal - platen_velocity_first_order, output=False)
-motion_chapter.value("platen_acceleration", "a_p", "m/s**2", "Acceleration of the platen away from the die, ideal",
+motion.value("platen_acceleration", "a_p", "m/s**2", "Acceleration of the platen away from the die, ideal",
     bind(slider_crank.inner_acceleration, coupler_angle="rod_angle", crank_ratio="lambda_ratio"), source="loop")
-motion_chapter.choice("platen_displacement_true", "u_t", "mm", "Displacement of the platen, true",
+motion.choice("platen_displacement_true", "u_t", "mm", "Displacement of the platen, true",
     *by_phase(bind(common.same, quantity="drive_deformation"), bind(common.same, quantity="platen_displacement"), bind(formulas.true_travel)),
     source="001 eq. 12")
-motion_chapter.choice("platen_velocity_true", "V_t", "m/s", "Speed of the platen, true",
+motion.choice("platen_velocity_true", "V_t", "m/s", "Speed of the platen, true",
     *by_phase(bind(common.zero), bind(common.same, quantity="platen_velocity_ideal"),
         bind(lambda platen_velocity_ideal, material_thickness, drive_deformation:
                 platen_velocity_ideal * material_thickness / (material_thickness + drive_deformation))), source="001 eq. 13")
-motion_chapter.reduction("velocity_max", "V_max", "m/s", "Maximum speed of the platen", "abs_max", of="platen_velocity_ideal")
-motion_chapter.reduction("velocity_difference", "ΔV_max", "m/s", "Maximum difference of the first-order speed", "abs_max", of="first_order_error")
+motion.reduction("velocity_max", "V_max", "m/s", "Maximum speed of the platen", "abs_max", of="platen_velocity_ideal")
+motion.reduction("velocity_difference", "ΔV_max", "m/s", "Maximum difference of the first-order speed", "abs_max", of="first_order_error")
 
 window = Chapter("Window of the carriages", needs=("carriage_clearance",), absent="not calculated: carriage_clearance is not given",
     text="The carriages pass while the platen is at least their clearance away from the die.")

@@ -79,45 +79,45 @@ guides.value("guide_torque", "M_n", "N*m", "Torque from guide friction", lambda 
 guides.value("weight_torque", "M_G", "N*m", "Maximum torque due to the guides' friction under the weight alone", formulas.weight_torque,
     source="001 eq. 4", output=False, needs=("allowable_torque",))
 
-torque_chapter = Chapter("Torque at the main shaft",
+torque = Chapter("Torque at the main shaft",
     text="The moment arm of the rods' force follows from the crank and rods alone: V/ω with the ideal speed. The crank must also supply the strain "
         "energy of the rods; they return it after the dead centre.")
-torque_chapter.choice("force_arm", "a", "mm", "Moment arm of the rods' force about the shaft, positive where it resists the crank",
+torque.choice("force_arm", "a", "mm", "Moment arm of the rods' force about the shaft, positive where it resists the crank",
     case(lambda standing_distance, crank_radius, crank_angle, stretched_length:
             -standing_distance * crank_radius * np.sin(crank_angle) / stretched_length, "the platen stands on the die", in_phase(1)),
     case(lambda travel_rate: -travel_rate, "the platen moves"), source="001 eq. 2, 16", output=False)
-torque_chapter.value("torque_useful", "M_u", "N*m", "Torque from cutting, elongation and inertia", lambda force, force_arm: force * force_arm,
+torque.value("torque_useful", "M_u", "N*m", "Torque from cutting, elongation and inertia", lambda force, force_arm: force * force_arm,
     source="virtual work")
-torque_chapter.value("torque_friction", "M_f", "N*m", "Torque from friction in joints and guides",
+torque.value("torque_friction", "M_f", "N*m", "Torque from friction in joints and guides",
     lambda joint_torque, guide_torque: joint_torque + guide_torque, source="001 eq. 1", needs=("guide_length",))
-torque_chapter.value("torque_friction", "M_f", "N*m", "Torque from friction in the joints", lambda joint_torque: joint_torque, source="001 eq. 1",
+torque.value("torque_friction", "M_f", "N*m", "Torque from friction in the joints", lambda joint_torque: joint_torque, source="001 eq. 1",
     lacks=("guide_length",))
-torque_chapter.value("torque", "M", "N*m", "Torque at the main shaft", lambda torque_useful, torque_friction: torque_useful + torque_friction,
+torque.value("torque", "M", "N*m", "Torque at the main shaft", lambda torque_useful, torque_friction: torque_useful + torque_friction,
     source="001 eq. 1, corrected")
-torque_chapter.reduction("torque_max", "M_max", "N*m", "Maximum torque", "max", of="torque")
-torque_chapter.value("torque_max_angle", "φ_M", "deg", "Crank angle of the maximum torque, before the dead centre",
+torque.reduction("torque_max", "M_max", "N*m", "Maximum torque", "max", of="torque")
+torque.value("torque_max_angle", "φ_M", "deg", "Crank angle of the maximum torque, before the dead centre",
     bind(formulas.before_dead_center, angle="torque_max_at"))
-torque_chapter.reduction("torque_min", "M_min", "N*m", "Minimum torque (negative: platen or rods drive the crank)", "min", of="torque")
-torque_chapter.value("crank_pin_torque", "M_A", "N*m", "Torque of one of the two rods, including friction, on its crank", lambda torque: -torque / 2,
+torque.reduction("torque_min", "M_min", "N*m", "Minimum torque (negative: platen or rods drive the crank)", "min", of="torque")
+torque.value("crank_pin_torque", "M_A", "N*m", "Torque of one of the two rods, including friction, on its crank", lambda torque: -torque / 2,
     source="symmetry")
-torque_chapter.choice("torque_source", "M_14", "N*m", "Torque by eq. 14 as printed, while cutting",
+torque.choice("torque_source", "M_14", "N*m", "Torque by eq. 14 as printed, while cutting",
     case(bind(formulas.torque_as_printed), "the board is cut", in_phase(3)), case(lambda: 0, "eq. 14 is for cutting alone"), source="001 eq. 14")
-torque_chapter.reduction("torque_max_source", "M_14,max", "N*m", "Maximum torque by eq. 14 as printed", "max", of="torque_source")
-torque_chapter.value("torque_max_source_angle", "φ_14", "deg", "Its crank angle before the dead centre",
+torque.reduction("torque_max_source", "M_14,max", "N*m", "Maximum torque by eq. 14 as printed", "max", of="torque_source")
+torque.value("torque_max_source_angle", "φ_14", "deg", "Its crank angle before the dead centre",
     bind(formulas.before_dead_center, angle="torque_max_source_at"))
 
-return_chapter = Chapter("Relaxing rods",
+returning = Chapter("Relaxing rods",
     text="The elongated rods drive the crank over an arm that grows until they have relaxed; friction resists over X.")
-return_chapter.value("elastic_arm", "a_d", "mm", "Maximum arm with which the relaxing rods drive the crank",
+returning.value("elastic_arm", "a_d", "mm", "Maximum arm with which the relaxing rods drive the crank",
     lambda standing_distance, crank_radius, dwell_end_angle, rod_length: standing_distance * crank_radius * np.sin(dwell_end_angle) / rod_length,
     source="001 eq. 16, exact")
-return_chapter.value("return_arm_min", "X_min", "mm", "Minimum excess of the friction arm over the arm of the rods",
+returning.value("return_arm_min", "X_min", "mm", "Minimum excess of the friction arm over the arm of the rods",
     lambda friction_arm, elastic_arm: friction_arm - elastic_arm, source="001 eq. 17")
-return_chapter.value("friction_limit", "f_rev", "1", "Coefficient of friction below which the rods would drive the crank",
+returning.value("friction_limit", "f_rev", "1", "Coefficient of friction below which the rods would drive the crank",
     lambda friction, elastic_arm, friction_arm: friction * elastic_arm / friction_arm, source="statics", needs=("friction",),
     lacks=tuple(key for key, _, _ in ADOPTED), exists=lambda friction: friction > 0)
-return_chapter.value("deformation_limit", "Δl_rev", "mm", "Elongation of the drive above which the rods would drive the crank",
-    formulas.deformation_limit, source="statics", exists=lambda friction_arm, crank_radius: friction_arm < crank_radius)
+returning.value("deformation_limit", "Δl_rev", "mm", "Elongation of the drive above which the rods would drive the crank", formulas.deformation_limit,
+    source="statics", exists=lambda friction_arm, crank_radius: friction_arm < crank_radius)
 
 work = Chapter("Work and power",
     text="In the model the platen is set in motion instantaneously when the rods have relaxed; this energy is not part of the torque over the "

@@ -28,9 +28,9 @@ RATIOS = FACTORS.columns[0].values
 
 between = Steps()
 between.interpolated("table_e", "e_t", "1", "Limit of F_a/F_r, from the table (deep groove)", FACTORS, of="held_axial", column="e", key="bearings",
-                     source="ISO 281, table 3", output=False)
+    source="ISO 281, table 3", output=False)
 between.interpolated("table_y", "Y_t", "1", "Axial factor, from the table (deep groove)", FACTORS, of="held_axial", column="Y", key="bearings",
-                     source="ISO 281, table 3", output=False)
+    source="ISO 281, table 3", output=False)
 
 
 def table_factors(axial: Array, static_rating: Array, f0: Array) -> tuple[Array, Array]:

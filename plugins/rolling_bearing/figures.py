@@ -19,10 +19,8 @@ def loads_over_cycle(view: View) -> list[Shape]:
         load = known.load(index, share, share, None)[0]
         mean, most = view.row("equivalent_load")[index], view.row("equivalent_load_max")[index]
         levels = [level(most, "maximum"), *([level(mean, "equivalent")] if np.isfinite(mean) else [])]
-        panels.append(
-            chart_panel(Phrase("Load of {name}", name=name), "kN", "Cycle angle", "φ", "deg",
-                        lines=[line(2 * np.pi * share[0], load, "equivalent load")], levels=levels, range=(0, None))
-        )  # fmt: skip
+        panels.append(chart_panel(Phrase("Load of {name}", name=name), "kN", "Cycle angle", "φ", "deg",
+                lines=[line(2 * np.pi * share[0], load, "equivalent load")], levels=levels, range=(0, None)))  # fmt: skip
     return panels
 
 

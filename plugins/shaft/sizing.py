@@ -180,21 +180,23 @@ def _missed(known: Mapping[str, Array], machine: int, settled: Any) -> str:
 
 TAKES = ("sections.diameter", "sections.length", "sections.fillet_radius", "bearing_a", *SETTLING)
 
-diameters = Chapter("Diameters", text="If the diameter of a section is omitted, the smallest preferred one is selected with which the whole "
-                                      "shaft keeps its safety factors against fatigue and yield, the slope at the bearings and, where they are "
-                                      "given, deflection, twist and critical speed: first one size for all selected sections, then each as thin "
-                                      "as the others permit.")
+diameters = Chapter("Diameters",
+    text="If the diameter of a section is omitted, the smallest preferred one is selected with which the whole shaft keeps its safety factors "
+        "against fatigue and yield, the slope at the bearings and, where they are given, deflection, twist and critical speed: first one size for "
+        "all selected sections, then each as thin as the others permit.")
 diameters.prepared("sizes", sizes, TAKES, for_many=True, again=True)
 diameters.computed("section_diameter", "d_k", "mm", "Diameter of the section", lambda sizes: sizes.diameter.T, ("sizes",),
-                   "as given, or the smallest sufficient one of the preferred numbers R40", over="sections", source="ISO 3")
+    "as given, or the smallest sufficient one of the preferred numbers R40", over="sections", source="ISO 3")
 diameters.computed("diameters_found", "k_d", "1", "Sufficient diameters exist", lambda sizes: sizes.is_found, ("sizes",),
-                   "each size of the series is calculated", output=False)
+    "each size of the series is calculated", output=False)
 diameters.require("diameter_exists", lambda diameters_found: diameters_found > 0, key="sections",
-                  message="leave diameters out, but no preferred one up to 250 mm is enough for them; take a stronger steel, move the bearings "
-                          "nearer to the loads, or give the diameters to see what is missed")
-diameters.listing("size_neighbours", "Selected diameters, with their neighbours in the series",
-                  (ListedColumn("section", "Section"), ListedColumn("diameter", "Diameter", "d_k", "mm"),
-                   ListedColumn("fatigue_safety", "Safety factor against fatigue", "n_f,min"), ListedColumn("yield_safety",
-                                                                                                            "Safety factor against yield", "n_y"),
-                   ListedColumn("bearing_slope", "Slope at the bearings", "v′_max", "mrad"), ListedColumn("verdict", "Verdict")),
-                  lambda known: known["sizes"].neighbours, ("sizes",))
+    message="leave diameters out, but no preferred one up to 250 mm is enough for them; take a stronger steel, move the bearings nearer to the "
+        "loads, or give the diameters to see what is missed")
+diameters.listing("size_neighbours", "Selected diameters, with their neighbours in the series", (
+        ListedColumn("section", "Section"),
+        ListedColumn("diameter", "Diameter", "d_k", "mm"),
+        ListedColumn("fatigue_safety", "Safety factor against fatigue", "n_f,min"),
+        ListedColumn("yield_safety", "Safety factor against yield", "n_y"),
+        ListedColumn("bearing_slope", "Slope at the bearings", "v′_max", "mrad"),
+        ListedColumn("verdict", "Verdict"),
+    ), lambda known: known["sizes"].neighbours, ("sizes",))

@@ -50,34 +50,32 @@ def _strength(table: StandardTable, grade: str, size: float) -> float:
     return table.values[f"{grade} ≤ {size} mm"]  # MPa
 
 
-steel = Chapter("Steel", needs=("material",), text="The minimum strengths of the grade at the maximum diameter of the shaft, from which it is "
-                                                   "made.")
+steel = Chapter("Steel", needs=("material",), text="The minimum strengths of the grade at the maximum diameter of the shaft, from which it is made.")
 steel.total("greatest_diameter", "d_max", "mm", "Maximum diameter of the shaft", "max", of="section_diameter", source="geometry")
 for grade, sizes in SIZES.items():
     token = (f"material={grade}",)
     steel.require("size_known", bind(lambda diameter, limit: diameter <= limit * MILLIMETRE, diameter="greatest_diameter", limit=float(sizes[-1])),
-                  key="material", needs=token,
-                  message=f"is {grade}, whose strengths are known up to {sizes[-1]} mm, but the shaft has {{greatest_diameter}}; give "
-                          "tensile_strength and yield_strength in its place, or take another grade")
+        key="material", needs=token,
+        message=f"is {grade}, whose strengths are known up to {sizes[-1]} mm, but the shaft has {{greatest_diameter}}; give tensile_strength and "
+            "yield_strength in its place, or take another grade")
     for name, symbol, what in (("tensile", "S_ut", "Tensile strength"), ("yield", "S_y", "Yield strength")):
         steel.choice(f"{name}_strength", symbol, "MPa", f"{what} at the shaft's size", *_cases(standard_table(f"steel_{name}_strengths"), grade),
-                     source="EN 10083", needs=token)
+            source="EN 10083", needs=token)
 
 own_steel = Chapter("Steel", needs=("strengths",), text="The given strengths, at the maximum diameter of the shaft, from which it is made.")
 own_steel.total("greatest_diameter", "d_max", "mm", "Maximum diameter of the shaft", "max", of="section_diameter", source="geometry")
 own_steel.total("greatest_size", "d_R,max", "mm", "Maximum diameter with known strengths", "max", of="strengths.diameter", source="input",
-                output=False)
+    output=False)
 own_steel.computed("sizes_ascend", "k_R", "1", "Diameters of the strengths ascend (1) or not (0)", ascends, ("strengths.diameter",),
-                   "each is compared with the one before it", output=False)
+    "each is compared with the one before it", output=False)
 own_steel.require("sizes_in_order", lambda sizes_ascend: sizes_ascend > 0, key="strengths",
-                  message="are not in the order of their diameters; begin with the minimum one, each diameter once")
+    message="are not in the order of their diameters; begin with the minimum one, each diameter once")
 own_steel.require("own_size_known", lambda greatest_diameter, greatest_size: greatest_diameter <= greatest_size * (1 + 1e-9), key="strengths",
-                  message="are known up to {greatest_size}, but the shaft has {greatest_diameter}; give the strengths of that size too, or take "
-                          "another steel")
+    message="are known up to {greatest_size}, but the shaft has {greatest_diameter}; give the strengths of that size too, or take another steel")
 BY_SIZE = "for the smallest diameter of the list that covers the shaft's maximum one"
 for name, symbol, what in (("tensile", "S_ut", "Tensile strength"), ("yield", "S_y", "Yield strength")):
     own_steel.computed(f"{name}_strength", symbol, "MPa", f"{what} at the shaft's size", by_size,
-                       ("strengths.diameter", f"strengths.{name}_strength", "greatest_diameter"), BY_SIZE, source="input")
+        ("strengths.diameter", f"strengths.{name}_strength", "greatest_diameter"), BY_SIZE, source="input")
 own_steel.computed("own_fatigue_strength", "σ_D,d", "MPa", "Fatigue strength at the shaft's size", by_size,
-                   ("strengths.diameter", "strengths.fatigue_strength", "greatest_diameter"), BY_SIZE, needs=("strengths.fatigue_strength",),
-                   source="input", output=False)
+    ("strengths.diameter", "strengths.fatigue_strength", "greatest_diameter"), BY_SIZE, needs=("strengths.fatigue_strength",), source="input",
+    output=False)

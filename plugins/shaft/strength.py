@@ -40,20 +40,18 @@ def _number(chapter: Chapter, id: str, symbol: str, unit: str, description: str,
 
 
 loads = Chapter("Loads and reactions",
-                text="Reactions are forces on the shaft. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x "
-                     "M = Σ F_i (x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an "
-                     "interval.")
+    text="Reactions are forces on the shaft. In each plane R_B = −(Σ F_i (x_i − x_A) + Σ C_j)/(x_B − x_A), R_A = −Σ F_i − R_B; behind x M = Σ F_i "
+        "(x − x_i) − Σ C_j, T = Σ T_i and N = −Σ F_x,i of what acts before x. A torque known by its extremes adds as an interval.")
 loads.prepared("cycle", lambda given: cycle(*map(given.get, CYCLE)), CYCLE, for_many=True)
 loads.prepared("under_load", lambda given: _under_load(*map(given.get, LOADED)), LOADED, for_many=True)
 _number(loads, "torque_left", "ΣT", "N*m", "Torque balance", "torque_left", OVER_CYCLE, output=False)
 _number(loads, "torque_scale", "T_i,max", "N*m", "Maximum torque of a load", "torque_scale", OVER_CYCLE, output=False)
 loads.require("torques_balance", lambda torque_left, torque_scale: torque_left <= 1e-6 * torque_scale, key="loads",
-              message="have torques that add up to {torque_left}, so that the shaft would not turn evenly; correct them, or give one load "
-                      "torque: balance")
+    message="have torques that add up to {torque_left}, so that the shaft would not turn evenly; correct them, or give one load torque: balance")
 _number(loads, "load_scale", "F_i,max", "N", "Maximum force on the shaft; a couple is divided by the bearing span", "load_scale", OVER_CYCLE,
-        output=False)
+    output=False)
 loads.require("is_loaded", lambda load_scale, torque_scale: (load_scale > 0) | (torque_scale > 0), key="loads",
-              message="have neither force, couple nor torque, so that nothing is to be calculated; give one of them")
+    message="have neither force, couple nor torque, so that nothing is to be calculated; give one of them")
 _number(loads, "reaction_a_max", "R_A", "N", "Maximum reaction of bearing A", "reaction_a", OVER_CYCLE, source="statics")
 _number(loads, "reaction_b_max", "R_B", "N", "Maximum reaction of bearing B", "reaction_b", OVER_CYCLE, source="statics")
 _number(loads, "axial_reaction_max", "R_x", "N", "Maximum axial force on the locating bearing", "axial_reaction", OVER_CYCLE, source="statics")
@@ -63,18 +61,18 @@ _number(loads, "torque_min", "T_min", "N*m", "Minimum torque in the shaft", "tor
 loads.abscissa("cycle_angle", "φ", "deg", "Cycle angle: one revolution is one cycle", 2 * np.pi)
 for bearing, sign in (("a", "A"), ("b", "B")):
     loads.computed_curve(f"reaction_{bearing}", f"R_{sign}(φ)", "N", f"Reaction of bearing {sign} over the cycle", curves.reaction(bearing),
-                         "under_load", "cycle_angle", "by statics", joints=lambda under_load: under_load.cycle_joints, source="statics")
+        "under_load", "cycle_angle", "by statics", joints=lambda under_load: under_load.cycle_joints, source="statics")
     for plane, axis in enumerate("yz"):
         loads.computed_curve(f"reaction_{bearing}_{axis}", f"R_{sign}{axis}", "N", f"Reaction of bearing {sign} in {axis} over the cycle",
-                             curves.reaction_in(bearing, plane), "under_load", "cycle_angle", "by statics", source="statics")
+            curves.reaction_in(bearing, plane), "under_load", "cycle_angle", "by statics", source="statics")
 loads.abscissa("position", "x_s", "mm", "Position along the shaft", "length")
-loads.computed_curve("bending_moment", "M_b(x)", "N*m", "Maximum bending moment over the cycle, along the shaft", curves.bending_moment,
-                     "under_load", "position", OVER_CYCLE, joints=lambda under_load: under_load.joints, source="statics")
+loads.computed_curve("bending_moment", "M_b(x)", "N*m", "Maximum bending moment over the cycle, along the shaft", curves.bending_moment, "under_load",
+    "position", OVER_CYCLE, joints=lambda under_load: under_load.joints, source="statics")
 for plane, axis in enumerate("yz"):
     loads.computed_curve(f"moment_x{axis}", f"M_x{axis}", "N*m", f"Moment in the plane x–{axis} at the instant of the maximum moment",
-                         curves.moment_in(plane), "under_load", "position", OVER_CYCLE, source="statics")
+        curves.moment_in(plane), "under_load", "position", OVER_CYCLE, source="statics")
 loads.computed_curve("torque", "T(x)", "N*m", "Maximum absolute torque over the cycle, along the shaft", curves.torque, "under_load", "position",
-                     OVER_CYCLE, source="statics")
+    OVER_CYCLE, source="statics")
 loads.computed_curve("diameter", "d(x)", "mm", "Diameter along the shaft", curves.diameter, "under_load", "position", "as it is given")
 
 bending = Chapter("Deflection and twist")
@@ -83,28 +81,25 @@ _number(bending, "deflection_end", "v_e", "um", "Maximum deflection at the shaft
 _number(bending, "slope_a", "v′_A", "mrad", "Maximum slope at bearing A", "slope_a", INTEGRATED, source="Euler–Bernoulli")
 _number(bending, "slope_b", "v′_B", "mrad", "Maximum slope at bearing B", "slope_b", INTEGRATED, source="Euler–Bernoulli")
 bending.value("bearing_slope_max", "v′_max", "mrad", "Maximum slope at a bearing", lambda slope_a, slope_b: np.maximum(slope_a, slope_b),
-              source="Euler–Bernoulli")
+    source="Euler–Bernoulli")
 bending.computed("slope", "v′_i", "mrad", "Maximum slope at the load", lambda under_load: under_load.load_slopes, ("under_load",), INTEGRATED,
-                 over="loads", named_by="loads.name", source="Euler–Bernoulli")
-_number(bending, "twist", "ϑ", "deg", "Maximum twist between the outermost torques", "twist", "Σ T h/(2 G I), " + OVER_CYCLE, source="Saint-Venant",
-        )
+    over="loads", named_by="loads.name", source="Euler–Bernoulli")
+_number(bending, "twist", "ϑ", "deg", "Maximum twist between the outermost torques", "twist", "Σ T h/(2 G I), " + OVER_CYCLE, source="Saint-Venant")
 _number(bending, "torque_span", "l_T", "mm", "Distance between the outermost torques", "torque_span", "from the loads that have one", output=False)
-bending.value("twist_by_length", "ϑ′", "deg/m", "Twist per unit length between the outermost torques",
-              lambda twist, torque_span: twist / torque_span, exists=lambda torque_span: torque_span > 0, source="Saint-Venant",
-              output=False)
+bending.value("twist_by_length", "ϑ′", "deg/m", "Twist per unit length between the outermost torques", lambda twist, torque_span: twist / torque_span,
+    exists=lambda torque_span: torque_span > 0, source="Saint-Venant", output=False)
 bending.computed_curve("stress_along", "σ_vM(x)", "MPa", "Maximum nominal stress over the cycle, along the shaft", curves.nominal_stress,
-                       "under_load", "position", "from bending moment, torque and axial force at each instant, without notches",
-                       source="Shigley 7-15")
+    "under_load", "position", "from bending moment, torque and axial force at each instant, without notches", source="Shigley 7-15")
 bending.computed_curve("deflection", "v(x)", "um", "Deflection at the instant of its maximum value", curves.deflection, "under_load", "position",
-                       INTEGRATED, source="Euler–Bernoulli")
-_number(bending, "energy_difference", "ΔU/U", "1", "Strain energy of the bent shaft less the work of its loads, beyond rounding, relative to the "
-                                                   "maximum energy",
-        "energy_difference", "∫ M²/(2 E I) dx compared with half the loads times their displacements (Castigliano)", output=False)
+    INTEGRATED, source="Euler–Bernoulli")
+_number(bending, "energy_difference", "ΔU/U", "1",
+    "Strain energy of the bent shaft less the work of its loads, beyond rounding, relative to the maximum energy", "energy_difference",
+    "∫ M²/(2 E I) dx compared with half the loads times their displacements (Castigliano)", output=False)
 
-fatigue = Chapter("Fatigue", text="Stress of a material point that turns with the shaft by θ, at ψ from y: σ = N/A − (M_xy cos(ψ + θ) + M_xz "
-                                  "sin(ψ + θ))/W_b. Ranges of bending and torsion are combined as if in phase; ψ and the side of a location "
-                                  "(before or behind its load) are those of the minimum safety factor, found by a scan of 120 directions and "
-                                  "bounded search. Safety factors are limited to 10⁶, which denotes a location without stress.")
+fatigue = Chapter("Fatigue",
+    text="Stress of a material point that turns with the shaft by θ, at ψ from y: σ = N/A − (M_xy cos(ψ + θ) + M_xz sin(ψ + θ))/W_b. Ranges of "
+        "bending and torsion are combined as if in phase; ψ and the side of a location (before or behind its load) are those of the minimum safety "
+        "factor, found by a scan of 120 directions and bounded search. Safety factors are limited to 10⁶, which denotes a location without stress.")
 STATES = ("under_load", *FACTORS.values())
 fatigue.prepared("states", lambda given: _states(*map(given.get, STATES)), STATES, for_many=True)
 
@@ -118,24 +113,20 @@ _state(fatigue, "sigma_m", "σ_m", "MPa", "Mean normal stress", "sigma_m", "midd
 _state(fatigue, "torque_upper", "T_o", "N*m", "Maximum torque over the cycle at this location", "torque_upper", "over the cycle")
 _state(fatigue, "torque_lower", "T_u", "N*m", "Minimum torque over the cycle at this location", "torque_lower", "over the cycle")
 fatigue.value("tau_a", "τ_a", "MPa", "Amplitude of the shear stress",
-              lambda torque_upper, torque_lower, place_modulus: (torque_upper - torque_lower) / (4 * place_modulus),
-              source="Shigley 7-2", output=False)
+    lambda torque_upper, torque_lower, place_modulus: (torque_upper - torque_lower) / (4 * place_modulus), source="Shigley 7-2", output=False)
 fatigue.value("tau_m", "τ_m", "MPa", "Mean shear stress",
-              lambda torque_upper, torque_lower, place_modulus: (torque_upper + torque_lower) / (4 * place_modulus),
-              source="Shigley 7-2", output=False)
+    lambda torque_upper, torque_lower, place_modulus: (torque_upper + torque_lower) / (4 * place_modulus), source="Shigley 7-2", output=False)
 fatigue.value("place_safety", "n_f", "1", "Safety factor against fatigue", bind(formulas.goodman, endurance="place_endurance"), source="Shigley 7-7")
 fatigue.total("fatigue_safety", "n_f,min", "1", "Minimum safety factor against fatigue", "min", of="place_safety", source="Shigley 7-7")
-fatigue.computed("governing_place", "i_f", "1", "Index of the location of the minimum safety factor, from 0", lambda row: np.argmin(row, axis=1)[:,
-                                                                                                                                                 None],
-                 ("place_safety",), "the minimum of all locations", output=False, whole=True, printed=False)
+fatigue.computed("governing_place", "i_f", "1", "Index of the location of the minimum safety factor, from 0",
+    lambda row: np.argmin(row, axis=1)[:, None], ("place_safety",), "the minimum of all locations", output=False, whole=True, printed=False)
 fatigue.computed("fatigue_place", "P_f", "1", "Location of the minimum safety factor against fatigue",
-                 lambda body, index: [body.names[int(each)] for each in index[:, 0]], ("body", "governing_place"), "the minimum of all locations",
-                 is_text=True)
+    lambda body, index: [body.names[int(each)] for each in index[:, 0]], ("body", "governing_place"), "the minimum of all locations", is_text=True)
 
 
 def _at_governing(chapter: Chapter, id: str, symbol: str, unit: str, description: str, of: str) -> None:
-    chapter.computed(id, symbol, unit, description, lambda row, index: np.take_along_axis(row, index.astype(int), axis=1),
-                     (of, "governing_place"), "at the location of the minimum safety factor")
+    chapter.computed(id, symbol, unit, description, lambda row, index: np.take_along_axis(row, index.astype(int), axis=1), (of, "governing_place"),
+        "at the location of the minimum safety factor")
 
 
 _at_governing(fatigue, "fatigue_position", "x_f", "mm", "Position of the minimum safety factor against fatigue", "place_x")
@@ -149,64 +140,60 @@ for name, symbol, unit, description in (("nominal_position", "x_y", "mm", "Locat
                                                                                                         "Bending moment at this location"),
                                         ("nominal_torque", "T_y", "N*m", "Torque at this location")):
     _number(yielding, name, symbol, unit, description, name, "at the location and instant of the maximum stress, of all locations on both sides",
-            output=False)
+        output=False)
 yielding.value("nominal_area", "A_y", "mm**2", "Area at this location", bind(beams.circle_area, diameter="nominal_diameter", bore="nominal_bore"),
-               source="geometry", output=False)
+    source="geometry", output=False)
 yielding.value("nominal_modulus", "W_by", "mm**3", "Section modulus at this location",
-               bind(lambda diameter, bore: 2 * beams.second_moment(diameter, bore) / diameter, diameter="nominal_diameter", bore="nominal_bore"),
-               source="geometry", output=False)
+    bind(lambda diameter, bore: 2 * beams.second_moment(diameter, bore) / diameter, diameter="nominal_diameter", bore="nominal_bore"),
+    source="geometry", output=False)
 yielding.value("von_mises_max", "σ_vM", "MPa", "Maximum nominal stress",
-               bind(formulas.nominal_stress, axial_force="nominal_axial", moment="nominal_moment", torque="nominal_torque", area="nominal_area",
-                    modulus="nominal_modulus"), source="Shigley 7-15")
-yielding.value("yield_safety", "n_y", "1", "Nominal safety factor against yield", bind(formulas.safety, strength="yield_strength",
-                                                                                       stress="von_mises_max"),
-               source="Shigley 7-16")
+    bind(formulas.nominal_stress, axial_force="nominal_axial", moment="nominal_moment", torque="nominal_torque", area="nominal_area",
+        modulus="nominal_modulus"), source="Shigley 7-15")
+yielding.value("yield_safety", "n_y", "1", "Nominal safety factor against yield",
+    bind(formulas.safety, strength="yield_strength", stress="von_mises_max"), source="Shigley 7-16")
 for name, symbol, unit, description in (("yield_axial", "N_v", "N", "Axial force at the instant of the maximum notch stress"),
                                         ("yield_moment", "M_bv", "N*m", "Bending moment at this instant"), ("yield_torque", "T_v", "N*m",
                                                                                                             "Torque at this instant")):
     _state(yielding, name, symbol, unit, description, name, "at the instant and on the side of the maximum stress")
 yielding.value("notch_stress", "σ_vM,n", "MPa", "Maximum notch stress",
-               bind(formulas.yield_stress, axial_force="yield_axial", moment="yield_moment", torque="yield_torque", area="place_area",
-                    modulus="place_modulus"), source="Shigley 7-15", output=False)
+    bind(formulas.yield_stress, axial_force="yield_axial", moment="yield_moment", torque="yield_torque", area="place_area", modulus="place_modulus"),
+    source="Shigley 7-15", output=False)
 yielding.value("place_yield_safety", "n_y,n", "1", "Safety factor against yield with the notch",
-               bind(formulas.safety, strength="yield_strength", stress="notch_stress"), source="Shigley 7-16")
+    bind(formulas.safety, strength="yield_strength", stress="notch_stress"), source="Shigley 7-16")
 yielding.total("yield_safety_notch", "n_y,notch", "1", "Minimum safety factor against yield with the notches", "min", of="place_yield_safety",
-               source="Shigley 7-16")
-yielding.part_table("place_table", "All locations", "places",
-                    ("place_x", "place_diameter", "k_t", "k_ts", "k_f", "k_fs", "sigma_a", "sigma_m", "tau_a", "tau_m", "place_endurance",
-                     "place_safety", "place_yield_safety"))
+    source="Shigley 7-16")
+yielding.part_table("place_table", "All locations", "places", ("place_x", "place_diameter", "k_t", "k_ts", "k_f", "k_fs", "sigma_a", "sigma_m",
+        "tau_a", "tau_m", "place_endurance", "place_safety", "place_yield_safety"))
 
-critical = Chapter("Critical speed", text="The shaft bends without mass; the masses of the loads, and its own in eight lumped masses per piece, "
-                                          "move transversely. For a shaft that is hardly longer than thick the value only means that the "
-                                          "critical speed is far above any running speed: shear, which is neglected, lowers it.")
+critical = Chapter("Critical speed",
+    text="The shaft bends without mass; the masses of the loads, and its own in eight lumped masses per piece, move transversely. For a shaft that "
+        "is hardly longer than thick the value only means that the critical speed is far above any running speed: shear, which is neglected, lowers "
+        "it.")
 _number(critical, "critical_speed", "n_crit", "rpm", "Lowest critical speed", "critical",
-        "largest eigenvalue of √m_i δ_ij √m_j with the exact deflections δ_ij for unit forces", source="Shigley 7-6")
+    "largest eigenvalue of √m_i δ_ij √m_j with the exact deflections δ_ij for unit forces", source="Shigley 7-6")
 _number(critical, "critical_speed_rayleigh", "n_R", "rpm", "Critical speed by Rayleigh, upper bound", "rayleigh",
-        "ω² = Σ f_i y_i/Σ m_i y_i² with f_i = m_i g, downwards on overhangs", source="Shigley 7-23")
+    "ω² = Σ f_i y_i/Σ m_i y_i² with f_i = m_i g, downwards on overhangs", source="Shigley 7-23")
 _number(critical, "critical_speed_dunkerley", "n_D", "rpm", "Critical speed by Dunkerley, lower bound", "dunkerley", "1/ω² = Σ m_i δ_ii",
-        source="Shigley 7-32")
+    source="Shigley 7-32")
 critical.computed("turns", "k_n", "1", "Shaft rotates; otherwise it stands or oscillates",
-                  lambda rotation, length: np.full(length.shape, isinstance(rotation, str) and rotation == "turning"), ("rotation", "length"),
-                  "by rotation", output=False)
+    lambda rotation, length: np.full(length.shape, isinstance(rotation, str) and rotation == "turning"), ("rotation", "length"), "by rotation",
+    output=False)
 critical.computed("stands", "k_0", "1", "Shaft stands; otherwise it rotates or oscillates",
-                  lambda rotation, length: np.full(length.shape, isinstance(rotation, str) and rotation == "none"), ("rotation", "length"),
-                  "by rotation", output=False)
-critical.value("standing_speed", "n_0", "rpm", "Speed of a shaft that stands by rotation", lambda speed: speed,
-               exists=lambda stands: stands > 0, source="input", needs=("speed",), output=False)
+    lambda rotation, length: np.full(length.shape, isinstance(rotation, str) and rotation == "none"), ("rotation", "length"), "by rotation",
+    output=False)
+critical.value("standing_speed", "n_0", "rpm", "Speed of a shaft that stands by rotation", lambda speed: speed, exists=lambda stands: stands > 0,
+    source="input", needs=("speed",), output=False)
 critical.value("turning_limit", "n_k", "rpm", "Critical speed with which the speed of a rotating shaft is compared",
-               lambda critical_speed: critical_speed,
-               exists=lambda turns: turns > 0, source="Shigley 7-6", output=False)
+    lambda critical_speed: critical_speed, exists=lambda turns: turns > 0, source="Shigley 7-6", output=False)
 critical.choice("speed_verdict", "n_k/n", "1", "Critical speed relative to the speed",
-                case("more than ten times as high, not limiting", "the critical speed is at least ten times the speed",
-                     lambda critical_speed, speed: critical_speed >= 10 * speed),
-                case("twice to ten times as high", "the critical speed is at least twice the speed",
-                     lambda critical_speed, speed: critical_speed >= 2 * speed),
-                case("less than twice as high", "the critical speed is near the speed"),
-                exists=lambda turns: turns > 0, source="Shigley 7-6", needs=("speed",))
+    case("more than ten times as high, not limiting", "the critical speed is at least ten times the speed",
+        lambda critical_speed, speed: critical_speed >= 10 * speed),
+    case("twice to ten times as high", "the critical speed is at least twice the speed", lambda critical_speed, speed: critical_speed >= 2 * speed),
+    case("less than twice as high", "the critical speed is near the speed"), exists=lambda turns: turns > 0, source="Shigley 7-6", needs=("speed",))
 critical.value("twice_speed", "2n", "rpm", "Twice the speed", lambda speed: 2 * speed, source="Shigley 7-6", needs=("speed",), output=False)
 
 enough = Chapter("Size of the shaft")
 enough.value("effective_diameter", "d_e", "mm", "Effective diameter there", lambda size_share, place_diameter: size_share * place_diameter,
-             source="Shigley 6-24", output=False)
+    source="Shigley 6-24", output=False)
 enough.total("greatest_effective", "d_e,max", "mm", "Greatest effective diameter", "max", of="effective_diameter", source="Shigley 6-24",
-             output=False)
+    output=False)

@@ -7,7 +7,7 @@ import pytest
 
 from diecut_report.mechanics.motion_laws import LAWS
 from diecut_report.plugins.cam_gear_transport import arms
-from diecut_report.plugins.cam_gear_transport.rolling import rolling_chapter
+from diecut_report.plugins.cam_gear_transport.rolling import rolling
 
 DEGREE = np.pi / 180
 
@@ -54,7 +54,7 @@ def test_an_arm_that_passes_stays_where_it_is(place: float) -> None:
 
 
 def test_wheels_of_one_tooth_are_some_and_of_none_are_not() -> None:
-    (rule,) = [step for step in rolling_chapter.steps if step.id == "some_teeth"]
+    (rule,) = [step for step in rolling.steps if step.id == "some_teeth"]
     condition = rule.condition.function
     assert [bool(condition(one, other)) for one, other in ((1, 9), (9, 1), (0, 9), (9, 0))] == [
         True,
