@@ -1,4 +1,4 @@
-"""The example press: its phases as the derivation of the cyclogram prints them, and the curves of its lines as it calculates them."""
+"""The example press: its phases as the derivation of the cyclogram prints them, and what its lines move, as it calculates them."""
 
 from __future__ import annotations
 
@@ -19,13 +19,11 @@ from diecut_report.mechanics.timing.intervals import DrivenLine, Intervals, comp
 from diecut_report.results.press_run import compute
 from tests.configs import MECHANISMS
 from tests.machines import number
-from tests.mechanics.timing.torque_sum import Curve, LineCurve
 
 COMMON = Fraction(2)  # two sheets
 PERIOD = 4 * np.pi
 TURN = 2 * np.pi
 CRANK, SHAFT = Fraction(1, 2), Fraction(1)  # turns a sheet: of the cylinder's drive, of the transports
-SPEED = 6000 / 3600 * TURN
 
 EDGES: dict[str, tuple[tuple[float, float], ...]] = {  # degrees of the line's own shaft
     "forward": ((18.8043, 203.0831),),
@@ -62,22 +60,6 @@ def calculations() -> dict[str, Calculation]:
     made = yaml.load(MECHANISMS)
     made.data["mechanisms"]["cross"]["driven_inertia"] = "3.57 kg*m**2"
     return compute(load_config(made, Discovery([])), lambda _: None).calculations
-
-
-def curve(mechanism: str, name: str) -> tuple[Curve, Array]:
-    """A curve of a mechanism over its own turn, by shares, and its breakpoints."""
-    handle = CurveHandle(calculations()[mechanism], name)
-
-    def values(share: Array, middle: Array) -> Array:
-        found: Array = handle.values(share[None], middle[None], None)[0]
-        return found
-
-    return values, handle.breakpoints[0]
-
-
-def line_curve(mechanism: str, name: str, turns: Fraction, offset: float = 0.0) -> LineCurve:
-    """A curve of a mechanism on its line; the offset in degrees."""
-    return LineCurve(*curve(mechanism, name), DrivenLine(turns, np.radians(offset)))
 
 
 def of(mechanism: str, name: str) -> float:
@@ -119,7 +101,8 @@ def displacement(transport: str, offset: float, main_angle: Array) -> Array:
     mechanism, start = ("feeder", 0.0) if transport == "cam" else ("cross", of("cross", "sheet_step") / 2)
     turned = (main_angle - np.radians(offset)) / TURN
     share = turned % 1
-    way = curve(mechanism, "sheet_position")[0](share, np.clip(share, 1e-9, 1 - 1e-9))
+    handle = CurveHandle(calculations()[mechanism], "sheet_position")
+    way = handle.values(share[None], np.clip(share, 1e-9, 1 - 1e-9)[None], None)[0]
     found: Array = way - start + (turned - share) * of("cross", "sheet_step")
     return found
 
