@@ -2,7 +2,7 @@
 
 A law's formulas take k, the share of the rise's time that has passed, in [0, 1]; a rise h in a time t has the velocity
 velocity(k)·h/t, the acceleration acceleration(k)·h/t² and the jerk jerk(k)·h/t³. The jerk is given without its impulses
-where the acceleration jumps. ``LAWS`` is the one registry: a plugin adds its own laws by ``register``, and all that is
+where the acceleration jumps. ``LAWS`` holds them all: a plugin adds its own laws by ``register``, and all that is
 chosen by a law's name (inputs, formulas, comparisons) knows them from then on. Sources: the invariants of 003 [6];
 modified laws as in the usual tables for cams (VDI 2143).
 """
@@ -19,124 +19,7 @@ import numpy as np
 from diecut_report.formulas.formula import Formula, formula
 from diecut_report.formulas.tree import as_number
 
-# Formulas of the motion laws that are polynomials of k; ``motion_laws`` names and registers them.
-
-
-@formula
-def parabolic_position(k: Any) -> Any:
-    """Position: two parabolas."""
-    return np.where(k < 1 / 2, 2 * k**2, 1 - 2 * (1 - k) ** 2)
-
-
-@formula
-def parabolic_velocity(k: Any) -> Any:
-    """Velocity: up and down in straight lines."""
-    return np.where(k < 1 / 2, 4 * k, 4 * (1 - k))
-
-
-@formula
-def parabolic_acceleration(k: Any) -> Any:
-    """Acceleration, which jumps at both ends and in the middle."""
-    return np.where(k < 1 / 2, 4, -4)
-
-
-@formula
-def parabolic_jerk(k: Any) -> Any:
-    """Jerk: nothing but impulses, which are left out."""
-    return 0 * k
-
-
-@formula
-def parabolic_joint(k: Any) -> Any:
-    """Changes its sign in the middle."""
-    return k - 1 / 2
-
-
-@formula
-def parabolic_peak_velocity() -> Any:
-    """Peak velocity, in the middle."""
-    return 2
-
-
-@formula
-def parabolic_peak_acceleration() -> Any:
-    """Peak acceleration, all the time."""
-    return 4
-
-
-@formula
-def fifth_position(k: Any) -> Any:
-    """Position of the polynomial 3-4-5."""
-    return 10 * k**3 - 15 * k**4 + 6 * k**5
-
-
-@formula
-def fifth_velocity(k: Any) -> Any:
-    """Velocity of the polynomial 3-4-5."""
-    return 30 * k**2 * (1 - k) ** 2
-
-
-@formula
-def fifth_acceleration(k: Any) -> Any:
-    """Acceleration of the polynomial 3-4-5."""
-    return 60 * k * (1 - k) * (1 - 2 * k)
-
-
-@formula
-def fifth_jerk(k: Any) -> Any:
-    """Jerk of the polynomial 3-4-5."""
-    return 60 * (1 - 6 * k + 6 * k**2)
-
-
-@formula
-def fifth_peak_velocity() -> Any:
-    """Peak velocity, in the middle."""
-    return 15 / 8
-
-
-@formula
-def fifth_peak_acceleration() -> Any:
-    """Peak acceleration, where 6k(1 − k) = 1."""
-    return 10 / np.sqrt(3)
-
-
-@formula
-def seventh_position(k: Any) -> Any:
-    """Position of the polynomial 4-5-6-7."""
-    return 35 * k**4 - 84 * k**5 + 70 * k**6 - 20 * k**7
-
-
-@formula
-def seventh_velocity(k: Any) -> Any:
-    """Velocity of the polynomial 4-5-6-7."""
-    return 140 * k**3 * (1 - k) ** 3
-
-
-@formula
-def seventh_acceleration(k: Any) -> Any:
-    """Acceleration of the polynomial 4-5-6-7."""
-    return 420 * k**2 * (1 - k) ** 2 * (1 - 2 * k)
-
-
-@formula
-def seventh_jerk(k: Any) -> Any:
-    """Jerk of the polynomial 4-5-6-7."""
-    return 840 * k * (1 - k) * (1 - 5 * k + 5 * k**2)
-
-
-@formula
-def seventh_peak_velocity() -> Any:
-    """Peak velocity, in the middle."""
-    return 35 / 16
-
-
-@formula
-def seventh_peak_acceleration() -> Any:
-    """Peak acceleration, where 5k(1 − k) = 1."""
-    return 84 / (5 * np.sqrt(5))
-
-
-# Formulas of the modified motion laws, which join sine waves and straight lines; ``motion_laws`` names and registers them.
+# The modified laws join sine waves and straight lines.
 
 
 @formula
@@ -157,7 +40,6 @@ def slow_angle(k: Any) -> Any:
     return np.pi / 3 + 4 * np.pi * k / 3
 
 
-@formula
 def sine_position(k: Any) -> Any:
     """Position of the modified sine."""
     pi = as_number(np.pi)
@@ -167,7 +49,6 @@ def sine_position(k: Any) -> Any:
     return np.where(k < 1 / 8, factor * quick_wave(k), np.where(k <= 7 / 8, middle, end))
 
 
-@formula
 def sine_velocity(k: Any) -> Any:
     """Velocity of the modified sine."""
     pi = as_number(np.pi)
@@ -176,7 +57,6 @@ def sine_velocity(k: Any) -> Any:
     return np.where((k < 1 / 8) | (k > 7 / 8), factor * quick_rate(k), middle)
 
 
-@formula
 def sine_acceleration(k: Any) -> Any:
     """Acceleration of the modified sine: a quick quarter wave, a slow half wave, a quick quarter wave."""
     pi = as_number(np.pi)
@@ -184,7 +64,6 @@ def sine_acceleration(k: Any) -> Any:
     return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.sin(4 * np.pi * k), peak * np.sin(slow_angle(k)))
 
 
-@formula
 def sine_jerk(k: Any) -> Any:
     """Jerk of the modified sine."""
     pi = as_number(np.pi)
@@ -192,27 +71,6 @@ def sine_jerk(k: Any) -> Any:
     return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.cos(4 * np.pi * k), peak / 3 * np.cos(slow_angle(k)))
 
 
-@formula
-def sine_joint(k: Any) -> Any:
-    """Changes its sign where the quick and the slow wave meet."""
-    return (k - 1 / 8) * (k - 7 / 8)
-
-
-@formula
-def sine_peak_velocity() -> Any:
-    """Peak velocity of the modified sine, in the middle."""
-    pi = as_number(np.pi)
-    return 4 * pi / (4 + pi)
-
-
-@formula
-def sine_peak_acceleration() -> Any:
-    """Peak acceleration of the modified sine, where its waves meet."""
-    pi = as_number(np.pi)
-    return 4 * pi**2 / (4 + pi)
-
-
-@formula
 def trapezoidal_position(k: Any) -> Any:
     """Position of the modified trapezoidal law."""
     pi = as_number(np.pi)
@@ -225,7 +83,6 @@ def trapezoidal_position(k: Any) -> Any:
     return np.where(k < 1 / 8, factor * quick_wave(k), np.where(k < 3 / 8, rising, half))
 
 
-@formula
 def trapezoidal_velocity(k: Any) -> Any:
     """Velocity of the modified trapezoidal law."""
     pi = as_number(np.pi)
@@ -237,7 +94,6 @@ def trapezoidal_velocity(k: Any) -> Any:
     return np.where((k < 1 / 8) | (k > 7 / 8), factor * quick_rate(k), inside)
 
 
-@formula
 def trapezoidal_acceleration(k: Any) -> Any:
     """Acceleration of the modified trapezoidal law: quarter waves between stretches of constant acceleration."""
     pi = as_number(np.pi)
@@ -247,32 +103,12 @@ def trapezoidal_acceleration(k: Any) -> Any:
     return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.sin(4 * np.pi * k), inside)
 
 
-@formula
 def trapezoidal_jerk(k: Any) -> Any:
     """Jerk of the modified trapezoidal law."""
     pi = as_number(np.pi)
     peak = 32 * pi**2 / (2 + pi)
     middle = np.where((k < 3 / 8) | (k > 5 / 8), 0, -peak * np.cos(4 * np.pi * k))
     return np.where((k < 1 / 8) | (k > 7 / 8), peak * np.cos(4 * np.pi * k), middle)
-
-
-@formula
-def trapezoidal_joint(k: Any) -> Any:
-    """Changes its sign where waves and straight lines meet."""
-    return (k - 1 / 8) * (k - 3 / 8) * (k - 5 / 8) * (k - 7 / 8)
-
-
-@formula
-def trapezoidal_peak_velocity() -> Any:
-    """Peak velocity of the modified trapezoidal law, in the middle."""
-    return 2
-
-
-@formula
-def trapezoidal_peak_acceleration() -> Any:
-    """Peak acceleration of the modified trapezoidal law."""
-    pi = as_number(np.pi)
-    return 8 * pi / (2 + pi)
 
 
 ROUNDING = 1e-9  # by which a law may miss its ends
@@ -282,78 +118,6 @@ ROUNDING = 1e-9  # by which a law may miss its ends
 def smooth(k: Any) -> Any:
     """Above zero everywhere: the law is one formula from end to end."""
     return 1 + k
-
-
-@formula
-def cycloidal_position(k: Any) -> Any:
-    """Position: straight line less one sine wave."""
-    return k - np.sin(2 * np.pi * k) / as_number(2 * np.pi)
-
-
-@formula
-def cycloidal_velocity(k: Any) -> Any:
-    """Velocity."""
-    return 1 - np.cos(2 * np.pi * k)
-
-
-@formula
-def cycloidal_acceleration(k: Any) -> Any:
-    """Acceleration: one sine wave."""
-    return as_number(2 * np.pi) * np.sin(2 * np.pi * k)
-
-
-@formula
-def cycloidal_jerk(k: Any) -> Any:
-    """Jerk."""
-    return as_number(4 * np.pi**2) * np.cos(2 * np.pi * k)
-
-
-@formula
-def cycloidal_peak_velocity() -> Any:
-    """Peak velocity, in the middle."""
-    return 2
-
-
-@formula
-def cycloidal_peak_acceleration() -> Any:
-    """Peak acceleration, at a quarter."""
-    return as_number(2 * np.pi)
-
-
-@formula
-def harmonic_position(k: Any) -> Any:
-    """Position: half a cosine wave."""
-    return (1 - np.cos(np.pi * k)) / 2
-
-
-@formula
-def harmonic_velocity(k: Any) -> Any:
-    """Velocity."""
-    return as_number(np.pi / 2) * np.sin(np.pi * k)
-
-
-@formula
-def harmonic_acceleration(k: Any) -> Any:
-    """Acceleration: half a cosine wave, which jumps at both ends."""
-    return as_number(np.pi**2 / 2) * np.cos(np.pi * k)
-
-
-@formula
-def harmonic_jerk(k: Any) -> Any:
-    """Jerk, without its impulses at both ends."""
-    return as_number(-(np.pi**3) / 2) * np.sin(np.pi * k)
-
-
-@formula
-def harmonic_peak_velocity() -> Any:
-    """Peak velocity, in the middle."""
-    return as_number(np.pi / 2)
-
-
-@formula
-def harmonic_peak_acceleration() -> Any:
-    """Peak acceleration, at both ends."""
-    return as_number(np.pi**2 / 2)
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -387,30 +151,6 @@ class MotionLaw:
         return float(self.peak_acceleration())
 
 
-class Registry(Mapping[str, MotionLaw]):
-    """The known laws by their names, in the order in which they were registered."""
-
-    def __init__(self) -> None:
-        self._laws: dict[str, MotionLaw] = {}
-
-    def __getitem__(self, name: str) -> MotionLaw:
-        return self._laws[name]
-
-    def __iter__(self) -> Iterator[str]:
-        return iter(self._laws)
-
-    def __len__(self) -> int:
-        return len(self._laws)
-
-    def add(self, law: MotionLaw) -> MotionLaw:
-        """Add a law; ValueError where its name is taken or it is not a unit rise."""
-        fault = _fault(law) or (f"the name {law.name} is taken" if law.name in self._laws else "")
-        if fault:
-            raise ValueError(f"motion law {law.name}: {fault}")
-        self._laws[law.name] = law
-        return law
-
-
 def _fault(law: MotionLaw) -> str:
     """What keeps a law from being a unit rise with the joints that it declares; empty where nothing does."""
     curves = (law.position, law.velocity, law.acceleration, law.jerk, law.joint)
@@ -434,72 +174,75 @@ T = TypeVar("T")
 
 
 class PartOf(Mapping[str, T]):
-    """One part of each known law by the law's name: a live view of the registry."""
+    """One part of each known law by the law's name: a live view of ``LAWS``."""
 
-    def __init__(self, laws: Registry, part: Callable[[MotionLaw], T]) -> None:
-        self._laws, self._part = laws, part
+    def __init__(self, part: Callable[[MotionLaw], T]) -> None:
+        self._part = part
 
     def __getitem__(self, name: str) -> T:
-        return self._part(self._laws[name])
+        return self._part(LAWS[name])
 
     def __iter__(self) -> Iterator[str]:
-        return iter(self._laws)
+        return iter(LAWS)
 
     def __len__(self) -> int:
-        return len(self._laws)
+        return len(LAWS)
 
 
-LAWS = Registry()
-POSITION = PartOf(LAWS, lambda law: law.position)
-VELOCITY = PartOf(LAWS, lambda law: law.velocity)
-ACCELERATION = PartOf(LAWS, lambda law: law.acceleration)
-JERK = PartOf(LAWS, lambda law: law.jerk)
-PEAK_VELOCITY = PartOf(LAWS, lambda law: law.peak_velocity)
-PEAK_ACCELERATION = PartOf(LAWS, lambda law: law.peak_acceleration)
-JOINT = PartOf(LAWS, lambda law: law.joint)
-MIDDLE_POSITION = PartOf(LAWS, lambda law: float(law.position(0.5)))
-MIDDLE_VELOCITY = PartOf(LAWS, lambda law: float(law.velocity(0.5)))
+LAWS: dict[str, MotionLaw] = {}
+"""The known laws by their names, in the order in which they were registered."""
+
+POSITION = PartOf(lambda law: law.position)
+VELOCITY = PartOf(lambda law: law.velocity)
+ACCELERATION = PartOf(lambda law: law.acceleration)
+JERK = PartOf(lambda law: law.jerk)
+PEAK_VELOCITY = PartOf(lambda law: law.peak_velocity)
+PEAK_ACCELERATION = PartOf(lambda law: law.peak_acceleration)
+JOINT = PartOf(lambda law: law.joint)
+MIDDLE_POSITION = PartOf(lambda law: float(law.position(0.5)))
+MIDDLE_VELOCITY = PartOf(lambda law: float(law.velocity(0.5)))
 
 
 def register(law: MotionLaw) -> MotionLaw:
     """Add a law to ``LAWS``; ValueError where its name is taken or it is not a unit rise."""
-    return LAWS.add(law)
+    fault = _fault(law) or (f"the name {law.name} is taken" if law.name in LAWS else "")
+    if fault:
+        raise ValueError(f"motion law {law.name}: {fault}")
+    return LAWS.setdefault(law.name, law)
 
 
-register(MotionLaw(
-    name="cycloidal", title="Cycloidal (sinusoidal acceleration)", position=cycloidal_position, velocity=cycloidal_velocity,
-    acceleration=cycloidal_acceleration, jerk=cycloidal_jerk, peak_velocity=cycloidal_peak_velocity,
-    peak_acceleration=cycloidal_peak_acceleration,
-))  # fmt: skip
-register(MotionLaw(
-    name="harmonic", title="Harmonic (cosine acceleration)", position=harmonic_position, velocity=harmonic_velocity,
-    acceleration=harmonic_acceleration, jerk=harmonic_jerk, peak_velocity=harmonic_peak_velocity,
-    peak_acceleration=harmonic_peak_acceleration,
-))  # fmt: skip
-register(MotionLaw(
-    name="parabolic", title="Parabolic (constant acceleration)", position=parabolic_position,
-    velocity=parabolic_velocity, acceleration=parabolic_acceleration, jerk=parabolic_jerk,
-    peak_velocity=parabolic_peak_velocity, peak_acceleration=parabolic_peak_acceleration,
-    breakpoints=(1 / 2,), joint=parabolic_joint,
-))  # fmt: skip
-register(MotionLaw(
-    name="modified_trapezoidal", title="Modified trapezoidal acceleration", position=trapezoidal_position,
-    velocity=trapezoidal_velocity, acceleration=trapezoidal_acceleration, jerk=trapezoidal_jerk,
-    peak_velocity=trapezoidal_peak_velocity, peak_acceleration=trapezoidal_peak_acceleration,
-    breakpoints=(1 / 8, 3 / 8, 5 / 8, 7 / 8), joint=trapezoidal_joint,
-))  # fmt: skip
-register(MotionLaw(
-    name="modified_sine", title="Modified sine acceleration", position=sine_position, velocity=sine_velocity,
-    acceleration=sine_acceleration, jerk=sine_jerk, peak_velocity=sine_peak_velocity,
-    peak_acceleration=sine_peak_acceleration, breakpoints=(1 / 8, 7 / 8), joint=sine_joint,
-))  # fmt: skip
-register(MotionLaw(
-    name="polynomial_345", title="Polynomial 3-4-5", position=fifth_position, velocity=fifth_velocity,
-    acceleration=fifth_acceleration, jerk=fifth_jerk, peak_velocity=fifth_peak_velocity,
-    peak_acceleration=fifth_peak_acceleration,
-))  # fmt: skip
-register(MotionLaw(
-    name="polynomial_4567", title="Polynomial 4-5-6-7", position=seventh_position, velocity=seventh_velocity,
-    acceleration=seventh_acceleration, jerk=seventh_jerk, peak_velocity=seventh_peak_velocity,
-    peak_acceleration=seventh_peak_acceleration,
-))  # fmt: skip
+def _add(name: str, title: str, *breakpoints: float, **curves: Callable[..., Any]) -> None:
+    parts = {part: formula(curve) for part, curve in curves.items()}
+    register(MotionLaw(name=name, title=title, breakpoints=breakpoints, **parts))
+
+
+# fmt: off
+
+_add("cycloidal", "Cycloidal (sinusoidal acceleration)",
+    position=lambda k: k - np.sin(2 * np.pi * k) / as_number(2 * np.pi), velocity=lambda k: 1 - np.cos(2 * np.pi * k),
+    acceleration=lambda k: as_number(2 * np.pi) * np.sin(2 * np.pi * k), jerk=lambda k: as_number(4 * np.pi**2) * np.cos(2 * np.pi * k),
+    peak_velocity=lambda: 2, peak_acceleration=lambda: as_number(2 * np.pi))
+_add("harmonic", "Harmonic (cosine acceleration)",
+    position=lambda k: (1 - np.cos(np.pi * k)) / 2, velocity=lambda k: as_number(np.pi / 2) * np.sin(np.pi * k),
+    acceleration=lambda k: as_number(np.pi**2 / 2) * np.cos(np.pi * k), jerk=lambda k: as_number(-(np.pi**3) / 2) * np.sin(np.pi * k),
+    peak_velocity=lambda: as_number(np.pi / 2), peak_acceleration=lambda: as_number(np.pi**2 / 2))
+_add("parabolic", "Parabolic (constant acceleration)", 1 / 2,
+    position=lambda k: np.where(k < 1 / 2, 2 * k**2, 1 - 2 * (1 - k) ** 2), velocity=lambda k: np.where(k < 1 / 2, 4 * k, 4 * (1 - k)),
+    acceleration=lambda k: np.where(k < 1 / 2, 4, -4), jerk=lambda k: 0 * k,
+    peak_velocity=lambda: 2, peak_acceleration=lambda: 4, joint=lambda k: k - 1 / 2)
+_add("modified_trapezoidal", "Modified trapezoidal acceleration", 1 / 8, 3 / 8, 5 / 8, 7 / 8,
+    position=trapezoidal_position, velocity=trapezoidal_velocity, acceleration=trapezoidal_acceleration, jerk=trapezoidal_jerk,
+    peak_velocity=lambda: 2, peak_acceleration=lambda: 8 * as_number(np.pi) / (2 + as_number(np.pi)),
+    joint=lambda k: (k - 1 / 8) * (k - 3 / 8) * (k - 5 / 8) * (k - 7 / 8))
+_add("modified_sine", "Modified sine acceleration", 1 / 8, 7 / 8,
+    position=sine_position, velocity=sine_velocity, acceleration=sine_acceleration, jerk=sine_jerk,
+    peak_velocity=lambda: 4 * as_number(np.pi) / (4 + as_number(np.pi)),
+    peak_acceleration=lambda: 4 * as_number(np.pi) ** 2 / (4 + as_number(np.pi)), joint=lambda k: (k - 1 / 8) * (k - 7 / 8))
+_add("polynomial_345", "Polynomial 3-4-5",
+    position=lambda k: 10 * k**3 - 15 * k**4 + 6 * k**5, velocity=lambda k: 30 * k**2 * (1 - k) ** 2,
+    acceleration=lambda k: 60 * k * (1 - k) * (1 - 2 * k), jerk=lambda k: 60 * (1 - 6 * k + 6 * k**2),
+    peak_velocity=lambda: 15 / 8, peak_acceleration=lambda: 10 / np.sqrt(3))
+_add("polynomial_4567", "Polynomial 4-5-6-7",
+    position=lambda k: 35 * k**4 - 84 * k**5 + 70 * k**6 - 20 * k**7, velocity=lambda k: 140 * k**3 * (1 - k) ** 3,
+    acceleration=lambda k: 420 * k**2 * (1 - k) ** 2 * (1 - 2 * k), jerk=lambda k: 840 * k * (1 - k) * (1 - 5 * k + 5 * k**2),
+    peak_velocity=lambda: 35 / 16, peak_acceleration=lambda: 84 / (5 * np.sqrt(5)))

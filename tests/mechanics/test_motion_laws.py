@@ -2,6 +2,7 @@
 
 from __future__ import annotations
 
+from collections.abc import Iterator
 from itertools import pairwise
 from typing import Any
 
@@ -17,7 +18,7 @@ from diecut_report.api import Annotated, Inputs, Text, formula
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, evaluate
 from diecut_report.mechanics import motion_laws
-from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, Registry, register
+from diecut_report.mechanics.motion_laws import LAWS, MotionLaw, register
 
 PUBLISHED = {  # peak velocity B, peak acceleration A
     "cycloidal": (2, 2 * np.pi),
@@ -189,18 +190,20 @@ def a_law(**changes: Any) -> MotionLaw:
 
 
 @pytest.fixture
-def own_registry(monkeypatch: pytest.MonkeyPatch) -> Registry:
-    """The one registry, whose additions are taken back after the test."""
-    monkeypatch.setattr(LAWS, "_laws", dict(LAWS._laws))
-    return LAWS
+def own_laws() -> Iterator[None]:
+    """The known laws, whose additions are taken back after the test."""
+    known = dict(LAWS)
+    yield
+    LAWS.clear()
+    LAWS.update(known)
 
 
-def test_a_registered_law_is_seen_in_all_views_made_before(own_registry: Registry) -> None:
+def test_a_registered_law_is_seen_in_all_views_made_before(own_laws: None) -> None:
     views = (motion_laws.POSITION, motion_laws.VELOCITY, motion_laws.ACCELERATION, motion_laws.JERK,
              motion_laws.PEAK_VELOCITY, motion_laws.PEAK_ACCELERATION, motion_laws.JOINT)  # fmt: skip
     assert all("even" not in view for view in views)
     law = register(a_law())
-    assert own_registry["even"] is law
+    assert LAWS["even"] is law
     expected = (straight, even, nothing, nothing, one, one, law.joint)
     assert tuple(view["even"] for view in views) == expected
     assert all(list(view) == [*PUBLISHED, "even"] and len(view) == 8 for view in views)
@@ -221,10 +224,10 @@ def test_a_registered_law_is_seen_in_all_views_made_before(own_registry: Registr
         ({"breakpoints": (0.25,), "joint": LAWS["parabolic"].joint}, "joint changes its sign"),
     ],
 )
-def test_what_is_no_unit_rise_is_not_registered(own_registry: Registry, changes: dict[str, Any], words: str) -> None:
+def test_what_is_no_unit_rise_is_not_registered(own_laws: None, changes: dict[str, Any], words: str) -> None:
     with pytest.raises(ValueError, match=words):
-        own_registry.add(a_law(**changes))
-    assert list(own_registry) == list(PUBLISHED)
+        register(a_law(**changes))
+    assert list(LAWS) == list(PUBLISHED)
 
 
 class Chosen(Inputs):
