@@ -94,12 +94,6 @@ def stopping_share(disc_angle: Any, dwell_angle: Any, time_stop: Any) -> Any:
 
 
 @formula
-def share_since(disc_angle: Any, start: Any, time: Any) -> Any:
-    """Share of a rise's time since its start."""
-    return (disc_angle - start) / (2 * np.pi * time)
-
-
-@formula
 def starting_angle(sector_stop_sweep: Any, law_position: Any) -> Any:
     """Sector angle in phase I."""
     return sector_stop_sweep * (law_position - 1 / 2)
@@ -157,9 +151,3 @@ def gear_acceleration(sector_acceleration: Any, sector_radius: Any, gear_radius:
 def sheet_step(sprocket_teeth: Any, chain_pitch: Any, sprocket_ratio: Any) -> Any:
     """Step of the conveyor in a cycle."""
     return sprocket_teeth * chain_pitch * sprocket_ratio
-
-
-@formula
-def travel(angle: Any, sheet_step: Any) -> Any:
-    """Way, velocity or acceleration of the sheet from that of the gear, a turn of which makes a step."""
-    return sheet_step * angle / (2 * np.pi)

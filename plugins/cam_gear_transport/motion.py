@@ -45,8 +45,10 @@ sector.phase("moving", "moving", "Motion of gear and sheet", "disc_angle", rest_
 sector.value("piece_middle", "φ_m", "deg", "Disc angle in the middle of the present phase (or part of it)", lambda disc_angle: disc_angle,
     source="this method", output=False, per_piece=True)
 sector.choice("law_share", "k", "1", "Elapsed fraction of the rise or return",
-    *by_phase(bind(common.same, quantity=0.5), formulas.stopping_share, bind(formulas.share_since, start="angle_stop", time="time_return"),
-        bind(formulas.share_since, start="angle_start", time="time_stop")), source="003 eq. 2", output=False)
+    *by_phase(bind(common.same, quantity=0.5), formulas.stopping_share,
+        bind(lambda disc_angle, start, time: (disc_angle - start) / (2 * np.pi * time), start="angle_stop", time="time_return"),
+        bind(lambda disc_angle, start, time: (disc_angle - start) / (2 * np.pi * time), start="angle_start", time="time_stop")), source="003 eq. 2",
+    output=False)
 sector.value("law_joint", "j", "1", "Junction of the law: changes its sign where the law's formula changes",
     ByText("motion_law", JOINT, k="law_share"), output=False, source="motion laws", printed=False)
 sector.crossings("law_break", "φ_j", "deg", "Disc angle at which the law's formula changes, or a phase begins", of="law_joint", output=False,

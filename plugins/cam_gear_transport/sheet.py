@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind
+from diecut_report.api import Chapter
 from diecut_report.mechanics import contact
 from diecut_report.plugins.cam_gear_transport import formulas, loads
 from diecut_report.plugins.cam_gear_transport.inputs import GRIPPED, SHEET, TORQUE
@@ -14,12 +14,12 @@ from diecut_report.plugins.cam_gear_transport.inputs import GRIPPED, SHEET, TORQ
 conveyor = Chapter("Motion of the sheet", text="The gear drives the conveyor's sprocket; one cycle makes one step.", needs=SHEET,
     absent="not calculated: {missing} not given")
 conveyor.value("sheet_step", "S", "mm", "Step of the conveyor per cycle", formulas.sheet_step, source="this method")
-conveyor.value("sheet_position", "x", "mm", "Position of the sheet from its dwell position", bind(formulas.travel, angle="gear_angle"),
-    source="kinematics")
+conveyor.value("sheet_position", "x", "mm", "Position of the sheet from its dwell position",
+    lambda gear_angle, sheet_step: sheet_step * gear_angle / (2 * np.pi), source="kinematics")
 conveyor.value("sheet_velocity", "V", "m/s", "Velocity of the sheet",
     lambda gear_speed, sheet_step, cycles_per_hour: sheet_step * cycles_per_hour * gear_speed / (2 * np.pi), source="kinematics")
-conveyor.value("sheet_acceleration", "a_s", "m/s**2", "Acceleration of the sheet", bind(formulas.travel, angle="gear_acceleration"),
-    source="kinematics")
+conveyor.value("sheet_acceleration", "a_s", "m/s**2", "Acceleration of the sheet",
+    lambda gear_acceleration, sheet_step: sheet_step * gear_acceleration / (2 * np.pi), source="kinematics")
 conveyor.reduction("sheet_velocity_max", "V_max", "m/s", "Maximum velocity of the sheet", "abs_max", of="sheet_velocity", source="kinematics")
 conveyor.reduction("sheet_acceleration_max", "a_s,max", "m/s**2", "Maximum acceleration of the sheet", "abs_max", of="sheet_acceleration",
     source="kinematics")

@@ -71,8 +71,11 @@ forces.add(_in_cut("front_length", "a", "mm", "Length of the working front", bin
 forces.value("bow_area", "A_b", "mm**2", "Area between the working front and its chord",
     bind(circular_segment.area, radius="edge_radius", half_angle="front_half_angle"), source=OWN, output=False)
 forces.add(_in_cut("force", "F_v", "N", "Downward force on the board", bind(f.force), source=OWN))
-forces.add(_in_cut("working_force", "F_w", "N", "Downward force by virtual work", bind(f.working_force), source="energy", output=False))
-forces.value("thrust", "F_h", "N", "Force along the cut by virtual work", f.thrust, source="energy")
+forces.add(_in_cut("working_force", "F_w", "N", "Downward force by virtual work",
+        bind(lambda shear_resistance, thickness, front_length, bow_area: shear_resistance * (thickness * front_length / 2 - bow_area)),
+        source="energy", output=False))
+forces.value("thrust", "F_h", "N", "Force along the cut by virtual work", lambda shear_resistance, thickness: shear_resistance * thickness**2 / 2,
+    source="energy")
 forces.add(_in_cut("useful_torque", "M_u", "N*m", "Torque of cutting",
         bind(lambda eccentricity, working_force, thrust, angle: eccentricity * (working_force * np.cos(angle) - thrust * np.sin(angle)),
             angle="cut_place"), source="statics", output=False))

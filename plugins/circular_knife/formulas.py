@@ -30,12 +30,6 @@ def meeting_place(eccentricity: Any, edge_radius: Any, corner: Any) -> Any:
 
 
 @formula
-def reversal_angle(depth: Any, edge_radius: Any, eccentricity: Any) -> Any:
-    """Knife angle at which the edge's point in a depth turns back."""
-    return np.arcsin(depth / (edge_radius + eccentricity))
-
-
-@formula
 def past_centre(angle: Any, distance: Any, eccentricity: Any, depth: Any, edge_radius: Any) -> Any:
     """Zero where a point of the counter-knife lies on the edge: its way along the line axis–centre, by the law of cosines."""
     along = distance * np.cos(angle) + depth * np.sin(angle)
@@ -79,18 +73,6 @@ def front_length(edge_radius: Any, face_angle: Any, shear_angle: Any) -> Any:
 def force(shear_resistance: Any, thickness: Any, front_length: Any, bow_area: Any) -> Any:
     """Shear stress times the area between the edge and the line square to the board through the cutting point."""
     return shear_resistance * (thickness * front_length / 2 + bow_area)
-
-
-@formula
-def working_force(shear_resistance: Any, thickness: Any, front_length: Any, bow_area: Any) -> Any:
-    """Shear stress times the area that the edge has still to cut over the working front."""
-    return shear_resistance * (thickness * front_length / 2 - bow_area)
-
-
-@formula
-def thrust(shear_resistance: Any, thickness: Any) -> Any:
-    """Force along the cut; also the work of each unit of length cut."""
-    return shear_resistance * thickness**2 / 2
 
 
 @formula

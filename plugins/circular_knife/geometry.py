@@ -78,7 +78,8 @@ shear_range = Chapter("Range of the cut",
         "decreases there.")
 shear_range.value("touch_angle", "φ_0", "deg", "Knife angle at which the edge touches the counter-knife",
     lambda depth, edge_radius, eccentricity: np.arcsin((depth - edge_radius) / eccentricity), source=OWN, output=False)
-shear_range.value("return_angle", "φ_r", "deg", "Knife angle at which the cutting point reverses", f.reversal_angle, source=OWN, output=False)
+shear_range.value("return_angle", "φ_r", "deg", "Knife angle at which the cutting point reverses",
+    lambda depth, edge_radius, eccentricity: np.arcsin(depth / (edge_radius + eccentricity)), source=OWN, output=False)
 shear_range.add(_at_distance("angle_start", "φ_1", "Knife angle at the start of the cut", "front_distance"))
 shear_range.add(_at_distance("angle_end", "φ_2", "Knife angle at the end of the cut", "cut_end"))
 shear_range.value("cut_angle", "Δφ", "deg", "Angle of the cut", lambda angle_end, angle_start: angle_end - angle_start, source="kinematics")
@@ -117,7 +118,7 @@ edge.value("edge_angle_last", "ψ_2", "deg", "Position on the edge of the point 
 edge.value("edge_length", "s", "mm", "Length of the edge that cuts",
     lambda edge_radius, edge_angle_first, edge_angle_last: edge_radius * (edge_angle_first - edge_angle_last), source=OWN)
 edge.value("face_return_angle", "φ_rh", "deg", "Knife angle at which the point of the edge in the board's upper face reverses",
-    bind(f.reversal_angle, depth="face_depth"), source=OWN, output=False)
+    lambda face_depth, edge_radius, eccentricity: np.arcsin(face_depth / (edge_radius + eccentricity)), source=OWN, output=False)
 edge.value("used_sweep", "Δφ_2", "deg", "Rotation of the knife from touching the counter-knife to the end of the cut",
     lambda angle_end, touch_angle: angle_end - touch_angle, source="kinematics", output=False)
 edge.value("usable_sweep", "Δφ_r", "deg", "Rotation up to which the edge moves forward throughout the thickness",

@@ -19,7 +19,8 @@ moments.value("greatest_unbalance", "me_max", "kg*m", "Unbalance if the centre o
 moments.value("inertia_moment", "M_in", "N*m", "Moment of inertia forces and unbalance", loads.inertia_moment,
     source="000 eq. 12, with the unbalance")
 moments.add(TECHNOLOGICAL)
-moments.value("total_moment", "M_Σ", "N*m", "Moment on the cylinder's axis", loads.total_moment, source="000 eq. 11, 20, corrected")
+moments.value("total_moment", "M_Σ", "N*m", "Moment on the cylinder's axis",
+    lambda inertia_moment, technological_moment, direction: inertia_moment + technological_moment * direction, source="000 eq. 11, 20, corrected")
 moments.crossings("flank_change", "φ_f", "deg", "Crank angle at which the teeth of sector and pinion change flanks", of="total_moment")
 moments.breakpoints("losses", "crank_angle", "flank_change")
 moments.reduction("inertia_moment_max", "M_in,max", "N*m", "Maximum moment of inertia forces", "max", of="inertia_moment")
@@ -35,17 +36,17 @@ torque.value("efficiency_total", "η", "1", "Efficiency from the crank to the cy
 torque.value("lossless_torque", "M_0", "N*m", "Torque at the crank without losses",
     lambda sector_ratio, rocker_speed_ratio, total_moment: sector_ratio * rocker_speed_ratio * total_moment, source="000 eq. 21", output=False)
 torque.choice("crank_torque", "M_1", "N*m", "Torque at the crank",
-    case(bind(loads.with_losses, torque="lossless_torque", efficiency="efficiency_total"), "power flows from the crank to the cylinder: divided by η",
+    case(lambda lossless_torque, efficiency_total: lossless_torque / efficiency_total, "power flows from the crank to the cylinder: divided by η",
         lambda lossless_torque: lossless_torque >= 0),
-    case(bind(loads.after_losses, torque="lossless_torque", efficiency="efficiency_total"), "the cylinder drives the crank: multiplied by η"),
+    case(lambda lossless_torque, efficiency_total: lossless_torque * efficiency_total, "the cylinder drives the crank: multiplied by η"),
     source="000 eq. 21, corrected")
 torque.reduction("crank_torque_peak", "M_peak", "N*m", "Maximum absolute torque", "abs_max", of="crank_torque")
 torque.reduction("crank_torque_max", "M_max", "N*m", "Maximum driving torque", "max", of="crank_torque")
 torque.reduction("crank_torque_min", "M_min", "N*m", "Maximum braking torque", "min", of="crank_torque")
 torque.reduction("crank_torque_mean", "M_mean", "N*m", "Mean torque", "mean", of="crank_torque")
 torque.reduction("crank_torque_rms", "M_rms", "N*m", "Root mean square torque", "rms", of="crank_torque")
-torque.value("power_mean", "P_mean", "kW", "Mean power at the crank", bind(loads.power, torque="crank_torque_mean"))
-torque.value("power_peak", "P_peak", "kW", "Peak power at the crank", bind(loads.power, torque="crank_torque_peak"))
+torque.value("power_mean", "P_mean", "kW", "Mean power at the crank", lambda crank_torque_mean, crank_speed: crank_torque_mean * crank_speed)
+torque.value("power_peak", "P_peak", "kW", "Peak power at the crank", lambda crank_torque_peak, crank_speed: crank_torque_peak * crank_speed)
 torque.crossings("torque_reversal", "φ_r", "deg", "Crank angle at which the torque reverses (backlash)", of="crank_torque")
 
 energy = Chapter("Energy balance",
@@ -80,7 +81,8 @@ clearance.value("clearance_outer_start", "φ_c1", "deg", "Window at the outer de
 clearance.value("clearance_outer_end", "φ_c2", "deg", "Window at the outer dead centre closes",
     bind(four_bar.crank_angle_forward, rocker_direction="clear_direction_outer", joint_distance="clear_distance_outer"), exists=loads.flat_leaves)
 clearance.value("clearance_outer_time", "t_c1", "ms", "Time of the window at the outer dead centre",
-    bind(loads.elapsed, start="clearance_outer_start", end="clearance_outer_end"), exists=loads.flat_leaves)
+    lambda clearance_outer_start, clearance_outer_end, crank_speed: (clearance_outer_end - clearance_outer_start) / crank_speed,
+    exists=loads.flat_leaves)
 clearance.value("clear_swing_inner", "δ_c′", "deg", "Rocker angle from which the flat is clear again",
     lambda clear_rotation, sector_ratio: (2 * np.pi - clear_rotation) / sector_ratio, output=False)
 clearance.value("clear_direction_inner", "β_c′", "deg", "Direction of the rocker there",
@@ -92,7 +94,8 @@ clearance.value("clearance_inner_start", "φ_c3", "deg", "Window at the inner de
 clearance.value("clearance_inner_end", "φ_c4", "deg", "Window at the inner dead centre closes",
     bind(four_bar.crank_angle_return, rocker_direction="clear_direction_inner", joint_distance="clear_distance_inner"), exists=loads.flat_arrives)
 clearance.value("clearance_inner_time", "t_c2", "ms", "Time of the window at the inner dead centre",
-    bind(loads.elapsed, start="clearance_inner_start", end="clearance_inner_end"), exists=loads.flat_arrives)
+    lambda clearance_inner_start, clearance_inner_end, crank_speed: (clearance_inner_end - clearance_inner_start) / crank_speed,
+    exists=loads.flat_arrives)
 clearance.phase("carriage_window_outer", "window", "Clearance for the carriages at the outer end", "crank_angle",
     ("clearance_outer_start", "clearance_outer_end"))
 clearance.phase("carriage_window_inner", "window", "Clearance for the carriages at the inner end", "crank_angle",
@@ -123,9 +126,9 @@ joints.value("efficiency_behind_rocker", "η_s", "1", "Efficiency from the rocke
 joints.value("lossless_rocker_torque", "M_20", "N*m", "Torque at the rocker without losses",
     lambda sector_ratio, total_moment: sector_ratio * total_moment, output=False)
 joints.choice("rocker_torque", "M_2", "N*m", "Torque at the rocker",
-    case(bind(loads.with_losses, torque="lossless_rocker_torque", efficiency="efficiency_behind_rocker"),
+    case(lambda lossless_rocker_torque, efficiency_behind_rocker: lossless_rocker_torque / efficiency_behind_rocker,
         "power flows from the rocker to the cylinder: divided by η_s", lambda lossless_torque: lossless_torque >= 0),
-    case(bind(loads.after_losses, torque="lossless_rocker_torque", efficiency="efficiency_behind_rocker"),
+    case(lambda lossless_rocker_torque, efficiency_behind_rocker: lossless_rocker_torque * efficiency_behind_rocker,
         "the cylinder drives the rocker: multiplied by η_s"))
 joints.value("coupler_force", "F_c", "kN", "Force along the coupler, tension positive",
     lambda rocker_torque, rocker_length, transmission_angle: rocker_torque / (rocker_length * np.sin(transmission_angle)))

@@ -6,7 +6,6 @@ import numpy as np
 
 from diecut_report.api import Bound, Chapter, Formula, Steps, as_angle, bind, case
 from diecut_report.mechanics import common, four_bar
-from diecut_report.plugins.cylinder_drive import loads
 
 # fmt: off
 
@@ -52,7 +51,8 @@ stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: as given",
     bind(lambda sector_ratio: sector_ratio, sector_ratio="inputs.sector_ratio"), source="input", needs=("sector_ratio",), digits=6)
 stroke.value("sector_ratio", "u", "1", "Ratio of sector to pinion: the full swing turns the cylinder by one revolution",
     lambda swing_angle: 2 * np.pi / swing_angle, lacks=("sector_ratio",), digits=6)
-stroke.value("stroke", "S_max", "mm", "Stroke of the cylinder's axis", bind(loads.rolled, angle="swing_angle"), source="000 eq. 8")
+stroke.value("stroke", "S_max", "mm", "Stroke of the cylinder's axis",
+    lambda swing_angle, sector_ratio, cylinder_radius: swing_angle * sector_ratio * cylinder_radius, source="000 eq. 8")
 stroke.value("stroke_error", "Δθ", "deg", "Deviation of the rotation over the stroke from one revolution",
     lambda sector_ratio, swing_angle: abs(sector_ratio * swing_angle - 2 * np.pi), output=False)
 
@@ -112,7 +112,8 @@ kinematics.value("coupler_speed_ratio", "ω_2i", "1", "Ratio of the coupler's an
     source="000, after eq. 7", output=False)
 kinematics.value("rocker_acceleration_ratio", "ε_3i", "1", "Ratio of the rocker's angular acceleration to the square of the crank's speed",
     four_bar.rocker_acceleration_ratio, source="000 eq. 7", output=False)
-kinematics.value("displacement", "S", "mm", "Displacement of the cylinder", bind(loads.rolled, angle="rocker_angle"), source="000 eq. 8")
+kinematics.value("displacement", "S", "mm", "Displacement of the cylinder",
+    lambda rocker_angle, sector_ratio, cylinder_radius: rocker_angle * sector_ratio * cylinder_radius, source="000 eq. 8")
 kinematics.value("velocity", "V", "m/s", "Velocity of the cylinder",
     lambda rocker_speed_ratio, crank_speed, sector_ratio, cylinder_radius: rocker_speed_ratio * crank_speed * sector_ratio * cylinder_radius,
     source="000 eq. 9")

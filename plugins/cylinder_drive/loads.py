@@ -10,12 +10,6 @@ from diecut_report.api import GRAVITY, arccos, formula
 
 
 @formula
-def rolled(angle: Any, sector_ratio: Any, cylinder_radius: Any) -> Any:
-    """Rolled length, speed or acceleration of the cylinder from the rocker's angle or its derivative."""
-    return angle * sector_ratio * cylinder_radius
-
-
-@formula
 def reduced_inertia(cylinder_inertia: Any, cylinder_mass: Any, cylinder_radius: Any) -> Any:
     """Inertia of the rolling cylinder about its axis, its translation included."""
     return cylinder_inertia + cylinder_mass * cylinder_radius**2
@@ -38,12 +32,6 @@ def inertia_moment(
 
 
 @formula
-def total_moment(inertia_moment: Any, technological_moment: Any, direction: Any) -> Any:
-    """Moment on the cylinder's axis; the technological one resists the motion."""
-    return inertia_moment + technological_moment * direction
-
-
-@formula
 def efficiency_behind_rocker(
     efficiency_sector: Any, efficiency_gear: Any, efficiency_chain: Any, efficiency_bearings: Any
 ) -> Any:
@@ -52,33 +40,9 @@ def efficiency_behind_rocker(
 
 
 @formula
-def with_losses(torque: Any, efficiency: Any) -> Any:
-    """Torque where the crank drives: the losses add to it."""
-    return torque / efficiency
-
-
-@formula
-def after_losses(torque: Any, efficiency: Any) -> Any:
-    """Torque where the cylinder drives back: the losses take from it."""
-    return torque * efficiency
-
-
-@formula
-def power(torque: Any, crank_speed: Any) -> Any:
-    """Power at the crank."""
-    return torque * crank_speed
-
-
-@formula
 def clear_rotation(half_angle: Any, carriage_clearance: Any, cylinder_radius: Any) -> Any:
     """Rotation from the flat's lowest position at which its lower edge still leaves the clearance."""
     return half_angle - arccos(1 - carriage_clearance / cylinder_radius)
-
-
-@formula
-def elapsed(start: Any, end: Any, crank_speed: Any) -> Any:
-    """Time between two crank angles."""
-    return (end - start) / crank_speed
 
 
 @formula

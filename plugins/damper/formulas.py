@@ -56,12 +56,6 @@ def stiffness_borne(
 
 
 @formula
-def force(stress: Any, area: Any) -> Any:
-    """Force on one damper."""
-    return stress * area
-
-
-@formula
 def reduced_mass(kinetic_energy: Any, velocity: Any) -> Any:
     """Mass that has the energy at the speed."""
     return 2 * kinetic_energy / velocity**2
@@ -83,12 +77,6 @@ def three_sides(side: Any) -> Any:
 def stiffness(damper_count: Any, area: Any, elastic_modulus: Any, adopted_length: Any) -> Any:
     """Stiffness of all dampers together."""
     return damper_count * area * elastic_modulus / adopted_length
-
-
-@formula
-def driven_deflection(driving_force: Any, stiffness: Any, kinetic_energy: Any) -> Any:
-    """Deflection at which the springs hold the energy and the work of the force: ½kh² = W + Fh."""
-    return (driving_force + np.sqrt(driving_force**2 + 2 * stiffness * kinetic_energy)) / stiffness
 
 
 @formula

@@ -49,7 +49,7 @@ length.value("adopted_length", "H_a", "mm", "Adopted length: rounded up to the s
 load = Chapter("Load at the adopted length")
 load.value("stress", "σ", "MPa", "Maximum compressive stress", f.stress, source="002 eq. 22")
 load.value("strain", "ε", "1", "Maximum strain", lambda stress, elastic_modulus: stress / elastic_modulus, source="002 eq. 19")
-load.value("peak_force", "P", "N", "Maximum force on one damper", f.force, source="002 eq. 20")
+load.value("peak_force", "P", "N", "Maximum force on one damper", lambda stress, area: stress * area, source="002 eq. 20")
 load.value("stiffness_borne", "k_d,max", "1", "Ratio of dynamic to static stiffness at which the allowable stress is reached",
     bind(f.stiffness_borne, modulus="elastic_modulus"), source="002 eq. 22", lacks=("dynamic_stiffness_factor",))
 load.value("stiffness_borne", "k_d,max", "1", "Ratio of dynamic to static stiffness at which the allowable stress is reached",
@@ -112,14 +112,17 @@ drive.value("driving_force", "F", "N", "Force of the drive",
     bind(lambda torque, rolling_radius: torque / rolling_radius, torque="drive.torque", rolling_radius="drive.rolling_radius"), source="statics",
     lacks=("drive.force",))
 drive.value("stiffness", "k", "N/mm", "Total stiffness of the dampers", f.stiffness, source="002 eq. 21")
-drive.value("driven_deflection", "h_d", "mm", "Maximum deflection with the drive", f.driven_deflection, source="energy")
+drive.value("driven_deflection", "h_d", "mm", "Maximum deflection with the drive",
+    lambda driving_force, stiffness, kinetic_energy: (driving_force + np.sqrt(driving_force**2 + 2 * stiffness * kinetic_energy)) / stiffness,
+    source="energy")
 drive.value("driving_work", "A_d", "J", "Work of the drive until the stop",
     lambda driving_force, driven_deflection: driving_force * driven_deflection, source="energy")
 drive.value("driven_strain", "ε_d", "1", "Maximum strain with the drive",
     lambda driven_deflection, adopted_length: driven_deflection / adopted_length, source="002 eq. 18")
 drive.value("driven_stress", "σ_d", "MPa", "Maximum stress with the drive", lambda elastic_modulus, driven_strain: elastic_modulus * driven_strain,
     source="002 eq. 19")
-drive.value("driven_peak_force", "P_d", "N", "Maximum force on one damper with the drive", bind(f.force, stress="driven_stress"), source="002 eq. 20")
+drive.value("driven_peak_force", "P_d", "N", "Maximum force on one damper with the drive", lambda driven_stress, area: driven_stress * area,
+    source="002 eq. 20")
 drive.value("driven_peak_deceleration", "a_d", "m/s**2", "Maximum deceleration with the drive",
     lambda damper_count, driven_peak_force, driving_force, reduced_mass: (damper_count * driven_peak_force - driving_force) / reduced_mass,
     source="dynamics", needs=("velocity",))

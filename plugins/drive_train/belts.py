@@ -66,12 +66,6 @@ def tension_ratio(groove_friction: Any, wrap: Any) -> Any:
 
 
 @formula
-def wrap_factor(wrap: Any) -> Any:
-    """Factor of the wrap on what the maker states for half a turn, where the tensions are 5 : 1 (ISO 5292)."""
-    return 1.25 * (1 - 5 ** (-wrap / np.pi))
-
-
-@formula
 def length_factor(length: Any, reference: Any) -> Any:
     """Factor of the belt's length: a longer belt bends less often."""
     ratio = length / reference

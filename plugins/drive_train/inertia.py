@@ -17,9 +17,3 @@ def inertia_before(own: Any, behind: Any, ratio: Any, efficiency: Any) -> Any:
 def run_up_time(run_up_inertia: Any, shaft_1_speed: Any, accelerating_torque: Any) -> Any:
     """Time in which a torque brings an inertia to its speed."""
     return run_up_inertia * as_number(shaft_1_speed) / accelerating_torque
-
-
-@formula
-def runs_up(accelerating_torque: Any, run_up_inertia: Any) -> Any:
-    """Whether there is an inertia, and a torque that accelerates it."""
-    return (accelerating_torque > 0) & (run_up_inertia > 0)

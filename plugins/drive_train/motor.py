@@ -95,8 +95,9 @@ run_up.value("run_up_load_torque", "M_l", "N*m", "Load torque at the motor durin
     lambda run_up_load, shaft_1_torque: run_up_load * shaft_1_torque, source="this method")
 run_up.value("accelerating_torque", "M_acc", "N*m", "Accelerating torque",
     lambda run_up_torque, run_up_load_torque: run_up_torque - run_up_load_torque, source="mechanics")
-run_up.value("run_up_time", "t_a", "s", "Run-up time of the motor", inertia.run_up_time, source="mechanics", exists=inertia.runs_up,
-    needs=("motor_inertia", "load_inertia"))
+run_up.value("run_up_time", "t_a", "s", "Run-up time of the motor", inertia.run_up_time, source="mechanics",
+    exists=lambda accelerating_torque, run_up_inertia: (accelerating_torque > 0) & (run_up_inertia > 0), needs=("motor_inertia", "load_inertia"))
 for needs, lacks in (((), ("load_inertia",)), (("load_inertia",), ("motor_inertia",))):
     run_up.value("run_up_time_least", "t_a1", "s", "Run-up time of the given inertias: the actual time is longer", inertia.run_up_time,
-        source="mechanics", exists=inertia.runs_up, needs=needs, lacks=lacks)
+        source="mechanics", exists=lambda accelerating_torque, run_up_inertia: (accelerating_torque > 0) & (run_up_inertia > 0), needs=needs,
+        lacks=lacks)

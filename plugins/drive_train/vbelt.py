@@ -86,7 +86,7 @@ count = Chapter("Number of belts",
         "power with the service factor.")
 count.value("tension_ratio", "m", "1", "Ratio of tight-side to slack-side tension",
     bind(belts.tension_ratio, groove_friction="vbelt.groove_friction", wrap="vbelt_wrap"), source="Euler")
-count.value("wrap_factor", "c_1", "1", "Arc of contact factor", bind(belts.wrap_factor, wrap="vbelt_wrap"), source="ISO 5292")
+count.value("wrap_factor", "c_1", "1", "Arc of contact factor", lambda vbelt_wrap: 1.25 * (1 - 5 ** (-vbelt_wrap / np.pi)), source="ISO 5292")
 count.lookup("reference_length", "L_r", "mm", "Reference length of the section", REFERENCE_LENGTHS, by="vbelt.section", source="Optibelt",
     output=False)
 count.value("length_factor", "c_3", "1", "Belt length factor",

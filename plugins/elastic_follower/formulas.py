@@ -8,12 +8,6 @@ from diecut_report.api import formula
 
 
 @formula
-def inverse(frequency: Any) -> Any:
-    """Duration of a cycle."""
-    return 1 / frequency
-
-
-@formula
 def law_acceleration(rise: Any, rise_duration: Any, acceleration: Any) -> Any:
     """Acceleration of a rise by a law, of the law's acceleration."""
     return rise / rise_duration**2 * acceleration

@@ -33,7 +33,7 @@ drive.add(
     of_each_body("angular_frequency", "ω", "rad/s", "Natural angular frequency", followers.natural_angular_frequency, source="001, first paper"))
 drive.value("natural_frequency", "f_n", "Hz", "Natural frequency", lambda angular_frequency: angular_frequency / (2 * np.pi),
     source="001, first paper")
-drive.value("natural_period", "T_n", "ms", "Natural period", bind(formulas.inverse, frequency="natural_frequency"), source="vibration", output=False)
+drive.value("natural_period", "T_n", "ms", "Natural period", lambda natural_frequency: 1 / natural_frequency, source="vibration", output=False)
 drive.value("damped_frequency", "ω_d", "rad/s", "Angular frequency of the damped vibration", followers.damped_angular_frequency, source="vibration",
     output=False)
 drive.add(of_each_body("damping_constant", "C", "N*m*s/rad", "Damping of the drive", followers.damping_constant, units=(("mass", "N*s/m"),),
@@ -41,7 +41,7 @@ drive.add(of_each_body("damping_constant", "C", "N*m*s/rad", "Damping of the dri
 
 times = Chapter("Duration of the motion",
     text="The motion lasts from one rest to the next; where a curve is given, from the end of its longest rest to its start.")
-times.value("cycle_time", "T", "ms", "Duration of a cycle", bind(formulas.inverse, frequency="cycles_per_hour"), needs=RATE)
+times.value("cycle_time", "T", "ms", "Duration of a cycle", lambda cycles_per_hour: 1 / cycles_per_hour, needs=RATE)
 times.curve_period("cycle_time", "T", "ms", "Duration of a cycle", given="motion_curve",
     otherwise="give cycles_per_hour, with which it runs through once a cycle", needs=CURVE, lacks=RATE)
 times.computed("motion_start", "s_0", "1", "Fraction of the cycle at which the motion begins", function=rests.start, takes=CURVE,

@@ -55,8 +55,8 @@ basis = Chapter("Basis of comparison",
     text="Both drives make the same step S in the same time T, each with its own dwell. Velocities are related to the mean velocity S/T, "
         "accelerations to S/T²; so they hold for any step and any productivity.")
 basis.value("cycle_time", "T", "ms", "Cycle time of the cam-gear", lambda cycles_per_hour: 1 / cycles_per_hour, source="kinematics")
-basis.value("geneva_cycle_time", "T_g", "ms", "Time of a revolution of the Geneva drive's crank, as given there", formulas.cycle_time,
-    source="kinematics")
+basis.value("geneva_cycle_time", "T_g", "ms", "Time of a revolution of the Geneva drive's crank, as given there",
+    lambda crank_speed: 2 * np.pi / crank_speed, source="kinematics")
 basis.choice("cycle_basis", "→", "1", "Cycle time of the comparison",
     case("both drives have it", "the cycle times are the same", bind(related.are_alike, one="cycle_time", other="geneva_cycle_time")),
     case("the cam-gear's, for both drives", "the Geneva drive has another one"))
@@ -81,7 +81,7 @@ def _ratio(what: str, symbol: str, title: str) -> Steps:
     return steps
 
 
-IN_SLOT = bind(formulas.holds, flag="engaged")
+IN_SLOT = bind(lambda flag: flag == 1, flag="engaged")
 
 motion = Chapter("Motion of the sheet over a cycle",
     text="The cycle begins with the cam-gear's dwell; the motions of both drives have the same middle. k and s hold for a whole piece of the cycle "

@@ -73,9 +73,9 @@ locking.value("locking_cutout_angle", "γ_c", "deg", "Angle of the disc's cut-ou
 locking.value("locking_arc_angle", "γ_l", "deg", "Angle of the disc's arc", lambda slots: 2 * np.pi - formulas.cutout_angle(slots), source="geometry",
     digits=6)
 locking.value("relief_radius", "R_c", "mm", "Radius of the cut-out's hollow, which ends perpendicular to the disc's arc",
-    bind(loads.scaled, length="wheel_radius"), source="practice")
-locking.value("relief_distance", "C_c", "mm", "Distance of the hollow's centre from the crank's axis", bind(loads.scaled, length="center_distance"),
-    source="practice")
+    lambda wheel_radius, disc_radius, crank_radius: wheel_radius * disc_radius / crank_radius, source="practice")
+locking.value("relief_distance", "C_c", "mm", "Distance of the hollow's centre from the crank's axis",
+    lambda center_distance, disc_radius, crank_radius: center_distance * disc_radius / crank_radius, source="practice")
 locking.value("tip_half_angle", "δ_l", "deg", "Half the angle of a locking arc at the wheel's axis", loads.tip_half_angle, source="geometry",
     output=False)
 locking.value("corner_place", "δ", "deg", "Angle of an arm's inner corner, next to its locking arc, from the line of centres", loads.corner_place,
@@ -83,8 +83,9 @@ locking.value("corner_place", "δ", "deg", "Angle of an arm's inner corner, next
 locking.value("corner_distance", "d_δ", "mm", "Distance of this corner from the crank's axis", lambda center_distance, rim_radius, corner_place:
         np.sqrt(center_distance**2 + rim_radius**2 - 2 * center_distance * rim_radius * np.cos(corner_place)), source="geometry", output=False)
 locking.value("corner_along", "x_δ", "mm", "Its component along the crank", loads.corner_along, source="geometry", output=False)
-locking.value("corner_to_hollow", "h_δ", "mm", "Distance of this corner from the hollow's centre", loads.corner_to_hollow, source="geometry",
-    output=False)
+locking.value("corner_to_hollow", "h_δ", "mm", "Distance of this corner from the hollow's centre",
+    lambda corner_distance, relief_distance, corner_along: np.sqrt(corner_distance**2 + relief_distance**2 - 2 * relief_distance * corner_along),
+    source="geometry", output=False)
 locking.value("corner_gap", "g_δ", "mm", "Gap between this corner and the disc: to its arc, or to the hollow of its cut-out",
     lambda corner_distance, disc_radius, relief_radius, corner_to_hollow: np.maximum(corner_distance - disc_radius, relief_radius - corner_to_hollow),
     source="geometry", output=False)

@@ -22,12 +22,6 @@ def crank_ratio(slots: Any) -> Any:
 
 
 @formula
-def wheel_radius(slots: Any, center_distance: Any) -> Any:
-    """Distance of the roller from the wheel's axis at entry and exit."""
-    return center_distance * np.cos(np.pi / slots)
-
-
-@formula
 def engagement_half_angle(slots: Any) -> Any:
     """Crank angle from the middle of the motion to its end."""
     return np.pi / 2 - np.pi / slots
@@ -69,22 +63,10 @@ def dwell_fraction(slots: Any) -> Any:
 
 
 @formula
-def cycle_time(crank_speed: Any) -> Any:
-    """Time of a turn."""
-    return 2 * np.pi / crank_speed
-
-
-@formula
 def acceleration_peak_angle(crank_ratio: Any) -> Any:
     """Crank angle from the middle of the motion at which the wheel's acceleration is greatest."""
     term = (1 + crank_ratio**2) / (4 * crank_ratio)
     return np.arccos(np.sqrt(term**2 + 2) - term)
-
-
-@formula
-def holds(flag: Any) -> Any:
-    """Whether a flag is set."""
-    return flag == 1
 
 
 @formula

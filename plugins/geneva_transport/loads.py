@@ -71,12 +71,6 @@ def is_deep_enough(crank_radius: Any, flank_distance: Any, rim_distance: Any) ->
 
 
 @formula
-def scaled(length: Any, disc_radius: Any, crank_radius: Any) -> Any:
-    """A length of the position at entry, scaled from the crank's radius to the disc's."""
-    return length * disc_radius / crank_radius
-
-
-@formula
 def tip_half_angle(center_distance: Any, rim_radius: Any, locking_radius: Any) -> Any:
     """Half the angle of a locking arc at the wheel's axis; zero where it does not reach the rim."""
     cosine = (center_distance**2 + rim_radius**2 - locking_radius**2) / (2 * center_distance * rim_radius)
@@ -93,9 +87,3 @@ def corner_place(wheel_angle: Any, turns: Any, step_angle: Any, tip_half_angle: 
 def corner_along(center_distance: Any, rim_radius: Any, corner_place: Any, crank_angle: Any) -> Any:
     """Distance of the corner from the crank's axis, along the crank."""
     return center_distance * np.cos(crank_angle) - rim_radius * np.cos(crank_angle + corner_place)
-
-
-@formula
-def corner_to_hollow(corner_distance: Any, relief_distance: Any, corner_along: Any) -> Any:
-    """Distance of the corner from the hollow's centre."""
-    return np.sqrt(corner_distance**2 + relief_distance**2 - 2 * relief_distance * corner_along)

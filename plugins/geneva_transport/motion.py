@@ -19,8 +19,8 @@ geometry.value("step_angle", "τ", "deg", "Step of the wheel", formulas.step_ang
 geometry.value("crank_ratio", "λ", "1", "Ratio of crank radius to centre distance", formulas.crank_ratio, source="geometry")
 geometry.value("crank_radius", "r", "mm", "Radius of the crank", lambda crank_ratio, center_distance: crank_ratio * center_distance,
     source="geometry")
-geometry.value("wheel_radius", "R", "mm", "Radius of the wheel: distance of the roller from its axis at entry", formulas.wheel_radius,
-    source="geometry")
+geometry.value("wheel_radius", "R", "mm", "Radius of the wheel: distance of the roller from its axis at entry",
+    lambda slots, center_distance: center_distance * np.cos(np.pi / slots), source="geometry")
 geometry.require("roller_below_crank", lambda roller_radius, crank_radius: roller_radius < crank_radius, key="roller_radius",
     message="is {roller_radius}, but the roller would cover the crank's axis: it must be smaller than the crank radius C·sin(π/z) = "
         "{crank_radius:down}")
@@ -49,7 +49,7 @@ dwell.value("entry_angle", "α_in", "deg", "Crank angle at which the roller ente
     lambda slots: 2 * np.pi - formulas.engagement_half_angle(slots), source="geometry", digits=6)
 dwell.value("motion_fraction", "κ_m", "1", "Fraction of a revolution in which the wheel turns", formulas.motion_fraction, source="geometry")
 dwell.value("dwell_fraction", "κ_d", "1", "Fraction of a revolution in which it dwells", formulas.dwell_fraction, source="geometry")
-dwell.value("cycle_time", "T", "ms", "Time of a revolution of the crank", formulas.cycle_time, source="kinematics")
+dwell.value("cycle_time", "T", "ms", "Time of a revolution of the crank", lambda crank_speed: 2 * np.pi / crank_speed, source="kinematics")
 dwell.value("time_motion", "t_m", "ms", "Time of the motion", lambda slots, cycle_time: formulas.motion_fraction(slots) * cycle_time,
     source="kinematics")
 dwell.value("time_dwell", "t_d", "ms", "Time of the dwell", lambda slots, cycle_time: formulas.dwell_fraction(slots) * cycle_time,
@@ -69,7 +69,7 @@ def _moving(name: str, symbol: str, unit: str, description: str, moving: Case, r
     return steps
 
 
-IN_SLOT = bind(formulas.holds, flag="engaged")
+IN_SLOT = bind(lambda flag: flag == 1, flag="engaged")
 MOVING, RESTING = "the roller is in a slot", "the locking disc holds the wheel"
 
 motion = Chapter("Motion over a revolution of the crank",

@@ -10,12 +10,6 @@ from diecut_report.api import formula
 
 
 @formula
-def time_of_angle(angle: Any, cycle_time: Any) -> Any:
-    """Time in which the shaft turns by an angle."""
-    return angle * cycle_time / (2 * np.pi)
-
-
-@formula
 def planetary_velocity(crank_angle: Any, carrier_radius: Any, crank_speed: Any) -> Any:
     """Velocity of the edge, upwards."""
     return 2 * carrier_radius * crank_speed * np.cos(crank_angle)

@@ -60,8 +60,8 @@ speeds.value("cycle_time", "T", "ms", "Time of a revolution of the knife shaft",
     source="004, after Fig. 3")
 speeds.value("roller_velocity", "V_r", "m/s", "Surface speed of the rollers",
     lambda roller_diameter, roller_ratio, cycle_time: np.pi * roller_diameter * roller_ratio / cycle_time, source="kinematics")
-speeds.value("grip_time", "t_g", "ms", "Time for the rollers to bring the signature to their speed", bind(formulas.time_of_angle, angle="grip_angle"),
-    source="004, after Fig. 3")
+speeds.value("grip_time", "t_g", "ms", "Time for the rollers to bring the signature to their speed",
+    lambda grip_angle, cycle_time: grip_angle * cycle_time / (2 * np.pi), source="004, after Fig. 3")
 speeds.value("roller_time", "t_r", "ms", "Time from the knife's lowest point until the trailing edge has left the table",
     lambda signature_length, working_depth, roller_velocity: (signature_length - working_depth) / roller_velocity, needs=("signature_length",),
     source="kinematics")
@@ -70,7 +70,8 @@ speeds.value("signature_interval", "t_s", "ms", "Time between two signatures", l
 speeds.abscissa("crank_angle", "φ", "deg", "Crank angle", 2 * np.pi, speed="crank_speed")
 
 WORKING = Steps()
-WORKING.value("working_time", "t_w", "ms", "Duration of the working stroke", bind(formulas.time_of_angle, angle="working_angle"), source="kinematics")
+WORKING.value("working_time", "t_w", "ms", "Duration of the working stroke",
+    lambda working_angle, cycle_time: working_angle * cycle_time / (2 * np.pi), source="kinematics")
 WORKING.value("contact_velocity", "V_t", "m/s", "Speed of the edge as it meets the signature on the table", lambda contact_rate: abs(contact_rate),
     source="kinematics")
 WORKING.breakpoints("working_ends", "crank_angle", "contact_angle", "lowest_angle")

@@ -44,18 +44,6 @@ def joint_arm(
 
 
 @formula
-def before_dead_center(angle: Any) -> Any:
-    """How far an angle, counted on from a dead centre, lies before the next one; zero where it is none."""
-    return np.where(angle > 0, 2 * np.pi - angle, 0)
-
-
-@formula
-def phase(crank_angle: Any, dwell_end_angle: Any, cutting_begin: Any) -> Any:
-    """1 while the rods relax, 2 in free travel, 3 while the board is cut."""
-    return np.where(crank_angle < dwell_end_angle, 1, np.where(crank_angle < cutting_begin, 2, 3))
-
-
-@formula
 def true_travel(platen_displacement: Any, material_thickness: Any, drive_deformation: Any) -> Any:
     """Distance of the platen from the dead centre of the unloaded drive while it cuts and the rods stretch."""
     share = material_thickness / (material_thickness + drive_deformation)
@@ -73,18 +61,6 @@ def stretched_length(standing_distance: Any, crank_radius: Any, crank_angle: Any
     """Distance between crank pin and platen pin while the platen stands."""
     along = 2 * standing_distance * crank_radius * np.cos(crank_angle)
     return np.sqrt(standing_distance**2 + crank_radius**2 + along)
-
-
-@formula
-def inertia(platen_mass: Any, acceleration: Any) -> Any:
-    """Force that gives the platen its acceleration."""
-    return platen_mass * acceleration
-
-
-@formula
-def guide_moment(force: Any, offset_force: Any, platen_mass: Any, offset_weight: Any) -> Any:
-    """Moment that turns the platen in its guides."""
-    return force * offset_force - platen_mass * GRAVITY * offset_weight
 
 
 @formula
@@ -116,9 +92,3 @@ def deformation_limit(rod_length: Any, crank_radius: Any, friction_arm: Any) -> 
     """Stretch of the drive at which the relaxed rods pass the shaft at the friction's arm."""
     along = rod_length - np.sqrt(crank_radius**2 - friction_arm**2)
     return np.sqrt(along**2 + friction_arm**2) - (rod_length - crank_radius)
-
-
-@formula
-def cutting_work(cutting_force_max: Any, material_thickness: Any) -> Any:
-    """Work of a force that grows in proportion to the travel through the board."""
-    return cutting_force_max * material_thickness / 2

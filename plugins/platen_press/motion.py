@@ -88,7 +88,8 @@ contact.value("velocity_at_contact", "V_c", "m/s", "Speed of the platen at conta
 contact.value("friction_arm", "X", "mm", "Friction arm of the joints at the dead centre", formulas.friction_arm, source="001 eq. 10, 11")
 contact.value("acceleration_dead_center", "a_0", "m/s**2", "Acceleration of the platen at the dead centre",
     lambda crank_radius, crank_speed, lambda_ratio: crank_radius * crank_speed ** 2 * (1 - lambda_ratio), output=False)
-contact.value("inertia_dead_center", "P_i0", "N", "Inertia force at the dead centre", bind(formulas.inertia, acceleration="acceleration_dead_center"))
+contact.value("inertia_dead_center", "P_i0", "N", "Inertia force at the dead centre",
+    lambda platen_mass, acceleration_dead_center: platen_mass * acceleration_dead_center)
 contact.value("torque_dead_center", "M_0", "N*m", "Torque at the dead centre, with the inertia force",
     lambda cutting_force_max, inertia_dead_center, friction_arm: abs(cutting_force_max - inertia_dead_center) * friction_arm,
     source="001 eq. 10, 11")
@@ -106,7 +107,9 @@ motion.phase("cutting", "working", "The board is cut and the rods elongate", "cr
 motion.phase("relaxing", "working", "The platen stands on the die and the rods relax", "crank_angle", (0, "dwell_end_angle"))
 motion.phase("pressing", "working", "Pressing", "crank_angle", union=("cutting", "relaxing"))
 motion.phase("open", "window", "The platen is off the board", "crank_angle", rest_of=("pressing",))
-motion.value("phase", "j", "1", "Phase: 1 the rods relax, 2 free travel, 3 cutting", formulas.phase, output=False, per_piece=True)
+motion.value("phase", "j", "1", "Phase: 1 the rods relax, 2 free travel, 3 cutting",
+    lambda crank_angle, dwell_end_angle, cutting_begin: np.where(crank_angle < dwell_end_angle, 1, np.where(crank_angle < cutting_begin, 2, 3)),
+    output=False, per_piece=True)
 motion.value("rod_angle", "β", "deg", "Angle of the rods to the guides", bind(slider_crank.inner_coupler_angle, crank_ratio="lambda_ratio"),
     source="001, after eq. 6", output=False)
 motion.value("platen_displacement", "u", "mm", "Displacement of the platen from the dead centre, ideal",

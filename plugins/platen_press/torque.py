@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import numpy as np
 
-from diecut_report.api import Chapter, bind, case
+from diecut_report.api import GRAVITY, Chapter, bind, case
 from diecut_report.mechanics import common, slider_crank
 from diecut_report.plugins.platen_press import formulas
 from diecut_report.plugins.platen_press.motion import ADOPTED, by_phase, in_phase
@@ -35,7 +35,7 @@ forces.choice("rod_stretch", "Δl", "mm", "Elongation of the rods",
 forces.value("elastic_force", "P", "kN", "Force of the elongated rods; while cutting, equal to the cutting force",
     lambda cutting_force_max, rod_stretch, drive_deformation: cutting_force_max * rod_stretch / drive_deformation, source="001, before eq. 12")
 forces.choice("inertia_force", "P_i", "N", "Inertia force of the platen", case(lambda: 0, "the platen stands on the die", in_phase(1)),
-    case(bind(formulas.inertia, acceleration="platen_acceleration"), "the platen moves"), source="001, after eq. 2")
+    case(lambda platen_mass, platen_acceleration: platen_mass * platen_acceleration, "the platen moves"), source="001, after eq. 2")
 forces.value("force", "F", "kN", "Force of the rods along the guides", lambda elastic_force, inertia_force: elastic_force - inertia_force,
     source="001, after eq. 2")
 forces.value("crank_pin_force_x", "F_A,x", "kN", "Force of one of the two rods on its crank pin, along the guides", lambda force: force / 2,
@@ -67,7 +67,9 @@ guides = Chapter("Friction of the guides",
     text="A force offset from the axis of the guides tilts the platen in them. Where the platen stands, its guides have no friction. The rods also "
         "carry the friction of the guides, so its arm is theirs, V/ω with the ideal speed.", needs=("guide_length",),
     absent="not calculated: guide_length is not given, and no force is offset from the axis of the guides")
-guides.value("guide_moment", "M_g", "N*m", "Tilting moment on the platen in its guides", formulas.guide_moment, source="001 eq. 3", output=False)
+guides.value("guide_moment", "M_g", "N*m", "Tilting moment on the platen in its guides",
+    lambda force, offset_force, platen_mass, offset_weight: force * offset_force - platen_mass * GRAVITY * offset_weight, source="001 eq. 3",
+    output=False)
 guides.crossings("guide_change", "φ_g", "deg", "Crank angle at which the guides' reactions change sides", of="guide_moment", output=False)
 guides.crossings("platen_turn", "φ_V", "deg", "Crank angle at which the platen reverses", of="platen_velocity_ideal", output=False)
 guides.breakpoints("guide_changes", "crank_angle", "guide_change", "platen_turn")
@@ -96,7 +98,7 @@ torque.value("torque", "M", "N*m", "Torque at the main shaft", lambda torque_use
     source="001 eq. 1, corrected")
 torque.reduction("torque_max", "M_max", "N*m", "Maximum torque", "max", of="torque")
 torque.value("torque_max_angle", "φ_M", "deg", "Crank angle of the maximum torque, before the dead centre",
-    bind(formulas.before_dead_center, angle="torque_max_at"))
+    lambda torque_max_at: np.where(torque_max_at > 0, 2 * np.pi - torque_max_at, 0))
 torque.reduction("torque_min", "M_min", "N*m", "Minimum torque (negative: platen or rods drive the crank)", "min", of="torque")
 torque.value("crank_pin_torque", "M_A", "N*m", "Torque of one of the two rods, including friction, on its crank", lambda torque: -torque / 2,
     source="symmetry")
@@ -104,7 +106,7 @@ torque.choice("torque_source", "M_14", "N*m", "Torque by eq. 14 as printed, whil
     case(bind(formulas.torque_as_printed), "the board is cut", in_phase(3)), case(lambda: 0, "eq. 14 is for cutting alone"), source="001 eq. 14")
 torque.reduction("torque_max_source", "M_14,max", "N*m", "Maximum torque by eq. 14 as printed", "max", of="torque_source")
 torque.value("torque_max_source_angle", "φ_14", "deg", "Its crank angle before the dead centre",
-    bind(formulas.before_dead_center, angle="torque_max_source_at"))
+    lambda torque_max_source_at: np.where(torque_max_source_at > 0, 2 * np.pi - torque_max_source_at, 0))
 
 returning = Chapter("Relaxing rods",
     text="The elongated rods drive the crank over an arm that grows until they have relaxed; friction resists over X.")
@@ -131,10 +133,11 @@ work.value("start_energy", "W_d", "J", "Energy to set the platen in motion",
     lambda platen_mass, start_velocity: platen_mass * start_velocity ** 2 / 2, source="energy", output=False)
 work.value("work_per_cycle", "W_c", "J", "Work per cycle, including setting the platen in motion",
     lambda torque_work, start_energy: torque_work + start_energy, source="energy")
-work.value("cutting_work", "W_s", "J", "Work of cutting the board", formulas.cutting_work, source="energy")
+work.value("cutting_work", "W_s", "J", "Work of cutting the board",
+    lambda cutting_force_max, material_thickness: cutting_force_max * material_thickness / 2, source="energy")
 work.reduction("friction_work", "W_f", "J", "Work of friction", "integral", of="torque_friction")
-work.value("strain_energy", "W_e", "J", "Energy stored and returned by the rods", bind(formulas.cutting_work, material_thickness="drive_deformation"),
-    source="energy")
+work.value("strain_energy", "W_e", "J", "Energy stored and returned by the rods",
+    lambda cutting_force_max, drive_deformation: cutting_force_max * drive_deformation / 2, source="energy")
 work.value("friction_share", "k_f", "%", "Fraction of the work taken by friction",
     lambda friction_work, work_per_cycle: friction_work / work_per_cycle)
 work.value("power_mean", "P_mean", "W", "Mean power at the main shaft", lambda work_per_cycle, cycles_per_hour: work_per_cycle * cycles_per_hour)

@@ -140,9 +140,3 @@ def nominal_stress(axial_force: Any, moment: Any, torque: Any, area: Any, modulu
 def yield_stress(axial_force: Any, moment: Any, torque: Any, area: Any, modulus: Any, k_f: Any, k_fs: Any) -> Any:
     """Greatest von Mises stress of a section with the fatigue factors of its notch (Shigley 7-15)."""
     return nominal_stress(axial_force, k_f * moment, k_fs * torque, area, modulus)
-
-
-@formula
-def safety(strength: Any, stress: Any) -> Any:
-    """Strength to stress (Shigley 7-16)."""
-    return 1 / np.maximum(stress / strength, 1e-6)

@@ -150,7 +150,7 @@ yielding.value("von_mises_max", "σ_vM", "MPa", "Maximum nominal stress",
     bind(formulas.nominal_stress, axial_force="nominal_axial", moment="nominal_moment", torque="nominal_torque", area="nominal_area",
         modulus="nominal_modulus"), source="Shigley 7-15")
 yielding.value("yield_safety", "n_y", "1", "Nominal safety factor against yield",
-    bind(formulas.safety, strength="yield_strength", stress="von_mises_max"), source="Shigley 7-16")
+    lambda yield_strength, von_mises_max: 1 / np.maximum(von_mises_max / yield_strength, 1e-6), source="Shigley 7-16")
 for name, symbol, unit, description in (("yield_axial", "N_v", "N", "Axial force at the instant of the maximum notch stress"),
                                         ("yield_moment", "M_bv", "N*m", "Bending moment at this instant"), ("yield_torque", "T_v", "N*m",
                                                                                                             "Torque at this instant")):
@@ -159,7 +159,7 @@ yielding.value("notch_stress", "σ_vM,n", "MPa", "Maximum notch stress",
     bind(formulas.yield_stress, axial_force="yield_axial", moment="yield_moment", torque="yield_torque", area="place_area", modulus="place_modulus"),
     source="Shigley 7-15", output=False)
 yielding.value("place_yield_safety", "n_y,n", "1", "Safety factor against yield with the notch",
-    bind(formulas.safety, strength="yield_strength", stress="notch_stress"), source="Shigley 7-16")
+    lambda yield_strength, notch_stress: 1 / np.maximum(notch_stress / yield_strength, 1e-6), source="Shigley 7-16")
 yielding.total("yield_safety_notch", "n_y,notch", "1", "Minimum safety factor against yield with the notches", "min", of="place_yield_safety",
     source="Shigley 7-16")
 yielding.part_table("place_table", "All locations", "places", ("place_x", "place_diameter", "k_t", "k_ts", "k_f", "k_fs", "sigma_a", "sigma_m",
