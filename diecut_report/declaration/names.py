@@ -10,13 +10,14 @@ from pathlib import Path
 from typing import Any, Literal, NamedTuple, get_args, get_origin
 
 from diecut_report.errors import nearest
+from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
 from diecut_report.mechanism.figures import Figure
 from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, meta_of, nested
-from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.mechanism import Erratum, Mechanism, Profile, Source
 from diecut_report.mechanism.names import OneOf, Text
-from diecut_report.mechanism.steps import Step, has_own_names, names_ahead, read
+from diecut_report.mechanism.steps import PREFIX, Phase, Step, has_own_names, names_ahead, read
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 # What is wrong with a declaration, in words: where it stands, what it is of, and what to write instead.
@@ -34,19 +35,39 @@ class Fault(NamedTuple):
         return joined([part for part in (short(self.place), self.subject, self.text) if part], ": ")
 
 
-def of_step(step: Step, text: str, place: str = "") -> Fault:
-    """Return what is wrong with a step, at its place or at another one."""
-    return Fault(place or step.at, Phrase("step {id}", id=step.id), text)
+def subject(declared: Any) -> str:
+    """Return how messages call something declared."""
+    match declared:
+        case Mechanism(kind=kind):
+            return Phrase("mechanism {kind}", kind=kind)
+        case Chapter(title=title):
+            return Phrase("chapter {title}", title=repr(title))
+        case Phase(id=id):
+            return Phrase("phase {name}", name=id.removeprefix(PREFIX))
+        case Step(id=id):
+            return Phrase("step {id}", id=id)
+        case Check(id=id):
+            return Phrase("check {id}", id=id)
+        case Figure(id=id):
+            return Phrase("figure {id}", id=id)
+        case Profile(id=id):
+            return Phrase("export {id}", id=id)
+        case Source(id=id):
+            return Phrase("source {id}", id=id)
+        case Erratum(source=source):
+            return Phrase("erratum of {source}", source=source)
+    return Phrase("comparison {kind}", kind=declared.mechanism.kind)
 
 
-def of_check(check: Check, text: str) -> Fault:
-    """Return what is wrong with a check."""
-    return Fault(check.at, Phrase("check {id}", id=check.id), text)
+def fault(declared: Any, text: str, place: str = "") -> Fault:
+    """Return what is wrong with something declared, at its place or at another one."""
+    return Fault(place or declared.at, subject(declared), text)
 
 
-def of_figure(figure: Figure, text: str) -> Fault:
-    """Return what is wrong with a figure."""
-    return Fault(figure.at, Phrase("figure {id}", id=figure.id), text)
+def declared_in(mechanism: Mechanism) -> Iterator[Any]:
+    """Yield the mechanism and all that it declares beside its inputs, in the order of reading."""
+    yield from (mechanism, *mechanism.chapters, *(step for _, step in mechanism.steps))
+    yield from (*mechanism.checks, *mechanism.figures, *mechanism.exports, *mechanism.errata)
 
 
 def short(place: str) -> str:

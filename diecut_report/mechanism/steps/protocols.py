@@ -6,7 +6,7 @@ from collections.abc import Iterator, Mapping, Sequence
 from typing import Any, NamedTuple, Protocol
 
 from diecut_report.formulas import Array
-from diecut_report.mechanism.names import Bound, Written
+from diecut_report.mechanism.names import Bound, ByText, Written, bound
 from diecut_report.text.phrases import phrase
 
 # What a name may stand for, and what a step may take.
@@ -59,6 +59,11 @@ class StepFormula(NamedTuple):
     is_of_unit: bool
     takes: Kinds
     is_condition: bool = False
+
+    @property
+    def options(self) -> tuple[Bound, ...]:
+        """Return it bound to what it takes; of a choice by a text the formulas of all its values."""
+        return self.formula.options() if isinstance(self.formula, ByText) else (bound(self.formula),)
 
 
 class Called(NamedTuple):
