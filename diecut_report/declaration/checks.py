@@ -11,26 +11,16 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from diecut_report.declaration.formulas import lacking, pairs
-from diecut_report.declaration.names import (
-    DeclaredNames,
-    Fault,
-    Giver,
-    Key,
-    When,
-    fault,
-    short,
-    told,
-    unknown,
-    world,
-)
+from diecut_report.declaration.names import DeclaredNames, Fault, Giver, fault, short, told, unknown, world
 from diecut_report.declaration.texts import files_around, own_files, parsed
 from diecut_report.errors import nearest
 from diecut_report.formulas.formula import FormulaError
 from diecut_report.formulas.tree import Node, substitute, symbols
 from diecut_report.mechanism.chapters import MISSING, taken
 from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.inputs import Key
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import ByText, bound
+from diecut_report.mechanism.names import ByText, When, bound
 from diecut_report.mechanism.steps import Require, ResultName, Step, Value, has_own_names, names_ahead, read
 from diecut_report.mechanism.steps.from_curve import CurveOverAbscissa
 from diecut_report.mechanism.steps.require import Obstacle
@@ -266,12 +256,11 @@ def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:
 
 
 def _instead(name: str, kind: str) -> str:
+    words = "places that may be none or many; compare {name}_count, or one of them as {name}_1"
     return {
         "text": phrase("a text; compare a number"),
         "abscissa": phrase("an abscissa, which takes all its values; compare a curve over it"),
-        "crossings": Phrase(
-            "places that may be none or many; compare {name}_count, or one of them as {name}_1", name=name
-        ),
+        "crossings": Phrase(words, name=name),
         "curve input": phrase("a curve input; take it over by FromCurve and compare that curve"),
         "block": phrase("a block; compare one of its inputs"),
     }[kind]

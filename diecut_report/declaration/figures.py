@@ -9,11 +9,12 @@ from math import isclose, pi
 import numpy as np
 
 from diecut_report.declaration.formulas import kind_of, lacking
-from diecut_report.declaration.names import KINDS, DeclaredNames, Fault, When, fault, kinds_told, told
+from diecut_report.declaration.names import KINDS, DeclaredNames, Fault, fault, kinds_told, told
 from diecut_report.errors import nearest
 from diecut_report.formulas.tree import Constant
 from diecut_report.mechanism.figures import Bars, Figure, Panel, Plot, Polar
 from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.names import When
 from diecut_report.mechanism.steps import PREFIX, ROLES, Abscissa, Phase
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, named, phrase

@@ -7,11 +7,11 @@ from inspect import signature
 from itertools import chain, combinations
 from typing import Any
 
-from diecut_report.declaration.names import DeclaredNames, Fault, When, fault, kinds_told, short, told, unknown
+from diecut_report.declaration.names import DeclaredNames, Fault, fault, kinds_told, short, told, unknown
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import Bound, ByText, bound
+from diecut_report.mechanism.names import Bound, ByText, When, bound
 from diecut_report.mechanism.steps import SilentStep, Step
 from diecut_report.mechanism.steps.protocols import TakenName
 from diecut_report.quantities.units import unit

@@ -7,16 +7,16 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain, combinations
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from typing import Any, NamedTuple
 
 from diecut_report.errors import nearest
 from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
 from diecut_report.mechanism.figures import Figure
-from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, meta_of, nested
-from diecut_report.mechanism.mechanism import Erratum, Mechanism, Profile, Source
-from diecut_report.mechanism.names import OneOf, Text
+from diecut_report.mechanism.inputs import Block, Key, Quantity, Varying, keys, rules
+from diecut_report.mechanism.mechanism import Erratum, Mechanism, Profile, Source, made_when
+from diecut_report.mechanism.names import OneOf, Text, When
 from diecut_report.mechanism.steps import PREFIX, Phase, Step, has_own_names, names_ahead, read
 from diecut_report.text.phrases import Phrase, joined, phrase
 
@@ -101,34 +101,6 @@ GIVEN, OTHER = "given", "another text"
 Given = str | None  # what is known of an input: that it is given, its text, or None where it is left out
 
 
-class When(NamedTuple):
-    """When something is part of the calculation: all of these tokens hold, and none of those."""
-
-    needs: frozenset[str]
-    lacks: frozenset[str] = frozenset()
-
-    def with_(self, other: When) -> When:
-        """Return when both are."""
-        return When(self.needs | other.needs, self.lacks | other.lacks)
-
-
-ALWAYS = When(frozenset())
-
-
-@dataclass(frozen=True)
-class Key:
-    """An input (or a block of inputs): whether it may be left out, its allowed texts, the list whose parts have it."""
-
-    path: str
-    meta: Meta | None
-    annotation: Any
-    is_block: bool
-    may_be_absent: bool
-    home: str = ""
-    texts: tuple[str, ...] = ()
-    has_default: bool = False
-
-
 @dataclass
 class World:
     """The inputs of a mechanism by their paths, and what may be given of them."""
@@ -187,7 +159,7 @@ class World:
         if any(known.get(above, GIVEN) is None for above in _above(path)):
             yield None
             return
-        yield from key.texts or ((OTHER, GIVEN) if isinstance(key.meta, Text) and not key.is_block else (GIVEN,))
+        yield from key.texts or ((OTHER, GIVEN) if isinstance(key.meta, Text) and not key.block else (GIVEN,))
         if key.may_be_absent:
             yield None
 
@@ -232,50 +204,8 @@ def _holds(token: str, known: Mapping[str, Given]) -> bool | None:
 
 
 def world(model: type[Block]) -> World:
-    return World({key.path: key for key in _keys(model)}, tuple(_rules(model)))
-
-
-def _rules(model: type[Block], prefix: str = "") -> Iterator[tuple[str, OneOf]]:
-    yield from ((prefix, rule) for rule in model.one_of)
-    for name, declared in model.model_fields.items():
-        block = nested(declared.annotation)
-        if block and not block[1]:
-            yield from _rules(block[0], f"{prefix}{name}.")
-
-
-def _keys(model: type[Block], prefix: str = "", home: str = "") -> Iterator[Key]:
-    for name, declared in model.model_fields.items():
-        block, meta, path = nested(declared.annotation), meta_of(model, name), f"{prefix}{name}"
-        default = declared.get_default(call_default_factory=True)
-        from_press = isinstance(meta, Quantity) and meta.press is not None and not meta.press.optional
-        is_empty = declared.is_required() or default is None or default == []
-        may_be_none = type(None) in get_args(declared.annotation)  # with a default too: a model may put it to None
-        absent = not declared.is_required() and (default == [] or may_be_none) and not from_press
-        yield Key(
-            path,
-            meta,
-            declared.annotation,
-            bool(block),
-            absent,
-            home,
-            tuple(allowed(declared.annotation, meta)),
-            not is_empty,
-        )
-        if block:
-            yield from _keys(block[0], f"{path}.", path if block[1] else home)
-
-
-def allowed(annotation: Any, meta: Meta | None) -> Iterable[str]:
-    """Return the texts that an input may be, as they stand in tokens; none where it takes any."""
-    if isinstance(meta, Text) and meta.options:
-        return tuple(meta.options)
-    found: list[str] = []
-    for part in (annotation, *get_args(annotation)):
-        if get_origin(part) is Literal:
-            found += [str(text).lower() if isinstance(text, bool) else str(text) for text in get_args(part)]
-        elif part is bool:
-            found += ["true", "false"]
-    return found
+    """Return the inputs of a model, and what may be given of them."""
+    return World(dict(keys(model)), rules(model))
 
 
 def told(given: Mapping[str, Given], tokens: Iterable[str]) -> str:
@@ -314,14 +244,14 @@ class DeclaredNames:
 
     @cached_property
     def world(self) -> World:
+        """Return the inputs, and which of them may be given together."""
         found = world(self.mechanism.inputs)
-        found.keys |= {name: Key(name, None, None, is_block=False, may_be_absent=True) for name in self.mechanism.facts}
+        found.keys |= {name: Key(name) for name in self.mechanism.facts}
         return found
 
     def when(self, number: int) -> When:
         """Return when a step is made."""
-        section, step = self.mechanism.steps[number]
-        return When(frozenset(section.needs + step.needs), frozenset(step.lacks))
+        return made_when(*self.mechanism.steps[number])
 
     @cached_property
     def known(self) -> dict[str, list[Giver]]:
@@ -357,6 +287,7 @@ class DeclaredNames:
                 yield each.name, Giver(when, "number", "", "1", step, number)
 
     def givers(self, name: str) -> list[Giver]:
+        """Return what gives a name: inputs and steps."""
         return self.known.get(name) or list(self._numbered(name))
 
     def _numbered(self, name: str) -> Iterator[Giver]:
@@ -366,35 +297,34 @@ class DeclaredNames:
                 yield Giver(self.when(number), "number", "", step.unit, step, number)
 
     def units(self, name: str) -> set[str]:
+        """Return the units that a quantity may have."""
         return {each for giver in self.givers(name) for each in giver.units_when(())}
 
     def without(self, when: When, given: str) -> When:
+        """Return when something is made while an input is not given."""
         path = given.removeprefix("inputs.")
         return when.with_(When(frozenset(), frozenset((path,)))) if path else when
 
     def incomplete(self, by: str, rows: Mapping[str, Any], when: When, none: str) -> Iterator[str]:
+        """Yield what is wrong with a choice by a text: each text that may be given has its row."""
         key = self.world.keys.get(by)
         if key is None:
             return  # told where ids are
         if not key.texts:
             allowed = ", ".join(map(repr, rows))
-            yield Phrase(
-                "is chosen by {by}, which may be any text; give it allowed ones: Annotated[Literal[{allowed}], Text(…)]",
-                by=by,
-                allowed=allowed,
+            words = (
+                "is chosen by {by}, which may be any text; give it allowed ones: Annotated[Literal[{allowed}], Text(…)]"
             )
+            yield Phrase(words, by=by, allowed=allowed)
             return
         possible = [
             text for text in key.texts if key.home or self.world.example(when.with_(When(frozenset((f"{by}={text}",)))))
         ]
         missing = [text for text in possible if text not in rows]
         if missing:
+            words = "has {none} for {by}={missing}; add {them}, or forbid the text"
             yield Phrase(
-                "has {none} for {by}={missing}; add {them}, or forbid the text",
-                none=none,
-                by=by,
-                missing=", ".join(missing),
-                them=phrase("it" if len(missing) == 1 else "them"),
+                words, none=none, by=by, missing=", ".join(missing), them=phrase("it" if len(missing) == 1 else "them")
             )
 
     def kinds(self, name: str) -> set[str]:
@@ -402,6 +332,7 @@ class DeclaredNames:
         return {giver.kind for giver in self.givers(name)}
 
     def axes(self, name: str) -> set[str]:
+        """Return the abscissas or lists that a name may run over."""
         return {giver.axis for giver in self.givers(name) if giver.axis}
 
     def missing(self, name: str, when: When, before: int | None = None) -> dict[str, str | None] | None:
@@ -414,7 +345,7 @@ def _input(key: Key) -> Giver:
     when = When(frozenset((key.path,)) if key.may_be_absent or "." in key.path else frozenset())
     kind = "row" if key.home else "number"
     match key.meta:
-        case _ if key.is_block:
+        case _ if key.block:
             kind = "block"
         case Varying():
             return Giver(when, "varying", key.home, key.meta.unit)

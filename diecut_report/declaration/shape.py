@@ -79,10 +79,7 @@ def _of_step(step: Step) -> Iterator[str]:
     if step.digits < 1:
         yield Phrase("has digits={digits}; at least one digit is printed", digits=repr(step.digits))
     yield from tuple_faults(step, "needs", "lacks")
-    for name in step.IDS:
-        if not isinstance(given := getattr(step, name), str):
-            words = "has {name}={given}; name the input or the step that gives it, by its id"
-            yield Phrase(words, name=name, given=repr(given))
+
     wrong = list(step.shape_faults())
     yield from wrong
     for each in () if wrong else step.formulas():

@@ -13,12 +13,13 @@ from typing import Any, NamedTuple, get_args
 
 from diecut_report.declaration.formulas import lacking
 from diecut_report.declaration.inputs import of_input
-from diecut_report.declaration.names import DeclaredNames, Fault, When, declared_in, fault, short, unknown, world
+from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, fault, short, unknown, world
 from diecut_report.errors import nearest
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.figures import Spectrum
 from diecut_report.mechanism.inputs import POINTS, Block, Quantity, meta_of, nested
 from diecut_report.mechanism.mechanism import Comparison, CurveTable, Mechanism, Profile
+from diecut_report.mechanism.names import When
 from diecut_report.mechanism.steps import Case, SilentStep, Step, has_own_names, names_ahead, numbered_symbol
 from diecut_report.standards.tables import StandardSeries, StandardTable
 from diecut_report.text.phrases import PLACE, Phrase, named, phrase, worded
@@ -223,7 +224,8 @@ def _sources(mechanism: Mechanism) -> Iterator[Fault]:
 def unlisted(mechanism: Mechanism, pattern: re.Pattern[str]) -> Iterator[tuple[Step | Check, str]]:
     """Yield the steps and checks that cite in this form what the mechanism does not list, with its name."""
     known = tuple(source.id for source in mechanism.sources)
-    for citing in (*(step for _, step in mechanism.steps), *mechanism.checks):
+    declared: list[Step | Check] = [*(step for _, step in mechanism.steps), *mechanism.checks]
+    for citing in declared:
         for found in pattern.finditer(citing.source):
             if not citing.source[found.start() :].lstrip("; ").startswith(known):
                 yield citing, found[1] or found[2]

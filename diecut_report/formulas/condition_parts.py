@@ -288,13 +288,9 @@ def _bare(
         words = "{kinds}{sign} needs the same kind on both sides. Quote the quantity with its unit."
         return ConditionError(words, bare.place, kinds=kinds, sign=sign)
     example = f"'{bare.typed or 5} {other.name.display}'"
+    words = "{kinds}a number beside {name} needs {pretty}, for example {example}."
     return ConditionError(
-        "{kinds}a number beside {name} needs {pretty}, for example {example}.",
-        bare.place,
-        kinds=kinds,
-        name=other.name.name,
-        pretty=pretty(other.name.display),
-        example=example,
+        words, bare.place, kinds=kinds, name=other.name.name, pretty=pretty(other.name.display), example=example
     )
 
 
@@ -503,8 +499,9 @@ class Expression:
         needed = unit(wanted)
         if alike(self.kind, needed.kind):
             return ""
+        words = "“{text}” gives {told_kind}; {told_kind_2} in {wanted} is needed here"
         return Phrase(
-            "“{text}” gives {told_kind}; {told_kind_2} in {wanted} is needed here",
+            words,
             text=self.text,
             told_kind=told_kind(self.kind),
             told_kind_2=told_kind(needed.kind, wanted),

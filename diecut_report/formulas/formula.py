@@ -361,9 +361,10 @@ class _BodyReader:
         """FormulaError where a function is called with more or fewer than it takes."""
         wanted = 2 if name in OF_TWO else 1
         if len(args) != wanted:
+            words = "{place}: formula {name} calls {called} with {count}, in {call}; it takes {wanted}"
             raise FormulaError(
                 Phrase(
-                    "{place}: formula {name} calls {called} with {count}, in {call}; it takes {wanted}",
+                    words,
                     place=self._place(at),
                     name=self.owner.__name__,
                     called=ast.unparse(at.func),

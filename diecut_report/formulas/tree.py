@@ -113,9 +113,10 @@ class Constant(float):
     def __new__(cls, value: float, symbol: str, unit: str) -> Constant:
         given = known(unit)
         if abs(given.factor - 1) > ROUNDING:
+            words = "{symbol} is in {unit}, which is {factor} {si}; give it in SI, {value} {si}"
             raise TypeError(
                 Phrase(
-                    "{symbol} is in {unit}, which is {factor} {si}; give it in SI, {value} {si}",
+                    words,
                     symbol=symbol,
                     unit=unit,
                     factor=format(given.factor, "g"),

@@ -168,12 +168,8 @@ def _declared(
     if path not in inputs:
         given = [each.name for step in steps.values() for each in names_ahead(step)]
         near = nearest(path, [*given, *inputs])
-        raise Misdeclared(
-            Phrase(
-                "{name} is not a quantity of this machine{near}; name a step or an input", name=repr(name), near=near
-            ),
-            at,
-        )
+        words = "{name} is not a quantity of this machine{near}; name a step or an input"
+        raise Misdeclared(Phrase(words, name=repr(name), near=near), at)
     return cast(Quantity, inputs[path])
 
 

@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 from weakref import proxy
 
 import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.machine.numerics.conditions import conditions_of
-from diecut_report.machine.numerics.curves import Curves, VariantRows, flags_of
-from diecut_report.machine.numerics.domain import Domain, nodes_of, shares
+from diecut_report.machine.numerics.curves import Curves, flags_of
+from diecut_report.machine.numerics.domain import Domain, Machines, nodes_of, shares
 
 INSIDE = 2e-14  # share of the period by which places at a piece's end are moved inwards, so that rounding decides no condition
 SIZED = 4  # of so many points of a piece one tells how great a curve is there
@@ -79,18 +79,6 @@ class CachedPieces:
         return found
 
 
-class Owner(VariantRows, Protocol):
-    """Hold the calculation that a table belongs to."""
-
-    @property
-    def domains(self) -> Mapping[str, Domain]:
-        """Return the abscissas with their pieces."""
-
-    @property
-    def ahead(self) -> Mapping[str, Sequence[str]]:
-        """Return for each abscissa the curves that coming steps ask for."""
-
-
 Places = Callable[[CachedPieces, Rows], Array]  # of pieces, (rows, points)
 
 
@@ -104,10 +92,8 @@ class Known(NamedTuple):
 class SampleCache:
     """Hold what is known of the curves over one abscissa."""
 
-    def __init__(self, calc: Owner, axis: str) -> None:
-        self.calc: Owner = proxy(
-            calc
-        )  # which holds this table: among many machines no memory may wait for the collector
+    def __init__(self, calc: Machines, axis: str) -> None:
+        self.calc: Machines = proxy(calc)  # which holds this table: no memory may wait for the collector
         self.axis = axis
         self._edges: Array | None = None
         self._pieces: CachedPieces

@@ -452,9 +452,12 @@ def contradicted(step: Step, part: Bound, found: Contradiction) -> str:
             break
     result, again = (with_unit(text, step.unit) for text in said)
     formula = part.formula
-    return Phrase(
+    words = (
         "{description} ({id}) is {result}, but its formula {name} as it is printed gives {again}, which "
-        "is more than rounding; it must compute by its parameters and constants alone ({place})",
+        "is more than rounding; it must compute by its parameters and constants alone ({place})"
+    )
+    return Phrase(
+        words,
         description=step.description,
         id=step.id,
         result=result,

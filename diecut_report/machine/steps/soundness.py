@@ -57,14 +57,8 @@ def _words(calc: Calculation, found: JumpFault) -> str:
         if step.id == curve.id
         else Phrase("{name} of {id} ({place})", name=name, id=step.id, place=Path(step.at).name)
     )
-    return Phrase(
-        "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}",
-        where=where,
-        place=place,
-        decided=decided,
-        of=of,
-        fix=fix,
-    )
+    words = "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}"
+    return Phrase(words, where=where, place=place, decided=decided, of=of, fix=fix)
 
 
 def _in_symbols(calc: Calculation, condition: BranchCondition) -> Node:
@@ -196,7 +190,7 @@ def _endless(calc: Calculation, curve: str, x: Array, middles: Array, values: Ar
         moved = np.diff(_values(calc, curve, place + reach[None], middles[[row]])[0])
         is_within = x[row, 0] <= place + reach[0] <= x[row, -1]
         factors = moved[1:] / moved[:-1]
-        if is_within and GOES_ON < factors.min() and factors.max() < SLOW:  # towards a narrow bend by 10 or 100
+        if is_within and factors.min() > GOES_ON and factors.max() < SLOW:  # towards a narrow bend by 10 or 100
             return place if abs(moved[0]) > LEAST * _scale(calc, curve, x, middles) else None
     return None
 
@@ -210,11 +204,11 @@ def _scale(calc: Calculation, curve: str, x: Array, middles: Array) -> float:
     for name in {curve, *(each for each in step.takes() if isinstance(each, str))}:
         if name == curve or unit(calc.step_or_input(name).unit).kind == own:
             values = (
-                _values(calc, name, x, middles)
-                if name in calc.curves
+                x
+                if name in calc.domains
                 else calc[name]
-                if name not in calc.domains
-                else x
+                if name not in calc.curves
+                else _values(calc, name, x, middles)
             )
             scale = max(scale, float(np.abs(values).max(initial=0.0)))
     return scale

@@ -11,7 +11,7 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Binding, Written, as_binding, bound
 from diecut_report.mechanism.steps.base import Options, Over
-from diecut_report.mechanism.steps.protocols import CURVE, Item, Names, StepEngine, StepFormula, StepPrinter
+from diecut_report.mechanism.steps.protocols import ANY, CURVE, Item, Kinds, Names, StepEngine, StepFormula, StepPrinter
 from diecut_report.mechanism.steps.value import FormulaStep
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -48,7 +48,7 @@ class Choice(FormulaStep):
 
     cases: tuple[Case, ...]
 
-    NAMES: ClassVar[tuple[str, ...]] = ("cases",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"cases": ANY}
 
     @classmethod
     def of(

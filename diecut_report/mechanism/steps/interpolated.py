@@ -17,7 +17,7 @@ from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, Reading, formula
 from diecut_report.formulas.tree import Constant, Node, substitute
 from diecut_report.mechanism.names import Misdeclared, Written, bind, bound
-from diecut_report.mechanism.steps.protocols import Item, Names, StepEngine, StepPrinter
+from diecut_report.mechanism.steps.protocols import ANY, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.mechanism.steps.table_steps import MOST_DIGITS, SAME, key_faults, si_values, sources, unlike_units
 from diecut_report.mechanism.steps.value import Value
 from diecut_report.quantities.formatting import DIGITS, number_text, with_unit
@@ -109,12 +109,8 @@ class Between(Formula):
 
 def _columns(table: object, column: str) -> tuple[Column, Column]:
     if not isinstance(table, StandardTable):
-        raise StandardFault(
-            Phrase(
-                "{table} is not a table; write one with own_table(…), rows of numbers and its sources.",
-                table=repr(table),
-            )
-        )
+        words = "{table} is not a table; write one with own_table(…), rows of numbers and its sources."
+        raise StandardFault(Phrase(words, table=repr(table)))
     if table.names:
         raise StandardFault(
             Phrase("The table “{title}” goes by names; one that goes by numbers is needed.", title=table.title)
@@ -129,14 +125,8 @@ def _columns(table: object, column: str) -> tuple[Column, Column]:
 def _line(table: StandardTable, columns: tuple[Column, Column], interpolation: Interpolation) -> Formula:
     if interpolation not in LINES:
         near = nearest(str(interpolation), LINES)
-        raise StandardFault(
-            Phrase(
-                "interpolation is {interpolation}{near}; allowed: {lines}.",
-                interpolation=repr(interpolation),
-                near=near,
-                lines=", ".join(LINES),
-            )
-        )
+        words = "interpolation is {interpolation}{near}; allowed: {lines}."
+        raise StandardFault(Phrase(words, interpolation=repr(interpolation), near=near, lines=", ".join(LINES)))
     for own in (columns[number] for number in LOGARITHMIC[interpolation]):
         for value in own.values:
             if value <= 0:
@@ -167,7 +157,7 @@ class Interpolated(Value):
     key: str = field(default="", kw_only=True)
     interpolation: Interpolation = field(default="linear", kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": ANY}
 
     def __post_init__(self) -> None:
         between = Between(self.table, self.column, self.id, self.interpolation)
@@ -262,9 +252,12 @@ class Interpolated(Value):
         own, declared = self.between.columns[0], calc.step_or_input(self.of)
         first, last = (with_unit(number_text(end, MOST_DIGITS), own.unit) for end in (own.values[0], own.values[-1]))
         is_input = self.of not in calc.steps and not self.key
-        return Phrase(
+        words = (
             "{text} {shown}, outside of the table “{title}” for {description} ({symbol}), which goes from "
-            "{first} to {last}",
+            "{first} to {last}"
+        )
+        return Phrase(
+            words,
             text=phrase("is") if is_input else phrase("leads to"),
             shown=f"{declared.symbol} = {with_unit(_beyond(value / unit(own.unit).factor, own.values), own.unit)}",
             title=self.table.title,

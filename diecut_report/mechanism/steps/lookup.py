@@ -12,7 +12,17 @@ from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps.base import Over
-from diecut_report.mechanism.steps.protocols import ROW, Item, MachineValues, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import (
+    ANY,
+    ROW,
+    Item,
+    Kinds,
+    MachineValues,
+    Names,
+    StepEngine,
+    StepPrinter,
+    TakenName,
+)
 from diecut_report.mechanism.steps.table_steps import (
     AS_GIVEN,
     MOST_DIGITS,
@@ -51,7 +61,7 @@ class Lookup(TableStep):
     column: str = field(default="", kw_only=True)
     sought_in: str = field(default="", kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("given", "by")
+    TAKES: ClassVar[dict[str, Kinds]] = {"given": ANY, "by": ANY}
 
     @property
     def is_by_number(self) -> bool:
@@ -92,6 +102,7 @@ class Lookup(TableStep):
     # Faults.
 
     def shape_faults(self) -> Iterator[str]:
+        yield from super().shape_faults()
         table: Any = self.table
         if isinstance(table, StandardTable):
             return
@@ -261,14 +272,10 @@ class Lookup(TableStep):
             "rows": with_unit(", ".join(number_text(each, MOST_DIGITS) for each in near), own.unit),
         }
         if self.by in calc.steps or self.key:
-            return Phrase(
-                "leads to {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}",
-                filling,
-            )
-        return Phrase(
-            "is {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}",
-            filling,
-        )
+            words = "leads to {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}"
+            return Phrase(words, filling)
+        words = "is {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}"
+        return Phrase(words, filling)
 
     # Print.
 
