@@ -386,14 +386,12 @@ def _hidden(names: DeclaredNames, number: int, step: Step, key: Key) -> Iterator
     when = names.when(number).with_(When(frozenset((key.path,)) if key.may_be_absent else frozenset()))
     given = names.world.example(when, list(_takers(names, key.path)))
     if given is not None:
+        where = told(given, when.needs | when.lacks)
         words = (
-            "has the id of an input, so that what the user gives for {id} counts nowhere {where}; name the step otherwise, "
-            'or let a formula take the input as "inputs.{id}"'
-            if (where := told(given, when.needs | when.lacks))
-            else "has the id of an input, so that what the user gives for {id} counts nowhere; name the step otherwise, "
+            "has the id of an input, so that what the user gives for {id} counts nowhere{where}; name the step otherwise, "
             'or let a formula take the input as "inputs.{id}"'
         )
-        yield fault(step, Phrase(words, id=step.id, where=where))
+        yield fault(step, Phrase(words, id=step.id, where=Phrase(" {where}", where=where) if where else ""))
 
 
 def _takers(names: DeclaredNames, path: str) -> Iterator[When]:

@@ -22,7 +22,13 @@ from diecut_report.text.phrases import Phrase, named, phrase
 
 def order_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the ids that are doubled, never made, not given, or taken too early."""
-    yield from _doubled(mechanism, names)
+    steps = [(step, names.when(number)) for number, (_, step) in enumerate(mechanism.steps)]
+    yield from pairs(names, phrase("another step"), steps)
+    for another, several in (
+        (phrase("another figure"), mechanism.figures),
+        (phrase("another export"), mechanism.exports),
+    ):
+        yield from pairs(names, another, [(each, When(frozenset(each.needs))) for each in several])
     yield from _in_two_chapters(mechanism, names)
     for number, (_, step) in enumerate(mechanism.steps):
         when = names.when(number)
@@ -65,23 +71,8 @@ def lacking(names: DeclaredNames, name: str, when: When, before: int | None = No
         return Phrase(words, name=name, home=home.path)
     tokens = set().union(*(part for each in (when, *(giver.when for giver in givers)) for part in each))
     where = told(given, tokens)
-    words = (
-        "{name}, which nothing gives {where}; give it there too, or leave this out by needs or lacks"
-        if where
-        else "{name}, which nothing gives; give it there too, or leave this out by needs or lacks"
-    )
-    return Phrase(words, name=name, where=where)
-
-
-def _doubled(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
-    """Steps, figures and exports with one id that can be made together."""
-    steps = [(step, names.when(number)) for number, (_, step) in enumerate(mechanism.steps)]
-    yield from pairs(names, phrase("another step"), steps)
-    for another, several in (
-        (phrase("another figure"), mechanism.figures),
-        (phrase("another export"), mechanism.exports),
-    ):
-        yield from pairs(names, another, [(each, When(frozenset(each.needs))) for each in several])
+    words = "{name}, which nothing gives{where}; give it there too, or leave this out by needs or lacks"
+    return Phrase(words, name=name, where=Phrase(" {where}", where=where) if where else "")
 
 
 def _in_two_chapters(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:

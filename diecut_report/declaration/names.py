@@ -128,7 +128,7 @@ class World:
         if (
             _judged(holds, known) is False
             or any(_judged(other, known) for other in never)
-            or not self._is_allowed(known)
+            or not all(_keeps(home, rule, known, self.keys) for home, rule in self.rules)
         ):
             return
         if not open_ones:
@@ -141,16 +141,11 @@ class World:
 
     def _variables(self, holds: When, never: Sequence[When]) -> list[str]:
         """The inputs on which it depends; those that something needs come first, blocks before what is in them."""
-        tokens = [
-            *sorted(holds.needs | holds.lacks),
-            *(t for other in never for t in sorted(other.needs | other.lacks)),
-        ]
+        tokens = [token for each in (holds, *never) for token in sorted(each.needs | each.lacks)]
         paths = [token.partition("=")[0] for token in tokens]
-        grouped = [
-            {f"{home}{key}" for key in chain((rule.when.partition("=")[0],) * bool(rule.when), *rule.groups)}
-            for home, rule in self.rules
-        ]
-        paths += [key for keys in grouped if keys.intersection(paths) for key in sorted(keys)]
+        heads = [(home, rule, {rule.when.partition("=")[0]} - {""}) for home, rule in self.rules]
+        grouped = [{f"{home}{key}" for key in head.union(*rule.groups)} for home, rule, head in heads]
+        paths += [key for each in grouped if each.intersection(paths) for key in sorted(each)]
         found = [above for path in paths for above in (*_above(path), path)]
         return [path for path in dict.fromkeys(found) if path in self.keys]
 
@@ -162,9 +157,6 @@ class World:
         yield from key.texts or ((OTHER, GIVEN) if isinstance(key.meta, Text) and not key.block else (GIVEN,))
         if key.may_be_absent:
             yield None
-
-    def _is_allowed(self, known: Mapping[str, Given]) -> bool:
-        return all(_keeps(home, rule, known, self.keys) for home, rule in self.rules)
 
 
 def _keeps(home: str, rule: OneOf, known: Mapping[str, Given], keys: Mapping[str, Key]) -> bool:
@@ -187,13 +179,11 @@ def _above(path: str) -> list[str]:
 
 def _judged(when: When, known: Mapping[str, Given]) -> bool | None:
     """Whether something is calculated; None where what is known does not say."""
-    said = [
-        *((_holds(token, known), True) for token in when.needs),
-        *((_holds(token, known), False) for token in when.lacks),
-    ]
-    if any(found is not None and found is not wanted for found, wanted in said):
+    needed = [_holds(token, known) for token in when.needs]
+    lacking = [_holds(token, known) for token in when.lacks]
+    if False in needed or True in lacking:
         return False
-    return None if any(found is None for found, _ in said) else True
+    return None if None in needed or None in lacking else True
 
 
 def _holds(token: str, known: Mapping[str, Given]) -> bool | None:
@@ -269,10 +259,8 @@ class DeclaredNames:
         def over(*names: str, of_all: bool = False) -> set[tuple[str, str]]:
             """Return the kinds and axes of what runs over something; ``of_all`` also of texts."""
             givers = [giver for name in names for giver in found.get(name, ()) if giver.axis or not of_all]
-            axes = {
-                (giver.kind, giver.axis) for giver in givers if of_all or giver.kind in ("curve", "abscissa", "row")
-            }
-            return {("curve" if kind == "abscissa" else kind, axis) for kind, axis in axes}
+            own = [giver for giver in givers if of_all or giver.kind in ("curve", "abscissa", "row")]
+            return {("curve" if giver.kind == "abscissa" else giver.kind, giver.axis) for giver in own}
 
         when = self.when(number)
         for kind, axis in step.kinds(over):
@@ -317,15 +305,12 @@ class DeclaredNames:
             )
             yield Phrase(words, by=by, allowed=allowed)
             return
-        possible = [
-            text for text in key.texts if key.home or self.world.example(when.with_(When(frozenset((f"{by}={text}",)))))
-        ]
-        missing = [text for text in possible if text not in rows]
-        if missing:
+        missing = [text for text in key.texts if text not in rows]
+        chosen = {text: when.with_(When(frozenset((f"{by}={text}",)))) for text in missing}
+        if missing := [text for text in missing if key.home or self.world.example(chosen[text])]:
             words = "has {none} for {by}={missing}; add {them}, or forbid the text"
-            yield Phrase(
-                words, none=none, by=by, missing=", ".join(missing), them=phrase("it" if len(missing) == 1 else "them")
-            )
+            them = phrase("it" if len(missing) == 1 else "them")
+            yield Phrase(words, none=none, by=by, missing=", ".join(missing), them=them)
 
     def kinds(self, name: str) -> set[str]:
         """Return what a name may be: number, row, curve, …"""

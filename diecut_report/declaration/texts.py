@@ -127,21 +127,20 @@ def token_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
                 words = '{field} is the text {tokens}; write a tuple, {field}=("{tokens}",)'
                 yield fault(declared, Phrase(words, field=field, tokens=tokens))
                 continue
-            found = (_told(names, token) for token in ((tokens,) if isinstance(tokens, str) else tokens))
-            yield from (
-                fault(declared, Phrase("{field} names {text}", field=field, text=text)) for text in found if text
-            )
+            for text in filter(
+                None, (_told(names, token) for token in ((tokens,) if isinstance(tokens, str) else tokens))
+            ):
+                yield fault(declared, Phrase("{field} names {text}", field=field, text=text))
         for fact in sorted(mechanism.facts.intersection(getattr(declared, "lacks", ()))):
             yield fault(declared, Phrase("lacks names the fact {fact}; a fact can only be needed", fact=fact))
 
 
 def not_an_input(names: DeclaredNames, path: str) -> str:
     """Return a name that is not an input, with what it is, or the nearest input."""
-    is_step = bool(names.givers(path))
-    near = Phrase("not an input{nearest}", nearest="" if is_step else nearest(path, names.world.keys))
-    return Phrase(
-        "{path}, which is {what}", path=path, what=phrase("a step; only inputs can be named") if is_step else near
-    )
+    what: str = phrase("a step; only inputs can be named")
+    if not names.givers(path):
+        what = Phrase("not an input{nearest}", nearest=nearest(path, names.world.keys))
+    return Phrase("{path}, which is {what}", path=path, what=what)
 
 
 def _told(names: DeclaredNames, token: str) -> str:
@@ -159,10 +158,8 @@ def _told(names: DeclaredNames, token: str) -> str:
         return Phrase(words, token=token, path=path)
     if text in key.texts:
         return ""
-    near = nearest(text, key.texts)
-    return Phrase(
-        "{token}{nearest}; {path} may be {texts}", token=token, nearest=near, path=path, texts=", ".join(key.texts)
-    )
+    words, near = "{token}{nearest}; {path} may be {texts}", nearest(text, key.texts)
+    return Phrase(words, token=token, nearest=near, path=path, texts=", ".join(key.texts))
 
 
 # What is said beside the calculation: sources, errata, key results, exports, spectra and comparisons name what there is.

@@ -348,7 +348,8 @@ class ConditionReader:
                 return self._signed(at, depth)
             case ast.BoolOp(op=op, values=values):
                 word = "and" if isinstance(op, ast.And) else "or"
-                nodes = [condition(self.part(each, depth + 1), _between(word)) for each in values]
+                needed = Phrase("{word} stands between conditions; compare both sides with something", word=repr(word))
+                nodes = [condition(self.part(each, depth + 1), needed) for each in values]
                 return joined(word, nodes, self._place(at))  # type: ignore[arg-type]
             case ast.BinOp(op=ast.Pow(), left=base, right=power):
                 return raised(self.part(base, depth + 1), self.part(power, depth + 1))
@@ -452,10 +453,6 @@ class ConditionReader:
     ) -> ConditionPart:
         nodes = [compared([sign], [one, two]).node for one, sign, two in pairs]
         return joined(word, nodes, self._place(at))  # type: ignore[arg-type]
-
-
-def _between(word: str) -> str:
-    return Phrase("{word} stands between conditions; compare both sides with something", word=repr(word))
 
 
 # Expressions of a configuration: ``${press.sheet.length} + 110 mm`` read, judged and computed, for one machine or for many.

@@ -114,16 +114,8 @@ class Constant(float):
         given = known(unit)
         if abs(given.factor - 1) > ROUNDING:
             words = "{symbol} is in {unit}, which is {factor} {si}; give it in SI, {value} {si}"
-            raise TypeError(
-                Phrase(
-                    words,
-                    symbol=symbol,
-                    unit=unit,
-                    factor=format(given.factor, "g"),
-                    si=given.si,
-                    value=format(value * given.factor, "g"),
-                )
-            )
+            given_text, in_si = format(given.factor, "g"), format(value * given.factor, "g")
+            raise TypeError(Phrase(words, symbol=symbol, unit=unit, factor=given_text, si=given.si, value=in_si))
         self = super().__new__(cls, value)
         self.symbol, self.unit = symbol, unit
         return self

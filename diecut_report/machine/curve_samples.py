@@ -104,7 +104,6 @@ class SampledCurve:
 
     @property
     def breakpoints(self) -> Array:
-        """Return the given places, where the curve has its corners, as shares of the period, shape (1, places)."""
         return np.arange(len(self.numbers))[None, :] / len(self.numbers)
 
     joints = breakpoints

@@ -48,9 +48,8 @@ class CurveInput:
             return given
         if isinstance(given, list) and not self.referred:
             if len(given) < 4:
-                raise ValueError(
-                    Phrase("has {count} values; a curve needs at least 4 over its period", count=len(given))
-                )
+                words = "has {count} values; a curve needs at least 4 over its period"
+                raise ValueError(Phrase(words, count=len(given)))
             if len(given) > MAX_CURVE_VALUES:
                 words = "has {count} values; at most {max_curve_values} are allowed for a curve"
                 raise ValueError(Phrase(words, count=len(given), max_curve_values=MAX_CURVE_VALUES))
@@ -151,9 +150,8 @@ class MechanismInput:
         if getattr(given, "is_mechanism", False):
             return given
         named = f"${{{given.path}}}" if isinstance(given, Pending) else f"{given!r}"
-        raise ValueError(
-            Phrase("{named} is not a mechanism; the name of one is needed, as in mechanism: drive", named=named)
-        )
+        words = "{named} is not a mechanism; the name of one is needed, as in mechanism: drive"
+        raise ValueError(Phrase(words, named=named))
 
 
 class GivenMechanism(Protocol):

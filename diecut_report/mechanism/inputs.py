@@ -10,7 +10,7 @@ import operator
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import Annotated, Any, ClassVar, Literal, get_args, get_origin
+from typing import Any, ClassVar, Literal, get_args, get_origin
 
 import numpy as np
 from pydantic import BaseModel, ConfigDict
@@ -21,7 +21,6 @@ from diecut_report.mechanism.curve_inputs import (
     InOtherUnit,
     MechanismInput,
     PhaseInput,
-    TakenWhole,
     by_validate,
     is_in,
 )
@@ -123,18 +122,10 @@ class Quantity:
                 return self._bounded(value, Phrase("{to_display} {pretty} (from {told})", to_display=f"{to_display(value, self.unit):.6g}",
                     pretty=pretty(self.unit), told=told))  # fmt: skip
             case bool() | list() | dict():
-                kind = (
-                    phrase("a list")
-                    if isinstance(given, list)
-                    else phrase("a block of keys")
-                    if isinstance(given, dict)
-                    else str(given).lower()
-                )
+                kind = phrase("a block of keys") if isinstance(given, dict) else str(given).lower()
+                kind = phrase("a list") if isinstance(given, list) else kind
                 words = "is {kind}; a number or a text such as “{rstrip}” is needed"
-                raise ValueError(
-                    Phrase(words, kind=kind, rstrip=f'10 {pretty(self.unit)}'.rstrip(
-                        ))
-                )  # fmt: skip
+                raise ValueError(Phrase(words, kind=kind, rstrip=f"10 {pretty(self.unit)}".rstrip()))
         value = self._parsed(given)
         return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
 
@@ -325,32 +316,6 @@ def flatten(block: Block, prefix: str = "", within_part: bool = False) -> dict[s
     return flat
 
 
-__all__ = [
-    "POINTS",
-    "SI",
-    "Annotated",
-    "Block",
-    "CurveInput",
-    "FromPress",
-    "InOtherUnit",
-    "Inputs",
-    "MechanismInput",
-    "Meta",
-    "OneOf",
-    "Pending",
-    "PhaseInput",
-    "Quantity",
-    "Referred",
-    "TakenWhole",
-    "Text",
-    "fields",
-    "flatten",
-    "meta_of",
-    "nested",
-    "texts_given",
-]  # fmt: skip
-
-
 # Inputs that repeat: the lists of parts that a block of inputs declares.
 
 
@@ -420,6 +385,3 @@ class Varying(Quantity):
         if not isinstance(low, Pending) and not isinstance(high, Pending) and low > high:
             raise ValueError(phrase("has a min above its max; exchange them"))
         return Extremes(low, high)
-
-
-__all__ = ["Extremes", "Varying"]

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache, reduce
+from functools import cached_property, lru_cache, reduce, wraps
 from itertools import product
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -39,28 +39,23 @@ class RowsOf:
     rows: Array
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values at shares, shape (rows, points), as ``Curve`` does."""
         own = self.rows if rows is None else self.rows[rows]
         return self.curve.values(share, middle, np.broadcast_to(own, len(share)))
 
     @property
     def breakpoints(self) -> Array:
-        """Return those of the curve, of each machine."""
         return self._own(self.curve.breakpoints)
 
     @property
     def joints(self) -> Array:
-        """Return those of the curve, of each machine."""
         return self._own(self.curve.joints)
 
     @property
     def cycle(self) -> str:
-        """Return the id of what the curve runs over."""
         return self.curve.cycle
 
     @property
     def rate(self) -> Array:
-        """Return how often the curve of each machine comes again."""
         return self._own(self.curve.rate)
 
     def _own(self, table: Array) -> Array:
@@ -90,6 +85,7 @@ def of_machine(value: Any, row: int, count: int) -> Any:
 # A value is written as in a configuration: a number in the key's display unit, a text such as ``"40 mm"``, a list, a block of keys.
 
 
+Made = TypeVar("Made")
 KIND = re.compile(r"<([^<>\s]+)>")
 
 
@@ -159,9 +155,10 @@ def made_when(chapter: Chapter, step: Step) -> When:
     return When(frozenset(chapter.needs + step.needs), frozenset(step.lacks))
 
 
-of_given = lru_cache(
-    maxsize=1024
-)  # what follows from the inputs that are given, of each mechanism, which is declared once
+def of_given(make: Callable[[Any, frozenset[str]], Made]) -> Callable[[Any, frozenset[str]], Made]:
+    """Remember what follows from the inputs that are given, of each mechanism, which is declared once."""
+    known = lru_cache(maxsize=1024)(make)
+    return wraps(make)(lambda mechanism, given: known(mechanism, given))
 
 
 @dataclass(frozen=True, eq=False)

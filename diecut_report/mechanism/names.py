@@ -173,9 +173,8 @@ class OneOf:
         told = ", or ".join(listed(group) for group in self.groups)
         heads = list(dict.fromkeys(group[0] for group in self.groups if group[0] in known))
         if len(heads) > 1:
-            return Phrase(
-                "{listed} are both given, but only one can hold; give {told}.", listed=listed(heads), told=told
-            )
+            words = "{listed} are both given, but only one can hold; give {told}."
+            return Phrase(words, listed=listed(heads), told=told)
         complete = [group for group in self.groups if known.issuperset(group)]
         idle = known & {key for group in self.groups for key in group} - {*self.shared}.union(*complete[:1])
         if complete and not idle:
@@ -290,6 +289,4 @@ def bound(part: Written) -> Bound:
     return part if isinstance(part, Bound) else _by_names(part)
 
 
-@cache
-def _by_names(formula: Callable[..., Any]) -> Bound:
-    return bind(formula)
+_by_names: Callable[[Formula | Callable[..., Any]], Bound] = cache(bind)

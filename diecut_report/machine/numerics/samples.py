@@ -42,6 +42,10 @@ class CachedPieces:
         found: Array = np.minimum(INSIDE * self.period, self.width / 4)
         return found
 
+    def is_same(self, other: CachedPieces) -> bool:
+        """Return whether others are the same pieces."""
+        return self is other or all(np.array_equal(getattr(self, name), getattr(other, name)) for name in PIECE)
+
     def grid(self, row: Rows) -> Array:
         """Return the search grid of these pieces, (rows, points): Chebyshev–Lobatto points, ends included."""
         found: Array = self.left[row][:, None] + self.width[row][:, None] * shares(self.intervals)
@@ -107,9 +111,7 @@ class SampleCache:
         if self._edges is domain.edges:
             return self._pieces
         new = CachedPieces(domain)
-        if self._edges is not None and not all(
-            np.array_equal(getattr(self._pieces, name), getattr(new, name)) for name in PIECE
-        ):
+        if self._edges is not None and not new.is_same(self._pieces):
             self._cuts.append(_matches(self._pieces, new))
         self._edges, self._pieces = domain.edges, new
         return new
@@ -117,9 +119,8 @@ class SampleCache:
     def curves(self, names: Sequence[str], row: Rows = EVERY) -> Curves:
         """Return curves in these of the present pieces, anywhere."""
         pieces = self.pieces()
-        return Curves(
-            self.calc, self.axis, names, pieces.middle[row], pieces.variant[row], partial(self._flags_in, row)
-        )
+        flags = partial(self._flags_in, row)
+        return Curves(self.calc, self.axis, names, pieces.middle[row], pieces.variant[row], flags)
 
     def _flags_in(self, row: Rows, names: tuple[str, ...]) -> list[Array]:
         """Flags of pieces, each computed once; where few machines are, the sampler keeps them."""

@@ -112,9 +112,8 @@ class Page:
         calc = self.calc
         formula = getattr(calc.steps.get(name), "formula", None)
         taken = [] if formula is None else [each for each in bound(formula).names.values() if isinstance(each, str)]
-        rows = [
-            calc.values[n][0] for n in (name, *taken) if n in calc.values and calc.axis.get(n) == calc.axis.get(name)
-        ]
+        alike = (n for n in (name, *taken) if n in calc.values and calc.axis.get(n) == calc.axis.get(name))
+        rows = [calc.values[n][0] for n in alike]
         known = [~np.isnan(row.astype(float)) for row in rows if row.dtype != object]
         return np.asarray(np.all(known, axis=0)) if known else None
 
@@ -219,13 +218,8 @@ class Page:
             item["where"] = defined
         if takes and numeric is None:
             item["note"] = EQUAL_TERMS
-        item = (between.told() if between else {}) | item
-        return (
-            item
-            | bridged(substitution, numeric, target, result)
-            | conversions(substitution, numeric)
-            | {"result": result}
-        )
+        item = (between.told() if between else {}) | item | bridged(substitution, numeric, target, result)
+        return item | conversions(substitution, numeric) | {"result": result}
 
     # Tables.
 
@@ -284,16 +278,10 @@ class Page:
         return {"type": "table", "id": step.id, "title": step.description} | table
 
     def _lines(self, title: str, heads: Sequence[str], names: Sequence[str]) -> Item:
-        units = [self._column_unit(name) for name in names]
-        columns = [
-            _head(title),
-            *(_column(self.calc.step_or_input(n), unit) for n, unit in zip(names, units, strict=True)),
-        ]
-        cells = list(zip(names, units, strict=True))
-        return {
-            "columns": columns,
-            "rows": [[head, *(self._cell(*each, i) for each in cells)] for i, head in enumerate(heads)],
-        }
+        cells = [(name, self._column_unit(name)) for name in names]
+        columns = [_head(title), *(_column(self.calc.step_or_input(name), unit) for name, unit in cells)]
+        lines = [[head, *(self._cell(*each, i) for each in cells)] for i, head in enumerate(heads)]
+        return {"columns": columns, "rows": lines}
 
     def table_of_places(self, step: Step, places: Sequence[float]) -> Item:
         """Return places of an abscissa as a table."""

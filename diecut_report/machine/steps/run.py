@@ -237,10 +237,8 @@ def calculate(
     Raises ``Impossible`` when a single machine cannot exist (among several it is marked in ``flaws``), ``Unproven`` when a
     result does not meet what proves it.
     """
-    curves = {
-        n: SampledCurve(v) if n in mechanism.curve_inputs and isinstance(v, tuple) else v for n, v in values.items()
-    }
-    calc = MachineRun(mechanism, curves, variants)
+    listed = {name: SampledCurve(v) for name in mechanism.curve_inputs if isinstance(v := values.get(name), tuple)}
+    calc = MachineRun(mechanism, {**values, **listed}, variants)
     calc.is_partial = only is not None
     calc.require_distinct()
     with np.errstate(all="ignore"):
@@ -283,11 +281,8 @@ def varied(calc: Calculation, inputs: Mapping[str, Any], names: Sequence[str]) -
 
 
 def _spread(inputs: Mapping[str, Any], count: int) -> dict[str, Any]:
-    numbers = {name: value for name, value in inputs.items() if not isinstance(value, str)}
-    return {
-        **inputs,
-        **{name: np.broadcast_to(np.asarray(each, dtype=float), (count,)) for name, each in numbers.items()},
-    }
+    return {name: value if isinstance(value, str) else np.broadcast_to(np.asarray(value, dtype=float), (count,))
+            for name, value in inputs.items()}  # fmt: skip
 
 
 def varied_curves(

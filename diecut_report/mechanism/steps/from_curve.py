@@ -70,9 +70,7 @@ class CurveOverAbscissa(QuantityStep):
         period = calc.domains[self.abscissa].period
         lasts = calc[self.lasts] if self.lasts else period
         if self.start or self.lasts:
-            shares = np.concatenate(
-                [shares, np.zeros((len(shares), 1))], axis=1
-            )  # where a period of the curve begins anew
+            shares = np.concatenate([shares, np.zeros((len(shares), 1))], axis=1)  # where the curve begins anew
         shares = np.mod(shares - (calc[self.start] if self.start else 0), 1)
         turns = np.where(calc.possible[:, None], np.ceil(period / lasts), 1)
         places = [(shares + turn) * lasts for turn in range(int(turns.max()))]
@@ -130,13 +128,9 @@ class MadeCurve(CurveOverAbscissa):
 
     def items(self, page: StepPrinter) -> list[Item]:
         axis = page.calc.axis[self.id]
-        found = {
-            "type": "found",
-            "relation": None,
-            "method": self.method,
-            "result": page.result(self, page.value_at(self.id, axis)),
-        }
-        return [self.head() | found | {"at": page.shown(axis)}]
+        found = {"type": "found", "relation": None, "method": self.method}
+        result = page.result(self, page.value_at(self.id, axis))
+        return [self.head() | found | {"result": result, "at": page.shown(axis)}]
 
 
 @dataclass(frozen=True, eq=False)

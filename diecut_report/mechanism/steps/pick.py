@@ -71,9 +71,6 @@ class Pick(TableStep):
 
     def same_units(self, units: Callable[[str], set[str]], names: Names) -> Iterator[tuple[str, set[str]]]:
         yield self.of, units(self.of)
-        for one in self.all_series:
-            if isinstance(one, StandardSeries):
-                yield Phrase("the series {title}", title=one.title), {one.unit}
 
     def shape_faults(self) -> Iterator[str]:
         yield from super().shape_faults()
