@@ -158,8 +158,8 @@ def _told(names: DeclaredNames, token: str) -> str:
         return Phrase(words, token=token, path=path)
     if text in key.texts:
         return ""
-    words, near = "{token}{nearest}; {path} may be {texts}", nearest(text, key.texts)
-    return Phrase(words, token=token, nearest=near, path=path, texts=", ".join(key.texts))
+    near, texts = nearest(text, key.texts), ", ".join(key.texts)
+    return Phrase("{token}{nearest}; {path} may be {texts}", token=token, nearest=near, path=path, texts=texts)
 
 
 # What is said beside the calculation: sources, errata, key results, exports, spectra and comparisons name what there is.
