@@ -7,7 +7,7 @@ from itertools import pairwise
 from typing import Any
 
 from diecut_report.declaration.inputs import allowed_wrong, fault_of
-from diecut_report.declaration.names import DeclaredNames, Fault, Key, of_check, of_step
+from diecut_report.declaration.names import DeclaredNames, Fault, fault
 from diecut_report.declaration.texts import not_an_input
 from diecut_report.errors import nearest
 from diecut_report.mechanism.chapters import taken
@@ -15,7 +15,7 @@ from diecut_report.mechanism.checks import Check, Vary
 from diecut_report.mechanism.inputs import Quantity
 from diecut_report.mechanism.mechanism import Mechanism
 from diecut_report.mechanism.names import ByText
-from diecut_report.mechanism.steps import Require, Step
+from diecut_report.mechanism.steps import Require
 from diecut_report.mechanism.steps.table_steps import unlike_units
 from diecut_report.standards.tables import StandardSeries
 from diecut_report.text.phrases import Phrase, named
@@ -26,10 +26,10 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for section, step in mechanism.steps:
         if isinstance(step, Require):
             judged = (*taken(step), *step.needs, *section.needs)
-            yield from (of_step(step, text) for text in _wrong(names, step, judged))
+            yield from (fault(step, text) for text in _wrong(names, step, judged))
     for check in mechanism.checks:
         judged = (*check.named, *check.needs, *check.only_with, *check.founded)
-        yield from (of_check(check, text) for text in _wrong(names, check, judged))
+        yield from (fault(check, text) for text in _wrong(names, check, judged))
 
 
 def _wrong(names: DeclaredNames, owner: Check | Require, judged: Iterable[str]) -> Iterator[str]:
@@ -62,15 +62,11 @@ def _behind(names: DeclaredNames, judged: Iterable[str]) -> set[str]:
         if name not in found:
             found.add(name)
             for giver in names.givers(name):
-                pending += [*giver.when.needs, *giver.when.lacks, *(_asked(giver.step) if giver.step else ())]
+                pending += [*giver.when.needs, *giver.when.lacks]
+                if step := giver.step:
+                    pending += [*taken(step), *getattr(step, "holds", ())]
+                    pending += [each.formula.key for each in step.formulas() if isinstance(each.formula, ByText)]
     return found
-
-
-def _asked(step: Step) -> Iterator[str]:
-    """What a step takes, and the texts that choose its formulas."""
-    yield from taken(step)
-    yield from getattr(step, "holds", ())
-    yield from (each.formula.key for each in step.formulas() if isinstance(each.formula, ByText))
 
 
 def _not_changed(names: DeclaredNames, key: str, together: tuple[str, ...], behind: set[str] | None) -> str:
@@ -99,16 +95,13 @@ def _vary(names: DeclaredNames, way: Vary) -> Iterator[str]:
         title = Phrase("the series “{title}”", title=series.title)
         yield from unlike_units(title, series.unit, names.units(way.key), way.key)
     elif not wrong:
-        wrong += _texts_wrong(known, series) if known.texts else _numbers_wrong(known.meta, series)
+        words = "has {value} in its series{nearest}; allowed: {texts}"
+        wrong += [
+            Phrase(words, value=repr(text), nearest=nearest(str(text), known.texts), texts=", ".join(known.texts))
+            for text in (series if known.texts else ()) if text not in known.texts
+        ]  # fmt: skip
+        wrong += () if known.texts else _numbers_wrong(known.meta, series)
     yield from (Phrase("the advice on {key} {text}", key=way.key, text=text) for text in wrong)
-
-
-def _texts_wrong(known: Key, series: tuple[object, ...]) -> Iterator[str]:
-    for text in series:
-        if text not in known.texts:
-            words = "has {value} in its series{nearest}; allowed: {texts}"
-            likely = nearest(str(text), known.texts)
-            yield Phrase(words, value=repr(text), nearest=likely, texts=", ".join(known.texts))
 
 
 def _numbers_wrong(meta: Any, series: tuple[Any, ...]) -> Iterator[str]:

@@ -11,27 +11,16 @@ from pathlib import Path
 from typing import Any, NamedTuple
 
 from diecut_report.declaration.formulas import lacking, pairs
-from diecut_report.declaration.names import (
-    DeclaredNames,
-    Fault,
-    Giver,
-    Key,
-    When,
-    of_check,
-    of_step,
-    short,
-    unknown,
-    world,
-)
-from diecut_report.declaration.names import told as shared_names_told
+from diecut_report.declaration.names import DeclaredNames, Fault, Giver, fault, short, told, unknown, world
 from diecut_report.declaration.texts import files_around, own_files, parsed
 from diecut_report.errors import nearest
 from diecut_report.formulas.formula import FormulaError
 from diecut_report.formulas.tree import Node, substitute, symbols
 from diecut_report.mechanism.chapters import MISSING, taken
 from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.inputs import Key
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import ByText, bound
+from diecut_report.mechanism.names import ByText, When, bound
 from diecut_report.mechanism.steps import Require, ResultName, Step, Value, has_own_names, names_ahead, read
 from diecut_report.mechanism.steps.from_curve import CurveOverAbscissa
 from diecut_report.mechanism.steps.require import Obstacle
@@ -46,7 +35,7 @@ NEUTRAL = {"+": 0.0, "*": 1.0}
 DEEP = 40  # formulas within formulas, of which a declaration may have a circle that is reported elsewhere
 
 
-def told(names: DeclaredNames, check: Check) -> Iterator[str]:
+def empty(names: DeclaredNames, check: Check) -> Iterator[str]:
     """Yield what is wrong with the sides of a check.
 
     Where inputs decide which formula gives a side, one of them may bound the other: a size that is chosen, a count that is not
@@ -55,7 +44,8 @@ def told(names: DeclaredNames, check: Check) -> Iterator[str]:
     for one, other in check.pairs:
         found = [_empty(*sides) for sides in product(_ways(names, one), _ways(names, other))]
         if all(found):
-            yield from (Phrase(text, one=_told(one), other=_told(other)) for text in dict.fromkeys(found))
+            first, second = (side if isinstance(side, str) else f"{side:g}" for side in (one, other))
+            yield from (Phrase(text, one=first, other=second) for text in dict.fromkeys(found))
 
 
 def _empty(demand: Node, limit: Node) -> str:
@@ -63,10 +53,9 @@ def _empty(demand: Node, limit: Node) -> str:
     if _ordered(demand) == _ordered(limit):
         return phrase("compares {one} with {other}, which is the same expression: it can never fail")
     if not symbols(demand) and not symbols(limit):
-        return phrase(
-            "compares {one} with {other}, neither of which depends on an input: its verdict is always the same"
-        )
-    if limit in _least(demand) or demand in _greatest(limit):
+        words = "compares {one} with {other}, neither of which depends on an input: its verdict is always the same"
+        return phrase(words)
+    if limit in _arguments(demand, "minimum") or demand in _arguments(limit, "maximum"):
         return phrase("compares {one} with {other}, by which it is bounded itself: it can never fail")
     return ""
 
@@ -112,22 +101,10 @@ def _part(names: DeclaredNames, taken: str | float, deep: int) -> Node:
     return _expanded(names, taken, givers[0], deep) if len(givers) == 1 else Node("sym", (taken,))
 
 
-def _least(node: Node) -> set[Node]:
-    return set(_arguments(node, "minimum"))
-
-
-def _greatest(node: Node) -> set[Node]:
-    return set(_arguments(node, "maximum"))
-
-
 def _arguments(node: Node, name: str) -> Iterator[Node]:
     for part in node.args[1:] if node.op == "call" and node.args[0] == name else ():
         yield part
         yield from _arguments(part, name)
-
-
-def _told(side: str | float) -> str:
-    return side if isinstance(side, str) else f"{side:g}"
 
 
 # Texts: each ``{id}`` in a message names something that can be printed there, and no other text holds one.
@@ -141,8 +118,8 @@ def messages_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Faul
     for number, (_, step) in enumerate(mechanism.steps):
         if isinstance(step, Obstacle):
             for text in unprintable(names, step.message, names.when(number), step.message_places, number):
-                yield of_step(step, Phrase("the message names {text}", text=text))
-            yield from (of_step(step, text) for text in _key(names, step.key))
+                yield fault(step, Phrase("the message names {text}", text=text))
+            yield from (fault(step, text) for text in _key(names, step.key))
     yield from _unfilled(mechanism)
 
 
@@ -172,45 +149,40 @@ def unprintable(
 def _key(names: DeclaredNames, key: str) -> Iterator[str]:
     """What is wrong with the key of an input that a message stands at."""
     parts = [part for part in key.split(".") if not part.isdigit() and not NAMED.fullmatch(part)]
-    path = ".".join(parts)
-    if path not in names.world.keys:
-        yield Phrase(
-            "the key {key} is not an input{nearest}; name the input that is to be changed",
-            key=repr(key),
-            nearest=nearest(path, names.world.keys),
-        )
+    path, keys = ".".join(parts), names.world.keys
+    if path not in keys:
+        words = "the key {key} is not an input{nearest}; name the input that is to be changed"
+        yield Phrase(words, key=repr(key), nearest=nearest(path, keys))
 
 
 def _unfilled(mechanism: Mechanism) -> Iterator[Fault]:
     """Texts with ``{id}`` that are printed as they stand."""
     words = "{braced} stands in braces in {field}, where nothing is filled in; write it without, or say it in a message or consequence"
-    for place, subject, field, text in _plain(mechanism):
-        found = NAMED.search(text.replace(MISSING, "") if field == "absent" else text)
-        if found:
-            yield Fault(place, subject, Phrase(words, braced=found[0], field=field))
+    for declared in (
+        *mechanism.chapters,
+        *(step for _, step in mechanism.steps),
+        *mechanism.checks,
+        *mechanism.figures,
+    ):
+        plain = [(field, getattr(declared, field, "")) for field in PLAIN]
+        plain += [(phrase("the words of a case"), case.words) for case in getattr(declared, "cases", ())]
+        for field, text in plain:
+            if found := NAMED.search(text.replace(MISSING, "") if field == "absent" else text):
+                yield fault(declared, Phrase(words, braced=found[0], field=field))
 
 
-def _plain(mechanism: Mechanism) -> Iterator[tuple[str, str, str, str]]:
-    for section in mechanism.chapters:
-        yield from (
-            (section.at, Phrase("section {title}", title=repr(section.title)), f, getattr(section, f))
-            for f in ("title", "text", "absent")
-        )
-    for _, step in mechanism.steps:
-        for field in ("description", "method", "otherwise"):
-            yield step.at, Phrase("step {id}", id=step.id), field, getattr(step, field, "")
-        for case in getattr(step, "cases", ()):
-            yield step.at, Phrase("step {id}", id=step.id), phrase("the words of a case"), case.words
-    for check in mechanism.checks:
-        texts = ("title", "demand_label", "limit_label", "at_least_label")
-        yield from ((check.at, Phrase("check {id}", id=check.id), field, getattr(check, field)) for field in texts)
-    for figure in mechanism.figures:
-        yield from (
-            (figure.at, Phrase("figure {id}", id=figure.id), field, getattr(figure, field))
-            for field in ("title", "caption")
-        )
-
-
+PLAIN = (
+    "title",
+    "text",
+    "absent",
+    "description",
+    "method",
+    "otherwise",
+    "demand_label",
+    "limit_label",
+    "at_least_label",
+    "caption",
+)
 JUDGED = ("number", "row", "curve")
 OF_PARTS = ("part", "next", "index")
 
@@ -218,10 +190,9 @@ OF_PARTS = ("part", "next", "index")
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the checks."""
     made = [(check, when) for check in mechanism.checks for when in _when(names, check)]
-    yield from pairs(names, "check", made)
+    yield from pairs(names, phrase("another check"), made)
     for check in mechanism.checks:
-        for text in _wrong(names, check):
-            yield of_check(check, text)
+        yield from (fault(check, text) for text in _wrong(names, check))
 
 
 def _when(names: DeclaredNames, check: Check) -> list[When]:
@@ -254,11 +225,9 @@ def _wrong(names: DeclaredNames, check: Check) -> Iterator[str]:
         return
     axes = {giver.axis for givers in sides.values() for giver in givers if giver.axis}
     if len(axes) > 1:
-        yield Phrase(
-            "compares what runs over {axes}; compare numbers, or curves over one abscissa",
-            axes=named(sorted(axes), " with what runs over "),
-        )
-    yield from told(names, check)
+        words = "compares what runs over {axes}; compare numbers, or curves over one abscissa"
+        yield Phrase(words, axes=named(sorted(axes), " with what runs over "))
+    yield from empty(names, check)
     yield from _names_of_parts(names, check)
     made = _when(names, check)
     if not made:
@@ -273,14 +242,11 @@ def _names_of_parts(names: DeclaredNames, check: Check) -> Iterator[str]:
     if not check.named_by:
         return
     if not any(giver.kind == "row" for name in check.named for giver in names.givers(name)):
-        yield Phrase(
-            "is one check for each of {named_by}, but compares no row over repeated parts; leave named_by out",
-            named_by=check.named_by,
-        )
-    elif check.named_by not in names.world.keys or {giver.kind for giver in names.givers(check.named_by)} - {"text"}:
-        yield Phrase(
-            "is one check for each of {named_by}, which is not a text of repeated parts", named_by=check.named_by
-        )
+        words = "is one check for each of {named_by}, but compares no row over repeated parts; leave named_by out"
+        yield Phrase(words, named_by=check.named_by)
+    elif check.named_by not in names.world.keys or names.kinds(check.named_by) - {"text"}:
+        words = "is one check for each of {named_by}, which is not a text of repeated parts"
+        yield Phrase(words, named_by=check.named_by)
 
 
 def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:
@@ -290,12 +256,11 @@ def _units(names: DeclaredNames, giver: Giver, check: Check) -> set[str]:
 
 
 def _instead(name: str, kind: str) -> str:
+    words = "places that may be none or many; compare {name}_count, or one of them as {name}_1"
     return {
         "text": phrase("a text; compare a number"),
         "abscissa": phrase("an abscissa, which takes all its values; compare a curve over it"),
-        "crossings": Phrase(
-            "places that may be none or many; compare {name}_count, or one of them as {name}_1", name=name
-        ),
+        "crossings": Phrase(words, name=name),
         "curve input": phrase("a curve input; take it over by FromCurve and compare that curve"),
         "block": phrase("a block; compare one of its inputs"),
     }[kind]
@@ -315,38 +280,28 @@ class Defined(NamedTuple):
     line: int
     until: float  # the line that gives the name to another one
 
-    @property
-    def is_chapter(self) -> bool:
-        """Whether it is a chapter."""
-        return _called(self.call) == "Chapter"
-
 
 def idle_chapters_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the chapters and families that are filled, and then named nowhere."""
     for file in own_files(mechanism):
         for defined in _definitions(parsed(file)):
-            if _is_filled(parsed(file), defined) and not _is_named(mechanism, file, defined):
+            own = [s for s in parsed(file).body if defined.line < s.lineno < defined.until]
+            if any(_fills(s, defined.name) for s in own) and not _is_named(mechanism, file, defined, own):
                 yield _fault(file, defined)
 
 
 def _fault(file: Path, defined: Defined) -> Fault:
     place, name = f"{file}:{defined.line}", defined.name
     lost = phrase("so that its steps are never calculated")
-    if not defined.is_chapter:
-        return Fault(
-            place,
-            Phrase("steps {name}", name=name),
-            Phrase("is added to no chapter, {lost}; write chapter.add({name})", lost=lost, name=name),
-        )
+    if _called(defined.call) != "Chapter":
+        text = Phrase("is added to no chapter, {lost}; write chapter.add({name})", lost=lost, name=name)
+        return Fault(place, Phrase("steps {name}", name=name), text)
     title = defined.call.args[0] if defined.call.args else None
     subject = Phrase("chapter {title}", title=ast.unparse(title) if title else name)
     instead = Phrase("name {name} in chapters=(…) of the Mechanism", name=name)
     if defined.until != float("inf"):
-        instead = Phrase(
-            "line {until} calls another one {name}: give one of them another name, and name both in chapters=(…)",
-            until=defined.until,
-            name=name,
-        )
+        words = "line {until} calls another one {name}: give one of them another name, and name both in chapters=(…)"
+        instead = Phrase(words, until=defined.until, name=name)
     return Fault(place, subject, Phrase("is in no mechanism, {lost}; {instead}", lost=lost, instead=instead))
 
 
@@ -366,10 +321,6 @@ def _called(call: ast.Call) -> str:
     return getattr(call.func, "id", getattr(call.func, "attr", ""))
 
 
-def _is_filled(tree: ast.Module, defined: Defined) -> bool:
-    return any(_fills(s, defined.name) and defined.line < s.lineno < defined.until for s in tree.body)
-
-
 def _fills(statement: ast.stmt, name: str) -> bool:
     match statement:
         case ast.Expr(value=ast.Call(func=ast.Attribute(value=ast.Name(id=head)))):
@@ -377,9 +328,8 @@ def _fills(statement: ast.stmt, name: str) -> bool:
     return False
 
 
-def _is_named(mechanism: Mechanism, file: Path, defined: Defined) -> bool:
-    """Whether anything else is said of it than what is declared in it."""
-    own = [s for s in parsed(file).body if defined.line < s.lineno < defined.until]
+def _is_named(mechanism: Mechanism, file: Path, defined: Defined, own: list[ast.stmt]) -> bool:
+    """Whether anything else is said of it, in its own statements of the file or elsewhere, than what is declared in it."""
     if any(_may_name(s, defined.name) and _names(s, defined.name) > _fills(s, defined.name) for s in own):
         return True
     others = [each for each in files_around(mechanism) if each != file] if defined.until == float("inf") else []
@@ -436,14 +386,12 @@ def _hidden(names: DeclaredNames, number: int, step: Step, key: Key) -> Iterator
     when = names.when(number).with_(When(frozenset((key.path,)) if key.may_be_absent else frozenset()))
     given = names.world.example(when, list(_takers(names, key.path)))
     if given is not None:
+        where = told(given, when.needs | when.lacks)
         words = (
-            "has the id of an input, so that what the user gives for {id} counts nowhere {where}; name the step otherwise, "
-            'or let a formula take the input as "inputs.{id}"'
-            if (where := shared_names_told(given, when.needs | when.lacks))
-            else "has the id of an input, so that what the user gives for {id} counts nowhere; name the step otherwise, "
+            "has the id of an input, so that what the user gives for {id} counts nowhere{where}; name the step otherwise, "
             'or let a formula take the input as "inputs.{id}"'
         )
-        yield of_step(step, Phrase(words, id=step.id, where=where))
+        yield fault(step, Phrase(words, id=step.id, where=Phrase(" {where}", where=where) if where else ""))
 
 
 def _takers(names: DeclaredNames, path: str) -> Iterator[When]:
@@ -490,5 +438,4 @@ def _made_twice(
         return
     what = Phrase("that of another step (at {place})", place=short(place)) if place else phrase("that of an input")
     words = "gives {name} as {made}, and this name is {what}; name one of them otherwise"
-    text = Phrase(words, name=made.name, made=MADE[made.role], what=what)
-    yield of_step(step, text)
+    yield fault(step, Phrase(words, name=made.name, made=MADE[made.role], what=what))

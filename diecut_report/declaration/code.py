@@ -9,7 +9,7 @@ import os
 import re
 import sys
 from collections import ChainMap
-from collections.abc import Iterable, Iterator
+from collections.abc import Iterator
 from contextlib import suppress
 from functools import partial
 from inspect import getclosurevars
@@ -18,14 +18,12 @@ from types import FunctionType, ModuleType
 from typing import Any
 
 from diecut_report import __version__, api
-from diecut_report.declaration.names import DeclaredNames, Fault, world
+from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, world
 from diecut_report.declaration.texts import DeclaredText, own_files, parsed
 from diecut_report.files import cache_folder, code_of
 from diecut_report.mechanism.figures import Chart, Drawing
 from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import Binding, ByText, bound
-from diecut_report.mechanism.steps import Step
 from diecut_report.standards.tables import StandardSeries, StandardTable
 from diecut_report.text.phrases import Phrase, named, phrase
 
@@ -38,17 +36,11 @@ def import_faults(mechanism: Mechanism) -> Iterator[Fault]:
     for file in own_files(mechanism):
         for line, module, names in _imports(parsed(file)):
             if module.split(".")[0] == PROGRAM and not any(f"{module}.".startswith(f"{each}.") for each in ALLOWED):
-                public = [name for name in names if name in api.__all__]
-                instead = (
-                    Phrase("import {public} from {allowed}", public=", ".join(public), allowed=ALLOWED[0])
-                    if public
-                    else phrase("do without it")
-                )
-                text = Phrase(
-                    "a plugin may import {allowed} of the program, nothing else; {instead}",
-                    allowed=named(ALLOWED, " and "),
-                    instead=instead,
-                )
+                public = ", ".join(name for name in names if name in api.__all__)
+                words = "import {public} from {allowed}"
+                instead = Phrase(words, public=public, allowed=ALLOWED[0]) if public else phrase("do without it")
+                words = "a plugin may import {allowed} of the program, nothing else; {instead}"
+                text = Phrase(words, allowed=named(ALLOWED, " and "), instead=instead)
                 yield Fault(f"{file}:{line}", Phrase("import of {module}", module=module), text)
 
 
@@ -80,15 +72,8 @@ OF_MODULE = {"time": CLOCK, "random": CHANCE, "secrets": CHANCE, "uuid": CHANCE,
              "platform": AROUND, "socket": AROUND,
              "urllib.request": AROUND, "locale": AROUND}  # fmt: skip
 NOW = {"now", "today", "utcnow"}  # of a date
-READERS = {
-    "read_text",
-    "read_bytes",
-    "exists",
-    "is_file",
-    "is_dir",
-    "iterdir",
-    "rglob",
-}  # of a path, known by their names alone
+# Of a path, known by their names alone.
+READERS = {"read_text", "read_bytes", "exists", "is_file", "is_dir", "iterdir", "rglob"}
 OF_RUN = (hash, id)  # other numbers in each run
 TABLES = {"load", "loadtxt", "genfromtxt", "fromfile", "memmap"}  # of NumPy
 SEEDED = {"default_rng", "Random", "RandomState"}  # with a number to begin with they give the same each time
@@ -106,6 +91,7 @@ OF_SYSTEM = {
     "getlogin",
     "uname",
 }
+SYSTEM = ("os", "posix", "nt")
 FUNCTIONS = ("function", "joints", "lines")
 Scope = ChainMap[str, Any]
 Used = tuple[ast.expr, str]  # where something is asked for, and what it is
@@ -159,7 +145,8 @@ def _functions(mechanism: Mechanism, files: set[str]) -> Iterator[FunctionType]:
     """The plugin's own functions that steps and drawings call, and those that these name."""
     given = [getattr(step, name, None) for _, step in mechanism.steps for name in FUNCTIONS]
     given += [figure.build for figure in mechanism.figures if isinstance(figure, Drawing | Chart)]
-    waiting, known = [each for each in _whole(given) if isinstance(each, FunctionType)], set()
+    given = [each.func if isinstance(each, partial) else each for each in given]
+    waiting, known = [each for each in given if isinstance(each, FunctionType)], set()
     while waiting:
         function = waiting.pop()
         if function in known or function.__code__.co_filename not in files:
@@ -168,10 +155,6 @@ def _functions(mechanism: Mechanism, files: set[str]) -> Iterator[FunctionType]:
         yield function
         named = (_scope(function).get(name) for name in function.__code__.co_names)
         waiting += [each for each in named if isinstance(each, FunctionType)]
-
-
-def _whole(given: list[Any]) -> Iterator[Any]:
-    yield from (each.func if isinstance(each, partial) else each for each in given)
 
 
 def _definitions(tree: ast.Module, line: int) -> Iterator[ast.AST]:
@@ -199,9 +182,8 @@ def _used(node: ast.AST, scope: Scope) -> Iterator[Used]:
     for each in ast.walk(node):
         match each:
             case ast.Import(names=aliases):
-                own |= {
-                    a.asname or a.name.partition(".")[0]: sys.modules.get(a.name.partition(".")[0]) for a in aliases
-                }
+                heads = {a: a.name.partition(".")[0] for a in aliases}
+                own |= {a.asname or head: sys.modules.get(head) for a, head in heads.items()}
             case ast.ImportFrom(module=str() as module, names=aliases):
                 home = sys.modules.get(module)
                 own |= {a.asname or a.name: getattr(home, a.name, None) for a in aliases}
@@ -212,11 +194,8 @@ def _used_at_load(tree: ast.Module, scope: dict[str, Any]) -> Iterator[Used]:
     """What a file asks for when it is loaded; a table that it reads then is the same for all."""
     for statement in tree.body:
         if not isinstance(statement, ast.FunctionDef | ast.ClassDef | ast.Import | ast.ImportFrom):
-            yield from (
-                found
-                for found in _asked(statement, ChainMap(scope, vars(builtins)))
-                if found[1] in (CLOCK, CHANCE, END, LEAVE)
-            )
+            asked = _asked(statement, ChainMap(scope, vars(builtins)))
+            yield from (found for found in asked if found[1] in (CLOCK, CHANCE, END, LEAVE))
 
 
 def _asked(node: ast.AST, scope: Scope) -> Iterator[Used]:
@@ -256,15 +235,12 @@ def _of(value: Any) -> str:
         return CLOCK
     if name in TABLES and getattr(value, "__module__", "") in ("numpy", "numpy.lib._npyio_impl", "numpy.lib.npyio"):
         return FILE
-    if name in ENDS | LEAVES and getattr(value, "__module__", "") in ("os", "posix", "nt"):
+    of_system = getattr(value, "__module__", "") in SYSTEM
+    if of_system and name in ENDS | LEAVES:
         return END if name in ENDS else LEAVE
     if any(value is each for each in OF_RUN):
         return CHANCE
-    if (
-        value is os.environ
-        or value is sys.argv
-        or (name in OF_SYSTEM and getattr(value, "__module__", "") in ("os", "posix", "nt"))
-    ):
+    if value is os.environ or value is sys.argv or (of_system and name in OF_SYSTEM):
         return AROUND
     homes = {str(getattr(each, "__module__", None)) for each in (value, type(value), type(owner))}
     homes |= {owner.__name__} if isinstance(owner, ModuleType) else set()
@@ -328,7 +304,7 @@ class _Finder(ast.NodeVisitor):
         self._note_label(node)
         if (
             not self.depth and isinstance(node.func, ast.Name) and node.func.id == "Phrase"
-        ):  # of a lambda in a declaration
+        ):  # a lambda's, in a declaration
             self.found += [text for each in node.args[:1] for text in _spoken(each) if WORDS.search(text)]
         self.visit(node.func)
         for argument in node.args:
@@ -341,10 +317,8 @@ class _Finder(ast.NodeVisitor):
         """Note the words beside what is drawn, which may be a single one."""
         name = node.func.id if isinstance(node.func, ast.Name) else ""
         if (self.depth or name == "phrase") and name in LABELS:
-            said = [
-                *node.args[LABELS[name] :][:1],
-                *(each.value for each in node.keywords if each.arg in ("label", "text", "lines")),
-            ]
+            said = node.args[LABELS[name] :][:1]
+            said += [each.value for each in node.keywords if each.arg in ("label", "text", "lines")]
             self.found += [text for each in said for text in _spoken(each) if WORDS.fullmatch(text) or name == "phrase"]
 
     def visit_Subscript(self, node: ast.Subscript) -> None:
@@ -361,7 +335,8 @@ class _Finder(ast.NodeVisitor):
             self._note(node.value, self.found)
 
     def _note(self, text: str, kept: list[str]) -> None:
-        if self.depth and WORDS.search(text) and not JOINING.fullmatch(text) and not _is_name(text):
+        is_name = NAMES.fullmatch(text) and not text[:1].isupper()
+        if self.depth and WORDS.search(text) and not JOINING.fullmatch(text) and not is_name:
             kept.append(text)
 
 
@@ -374,10 +349,6 @@ def _spoken(part: ast.expr) -> Iterator[str]:
             yield from (*_spoken(first), *_spoken(other))
         case ast.List(elts=parts) | ast.Tuple(elts=parts):
             yield from (text for each in parts for text in _spoken(each))
-
-
-def _is_name(text: str) -> bool:
-    return NAMES.fullmatch(text) is not None and not text[:1].isupper()
 
 
 def template(node: ast.JoinedStr) -> str:
@@ -404,9 +375,7 @@ def _placeholder(value: ast.expr, names: dict[str, str]) -> str:
 
 def _name(value: ast.expr) -> str:
     match value:
-        case ast.Name(id=name):
-            return name.lstrip("_").lower()
-        case ast.Attribute(attr=name):
+        case ast.Name(id=name) | ast.Attribute(attr=name):
             return name.lstrip("_").lower()
         case ast.Subscript(slice=ast.Constant(value=str() as name)):
             return name
@@ -414,18 +383,21 @@ def _name(value: ast.expr) -> str:
             return _name(inner)
         case ast.Call(args=[ast.Constant(value=str() as name), *_]) if name.isidentifier():
             return name
-        case ast.Call(func=ast.Attribute(attr="join"), args=[inner, *_]):
+        case ast.Call(
+            func=ast.Attribute(attr="join") | ast.Name(id="told" | "below" | "sum" | "max" | "min"), args=[inner, *_]
+        ):
             return _name(inner)
-        case ast.Call(func=ast.Name(id="told" | "below" | "sum" | "max" | "min"), args=[inner, *_]):
+        case (
+            ast.BinOp(left=ast.Constant(), right=inner)
+            | ast.BinOp(left=inner)
+            | ast.UnaryOp(operand=inner)
+            | ast.Call(func=inner)
+        ):
             return _name(inner)
-        case ast.Call(func=function):
-            return _name(function)
-        case ast.BinOp(left=ast.Constant(), right=inner) | ast.BinOp(left=inner) | ast.UnaryOp(operand=inner):
-            return _name(inner)
-        case ast.IfExp(body=inner) if not isinstance(inner, ast.Constant):
-            return _name(inner)
-        case ast.IfExp(orelse=inner) if not isinstance(inner, ast.Constant):
-            return _name(inner)
+        case ast.IfExp(body=first, orelse=other) if not (
+            isinstance(first, ast.Constant) and isinstance(other, ast.Constant)
+        ):
+            return _name(other if isinstance(first, ast.Constant) else first)
         case ast.JoinedStr(values=parts):
             return next((_name(part.value) for part in parts if isinstance(part, ast.FormattedValue)), "text")
     return "text"
@@ -476,28 +448,19 @@ def files(mechanism: Mechanism) -> Iterator[Path]:
 
 
 def _places(mechanism: Mechanism) -> Iterator[str]:
-    declared: Iterable[tuple[object, ...]] = (
-        (mechanism,), mechanism.chapters, mechanism.checks, mechanism.figures, mechanism.exports, mechanism.sources,
-        mechanism.errata, mechanism.comparisons, mechanism.spectra, tuple(meta for _, meta in fields(mechanism.inputs)),
-    )  # fmt: skip
-    for parts in declared:
-        yield from (str(getattr(part, "at", "")) for part in parts)
+    beside = (
+        *mechanism.sources,
+        *mechanism.comparisons,
+        *mechanism.spectra,
+        *(meta for _, meta in fields(mechanism.inputs)),
+    )
+    yield from (part.at for part in (*declared_in(mechanism), *beside))
     for _, step in mechanism.steps:
-        yield step.at
-        yield from _tables(step)
-        yield from _formulas(step)
+        tables = (each for each in (getattr(step, "table", None), getattr(step, "series", None)))
+        yield from (
+            f"{each.file}:" for each in tables if isinstance(each, StandardTable | StandardSeries) and each.file
+        )
+        links = (link for each in step.formulas() for link in each.options)
+        yield from (f"{link.formula.function.__code__.co_filename}:" for link in links)
     for comparison in mechanism.comparisons:
         yield from _places(comparison.mechanism)
-
-
-def _tables(step: Step) -> Iterator[str]:
-    taken = getattr(step, "table", None), getattr(step, "series", None)
-    yield from (f"{each.file}:" for each in taken if isinstance(each, StandardTable | StandardSeries) and each.file)
-
-
-def _formulas(step: Step) -> Iterator[str]:
-    """The places of a step's formulas."""
-    cases = [part for case in getattr(step, "cases", ()) for part in (case.value, case.condition)]
-    for part in (*vars(step).values(), *cases):
-        options = part.options() if isinstance(part, ByText) else (part,) if isinstance(part, Binding) else ()
-        yield from (f"{bound(option).formula.function.__code__.co_filename}:" for option in options)

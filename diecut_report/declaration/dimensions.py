@@ -4,16 +4,16 @@ from __future__ import annotations
 
 import math
 from collections.abc import Iterator, Mapping
+from contextlib import suppress
 
 from diecut_report.declaration.inputs import of_input
-from diecut_report.declaration.names import short
+from diecut_report.declaration.names import declared_in, short
 from diecut_report.formulas.conditions import alike as kinds_alike
 from diecut_report.formulas.formula import Formula, evaluate
 from diecut_report.formulas.tree import AS_ANGLE, AS_NUMBER, Node, symbols, written
-from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.inputs import fields
 from diecut_report.mechanism.mechanism import Mechanism, axes
-from diecut_report.mechanism.names import Bound, ByText, bound
+from diecut_report.mechanism.names import Bound
 from diecut_report.mechanism.steps import SilentStep, Step, names_ahead
 from diecut_report.mechanism.steps.protocols import StepFormula
 from diecut_report.quantities.units import DIMENSIONS, Kind, si_text, times, unit
@@ -125,20 +125,7 @@ class _Walk:
                 return self._needed(ANGLE, *args) and NUMBER
             case "arcsin" | "arccos" | "arctan":
                 return self._needed(NUMBER, *args) and ANGLE
-            case (
-                "exp"
-                | "log"
-                | "log10"
-                | "ceil"
-                | "floor"
-                | "round"
-                | "sinh"
-                | "cosh"
-                | "tanh"
-                | "arcsinh"
-                | "arccosh"
-                | "arctanh"
-            ):
+            case _ if name in OF_NUMBERS:
                 return self._needed(NUMBER, *args)
             case "arctan2":
                 self._common(node, *args)
@@ -153,29 +140,17 @@ class _Walk:
     def _said(self, node: Node, inner: Found, power: int) -> Found:
         """What is said to be a number or an angle; KindError where it is that already."""
         if inner is None or inner[ANGLE_AT] == power:
-            raise KindError(
-                Phrase(
-                    "{part} says that rad {text}, but {inner} is {kind} already",
-                    part=_shortened(node),
-                    text=phrase("comes in") if power else phrase("drops"),
-                    inner=_shortened(node.args[1]),
-                    kind=kind_text(inner),
-                )
-            )
+            words = "{part} says that rad {text}, but {inner} is {kind} already"
+            filling = {"part": _shortened(node), "text": phrase("comes in") if power else phrase("drops")}
+            raise KindError(Phrase(words, filling, inner=_shortened(node.args[1]), kind=kind_text(inner)))
         return _turned(inner, power)
 
     def _needed(self, kind: Kind, argument: Node) -> Kind:
-        found = self.kind(argument)
+        found, part = self.kind(argument), _shortened(argument)
         if found not in (ANY, kind):
-            raise KindError(
-                Phrase(
-                    "{part} is {kind}, {wanted} is needed",
-                    part=_shortened(argument),
-                    kind=kind_text(found),
-                    wanted=kind_text(kind),
-                )
-                + angle_hint(found, kind, _shortened(argument))
-            )
+            words = "{part} is {kind}, {wanted} is needed"
+            wrong = Phrase(words, part=part, kind=kind_text(found), wanted=kind_text(kind))
+            raise KindError(wrong + angle_hint(found, kind, part))
         return kind
 
     def _common(self, node: Node, *parts: Node) -> Found:
@@ -185,22 +160,17 @@ class _Walk:
         for part in others:
             found = self.kind(part)
             if not alike(common, found):
-                raise KindError(
-                    Phrase(
-                        "{part} brings together {kind} ({one}) and {other_kind} ({other})",
-                        part=_shortened(node),
-                        kind=kind_text(common),
-                        one=_shortened(first),
-                        other_kind=kind_text(found),
-                        other=_shortened(part),
-                    )
-                    + (angle_hint(found, common, _shortened(part)) or angle_hint(common, found, _shortened(first)))
-                )
+                one, other = _shortened(first), _shortened(part)
+                kinds = {"kind": kind_text(common), "other_kind": kind_text(found)}
+                words = "{part} brings together {kind} ({one}) and {other_kind} ({other})"
+                hint = angle_hint(found, common, other) or angle_hint(common, found, one)
+                raise KindError(Phrase(words, kinds, part=_shortened(node), one=one, other=other) + hint)
             common = found if common is None else common if found in (ANY, common) else _turned(common, 0)
         return common
 
 
 SAID = {AS_NUMBER: 0, AS_ANGLE: 1}
+OF_NUMBERS = {"exp", "log", "log10", "ceil", "floor", "round", "sinh", "cosh", "tanh", "arcsinh", "arccosh", "arctanh"}
 
 
 def _shortened(node: Node) -> str:
@@ -211,9 +181,7 @@ def _shortened(node: Node) -> str:
 def formulas(mechanism: Mechanism) -> Iterator[tuple[Step, StepFormula, Bound]]:
     """Yield every bound formula with its step and its part in it; of a choice by a text all of them."""
     for _, step in mechanism.steps:
-        for each in step.formulas():
-            options = each.formula.options() if isinstance(each.formula, ByText) else (bound(each.formula),)
-            yield from ((step, each, link) for link in options)
+        yield from ((step, each, link) for each in step.formulas() for link in each.options)
 
 
 def units_of(mechanism: Mechanism) -> dict[str, str]:
@@ -242,13 +210,10 @@ def dimensions(mechanism: Mechanism) -> Iterator[str]:
             continue
         wanted = unit(step.unit).si
         if part.is_of_unit and not alike(given, unit(wanted).kind):
-            yield Phrase(
-                "{id}: {name} gives {given}, declared is {wanted}",
-                id=step.id,
-                name=link.formula.__name__,
-                given=kind_text(given),
-                wanted=wanted,
-            ) + angle_hint(given, unit(wanted).kind)
+            filling = {"id": step.id, "name": link.formula.__name__, "given": kind_text(given), "wanted": wanted}
+            yield Phrase("{id}: {name} gives {given}, declared is {wanted}", filling) + angle_hint(
+                given, unit(wanted).kind
+            )
 
 
 def curve_units(mechanism: Mechanism) -> Iterator[str]:
@@ -285,44 +250,21 @@ def _given(link: Bound, units: dict[str, str]) -> Found:
     return kind_given(link.formula, kinds)
 
 
-def check_units(mechanism: Mechanism) -> Iterator[str]:
-    """Yield checks that compare quantities of unlike kinds."""
-    units = units_of(mechanism)
-    for check in mechanism.checks:
-        yield from _unlike(check, units)
-
-
-def _unlike(check: Check, units: dict[str, str]) -> Iterator[str]:
-    for side in (check.demand, check.limit):
-        if isinstance(side, str) and side in units and unit(units[side]).kind != unit(check.unit).kind:
-            yield Phrase(
-                "check {id} is in {unit}, {side} in {units}", id=check.id, unit=check.unit, side=side, units=units[side]
-            )
-
-
 # Where a mechanism declares what a fault is told of.
 
 
 def at_place(mechanism: Mechanism, name: str, text: str) -> str:
     """Return a text with the file and the line that declare a quantity, check or figure, and its name."""
-    place = next((at for id, at in _places(mechanism, name) if id == name), mechanism.at)
+    place = next((each.at for each in declared_in(mechanism) if getattr(each, "id", "") == name), "")
+    if not place:
+        with suppress(KeyError, AttributeError, TypeError):  # it is not an input
+            place = of_input(mechanism.inputs, name, mechanism.at)
+    place = place or mechanism.at
     return Phrase("{place}: {name}: {text}", place=short(place), name=name, text=text)
 
 
 def by_id(mechanism: Mechanism, text: str) -> str:
     """Return a text of the form ``ID: what is wrong`` with the place of the id."""
     subject, _, rest = text.partition(": ")
-    name = subject.removeprefix("check ").partition(" ")[0]
+    name = subject.partition(" ")[0]
     return text if ".py:" in subject else at_place(mechanism, name, rest or text)
-
-
-def _places(mechanism: Mechanism, name: str) -> Iterator[tuple[str, str]]:
-    for _, step in mechanism.steps:
-        yield step.id, step.at
-    yield from ((check.id, check.at) for check in mechanism.checks)
-    yield from ((figure.id, figure.at) for figure in mechanism.figures)
-    yield from ((export.id, export.at) for export in mechanism.exports)
-    try:
-        yield name, of_input(mechanism.inputs, name, mechanism.at)
-    except (KeyError, AttributeError, TypeError):  # it is no input
-        return

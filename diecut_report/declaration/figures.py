@@ -9,12 +9,13 @@ from math import isclose, pi
 import numpy as np
 
 from diecut_report.declaration.formulas import kind_of, lacking
-from diecut_report.declaration.names import KINDS, DeclaredNames, Fault, When, kinds_told, of_figure, told
+from diecut_report.declaration.names import KINDS, DeclaredNames, Fault, fault, kinds_told, told
 from diecut_report.errors import nearest
 from diecut_report.formulas.tree import Constant
 from diecut_report.mechanism.figures import Bars, Figure, Panel, Plot, Polar
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.steps import PREFIX, ROLES, Abscissa, Phase, Step
+from diecut_report.mechanism.names import When
+from diecut_report.mechanism.steps import PREFIX, ROLES, Abscissa, Phase
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase, named, phrase
 
@@ -27,7 +28,7 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for figure in mechanism.figures:
         of_spectrum = isinstance(figure, Plot) and figure.abscissa in spectra
         for text in () if of_spectrum else _wrong(figure, names):
-            yield of_figure(figure, text)
+            yield fault(figure, text)
 
 
 def _wrong(figure: Figure, names: DeclaredNames) -> Iterator[str]:
@@ -42,16 +43,14 @@ def _wrong(figure: Figure, names: DeclaredNames) -> Iterator[str]:
                 yield from _drawn(figure, names, one.curve, own, CURVE, axis)
             yield from _range(figure, names, figure.range, own, "")
             if isinstance(figure.range, tuple) and isinstance(figure.range[0], int | float) and figure.range[0] < 0:
-                yield Phrase(
-                    "has the range {range}, but no distance from the pole is below zero", range=repr(figure.range)
-                )
+                words = "has the range {range}, but no distance from the pole is below zero"
+                yield Phrase(words, range=repr(figure.range))
         case Bars(groups=groups):
             for group in groups:
                 for _, name in group.bars:
                     yield from _drawn(figure, names, name.removeprefix("-"), group.unit, NUMBER)
-                yield from _range(
-                    figure, names, group.range, group.unit, Phrase(" in the group {label}", label=repr(group.label))
-                )
+                where = Phrase(" in the group {label}", label=repr(group.label))
+                yield from _range(figure, names, group.range, group.unit, where)
 
 
 def _axis(figure: Figure, names: DeclaredNames, axis: str) -> Iterator[str]:
@@ -82,11 +81,8 @@ def _range(figure: Figure, names: DeclaredNames, ends: object, wanted: str, wher
     if ends is None:
         return
     if not isinstance(ends, tuple) or len(ends) != 2 or not all(isinstance(e, str | int | float | None) for e in ends):
-        yield Phrase(
-            "has the range {ends}{where}; write its two ends, (0, None), each a number, an id or None",
-            ends=repr(ends),
-            where=where,
-        )
+        words = "has the range {ends}{where}; write its two ends, (0, None), each a number, an id or None"
+        yield Phrase(words, ends=repr(ends), where=where)
         return
     for end in ends:
         if isinstance(end, str):
@@ -99,30 +95,21 @@ def _range(figure: Figure, names: DeclaredNames, ends: object, wanted: str, wher
 def _drawn(
     figure: Figure, names: DeclaredNames, name: str, wanted: str, allowed: frozenset[str], axis: str = ""
 ) -> Iterator[str]:
-    absent = lacking(names, name, When(frozenset(figure.needs)))
-    givers = names.givers(name)
-    if absent:
+    kinds, axes = names.kinds(name), names.axes(name)
+    if absent := lacking(names, name, When(frozenset(figure.needs))):
         yield Phrase("draws {absent}", absent=absent)
-    elif not names.kinds(name) & allowed:
-        yield Phrase(
-            "draws {name}, which is {kinds}; {wanted} is wanted there",
-            name=name,
-            kinds=kinds_told(names.kinds(name)),
-            wanted=KINDS["curve" if allowed is CURVE else "number"],
-        )
-    elif axis and axis not in names.axes(name):
-        yield Phrase(
-            "draws {name}, which runs over {axes}, over {axis}", name=name, axes=", ".join(names.axes(name)), axis=axis
-        )
+    elif not kinds & allowed:
+        wanted = KINDS["curve" if allowed is CURVE else "number"]
+        words = "draws {name}, which is {kinds}; {wanted} is wanted there"
+        yield Phrase(words, name=name, kinds=kinds_told(kinds), wanted=wanted)
+    elif axis and axis not in axes:
+        yield Phrase("draws {name}, which runs over {axes}, over {axis}", name=name, axes=", ".join(axes), axis=axis)
     else:
-        units = {each for giver in givers if giver.kind in allowed for each in giver.units_when(figure.needs)}
+        givers = (giver for giver in names.givers(name) if giver.kind in allowed)
+        units = {each for giver in givers for each in giver.units_when(figure.needs)}
         if all(unit(each).kind != unit(wanted).kind for each in units):
-            yield Phrase(
-                "draws {name}, in {units}, on an axis in {wanted}",
-                name=name,
-                units=", ".join(sorted(units)) or phrase("no unit"),
-                wanted=wanted,
-            )
+            own = ", ".join(sorted(units)) or phrase("no unit")
+            yield Phrase("draws {name}, in {units}, on an axis in {wanted}", name=name, units=own, wanted=wanted)
 
 
 # Phases: each has one form, a role that there is, places of its own abscissa, and holds phases that are there when it is.
@@ -142,25 +129,13 @@ def phases_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]
             texts = _of_phase(step, number, names, known)
         elif isinstance(step, Abscissa):
             texts = chain(_of_period(step), _of_speed(step, names) if step.speed else ())
-        yield from (Fault(step.at, _subject(step), text) for text in texts)
-
-
-def _subject(step: Step) -> str:
-    return (
-        Phrase("phase {name}", name=step.id.removeprefix(PREFIX))
-        if isinstance(step, Phase)
-        else Phrase("step {id}", id=step.id)
-    )
+        yield from (fault(step, text) for text in texts)
 
 
 def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> Iterator[str]:
     if step.role not in ROLES:
-        yield Phrase(
-            "has the role {role}{nearest}; there are {roles}",
-            role=repr(step.role),
-            nearest=nearest(step.role, ROLES),
-            roles=", ".join(ROLES),
-        )
+        near, roles = nearest(step.role, ROLES), ", ".join(ROLES)
+        yield Phrase("has the role {role}{nearest}; there are {roles}", role=repr(step.role), nearest=near, roles=roles)
     if not step.description:
         yield phrase("has no description")
     if [bool(step.spans), bool(step.union), bool(step.rest_of)].count(True) != 1:
@@ -168,23 +143,15 @@ def _of_phase(step: Phase, number: int, names: DeclaredNames, known: Known) -> I
     for each in (*step.union, *step.rest_of):
         yield from _held(step, each, names.when(number), names, known)
     for bare in (end for span in step.spans for end in span if not isinstance(end, str) and end != 0):
-        yield Phrase(
-            "goes to {place}, a number without a unit; name the input or the step that gives the place, by its id",
-            place=f"{bare:g}",
-        )
+        words = "goes to {place}, a number without a unit; name the input or the step that gives the place, by its id"
+        yield Phrase(words, place=f"{bare:g}")
     axis = {giver.unit for giver in names.givers(step.abscissa) if giver.unit}
     for place in (end for span in step.spans for end in span if isinstance(end, str)):
         units = {each for giver in names.givers(place) for each in giver.units_when(step.needs)}
         if units and not any(kind_of(one) == kind_of(other) for one in units for other in axis):
-            yield (
-                Phrase(
-                    "goes to {place}, in {units}; its abscissa {abscissa} is in {axis}",
-                    place=place,
-                    units=named(sorted(units), " or "),
-                    abscissa=step.abscissa,
-                    axis=named(sorted(axis), " or "),
-                )
-            )
+            filling = {"units": named(sorted(units), " or "), "axis": named(sorted(axis), " or ")}
+            words = "goes to {place}, in {units}; its abscissa {abscissa} is in {axis}"
+            yield Phrase(words, filling, place=place, abscissa=step.abscissa)
 
 
 def _held(step: Phase, name: str, when: When, names: DeclaredNames, known: Known) -> Iterator[str]:
@@ -200,9 +167,8 @@ def _held(step: Phase, name: str, when: When, names: DeclaredNames, known: Known
     given = names.world.example(when, [other for _, other, _ in others])
     if given is not None:
         where = told(given, set().union(*(part for each in (when, *(w for _, w, _ in others)) for part in each)))
-        yield Phrase(
-            "takes the phase {name}, which there is not {where}; give both the same needs", name=name, where=where
-        )
+        words = "takes the phase {name}, which there is not {where}; give both the same needs"
+        yield Phrase(words, name=name, where=where)
 
 
 def _of_period(step: Abscissa) -> Iterator[str]:
@@ -222,12 +188,8 @@ def _of_speed(step: Abscissa, names: DeclaredNames) -> Iterator[str]:
     wanted = f"{step.unit}/s"
     units = {each for giver in names.givers(step.speed) for each in giver.units_when(step.needs)}
     if units and not any(kind_of(one) == kind_of(wanted) for one in units):
-        yield Phrase(
-            "is run through with {speed}, in {units}; a speed in {wanted} is needed",
-            speed=step.speed,
-            units=named(sorted(units), " or "),
-            wanted=wanted,
-        )
+        words = "is run through with {speed}, in {units}; a speed in {wanted} is needed"
+        yield Phrase(words, speed=step.speed, units=named(sorted(units), " or "), wanted=wanted)
 
 
 # Spectra: curves over a range of their own have ids of their own, and a number for each place of the range.

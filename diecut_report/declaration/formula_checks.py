@@ -21,9 +21,9 @@ from typing import Any, cast
 import numpy as np
 
 from diecut_report.declaration import code, faults
-from diecut_report.declaration.dimensions import by_id, check_units, curve_units, dimensions, formulas, relations
+from diecut_report.declaration.dimensions import by_id, curve_units, dimensions, formulas, relations
 from diecut_report.declaration.inputs import of_input
-from diecut_report.declaration.names import short
+from diecut_report.declaration.names import short, subject
 from diecut_report.declaration.texts import PAPER, own_files, parsed, unlisted
 from diecut_report.files import cache_folder
 from diecut_report.formulas.formula import evaluate
@@ -49,12 +49,9 @@ def idle_inputs(mechanism: Mechanism) -> Iterator[str]:
     told = _told_in_code(own_files(mechanism))
     for path, meta in fields(mechanism.inputs):
         if not isinstance(meta, Text) and path not in used and path.rpartition(".")[2] not in told:
-            place = Path(of_input(mechanism.inputs, path, mechanism.at)).name
-            yield Phrase(
-                "{place}: input {path}: nothing uses it, so it affects no result; use it in a step, or remove it",
-                place=place,
-                path=path,
-            )
+            place = short(of_input(mechanism.inputs, path, mechanism.at))
+            words = "{place}: input {path}: nothing uses it, so it affects no result; use it in a step, or remove it"
+            yield Phrase(words, place=place, path=path)
 
 
 def _used(mechanism: Mechanism) -> Iterator[str]:
@@ -115,8 +112,7 @@ def check_mechanism(mechanism: Mechanism) -> None:
 
 def quantities(mechanism: Mechanism) -> Iterator[str]:
     """Return what is wrong with the numbers of a mechanism in one of its forms."""
-    of_steps = chain(dimensions(mechanism), curve_units(mechanism), relations(mechanism), printing(mechanism))
-    return chain(of_steps, check_units(mechanism))
+    return chain(dimensions(mechanism), curve_units(mechanism), relations(mechanism), printing(mechanism))
 
 
 def forms(mechanism: Mechanism) -> Iterator[Mechanism]:
@@ -124,16 +120,12 @@ def forms(mechanism: Mechanism) -> Iterator[Mechanism]:
     keys = form_keys(mechanism.inputs).union(*([key for key, _ in step.units] for _, step in mechanism.steps))
     for count in range(len(keys) + 1):
         for given in map(frozenset, combinations(sorted(keys), count)):
-            absent = (keys - given) | _excluded(mechanism.inputs, given)
+            rules = [each.groups for each in mechanism.inputs.one_of if given.intersection(chain(*each.groups))]
+            excluded = chain(*(group for groups in rules for group in groups if given.isdisjoint(group)))
+            absent = (keys - given).union(excluded)
             chapters = tuple(replace(c, steps=_in_form(c, given, absent)) for c in mechanism.chapters)
-            checks = tuple(c for c in mechanism.checks if absent.isdisjoint((*c.needs, *c.only_with)))
             inputs = cast(type[Inputs], in_form(mechanism.inputs, given))
-            yield replace(mechanism, inputs=inputs, chapters=chapters, checks=checks)
-
-
-def _excluded(model: type[Block], given: frozenset[str]) -> frozenset[str]:
-    rules = [rule.groups for rule in model.one_of if any(given.intersection(group) for group in rule.groups)]
-    return frozenset(key for groups in rules for group in groups if given.isdisjoint(group) for key in group)
+            yield replace(mechanism, inputs=inputs, chapters=chapters)
 
 
 def _in_form(chapter: Chapter, given: frozenset[str], absent: frozenset[str]) -> tuple[Step, ...]:
@@ -151,14 +143,9 @@ def printing(mechanism: Mechanism) -> Iterator[str]:
             printed = evaluate(link.formula.tree, lambda leaf, known=values: known[leaf.args[0]])  # type: ignore[misc]
             computed = link.formula(**taken)
         if not np.allclose(printed, computed, rtol=1e-12, equal_nan=True):
-            yield Phrase(
-                "{id}: the {part} {formula} prints {printed}, computes {computed}",
-                id=step.id,
-                part=part.part,
-                formula=link.formula.__name__,
-                printed=printed,
-                computed=computed,
-            )
+            filling = {"id": step.id, "part": part.part, "formula": link.formula.__name__}
+            words = "{id}: the {part} {formula} prints {printed}, computes {computed}"
+            yield Phrase(words, filling, printed=printed, computed=computed)
 
 
 # What is wrong with the formulas of a plugin, remembered by the content of its files in the user's folder for what can be made again.
@@ -174,30 +161,19 @@ def faults_of_formulas(mechanism: Mechanism) -> tuple[str, ...]:
     """
     home = cache_folder(FOLDER)
     file = home / code.content(mechanism) if home else None
-    if file is not None and (known := _known(file)) is not None:
-        return known
-    found = _judged(mechanism)
+    with suppress(OSError, ValueError, TypeError):  # it is judged again
+        known = json.loads(file.read_text("utf-8")) if file else None
+        if isinstance(known, list) and all(isinstance(each, str) for each in known):
+            return tuple(known)
+    try:
+        found = tuple(dict.fromkeys(by_id(mechanism, text) for form in forms(mechanism) for text in quantities(form)))
+    except Exception as cause:  # a formula that cannot be gone through alone
+        found = (f"{type(cause).__name__}: {cause}",)
     if file is not None:
-        with suppress(OSError):  # it is judged again the next time
+        with suppress(OSError):
             file.parent.mkdir(parents=True, exist_ok=True)
             file.write_text(json.dumps(found), "utf-8")
     return found
-
-
-def _known(file: Path) -> tuple[str, ...] | None:
-    try:
-        found = json.loads(file.read_text("utf-8"))
-    except (OSError, ValueError):
-        return None
-    return tuple(found) if isinstance(found, list) and all(isinstance(each, str) for each in found) else None
-
-
-def _judged(mechanism: Mechanism) -> tuple[str, ...]:
-    try:
-        found = [by_id(mechanism, text) for form in forms(mechanism) for text in quantities(form)]
-    except Exception as cause:  # a formula that cannot be gone through alone
-        return (f"{type(cause).__name__}: {cause}",)
-    return tuple(dict.fromkeys(map(str, found)))
 
 
 # What an author may mean, and often does not: a unit that a formula converts by hand, a chapter that nothing depends on.
@@ -213,9 +189,9 @@ def doubts(mechanism: Mechanism) -> Iterator[str]:
             if float(number) in BY_HAND:
                 words = "{place}: {id}: holds {number}, a number without a unit; formulas are in SI and convert nothing: if it stands for a unit or a constant, take it away, or write np.pi, GRAVITY or Constant(…)"  # noqa: E501
                 yield Phrase(words, place=short(step.at), id=step.id, number=number)
-    for place, subject, name in unlisted(mechanism, PAPER):
+    for citing, name in unlisted(mechanism, PAPER):
         words = "{place}: {subject} cites {name}, which is not a source; list it: sources=(Source({id}, …),)"
-        yield Phrase(words, place=short(place), subject=subject, name=name, id=repr(name))
+        yield Phrase(words, place=short(citing.at), subject=subject(citing), name=name, id=repr(name))
     yield from _exchanged(mechanism)
     yield from _idle_chapters(mechanism)
 
@@ -255,15 +231,11 @@ def _idle_chapters(mechanism: Mechanism) -> Iterator[str]:
     )  # fmt: skip
     for chapter in mechanism.chapters:
         if chapter.steps and all(isinstance(step, Value) for step in chapter.steps):
-            used = asked | _taken_elsewhere(mechanism, chapter)
+            others = (step for other in mechanism.chapters if other is not chapter for step in other.steps)
+            used = asked.union(*({*taken(step), *named_in(step)} for step in others))
             if not any(step.id in used or written[step.id] > 1 for step in chapter.steps):
                 words = (
                     "{place}: chapter {title}: no check, key result, figure or other chapter uses its results; name its result in "
                     "key_results, or check it"
                 )
                 yield Phrase(words, place=short(chapter.at), title=repr(chapter.title))
-
-
-def _taken_elsewhere(mechanism: Mechanism, chapter: Chapter) -> set[str]:
-    others = [step for other in mechanism.chapters if other is not chapter for step in other.steps]
-    return {name for step in others for name in (*taken(step), *named_in(step))}

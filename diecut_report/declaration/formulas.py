@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Iterator
 from inspect import signature
-from itertools import combinations
+from itertools import chain, combinations
 from typing import Any
 
-from diecut_report.declaration.names import DeclaredNames, Fault, When, kinds_told, of_step, short, told, unknown
+from diecut_report.declaration.names import DeclaredNames, Fault, fault, kinds_told, short, told, unknown
 from diecut_report.formulas.formula import Formula
-from diecut_report.mechanism.chapters import Chapter, taken
+from diecut_report.mechanism.chapters import taken
 from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import Bound, ByText, bound
+from diecut_report.mechanism.names import Bound, ByText, When, bound
 from diecut_report.mechanism.steps import SilentStep, Step
 from diecut_report.mechanism.steps.protocols import TakenName
 from diecut_report.quantities.units import unit
@@ -22,20 +22,26 @@ from diecut_report.text.phrases import Phrase, named, phrase
 
 def order_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the ids that are doubled, never made, not given, or taken too early."""
-    yield from _doubled(mechanism, names)
+    steps = [(step, names.when(number)) for number, (_, step) in enumerate(mechanism.steps)]
+    yield from pairs(names, phrase("another step"), steps)
+    for another, several in (
+        (phrase("another figure"), mechanism.figures),
+        (phrase("another export"), mechanism.exports),
+    ):
+        yield from pairs(names, another, [(each, When(frozenset(each.needs))) for each in several])
     yield from _in_two_chapters(mechanism, names)
     for number, (_, step) in enumerate(mechanism.steps):
         when = names.when(number)
         if names.world.example(when) is None:
-            yield of_step(step, phrase("is never calculated: what it needs and what it lacks are never given together"))
+            yield fault(step, phrase("is never calculated: what it needs and what it lacks are never given together"))
             continue
         if not isinstance(step, SilentStep) and not (step.symbol and step.description):
-            yield of_step(step, phrase("has no symbol or no description"))
+            yield fault(step, phrase("has no symbol or no description"))
         for name in sorted(asked(step)):
             late = name == getattr(step, "shown_at", "") or step.is_made_late
             text = lacking(names, name, names.without(when, step.instead), None if late else number)
             if text:
-                yield of_step(step, Phrase("takes {text}", text=text))
+                yield fault(step, Phrase("takes {text}", text=text))
 
 
 def asked(step: Step) -> set[str]:
@@ -53,11 +59,9 @@ def lacking(names: DeclaredNames, name: str, when: When, before: int | None = No
         return ""
     later = [giver for giver in givers if before is not None and giver.number >= before]
     if later and names.missing(name, when) is None:
-        step = later[0].step
-        place = short(step.at) if step else ""
-        return Phrase(
-            "{name} before it is calculated (at {place}); move that step up, or this one down", name=name, place=place
-        )
+        place = short(later[0].step.at) if later[0].step else ""
+        words = "{name} before it is calculated (at {place}); move that step up, or this one down"
+        return Phrase(words, name=name, place=place)
     key = names.world.keys.get(name.removeprefix("inputs."))
     home = names.world.keys.get(key.home) if key else None
     if home and home.may_be_absent and home.path not in when.needs:
@@ -67,85 +71,42 @@ def lacking(names: DeclaredNames, name: str, when: When, before: int | None = No
         return Phrase(words, name=name, home=home.path)
     tokens = set().union(*(part for each in (when, *(giver.when for giver in givers)) for part in each))
     where = told(given, tokens)
-    words = (
-        "{name}, which nothing gives {where}; give it there too, or leave this out by needs or lacks"
-        if where
-        else "{name}, which nothing gives; give it there too, or leave this out by needs or lacks"
-    )
-    return Phrase(words, name=name, where=where)
-
-
-def _doubled(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
-    """Steps, figures and exports with one id that can be made together."""
-    steps = [(step, names.when(number)) for number, (_, step) in enumerate(mechanism.steps)]
-    yield from pairs(names, "step", steps)
-    yield from pairs(names, "figure", [(figure, When(frozenset(figure.needs))) for figure in mechanism.figures])
-    yield from pairs(names, "export", [(profile, When(frozenset(profile.needs))) for profile in mechanism.exports])
+    words = "{name}, which nothing gives{where}; give it there too, or leave this out by needs or lacks"
+    return Phrase(words, name=name, where=Phrase(" {where}", where=where) if where else "")
 
 
 def _in_two_chapters(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Steps that stand in two chapters which are both calculated."""
     for first, second in combinations(mechanism.chapters, 2):
-        shared = (
-            [step for step in second.steps if any(step is other for other in first.steps)]
-            if first is not second
-            else []
-        )
-        doubled = [step.id for step in shared if names.world.example(_together(first, second, step)) is not None]
-        if doubled:
-            text = Phrase(
+        shared = [step for step in second.steps if first is not second and any(step is other for other in first.steps)]
+        whens = {s.id: When(frozenset(first.needs + second.needs + s.needs), frozenset(s.lacks)) for s in shared}
+        if doubled := [id for id, both in whens.items() if names.world.example(both) is not None]:
+            words = (
                 "has {doubled} of another chapter too, {title} (at {place}), so that they are calculated twice; "
-                "add them to one of the two, or let their needs exclude each other",
-                doubled=", ".join(doubled),
-                title=repr(first.title),
-                place=short(first.at),
+                "add them to one of the two, or let their needs exclude each other"
             )
-            yield Fault(second.at, Phrase("chapter {title}", title=repr(second.title)), text)
+            text = Phrase(words, doubled=", ".join(doubled), title=repr(first.title), place=short(first.at))
+            yield fault(second, text)
 
 
-def _together(first: Chapter, second: Chapter, step: Step) -> When:
-    return When(frozenset(first.needs + second.needs + step.needs), frozenset(step.lacks))
-
-
-def pairs(names: DeclaredNames, what: str, declared: list[tuple[Any, When]]) -> Iterator[Fault]:
-    """Yield the second of two that have one id and can be made together."""
+def pairs(names: DeclaredNames, another: str, declared: list[tuple[Any, When]]) -> Iterator[Fault]:
+    """Yield the second of two that have one id and can be made together; ``another`` is what messages call the first."""
     by_id: dict[str, list[tuple[Any, When]]] = {}
     for part, when in declared:
         by_id.setdefault(part.id, []).append((part, when))
-    for name, alike in by_id.items():
+    for alike in by_id.values():
         for (first, one), (second, other) in combinations(alike, 2):
             both = one.with_(other)
             given = names.world.example(both) if first is not second else None
             if given is not None:
                 where = told(given, both.needs | both.lacks)
-                yield Fault(second.at, _subject(what, name), _doubled_id(what, short(first.at), where))
+                words = (
+                    "has the id of {another} (at {place}), and both are made{where}; name one of them otherwise, "
+                    "or let their needs exclude each other"
+                )
+                where = Phrase(" {where}", where=where) if where else ""
+                yield fault(second, Phrase(words, another=another, place=short(first.at), where=where))
                 break
-
-
-def _subject(what: str, name: str) -> Phrase:
-    return {
-        "step": Phrase("step {id}", id=name),
-        "check": Phrase("check {id}", id=name),
-        "figure": Phrase("figure {id}", id=name),
-        "export": Phrase("export {id}", id=name),
-    }[what]
-
-
-ANOTHER = {
-    "step": phrase("another step"),
-    "check": phrase("another check"),
-    "figure": phrase("another figure"),
-    "export": phrase("another export"),
-}
-
-
-def _doubled_id(what: str, place: str, where: str) -> Phrase:
-    words = (
-        "has the id of {another} (at {place}), and both are made {where}; name one of them otherwise, or let their needs exclude each other"
-        if where
-        else "has the id of {another} (at {place}), and both are made; name one of them otherwise, or let their needs exclude each other"
-    )
-    return Phrase(words, another=ANOTHER[what], place=place, where=where)
 
 
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
@@ -153,27 +114,14 @@ def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     seen: set[Formula] = set()
     for number, (_, step) in enumerate(mechanism.steps):
         when = names.when(number)
-        for part, link in formulas_of(step):
-            if link.formula not in seen:
-                seen.add(link.formula)
-                yield from _unreadable(step, part, link)
         for each in step.formulas():
-            if isinstance(each.formula, ByText):
-                own = each.formula
-                yield from _of(step, names.incomplete(own.key, own.formulas, when, phrase("no formula")))
-        yield from _of(step, step.faults(names, when))
-        yield from _of(step, _function_faults(step))
-
-
-def formulas_of(step: Step) -> Iterator[tuple[str, Bound]]:
-    """Yield the formulas of a step, each with what it is of it; of a choice by a text all of them."""
-    for each in step.formulas():
-        options = each.formula.options() if isinstance(each.formula, ByText) else (bound(each.formula),)
-        yield from ((each.part, link) for link in options)
-
-
-def _of(step: Step, texts: Iterator[str]) -> Iterator[Fault]:
-    return (of_step(step, text) for text in texts)
+            for link in each.options:
+                if link.formula not in seen:
+                    seen.add(link.formula)
+                    yield from _unreadable(step, each.part, link)
+        by_text = [each.formula for each in step.formulas() if isinstance(each.formula, ByText)]
+        wrong = (names.incomplete(own.key, own.formulas, when, phrase("no formula")) for own in by_text)
+        yield from (fault(step, text) for text in chain(*wrong, step.faults(names, when), _function_faults(step)))
 
 
 def _unreadable(step: Step, part: str, link: Bound) -> Iterator[Fault]:
@@ -184,9 +132,9 @@ def _unreadable(step: Step, part: str, link: Bound) -> Iterator[Fault]:
         _ = link.formula.tree
     except RecursionError:
         words = "the {part} {formula} calls itself; name it otherwise than what it calls"
-        yield of_step(step, Phrase(words, part=part, formula=link.formula.__name__), place)
+        yield fault(step, Phrase(words, part=part, formula=link.formula.__name__), place)
     except Exception as why:
-        yield of_step(step, Phrase("the {part} cannot be printed: {why}", part=part, why=why), place)
+        yield fault(step, Phrase("the {part} cannot be printed: {why}", part=part, why=why), place)
 
 
 def _function_faults(step: Step) -> Iterator[str]:
@@ -196,9 +144,8 @@ def _function_faults(step: Step) -> Iterator[str]:
         return
     function: object = getattr(step, "function", None)
     if not callable(function):
-        yield Phrase(
-            "the function is {function}, which cannot be called; name one without brackets", function=repr(function)
-        )
+        words = "the function is {function}, which cannot be called; name one without brackets"
+        yield Phrase(words, function=repr(function))
         return
     try:
         parameters = signature(function)
@@ -227,7 +174,7 @@ def kinds_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
                     "said": kinds_told(kinds),
                     "wanted": each.wanted_text,
                 }
-                yield of_step(step, Phrase("{field} is {name}, {said}; {wanted} is wanted", filling))
+                yield fault(step, Phrase("{field} is {name}, {said}; {wanted} is wanted", filling))
 
 
 def _taken(step: Step) -> Iterator[TakenName]:
@@ -256,7 +203,7 @@ def units_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
             if found and not any(kind_of(one) == kind_of(other) for one in own for other in found):
                 words = "is in {own}, {what} in {units}; give it the unit of what it takes over"
                 filling = {"own": named(own, " or "), "what": what, "units": named(sorted(found), " or ")}
-                yield of_step(step, Phrase(words, filling))
+                yield fault(step, Phrase(words, filling))
 
 
 def kind_of(text: str) -> object:

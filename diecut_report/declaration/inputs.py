@@ -5,10 +5,11 @@ from __future__ import annotations
 import inspect
 import math
 import re
-from collections.abc import Hashable, Iterator, Mapping, Sequence
+from collections.abc import Hashable, Iterable, Iterator, Mapping
 from dataclasses import replace
 from functools import cache
 from inspect import get_annotations
+from itertools import chain
 from types import UnionType
 from typing import Any, Literal, Union, cast, get_args, get_origin, get_type_hints
 
@@ -16,14 +17,14 @@ from pydantic import PydanticSchemaGenerationError, TypeAdapter
 from pydantic.fields import FieldInfo
 
 from diecut_report.declaration.formulas import kind_of
-from diecut_report.declaration.names import DeclaredNames, Fault, Key, allowed, of_check, of_step
+from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, fault
 from diecut_report.errors import nearest
 from diecut_report.formulas.formula import FormulaError
 from diecut_report.formulas.tree import Node
 from diecut_report.mechanism.curve_inputs import CurveInput
-from diecut_report.mechanism.inputs import BOUNDS, Block, Meta, Quantity, Referred, meta_of, nested
+from diecut_report.mechanism.inputs import BOUNDS, Block, Key, Meta, Quantity, Referred, allowed, meta_of, nested
 from diecut_report.mechanism.mechanism import ExampleBlock, ForEach, Mechanism, Wired, kinds_named
-from diecut_report.mechanism.names import Bound, ByText, Text, Written, bound
+from diecut_report.mechanism.names import Bound, ByText, Text, bound
 from diecut_report.mechanism.steps import Step
 from diecut_report.quantities.plausible import Plausible
 from diecut_report.quantities.units import unit
@@ -39,28 +40,15 @@ ALLOWED_PLAIN = ("needs", "lacks", "only_with", "asks_for")  # which are told of
 
 def allowed_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield words that are not among the allowed ones, and tolerances that let a machine fail."""
-    for subject, declared in _declared(mechanism):
-        for text in allowed_wrong(declared):
-            yield Fault(declared.at, subject, text)
+    for declared in declared_in(mechanism):
+        yield from (fault(declared, text) for text in allowed_wrong(declared))
     for check in mechanism.checks:
         if not 0 <= check.tolerance <= MOST_TOLERANCE:
-            text = Phrase(
+            words = (
                 "has the tolerance {tolerance}, a share of the limit; allowed: 0 to {most} (1 %), for rounding alone; "
-                "put what is allowed into the limit",
-                tolerance=repr(check.tolerance),
-                most=MOST_TOLERANCE,
+                "put what is allowed into the limit"
             )
-            yield of_check(check, text)
-
-
-def _declared(mechanism: Mechanism) -> Iterator[tuple[str, Any]]:
-    yield Phrase("mechanism {kind}", kind=mechanism.kind), mechanism
-    yield from ((Phrase("chapter {title}", title=repr(chapter.title)), chapter) for chapter in mechanism.chapters)
-    yield from ((Phrase("step {id}", id=step.id), step) for _, step in mechanism.steps)
-    yield from ((Phrase("check {id}", id=check.id), check) for check in mechanism.checks)
-    yield from ((Phrase("figure {id}", id=figure.id), figure) for figure in mechanism.figures)
-    yield from ((Phrase("export {id}", id=profile.id), profile) for profile in mechanism.exports)
-    yield from ((Phrase("erratum of {source}", source=erratum.source), erratum) for erratum in mechanism.errata)
+            yield fault(check, Phrase(words, tolerance=repr(check.tolerance), most=MOST_TOLERANCE))
 
 
 def allowed_wrong(declared: Any) -> Iterator[str]:
@@ -68,14 +56,9 @@ def allowed_wrong(declared: Any) -> Iterator[str]:
     for name, (words, kind) in _fields(cast(Hashable, type(declared))).items():
         value = getattr(declared, name)
         if words and value not in words:
-            told = ", ".join(map(repr, words))
-            yield Phrase(
-                "has {name}={value}{nearest}; allowed: {told}",
-                name=name,
-                value=repr(value),
-                nearest=nearest(str(value), map(str, words)),
-                told=told,
-            )
+            near, told = nearest(str(value), map(str, words)), ", ".join(map(repr, words))
+            said = "has {name}={value}{nearest}; allowed: {told}"
+            yield Phrase(said, name=name, value=repr(value), nearest=near, told=told)
         elif kind is bool and not isinstance(value, bool):
             yield Phrase("has {name}={value}; allowed: True, False", name=name, value=repr(value))
         elif kind is tuple and isinstance(value, str):
@@ -133,38 +116,25 @@ PLAIN = ("builtins", "typing", "types")  # where the classes of plain values sta
 def faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield what is wrong with the inputs."""
     yield from _block(mechanism.inputs, mechanism.at)
-    for key in names.world.keys.values():
-        forms = getattr(key.meta, "units", ())
-        if forms and "." in key.path:
-            yield Fault(
-                key.meta.at if key.meta else "",
-                Phrase("input {path}", path=key.path),
-                phrase("has other units within a block, where none hold"),
-            )
-        for other in forms:
-            yield from _form(
-                key.meta.at if key.meta else "", Phrase("input {path}", path=key.path), other, names.world.keys
-            )
+    keys = names.world.keys
+    for key in keys.values():
+        forms, place = getattr(key.meta, "units", ()), getattr(key.meta, "at", "")
+        texts = [phrase("has other units within a block, where none hold")] if forms and "." in key.path else []
+        for text in (*texts, *_forms(forms, keys)):
+            yield Fault(place, Phrase("input {path}", path=key.path), text)
     for _, step in mechanism.steps:
-        for other in step.units:
-            yield from _form(step.at, Phrase("step {id}", id=step.id), other, names.world.keys)
+        yield from (fault(step, text) for text in _forms(step.units, keys))
 
 
-def _form(place: str, subject: str, form: tuple[str, str], keys: dict[str, Key]) -> Iterator[Fault]:
-    """A unit beside a key by which it cannot be told."""
-    name, key = form[0], keys.get(form[0])
-    if key is None:
-        yield Fault(
-            place,
-            subject,
-            Phrase("has units beside {name}, which is not an input{nearest}", name=name, nearest=nearest(name, keys)),
-        )
-    elif not key.may_be_absent or key.has_default or "." in name or getattr(key.meta, "press", None):
-        yield Fault(
-            place,
-            subject,
-            Phrase("has units beside {name}, which is not an optional input without a default", name=name),
-        )
+def _forms(forms: Iterable[tuple[str, str]], keys: dict[str, Key]) -> Iterator[str]:
+    """Units beside keys by which they cannot be told."""
+    for name, _ in forms:
+        key = keys.get(name)
+        if key is None:
+            words = "has units beside {name}, which is not an input{nearest}"
+            yield Phrase(words, name=name, nearest=nearest(name, keys))
+        elif not key.may_be_absent or key.has_default or "." in name or getattr(key.meta, "press", None):
+            yield Phrase("has units beside {name}, which is not an optional input without a default", name=name)
 
 
 MADE_BY = ("__init__", "__new__", "__getattribute__", "__getattr__", "model_post_init")
@@ -174,16 +144,14 @@ def _own_code(model: type[Block]) -> Iterator[str]:
     """What of a class comes between the values that the program read and those that count."""
     judged = model.__pydantic_decorators__
     yield from (*judged.validators, *judged.field_validators, *judged.root_validators, *judged.model_validators)
-    yield from (
-        name for name in MADE_BY if any(name in vars(each) for each in model.__mro__ if each not in Block.__mro__)
-    )
+    own = [each for each in model.__mro__ if each not in Block.__mro__]
+    yield from (name for name in MADE_BY if any(name in vars(each) for each in own))
 
 
 def _beside(declared: FieldInfo) -> Iterator[str]:
     """What is declared of an input beside its quantity, and would be held against SI numbers in silence."""
-    if others := [
-        type(each).__name__ for each in declared.metadata if not isinstance(each, Quantity | Text | Referred | str)
-    ]:
+    known = Quantity | Text | Referred | str
+    if others := [type(each).__name__ for each in declared.metadata if not isinstance(each, known)]:
         words = (
             "has {names} beside its quantity, by which another value than the user's may count; give bounds to the quantity, "
             "and calculate in a step"
@@ -192,82 +160,65 @@ def _beside(declared: FieldInfo) -> Iterator[str]:
 
 
 def _block(model: type[Block], place: str, prefix: str = "") -> Iterator[Fault]:
+    whole = of_class(model, place), Phrase("class {name}", name=model.__name__)
     if changed := [name for name, value in Block.model_config.items() if model.model_config.get(name) != value]:
         words = "changes {names} in its model_config, so that keys that are misspelt may pass unread; take it away"
-        subject = Phrase("class {name}", name=model.__name__)
-        yield Fault(of_class(model, place), subject, Phrase(words, names=", ".join(changed)))
+        yield Fault(*whole, Phrase(words, names=", ".join(changed)))
     if own := list(_own_code(model)):
         words = (
             "reads its inputs by code of its own ({names}), so that another value than the user's may count; calculate in a step, "
             "and refuse by require"
         )
-        yield Fault(
-            of_class(model, place), Phrase("class {name}", name=model.__name__), Phrase(words, names=", ".join(own))
-        )
+        yield Fault(*whole, Phrase(words, names=", ".join(own)))
     for name, declared in model.model_fields.items():
         inner, subject = nested(declared.annotation), Phrase("input {path}", path=f"{prefix}{name}")
-        told = () if inner else _wrong(name, declared, meta_of(model, name))
+        told = [] if inner else list(_wrong(name, declared, meta_of(model, name)))
+        if name in RESERVED and not prefix:
+            words = "has the name of a key that the program reads itself ({reserved}), so that nobody can give it; name it otherwise"
+            told.append(Phrase(words, reserved=", ".join(RESERVED)))
         for text in (*_absent(declared), *_beside(declared), *told):
             yield Fault(of_field(model, name, place), subject, text)
-        if name in RESERVED and not prefix:
-            text = Phrase(
-                "has the name of a key that the program reads itself ({reserved}), so that nobody can give it; name it otherwise",
-                reserved=", ".join(RESERVED),
-            )
-            yield Fault(of_field(model, name, place), subject, text)
         for kind in _strange(declared.annotation):
-            text = Phrase(
-                "is made of {name}, which is not a block of inputs; write class {name}(Block)", name=kind.__name__
-            )
-            yield Fault(of_class(kind, place), subject, text)
+            words = "is made of {name}, which is not a block of inputs; write class {name}(Block)"
+            yield Fault(of_class(kind, place), subject, Phrase(words, name=kind.__name__))
         if inner:
             yield from _block(inner[0], place, f"{prefix}{name}.")
-    for rule in model.one_of:
-        for key in sorted(
-            set().union(*rule.groups, rule.shared, filter(None, [rule.when.partition("=")[0]]))
-            - set(model.model_fields)
-        ):
-            yield Fault(place, Phrase("one_of of {name}", name=model.__name__), _no_input(key, model))
-    for key in sorted({single for keys in model.spread.values() for single in keys} - set(model.model_fields)):
-        yield Fault(place, Phrase("spread of {name}", name=model.__name__), _no_input(key, model))
-    for key in sorted({key for rule in model.from_tables for key in (rule.key, *rule.gives)} - set(model.model_fields)):
-        yield Fault(place, Phrase("from_tables of {name}", name=model.__name__), _no_input(key, model))
-    known = {name: meta_of(model, name) for name in model.model_fields}
+    yield from (Fault(place, subject, text) for subject, text in _rules(model))
+
+
+def _rules(model: type[Block]) -> Iterator[tuple[Phrase, Phrase]]:
+    """Rules of a block that name what is not an input of it."""
+    name, known = model.__name__, {name: meta_of(model, name) for name in model.model_fields}
+    ruled = [(Phrase("one_of of {name}", name=name), {*chain(*rule.groups), *rule.shared, rule.when.partition("=")[0]} - {""})
+             for rule in model.one_of]  # fmt: skip
+    ruled.append((Phrase("spread of {name}", name=name), set(chain(*model.spread.values()))))
+    tables = {key for rule in model.from_tables for key in (rule.key, *rule.gives)}
+    for subject, keys in (*ruled, (Phrase("from_tables of {name}", name=name), tables)):
+        for key in sorted(keys - known.keys()):
+            near = nearest(key, known)
+            yield subject, Phrase("names {key}, which is not an input{nearest}", key=key, nearest=near)
     for key, curve in model.curve_keys.items():
         if not isinstance(known.get(key), Quantity) or not isinstance(known.get(curve), CurveInput):
-            text = Phrase(
-                "lay {key} on {curve}; a Quantity and a CurveInput of the inputs are needed", key=key, curve=curve
-            )
-            yield Fault(place, Phrase("curve_keys of {name}", name=model.__name__), text)
-
-
-def _no_input(key: str, model: type[Block]) -> Phrase:
-    known = model.model_fields
-    return Phrase("names {key}, which is not an input{nearest}", key=key, nearest=nearest(key, known))
+            words = "lay {key} on {curve}; a Quantity and a CurveInput of the inputs are needed"
+            yield Phrase("curve_keys of {name}", name=name), Phrase(words, key=key, curve=curve)
 
 
 def _absent(declared: FieldInfo) -> Iterator[str]:
     """What is wrong with an input that is left out: None must be allowed where it is the default, and be the default where it is allowed."""
     kinds = _kinds(declared.annotation)
-    said = " | ".join(_said(kind) for kind in kinds if kind is not type(None))
+    said = " | ".join(kind.__name__ if isinstance(kind, type) else str(kind).removeprefix("typing.")
+                      for kind in kinds if kind is not type(None))  # fmt: skip
     may_be_none = type(None) in kinds  # Any alone does not tell that it may be left out
-    if declared.is_required() and type(None) in kinds:
-        yield Phrase(
-            "may be None, but has no default, so that it must be given all the same; write = None behind it, or annotate it as {said}",
-            said=said,
-        )
+    if declared.is_required() and may_be_none:
+        words = "may be None, but has no default, so that it must be given all the same; write = None behind it, or annotate it as {said}"
+        yield Phrase(words, said=said)
     if not declared.is_required() and declared.get_default(call_default_factory=True) is None and not may_be_none:
-        yield Phrase(
-            "has the default None, but may not be None; annotate it as {said} | None, or give it a value", said=said
-        )
+        words = "has the default None, but may not be None; annotate it as {said} | None, or give it a value"
+        yield Phrase(words, said=said)
 
 
 def _kinds(annotation: Any) -> tuple[Any, ...]:
     return get_args(annotation) if get_origin(annotation) in (Union, UnionType) else (annotation,)
-
-
-def _said(kind: Any) -> str:
-    return kind.__name__ if isinstance(kind, type) else str(kind).removeprefix("typing.")
 
 
 def _strange(annotation: Any) -> Iterator[type]:
@@ -293,12 +244,8 @@ def _bounds(meta: Quantity) -> Iterator[str]:
     given = {name: getattr(meta, name) for name, _ in BOUNDS if getattr(meta, name) is not None}
     for name, limit in given.items():
         if isinstance(limit, bool) or not isinstance(limit, int | float):
-            yield Phrase(
-                "has the bound {name}={bound}; write a plain number, which counts in its unit ({unit}): {name}=0",
-                name=name,
-                bound=repr(limit),
-                unit=meta.unit,
-            )
+            words = "has the bound {name}={bound}; write a plain number, which counts in its unit ({unit}): {name}=0"
+            yield Phrase(words, name=name, bound=repr(limit), unit=meta.unit)
             return
     low = max((given[name] for name in ("gt", "ge") if name in given), default=-math.inf)
     high = min((given[name] for name in ("lt", "le") if name in given), default=math.inf)
@@ -312,13 +259,8 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
         kind = getattr(declared.annotation, "__name__", str(declared.annotation))
         what = f'Quantity("SYMBOL", "UNIT", "description")' if kind in ("int", "float") else 'Text("description")'  # noqa: F541
         value = "" if declared.is_required() else f" = {default!r}"
-        yield Phrase(
-            "is a plain {kind}, of which nothing is known; write {name}: Annotated[{kind}, {what}]{value}",
-            kind=kind,
-            name=name,
-            what=what,
-            value=value,
-        )
+        words = "is a plain {kind}, of which nothing is known; write {name}: Annotated[{kind}, {what}]{value}"
+        yield Phrase(words, kind=kind, name=name, what=what, value=value)
         return
     if isinstance(meta, Quantity):
         wrong = list(_bounds(meta))
@@ -326,16 +268,16 @@ def _wrong(name: str, declared: FieldInfo, meta: Meta | None) -> Iterator[str]:
             yield from wrong
             return
         if int in _kinds(declared.annotation) and not meta.integer:
-            yield Phrase(
+            words = (
                 "is annotated as int, but takes any number; write integer=True in its Quantity, or annotate it as float"
             )
-    if isinstance(meta, Quantity) and meta.plausible:
-        yield from _sizes(meta, meta.plausible)
-    if isinstance(meta, Quantity) and meta.integer and (meta.unit != "1" or meta.units):
-        yield Phrase("is a whole number in {unit}; a count has the unit 1", unit=meta.unit)
-    if declared.is_required() or default is None:
-        return
-    yield from _default(default, declared.annotation, meta)
+            yield phrase(words)
+        if meta.plausible:
+            yield from _sizes(meta, meta.plausible)
+        if meta.integer and (meta.unit != "1" or meta.units):
+            yield Phrase("is a whole number in {unit}; a count has the unit 1", unit=meta.unit)
+    if not declared.is_required() and default is not None:
+        yield from _default(default, declared.annotation, meta)
 
 
 def _sizes(meta: Quantity, ends: tuple[str, str]) -> Iterator[str]:
@@ -345,12 +287,8 @@ def _sizes(meta: Quantity, ends: tuple[str, str]) -> Iterator[str]:
         _ = own.ends  # which are judged when they are read
         kinds = [unit(text).kind for text in (meta.unit, *(other for _, other in meta.units))]
         if own.kind not in kinds:
-            yield Phrase(
-                "has plausible sizes {low} to {high}; a quantity in {unit} is needed",
-                low=ends[0],
-                high=ends[1],
-                unit=meta.unit,
-            )
+            words = "has plausible sizes {low} to {high}; a quantity in {unit} is needed"
+            yield Phrase(words, low=ends[0], high=ends[1], unit=meta.unit)
     except (TypeError, ValueError) as why:
         yield Phrase("has plausible sizes that are none: {why}", why=why)
 
@@ -360,12 +298,8 @@ def _default(default: Any, annotation: Any, meta: Meta) -> Iterator[str]:
         texts = tuple(allowed(annotation, meta))
         said = str(default).lower() if isinstance(default, bool) else str(default)
         if texts and said not in texts:
-            yield Phrase(
-                "has the default {default}{nearest}; allowed: {texts}",
-                default=repr(default),
-                nearest=nearest(said, texts),
-                texts=", ".join(texts),
-            )
+            words = "has the default {default}{nearest}; allowed: {texts}"
+            yield Phrase(words, default=repr(default), nearest=nearest(said, texts), texts=", ".join(texts))
         return
     try:
         meta.validate(default)
@@ -384,20 +318,14 @@ def conditions_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fa
     for _, step in mechanism.steps:
         for each in step.formulas():
             if each.is_condition:
-                strange = [link for link in _options(each.formula) if not _decides(link, names)]
+                strange = [link.formula.__name__ for link in each.options if not _decides(link, names)]
                 words = "the {part} gives a number, not yes or no; compare it with something ({formula} > 0)"
                 part = phrase("condition exists") if each.part == "exists" else each.part
-                yield from (
-                    of_step(step, Phrase(words, part=part, formula=link.formula.__name__)) for link in strange[:1]
-                )
+                yield from (fault(step, Phrase(words, part=part, formula=name)) for name in strange[:1])
         if step.exists is not None and not step.may_be_absent:
             words = "has exists, which holds for {kinds} alone; put it on what this step takes"
-            yield of_step(step, Phrase(words, kinds="value, choice, computed"))
-        yield from (of_step(step, text) for text in _flag(step, names))
-
-
-def _options(formula: Written) -> Sequence[Bound]:
-    return formula.options() if isinstance(formula, ByText) else (bound(formula),)
+            yield fault(step, Phrase(words, kinds="value, choice, computed"))
+        yield from (fault(step, text) for text in _flag(step, names))
 
 
 def _decides(link: Bound, names: DeclaredNames, *, unread: bool = True) -> bool:
@@ -417,9 +345,8 @@ def _is_condition(node: Node, link: Bound, names: DeclaredNames, unread: bool) -
         case Node("sym", (parameter,)):
             steps = [giver.step for giver in names.givers(str(link.names.get(parameter)))]
             formulas = [getattr(step, "formula", None) for step in steps]
-            return bool(steps) and all(
-                each is not None and _decides(bound(each), names, unread=unread) for each in formulas
-            )
+            found = (each is not None and _decides(bound(each), names, unread=unread) for each in formulas)
+            return bool(steps) and all(found)
     return node.op in YES_OR_NO
 
 
@@ -444,8 +371,8 @@ def examples_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Faul
     if example is None:
         return
     if not isinstance(example, ExampleBlock):
-        text = Phrase('has example={example}; write ExampleBlock("name", {"key": "10 mm"})', example=repr(example))
-        yield Fault(mechanism.at, Phrase("mechanism {kind}", kind=mechanism.kind), text)
+        words = 'has example={example}; write ExampleBlock("name", {"key": "10 mm"})'
+        yield fault(mechanism, Phrase(words, example=repr(example)))
         return
     if not NAME.fullmatch(example.name):
         text = phrase("is not a name of a mechanism: a letter, then letters, digits, _ and - are allowed")

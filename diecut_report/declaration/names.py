@@ -7,16 +7,17 @@ from dataclasses import dataclass, field
 from functools import cached_property
 from itertools import chain, combinations
 from pathlib import Path
-from typing import Any, Literal, NamedTuple, get_args, get_origin
+from typing import Any, NamedTuple
 
 from diecut_report.errors import nearest
+from diecut_report.mechanism.chapters import Chapter
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, MechanismInput, PhaseInput
 from diecut_report.mechanism.figures import Figure
-from diecut_report.mechanism.inputs import Block, Meta, Quantity, Varying, meta_of, nested
-from diecut_report.mechanism.mechanism import Mechanism
-from diecut_report.mechanism.names import OneOf, Text
-from diecut_report.mechanism.steps import Step, has_own_names, names_ahead, read
+from diecut_report.mechanism.inputs import Block, Key, Quantity, Varying, keys, rules
+from diecut_report.mechanism.mechanism import Erratum, Mechanism, Profile, Source, made_when
+from diecut_report.mechanism.names import OneOf, Text, When
+from diecut_report.mechanism.steps import PREFIX, Phase, Step, has_own_names, names_ahead, read
 from diecut_report.text.phrases import Phrase, joined, phrase
 
 # What is wrong with a declaration, in words: where it stands, what it is of, and what to write instead.
@@ -34,19 +35,39 @@ class Fault(NamedTuple):
         return joined([part for part in (short(self.place), self.subject, self.text) if part], ": ")
 
 
-def of_step(step: Step, text: str, place: str = "") -> Fault:
-    """Return what is wrong with a step, at its place or at another one."""
-    return Fault(place or step.at, Phrase("step {id}", id=step.id), text)
+def subject(declared: Any) -> str:
+    """Return how messages call something declared."""
+    match declared:
+        case Mechanism(kind=kind):
+            return Phrase("mechanism {kind}", kind=kind)
+        case Chapter(title=title):
+            return Phrase("chapter {title}", title=repr(title))
+        case Phase(id=id):
+            return Phrase("phase {name}", name=id.removeprefix(PREFIX))
+        case Step(id=id):
+            return Phrase("step {id}", id=id)
+        case Check(id=id):
+            return Phrase("check {id}", id=id)
+        case Figure(id=id):
+            return Phrase("figure {id}", id=id)
+        case Profile(id=id):
+            return Phrase("export {id}", id=id)
+        case Source(id=id):
+            return Phrase("source {id}", id=id)
+        case Erratum(source=source):
+            return Phrase("erratum of {source}", source=source)
+    return Phrase("comparison {kind}", kind=declared.mechanism.kind)
 
 
-def of_check(check: Check, text: str) -> Fault:
-    """Return what is wrong with a check."""
-    return Fault(check.at, Phrase("check {id}", id=check.id), text)
+def fault(declared: Any, text: str, place: str = "") -> Fault:
+    """Return what is wrong with something declared, at its place or at another one."""
+    return Fault(place or declared.at, subject(declared), text)
 
 
-def of_figure(figure: Figure, text: str) -> Fault:
-    """Return what is wrong with a figure."""
-    return Fault(figure.at, Phrase("figure {id}", id=figure.id), text)
+def declared_in(mechanism: Mechanism) -> Iterator[Any]:
+    """Yield the mechanism and all that it declares beside its inputs, in the order of reading."""
+    yield from (mechanism, *mechanism.chapters, *(step for _, step in mechanism.steps))
+    yield from (*mechanism.checks, *mechanism.figures, *mechanism.exports, *mechanism.errata)
 
 
 def short(place: str) -> str:
@@ -80,34 +101,6 @@ GIVEN, OTHER = "given", "another text"
 Given = str | None  # what is known of an input: that it is given, its text, or None where it is left out
 
 
-class When(NamedTuple):
-    """When something is part of the calculation: all of these tokens hold, and none of those."""
-
-    needs: frozenset[str]
-    lacks: frozenset[str] = frozenset()
-
-    def with_(self, other: When) -> When:
-        """Return when both are."""
-        return When(self.needs | other.needs, self.lacks | other.lacks)
-
-
-ALWAYS = When(frozenset())
-
-
-@dataclass(frozen=True)
-class Key:
-    """An input (or a block of inputs): whether it may be left out, its allowed texts, the list whose parts have it."""
-
-    path: str
-    meta: Meta | None
-    annotation: Any
-    is_block: bool
-    may_be_absent: bool
-    home: str = ""
-    texts: tuple[str, ...] = ()
-    has_default: bool = False
-
-
 @dataclass
 class World:
     """The inputs of a mechanism by their paths, and what may be given of them."""
@@ -135,7 +128,7 @@ class World:
         if (
             _judged(holds, known) is False
             or any(_judged(other, known) for other in never)
-            or not self._is_allowed(known)
+            or not all(_keeps(home, rule, known, self.keys) for home, rule in self.rules)
         ):
             return
         if not open_ones:
@@ -148,16 +141,11 @@ class World:
 
     def _variables(self, holds: When, never: Sequence[When]) -> list[str]:
         """The inputs on which it depends; those that something needs come first, blocks before what is in them."""
-        tokens = [
-            *sorted(holds.needs | holds.lacks),
-            *(t for other in never for t in sorted(other.needs | other.lacks)),
-        ]
+        tokens = [token for each in (holds, *never) for token in sorted(each.needs | each.lacks)]
         paths = [token.partition("=")[0] for token in tokens]
-        grouped = [
-            {f"{home}{key}" for key in chain((rule.when.partition("=")[0],) * bool(rule.when), *rule.groups)}
-            for home, rule in self.rules
-        ]
-        paths += [key for keys in grouped if keys.intersection(paths) for key in sorted(keys)]
+        heads = [(home, rule, {rule.when.partition("=")[0]} - {""}) for home, rule in self.rules]
+        grouped = [{f"{home}{key}" for key in head.union(*rule.groups)} for home, rule, head in heads]
+        paths += [key for each in grouped if each.intersection(paths) for key in sorted(each)]
         found = [above for path in paths for above in (*_above(path), path)]
         return [path for path in dict.fromkeys(found) if path in self.keys]
 
@@ -166,12 +154,9 @@ class World:
         if any(known.get(above, GIVEN) is None for above in _above(path)):
             yield None
             return
-        yield from key.texts or ((OTHER, GIVEN) if isinstance(key.meta, Text) and not key.is_block else (GIVEN,))
+        yield from key.texts or ((OTHER, GIVEN) if isinstance(key.meta, Text) and not key.block else (GIVEN,))
         if key.may_be_absent:
             yield None
-
-    def _is_allowed(self, known: Mapping[str, Given]) -> bool:
-        return all(_keeps(home, rule, known, self.keys) for home, rule in self.rules)
 
 
 def _keeps(home: str, rule: OneOf, known: Mapping[str, Given], keys: Mapping[str, Key]) -> bool:
@@ -194,13 +179,11 @@ def _above(path: str) -> list[str]:
 
 def _judged(when: When, known: Mapping[str, Given]) -> bool | None:
     """Whether something is calculated; None where what is known does not say."""
-    said = [
-        *((_holds(token, known), True) for token in when.needs),
-        *((_holds(token, known), False) for token in when.lacks),
-    ]
-    if any(found is not None and found is not wanted for found, wanted in said):
+    needed = [_holds(token, known) for token in when.needs]
+    lacking = [_holds(token, known) for token in when.lacks]
+    if False in needed or True in lacking:
         return False
-    return None if any(found is None for found, _ in said) else True
+    return None if None in needed or None in lacking else True
 
 
 def _holds(token: str, known: Mapping[str, Given]) -> bool | None:
@@ -211,50 +194,8 @@ def _holds(token: str, known: Mapping[str, Given]) -> bool | None:
 
 
 def world(model: type[Block]) -> World:
-    return World({key.path: key for key in _keys(model)}, tuple(_rules(model)))
-
-
-def _rules(model: type[Block], prefix: str = "") -> Iterator[tuple[str, OneOf]]:
-    yield from ((prefix, rule) for rule in model.one_of)
-    for name, declared in model.model_fields.items():
-        block = nested(declared.annotation)
-        if block and not block[1]:
-            yield from _rules(block[0], f"{prefix}{name}.")
-
-
-def _keys(model: type[Block], prefix: str = "", home: str = "") -> Iterator[Key]:
-    for name, declared in model.model_fields.items():
-        block, meta, path = nested(declared.annotation), meta_of(model, name), f"{prefix}{name}"
-        default = declared.get_default(call_default_factory=True)
-        from_press = isinstance(meta, Quantity) and meta.press is not None and not meta.press.optional
-        is_empty = declared.is_required() or default is None or default == []
-        may_be_none = type(None) in get_args(declared.annotation)  # with a default too: a model may put it to None
-        absent = not declared.is_required() and (default == [] or may_be_none) and not from_press
-        yield Key(
-            path,
-            meta,
-            declared.annotation,
-            bool(block),
-            absent,
-            home,
-            tuple(allowed(declared.annotation, meta)),
-            not is_empty,
-        )
-        if block:
-            yield from _keys(block[0], f"{path}.", path if block[1] else home)
-
-
-def allowed(annotation: Any, meta: Meta | None) -> Iterable[str]:
-    """Return the texts that an input may be, as they stand in tokens; none where it takes any."""
-    if isinstance(meta, Text) and meta.options:
-        return tuple(meta.options)
-    found: list[str] = []
-    for part in (annotation, *get_args(annotation)):
-        if get_origin(part) is Literal:
-            found += [str(text).lower() if isinstance(text, bool) else str(text) for text in get_args(part)]
-        elif part is bool:
-            found += ["true", "false"]
-    return found
+    """Return the inputs of a model, and what may be given of them."""
+    return World(dict(keys(model)), rules(model))
 
 
 def told(given: Mapping[str, Given], tokens: Iterable[str]) -> str:
@@ -293,14 +234,14 @@ class DeclaredNames:
 
     @cached_property
     def world(self) -> World:
+        """Return the inputs, and which of them may be given together."""
         found = world(self.mechanism.inputs)
-        found.keys |= {name: Key(name, None, None, is_block=False, may_be_absent=True) for name in self.mechanism.facts}
+        found.keys |= {name: Key(name) for name in self.mechanism.facts}
         return found
 
     def when(self, number: int) -> When:
         """Return when a step is made."""
-        section, step = self.mechanism.steps[number]
-        return When(frozenset(section.needs + step.needs), frozenset(step.lacks))
+        return made_when(*self.mechanism.steps[number])
 
     @cached_property
     def known(self) -> dict[str, list[Giver]]:
@@ -318,10 +259,8 @@ class DeclaredNames:
         def over(*names: str, of_all: bool = False) -> set[tuple[str, str]]:
             """Return the kinds and axes of what runs over something; ``of_all`` also of texts."""
             givers = [giver for name in names for giver in found.get(name, ()) if giver.axis or not of_all]
-            axes = {
-                (giver.kind, giver.axis) for giver in givers if of_all or giver.kind in ("curve", "abscissa", "row")
-            }
-            return {("curve" if kind == "abscissa" else kind, axis) for kind, axis in axes}
+            own = [giver for giver in givers if of_all or giver.kind in ("curve", "abscissa", "row")]
+            return {("curve" if giver.kind == "abscissa" else giver.kind, giver.axis) for giver in own}
 
         when = self.when(number)
         for kind, axis in step.kinds(over):
@@ -336,6 +275,7 @@ class DeclaredNames:
                 yield each.name, Giver(when, "number", "", "1", step, number)
 
     def givers(self, name: str) -> list[Giver]:
+        """Return what gives a name: inputs and steps."""
         return self.known.get(name) or list(self._numbered(name))
 
     def _numbered(self, name: str) -> Iterator[Giver]:
@@ -345,42 +285,39 @@ class DeclaredNames:
                 yield Giver(self.when(number), "number", "", step.unit, step, number)
 
     def units(self, name: str) -> set[str]:
+        """Return the units that a quantity may have."""
         return {each for giver in self.givers(name) for each in giver.units_when(())}
 
     def without(self, when: When, given: str) -> When:
+        """Return when something is made while an input is not given."""
         path = given.removeprefix("inputs.")
         return when.with_(When(frozenset(), frozenset((path,)))) if path else when
 
     def incomplete(self, by: str, rows: Mapping[str, Any], when: When, none: str) -> Iterator[str]:
+        """Yield what is wrong with a choice by a text: each text that may be given has its row."""
         key = self.world.keys.get(by)
         if key is None:
             return  # told where ids are
         if not key.texts:
             allowed = ", ".join(map(repr, rows))
-            yield Phrase(
-                "is chosen by {by}, which may be any text; give it allowed ones: Annotated[Literal[{allowed}], Text(…)]",
-                by=by,
-                allowed=allowed,
+            words = (
+                "is chosen by {by}, which may be any text; give it allowed ones: Annotated[Literal[{allowed}], Text(…)]"
             )
+            yield Phrase(words, by=by, allowed=allowed)
             return
-        possible = [
-            text for text in key.texts if key.home or self.world.example(when.with_(When(frozenset((f"{by}={text}",)))))
-        ]
-        missing = [text for text in possible if text not in rows]
-        if missing:
-            yield Phrase(
-                "has {none} for {by}={missing}; add {them}, or forbid the text",
-                none=none,
-                by=by,
-                missing=", ".join(missing),
-                them=phrase("it" if len(missing) == 1 else "them"),
-            )
+        missing = [text for text in key.texts if text not in rows]
+        chosen = {text: when.with_(When(frozenset((f"{by}={text}",)))) for text in missing}
+        if missing := [text for text in missing if key.home or self.world.example(chosen[text])]:
+            words = "has {none} for {by}={missing}; add {them}, or forbid the text"
+            them = phrase("it" if len(missing) == 1 else "them")
+            yield Phrase(words, none=none, by=by, missing=", ".join(missing), them=them)
 
     def kinds(self, name: str) -> set[str]:
         """Return what a name may be: number, row, curve, …"""
         return {giver.kind for giver in self.givers(name)}
 
     def axes(self, name: str) -> set[str]:
+        """Return the abscissas or lists that a name may run over."""
         return {giver.axis for giver in self.givers(name) if giver.axis}
 
     def missing(self, name: str, when: When, before: int | None = None) -> dict[str, str | None] | None:
@@ -393,7 +330,7 @@ def _input(key: Key) -> Giver:
     when = When(frozenset((key.path,)) if key.may_be_absent or "." in key.path else frozenset())
     kind = "row" if key.home else "number"
     match key.meta:
-        case _ if key.is_block:
+        case _ if key.block:
             kind = "block"
         case Varying():
             return Giver(when, "varying", key.home, key.meta.unit)

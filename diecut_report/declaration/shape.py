@@ -11,7 +11,7 @@ from typing import Any
 
 from diecut_report.declaration.code import files
 from diecut_report.declaration.inputs import of_class, of_input
-from diecut_report.declaration.names import DeclaredNames, Fault, of_check, of_figure, of_step, short
+from diecut_report.declaration.names import DeclaredNames, Fault, fault, short
 from diecut_report.declaration.texts import parsed
 from diecut_report.formulas.formula import Formula
 from diecut_report.mechanism.chapters import Chapter
@@ -40,40 +40,25 @@ TEXTS = ("kind", "version", "title", "summary")
 
 def faults(mechanism: Mechanism) -> list[Fault]:
     """Return what has not the shape that the contract names."""
-    own = [
-        Fault(place, Phrase("mechanism {kind}", kind=mechanism.kind), text) for place, text in _of_mechanism(mechanism)
-    ]
-    if own:
-        return own
-    found = list(own)
-    for chapter in mechanism.chapters:
-        found += [
-            Fault(chapter.at, Phrase("chapter {title}", title=repr(chapter.title)), text)
-            for text in tuple_faults(chapter, "needs")
-        ]
-        for step in chapter.steps:
-            found += [of_step(step, text) for text in _of_step(step)]
+    found = [fault(mechanism, text, place) for place, text in _of_mechanism(mechanism)]
+    for chapter in () if found else mechanism.chapters:
+        found += [fault(chapter, text) for text in tuple_faults(chapter, "needs")]
+        found += [fault(step, text) for step in chapter.steps for text in _of_step(step)]
     return found
 
 
 def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
     """What has another shape, each with its place: of a class that is not an Inputs its own, else that of the mechanism."""
     for name in TEXTS:
-        if not isinstance(getattr(mechanism, name), str):
-            yield (
-                mechanism.at,
-                Phrase("has {name}={given}; write a text in quotes", name=name, given=repr(getattr(mechanism, name))),
-            )
+        if not isinstance(given := getattr(mechanism, name), str):
+            yield mechanism.at, Phrase("has {name}={given}; write a text in quotes", name=name, given=repr(given))
     model: Any = mechanism.inputs
     if not (isinstance(model, type) and issubclass(model, Inputs)):
         kind = model if isinstance(model, type) else type(model)
         given = kind.__name__ if kind is model else repr(model)
-        text = Phrase(
-            "has inputs={given}; give the class of its inputs, which is a subclass of Inputs: class {name}(Inputs)",
-            given=given,
-            name=kind.__name__,
-        )
-        yield of_class(kind, mechanism.at) if kind is model else mechanism.at, text
+        words = "has inputs={given}; give the class of its inputs, which is a subclass of Inputs: class {name}(Inputs)"
+        place = of_class(kind, mechanism.at) if kind is model else mechanism.at
+        yield place, Phrase(words, given=given, name=kind.__name__)
     for name, kind in HOLDS.items():
         given = getattr(mechanism, name)
         several = given if isinstance(given, tuple | list) else None
@@ -81,32 +66,20 @@ def _of_mechanism(mechanism: Mechanism) -> Iterator[tuple[str, str]]:
         if strange:
             at = getattr(strange[0], "at", "")
             where = f", {type(strange[0]).__name__}" + (Phrase(" (at {place})", place=short(at)) if at else "")
-            text = Phrase(
-                "has {name} of another kind{where}; write a tuple of {kind}, with a comma behind a single one: {name}=(…,)",
-                name=name,
-                where=where,
-                kind=kind.__name__,
-            )
-            yield mechanism.at, text
+            words = "has {name} of another kind{where}; write a tuple of {kind}, with a comma behind a single one: {name}=(…,)"
+            yield mechanism.at, Phrase(words, name=name, where=where, kind=kind.__name__)
 
 
 def _of_step(step: Step) -> Iterator[str]:
     if not ID.fullmatch(step.id):
         yield phrase("is not an id; write letters, digits and underscores")
-    elif step.id in RESERVED or iskeyword(
-        step.id
-    ):  # inputs.KEY and checks.ID are names; a formula takes a step as its argument
-        yield Phrase(
-            "has a name that is reserved; choose another one than {reserved} or a word of Python",
-            reserved=", ".join(RESERVED),
-        )
+    elif step.id in RESERVED or iskeyword(step.id):  # inputs.KEY is a name; a formula takes a step as its argument
+        words = "has a name that is reserved; choose another one than {reserved} or a word of Python"
+        yield Phrase(words, reserved=", ".join(RESERVED))
     if step.digits < 1:
         yield Phrase("has digits={digits}; at least one digit is printed", digits=repr(step.digits))
     yield from tuple_faults(step, "needs", "lacks")
-    for name in step.IDS:
-        if not isinstance(given := getattr(step, name), str):
-            words = "has {name}={given}; name the input or the step that gives it, by its id"
-            yield Phrase(words, name=name, given=repr(given))
+
     wrong = list(step.shape_faults())
     yield from wrong
     for each in () if wrong else step.formulas():
@@ -131,13 +104,7 @@ def _of_formula(part: object) -> Iterator[str]:
 
 
 Defined = ast.FunctionDef | ast.AsyncFunctionDef | ast.ClassDef
-MEANT = {
-    "overload",
-    "setter",
-    "getter",
-    "deleter",
-    "register",
-}  # decorators by which a name is defined again on purpose
+MEANT = {"overload", "setter", "getter", "deleter", "register"}  # by which a name is defined again on purpose
 
 
 def doubled_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
@@ -196,12 +163,12 @@ def unknown_units_faults(mechanism: Mechanism) -> Iterator[Fault]:
             yield Fault(of_input(mechanism.inputs, path, mechanism.at), Phrase("input {path}", path=path), text)
     for _, step in mechanism.steps:
         for text in _unknown([step.unit, *(own for _, own in step.units)]):
-            yield of_step(step, text)
+            yield fault(step, text)
     for check in mechanism.checks:
-        yield from (of_check(check, text) for text in _unknown([check.unit]))
+        yield from (fault(check, text) for text in _unknown([check.unit]))
     for figure in mechanism.figures:
         for text in _unknown(_drawn(figure)):
-            yield of_figure(figure, text)
+            yield fault(figure, text)
 
 
 def _unknown(units: Iterable[object]) -> Iterator[str]:

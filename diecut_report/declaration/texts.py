@@ -4,7 +4,7 @@ from __future__ import annotations
 
 import ast
 import re
-from collections.abc import Iterable, Iterator, Mapping
+from collections.abc import Iterator, Mapping
 from dataclasses import fields, is_dataclass
 from functools import lru_cache
 from itertools import chain, combinations
@@ -13,11 +13,13 @@ from typing import Any, NamedTuple, get_args
 
 from diecut_report.declaration.formulas import lacking
 from diecut_report.declaration.inputs import of_input
-from diecut_report.declaration.names import DeclaredNames, Fault, When, of_step, short, unknown, world
+from diecut_report.declaration.names import DeclaredNames, Fault, declared_in, fault, short, unknown, world
 from diecut_report.errors import nearest
-from diecut_report.mechanism.figures import Drawing, Spectrum
+from diecut_report.mechanism.checks import Check
+from diecut_report.mechanism.figures import Spectrum
 from diecut_report.mechanism.inputs import POINTS, Block, Quantity, meta_of, nested
-from diecut_report.mechanism.mechanism import Comparison, CurveTable, Mechanism
+from diecut_report.mechanism.mechanism import Comparison, CurveTable, Mechanism, Profile
+from diecut_report.mechanism.names import When
 from diecut_report.mechanism.steps import Case, SilentStep, Step, has_own_names, names_ahead, numbered_symbol
 from diecut_report.standards.tables import StandardSeries, StandardTable
 from diecut_report.text.phrases import PLACE, Phrase, named, phrase, worded
@@ -42,7 +44,7 @@ class DeclaredText(NamedTuple):
 def texts(mechanism: Mechanism) -> Iterator[DeclaredText]:
     """Yield each text once: those of the mechanism, of its inputs, and of the comparisons that it declares."""
     seen = set()
-    for found in (*inputs_texts(mechanism.inputs), *_of_declared(mechanism, mechanism.kind)):
+    for found in (*inputs_texts(mechanism.inputs), *_of_declared(mechanism)):
         if found.text and found.text not in seen and is_text(found.text):
             seen.add(found.text)
             yield found
@@ -59,14 +61,11 @@ def inputs_texts(model: type[Block], prefix: str = "") -> Iterator[DeclaredText]
         meta, inner = meta_of(model, name), nested(field.annotation)
         if meta is not None:
             yield DeclaredText(meta.description, f"input {prefix}{name}")
-            yield from (_option(text, f"{prefix}{name}") for text in _options(meta, field.annotation))
+            known = (*getattr(meta, "options", ()), *getattr(meta, "words", ()), *_literals(field.annotation))
+            own = (text for text in known if text.isidentifier() and text.islower())
+            yield from (DeclaredText(worded(text), f"{text}, a text of {prefix}{name}") for text in own)
         if inner:
             yield from inputs_texts(inner[0], f"{prefix}{name}.")
-
-
-def _options(meta: Any, annotation: Any) -> Iterator[str]:
-    known = (*getattr(meta, "options", ()), *getattr(meta, "words", ()), *_literals(annotation))
-    yield from (text for text in known if text.isidentifier() and text.islower())
 
 
 def _literals(annotation: Any) -> Iterator[str]:
@@ -74,23 +73,17 @@ def _literals(annotation: Any) -> Iterator[str]:
         yield from [part] if isinstance(part, str) else _literals(part)
 
 
-def _option(key: str, home: str) -> DeclaredText:
-    return DeclaredText(worded(key), f"{key}, a text of {home}")
-
-
-def _of_declared(declared: Any, told: str) -> Iterator[DeclaredText]:
+def _of_declared(declared: Any) -> Iterator[DeclaredText]:
     if isinstance(declared, Comparison):
         yield from texts(declared.mechanism)
     elif isinstance(declared, StandardTable | StandardSeries):
         yield from _of_table(declared)
-    elif isinstance(declared, Mapping):
-        for part in declared.values():
-            yield from _of_declared(part, told)
-    elif isinstance(declared, tuple | list) and not hasattr(declared, "_fields"):
-        for part in declared:
-            yield from _of_declared(part, told)
+    elif isinstance(declared, Mapping) or (isinstance(declared, tuple | list) and not hasattr(declared, "_fields")):
+        for part in declared.values() if isinstance(declared, Mapping) else declared:
+            yield from _of_declared(part)
     else:
-        yield from _of_fields(declared, f"{_kind(declared)} {getattr(declared, 'id', '')}".strip() or told)
+        kind = type(declared).__name__.lower()
+        yield from _of_fields(declared, f"{kind} {getattr(declared, 'id', '')}".strip())
 
 
 def _of_table(declared: StandardTable | StandardSeries) -> Iterator[DeclaredText]:
@@ -103,12 +96,9 @@ def _of_table(declared: StandardTable | StandardSeries) -> Iterator[DeclaredText
         yield DeclaredText(declared.only_source, "why a table has one source only")
 
 
-def _kind(declared: Any) -> str:
-    return type(declared).__name__.lower()
-
-
 def _of_fields(declared: Any, told: str) -> Iterator[DeclaredText]:
-    for name in _names(declared):
+    own = (field.name for field in fields(declared)) if is_dataclass(declared) else getattr(declared, "_fields", ())
+    for name in own:
         value = getattr(declared, name)
         if name in SAID:
             yield from (DeclaredText(text, told) for text in ([value] if isinstance(value, str) else value))
@@ -117,66 +107,39 @@ def _of_fields(declared: Any, told: str) -> Iterator[DeclaredText]:
         elif isinstance(declared, Case) and isinstance(value, str):  # what a choice gives
             yield DeclaredText(worded(value), told)
         elif name in ENTERED:
-            yield from _of_declared(value, told)
+            yield from _of_declared(value)
     if isinstance(declared, Spectrum):
         yield from (DeclaredText(line.description, told) for line in declared.lines())
-
-
-def _names(declared: Any) -> tuple[str, ...]:
-    if is_dataclass(declared):
-        return tuple(field.name for field in fields(declared))
-    return getattr(declared, "_fields", ())
 
 
 # ``needs`` and ``lacks``: each names an input that there is, or a text that it may be.
 
 
+TOKENS = ("needs", "lacks", "only_with", "asks_for", "sized_unless", "scaled_by")
+
+
 def token_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Yield the tokens that can never hold."""
-    for section in mechanism.chapters:
-        yield from _wrong(
-            names, section.at, Phrase("section {title}", title=repr(section.title)), "needs", section.needs
-        )
-    for _, step in mechanism.steps:
-        yield from _wrong(names, step.at, Phrase("step {id}", id=step.id), "needs", step.needs)
-        yield from _wrong(names, step.at, Phrase("step {id}", id=step.id), "lacks", step.lacks)
-        for fact in sorted(mechanism.facts.intersection(step.lacks)):
-            yield of_step(step, Phrase("lacks names the fact {fact}; a fact can only be needed", fact=fact))
-    for check in mechanism.checks:
-        yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "needs", check.needs)
-        yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "only_with", check.only_with)
-        yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "asks_for", check.asks_for)
-        yield from _wrong(names, check.at, Phrase("check {id}", id=check.id), "sized_unless", check.sized_unless or ())
-    for figure in mechanism.figures:
-        yield from _wrong(names, figure.at, Phrase("figure {id}", id=figure.id), "needs", figure.needs)
-        if isinstance(figure, Drawing) and figure.scaled_by:
-            yield from _wrong(names, figure.at, Phrase("figure {id}", id=figure.id), "scaled_by", (figure.scaled_by,))
-    for profile in mechanism.exports:
-        yield from _wrong(names, profile.at, Phrase("export {id}", id=profile.id), "needs", profile.needs)
-
-
-def _wrong(names: DeclaredNames, place: str, subject: str, field: str, tokens: Iterable[str]) -> Iterator[Fault]:
-    if isinstance(tokens, str):
-        yield Fault(
-            place,
-            subject,
-            Phrase('{field} is the text {tokens}; write a tuple, {field}=("{tokens}",)', field=field, tokens=tokens),
-        )
-        return
-    for token in tokens:
-        text = _told(names, token)
-        if text:
-            yield Fault(place, subject, Phrase("{field} names {text}", field=field, text=text))
+    for declared in declared_in(mechanism):
+        for field in TOKENS:
+            tokens = getattr(declared, field, None) or ()
+            if isinstance(tokens, str) and field != "scaled_by":
+                words = '{field} is the text {tokens}; write a tuple, {field}=("{tokens}",)'
+                yield fault(declared, Phrase(words, field=field, tokens=tokens))
+                continue
+            for text in filter(
+                None, (_told(names, token) for token in ((tokens,) if isinstance(tokens, str) else tokens))
+            ):
+                yield fault(declared, Phrase("{field} names {text}", field=field, text=text))
+        for fact in sorted(mechanism.facts.intersection(getattr(declared, "lacks", ()))):
+            yield fault(declared, Phrase("lacks names the fact {fact}; a fact can only be needed", fact=fact))
 
 
 def not_an_input(names: DeclaredNames, path: str) -> str:
     """Return a name that is not an input, with what it is, or the nearest input."""
-    inputs = [known for known in names.world.keys if "=" not in known]
-    what = (
-        phrase("a step; only inputs can be named")
-        if names.givers(path)
-        else Phrase("not an input{nearest}", nearest=nearest(path, inputs))
-    )
+    what: str = phrase("a step; only inputs can be named")
+    if not names.givers(path):
+        what = Phrase("not an input{nearest}", nearest=nearest(path, names.world.keys))
     return Phrase("{path}, which is {what}", path=path, what=what)
 
 
@@ -191,20 +154,12 @@ def _told(names: DeclaredNames, token: str) -> str:
     if key.home:
         return Phrase("{token}, but each part of {home} has a text of its own", token=token, home=key.home)
     if not key.texts:
-        return Phrase(
-            "{token}, but {path} is not a text with allowed values; name {path} alone", token=token, path=path
-        )
-    return (
-        ""
-        if text in key.texts
-        else Phrase(
-            "{token}{nearest}; {path} may be {texts}",
-            token=token,
-            nearest=nearest(text, key.texts),
-            path=path,
-            texts=", ".join(key.texts),
-        )
-    )
+        words = "{token}, but {path} is not a text with allowed values; name {path} alone"
+        return Phrase(words, token=token, path=path)
+    if text in key.texts:
+        return ""
+    near, texts = nearest(text, key.texts), ", ".join(key.texts)
+    return Phrase("{token}{nearest}; {path} may be {texts}", token=token, nearest=near, path=path, texts=texts)
 
 
 # What is said beside the calculation: sources, errata, key results, exports, spectra and comparisons name what there is.
@@ -221,11 +176,8 @@ def document_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Faul
     yield from _titles(mechanism, names)
     for first, second in combinations(mechanism.sources, 2):
         if first.id == second.id:
-            yield Fault(
-                second.at,
-                Phrase("source {id}", id=second.id),
-                Phrase("has the id of another source (at {place}); give it another", place=short(first.at)),
-            )
+            words = "has the id of another source (at {place}); give it another"
+            yield fault(second, Phrase(words, place=short(first.at)))
     yield from _errata(mechanism, names)
     for name in mechanism.key_results:
         text = _key_result(names, name)
@@ -233,22 +185,20 @@ def document_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Faul
             yield Fault(mechanism.at, "key_results", text)
     yield from _exports(mechanism, names)
     for comparison in mechanism.comparisons:
-        for text in _comparison(mechanism, names, comparison):
-            yield Fault(comparison.at, Phrase("comparison {kind}", kind=comparison.mechanism.kind), text)
+        yield from (fault(comparison, text) for text in _comparison(mechanism, names, comparison))
 
 
 def _errata(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     """Errata of sources that are not listed, and those that touch what there is not."""
     known = [source.id for source in mechanism.sources]
+    silent = {step.id for _, step in mechanism.steps if isinstance(step, SilentStep)}
     for erratum in mechanism.errata:
-        subject = Phrase("erratum of {source}", source=erratum.source)
         if erratum.source not in known:
             words = "is of no listed source{nearest}; listed: {known}"
-            listed = {"nearest": nearest(erratum.source, known), "known": ", ".join(known)}
-            yield Fault(erratum.at, subject, Phrase(words, listed))
+            yield fault(erratum, Phrase(words, nearest=nearest(erratum.source, known), known=", ".join(known)))
         for name in erratum.touches:
-            if not names.givers(name) and name not in _silent(mechanism):
-                yield Fault(erratum.at, subject, Phrase("touches {unknown}", unknown=unknown(name, names.known)))
+            if not names.givers(name) and name not in silent:
+                yield fault(erratum, Phrase("touches {unknown}", unknown=unknown(name, names.known)))
 
 
 def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
@@ -256,35 +206,26 @@ def _titles(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for first, second in combinations(mechanism.chapters, 2):
         both = When(frozenset(first.needs + second.needs))
         if first.title == second.title and names.world.example(both) is not None:
-            text = Phrase(
-                "has the title of another chapter (at {place}); give it another, or put their steps into one",
-                place=short(first.at),
-            )
-            yield Fault(second.at, Phrase("chapter {title}", title=repr(second.title)), text)
-
-
-def _silent(mechanism: Mechanism) -> set[str]:
-    return {step.id for _, step in mechanism.steps if isinstance(step, SilentStep)}
+            words = "has the title of another chapter (at {place}); give it another, or put their steps into one"
+            yield fault(second, Phrase(words, place=short(first.at)))
 
 
 def _sources(mechanism: Mechanism) -> Iterator[Fault]:
     """Sources that are cited by their id and not listed; a mechanism that lists none cites elsewhere."""
     known = [source.id for source in mechanism.sources]
-    for place, subject, name in unlisted(mechanism, CITED) if known else ():
+    for citing, name in unlisted(mechanism, CITED) if known else ():
         words = "cites {name}, which is not a source{nearest}; listed: {known}"
-        listed = {"name": name, "nearest": nearest(name, known), "known": ", ".join(known)}
-        yield Fault(place, subject, Phrase(words, listed))
+        yield fault(citing, Phrase(words, name=name, nearest=nearest(name, known), known=", ".join(known)))
 
 
-def unlisted(mechanism: Mechanism, pattern: re.Pattern[str]) -> Iterator[tuple[str, Phrase, str]]:
-    """Yield what steps and checks cite in this form and the mechanism does not list: the place, who cites it, and its name."""
+def unlisted(mechanism: Mechanism, pattern: re.Pattern[str]) -> Iterator[tuple[Step | Check, str]]:
+    """Yield the steps and checks that cite in this form what the mechanism does not list, with its name."""
     known = tuple(source.id for source in mechanism.sources)
-    cited = [(step.at, Phrase("step {id}", id=step.id), step.source) for _, step in mechanism.steps]
-    cited += [(check.at, Phrase("check {id}", id=check.id), check.source) for check in mechanism.checks]
-    for place, subject, text in cited:
-        for found in pattern.finditer(text):
-            if not text[found.start() :].lstrip("; ").startswith(known):
-                yield place, subject, found[1] or found[2]
+    declared: list[Step | Check] = [*(step for _, step in mechanism.steps), *mechanism.checks]
+    for citing in declared:
+        for found in pattern.finditer(citing.source):
+            if not citing.source[found.start() :].lstrip("; ").startswith(known):
+                yield citing, found[1] or found[2]
 
 
 def _key_result(names: DeclaredNames, name: str) -> str:
@@ -294,50 +235,34 @@ def _key_result(names: DeclaredNames, name: str) -> str:
         return Phrase("{name} is not a step{nearest}; name what a step gives", name=name, nearest=nearest(name, steps))
     if not any(giver.step and giver.step.output for giver in givers):
         return Phrase("{name} is not an output; take output=False away from its step", name=name)
-    return (
-        Phrase("{name} is a curve; name an extreme of it", name=name)
-        if {g.kind for g in givers} <= {"curve", "abscissa"}
-        else ""
-    )
+    is_curve = {g.kind for g in givers} <= {"curve", "abscissa"}
+    return Phrase("{name} is a curve; name an extreme of it", name=name) if is_curve else ""
 
 
 def _exports(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]:
     for profile in mechanism.exports:
-        when, subject = When(frozenset(profile.needs)), Phrase("export {id}", id=profile.id)
-        if isinstance(profile, CurveTable):
-            kinds = [names.kinds(name) for name in profile.columns]
-            if kinds != [{"abscissa"}]:
-                yield Fault(
-                    profile.at,
-                    subject,
-                    Phrase(
-                        'has columns={columns}; name the abscissa of its curves alone: ("angle",)',
-                        columns=repr(profile.columns),
-                    ),
-                )
-            continue
-        if len(profile.columns) < 2:
-            yield Fault(profile.at, subject, phrase("has fewer than two columns; name x and y at least"))
-        for name in profile.columns:
-            absent = lacking(names, name, when)
-            curves = [giver for giver in names.givers(name) if giver.kind == "curve"]
-            if absent:
-                yield Fault(profile.at, subject, Phrase("writes {absent}", absent=absent))
-            elif not curves:
-                yield Fault(profile.at, subject, Phrase("writes {name}, which is not a curve", name=name))
-            elif not all(giver.step and giver.step.output for giver in curves):
-                yield Fault(
-                    profile.at,
-                    subject,
-                    Phrase("writes {name}, which is not an output; take output=False away from its step", name=name),
-                )
-        axes = set().union(*(names.axes(name) for name in profile.columns))
-        if len(axes) > 1:
-            yield Fault(
-                profile.at,
-                subject,
-                Phrase("writes curves over {axes}; give each its own export", axes=named(sorted(axes), " and over ")),
-            )
+        yield from (fault(profile, text) for text in _export(profile, names))
+
+
+def _export(profile: Profile, names: DeclaredNames) -> Iterator[str]:
+    if isinstance(profile, CurveTable):
+        if [names.kinds(name) for name in profile.columns] != [{"abscissa"}]:
+            words = 'has columns={columns}; name the abscissa of its curves alone: ("angle",)'
+            yield Phrase(words, columns=repr(profile.columns))
+        return
+    if len(profile.columns) < 2:
+        yield phrase("has fewer than two columns; name x and y at least")
+    for name in profile.columns:
+        curves = [giver for giver in names.givers(name) if giver.kind == "curve"]
+        if absent := lacking(names, name, When(frozenset(profile.needs))):
+            yield Phrase("writes {absent}", absent=absent)
+        elif not curves:
+            yield Phrase("writes {name}, which is not a curve", name=name)
+        elif not all(giver.step and giver.step.output for giver in curves):
+            yield Phrase("writes {name}, which is not an output; take output=False away from its step", name=name)
+    axes = set().union(*(names.axes(name) for name in profile.columns))
+    if len(axes) > 1:
+        yield Phrase("writes curves over {axes}; give each its own export", axes=named(sorted(axes), " and over "))
 
 
 def _comparison(mechanism: Mechanism, names: DeclaredNames, comparison: Comparison) -> Iterator[str]:
@@ -349,9 +274,8 @@ def _comparison(mechanism: Mechanism, names: DeclaredNames, comparison: Comparis
             yield Phrase("takes {unknown} in {kind}", unknown=unknown(name, names.known), kind=kind)
     for name, declared in comparison.mechanism.inputs.model_fields.items():
         if declared.is_required() and name not in comparison.takes:
-            yield Phrase(
-                "fills nothing into {name}, which is required; add it to takes, or give it a default", name=name
-            )
+            words = "fills nothing into {name}, which is required; add it to takes, or give it a default"
+            yield Phrase(words, name=name)
 
 
 # Symbols: within a mechanism no two quantities that may be there together are printed by one symbol.
@@ -397,15 +321,12 @@ def symbol_faults(mechanism: Mechanism, names: DeclaredNames) -> Iterator[Fault]
 
 def _alike(mechanism: Mechanism, symbol: str, one: Printed, other: Printed) -> Fault:
     """The fault of the other; inputs stand where they are declared, their quantity may be one of the program."""
-    there = one.at if one.step else of_input(mechanism.inputs, one.name, one.at)
-    text = Phrase(
-        "has the symbol {symbol} of {name} ({points}at {place}): both would be printed as one quantity; give it another",
-        symbol=symbol,
-        name=one.name,
-        points="POINTS, " * one.is_points,
-        place=short(there),
+    place = short(one.at if one.step else of_input(mechanism.inputs, one.name, one.at))
+    words = (
+        "has the symbol {symbol} of {name} ({points}at {place}): both would be printed as one quantity; give it another"
     )
-    return _of(mechanism, other, text)
+    points = "POINTS, " * one.is_points
+    return _of(mechanism, other, Phrase(words, symbol=symbol, name=one.name, points=points, place=place))
 
 
 def _of(mechanism: Mechanism, each: Printed, text: str) -> Fault:
@@ -436,10 +357,8 @@ def _single(mechanism: Mechanism, names: DeclaredNames) -> Iterator[tuple[str, P
 
 def _clash(names: DeclaredNames, one: Printed, other: Printed) -> bool:
     for a, b in ((one, other), (other, one)):
-        if (
-            a.step is not None
-            and b.name in {name.removeprefix("inputs.") for name in a.step.takes_over()} | a.step.takes_over()
-        ):
+        over = a.step.takes_over() if a.step else set()
+        if b.name in over or f"inputs.{b.name}" in over:
             return False
     return names.world.example(one.when.with_(other.when)) is not None
 
@@ -466,7 +385,10 @@ def own_files(mechanism: Mechanism) -> list[Path]:
     file = Path(mechanism.at.rpartition(":")[0])
     if not file.is_file():  # made without a file
         return []
-    return [each for each in _in_folder(file.parent) if not _is_test(each)] if file.name == "__init__.py" else [file]
+    if file.name != "__init__.py":
+        return [file]
+    tests = ("test_", "conftest")
+    return [each for each in _in_folder(file.parent) if not each.name.startswith(tests) and "tests" not in each.parts]
 
 
 def files_around(mechanism: Mechanism) -> list[Path]:
@@ -477,7 +399,3 @@ def files_around(mechanism: Mechanism) -> list[Path]:
 
 def _in_folder(folder: Path) -> list[Path]:
     return sorted(file for file in folder.rglob("*.py") if file.is_file())
-
-
-def _is_test(file: Path) -> bool:
-    return file.name.startswith(("test_", "conftest")) or "tests" in file.parts

@@ -9,33 +9,4 @@ from typing import Any
 
 from numpy.typing import NDArray
 
-from diecut_report.formulas.formula import LAMBDA, Formula, FormulaError, FormulaName, Reading, evaluate, formula
-from diecut_report.formulas.tree import (
-    APPLY,
-    AS_ANGLE,
-    AS_NUMBER,
-    BINARY,
-    COMPARE,
-    FUNCTIONS,
-    GRAVITY,
-    NUMERIC,
-    PI,
-    Constant,
-    Node,
-    arccos,
-    as_angle,
-    as_number,
-    substitute,
-    symbols,
-    transform,
-    walk,
-    written,
-)
-
 Array = NDArray[Any]
-
-__all__ = [
-    "APPLY", "AS_ANGLE", "AS_NUMBER", "BINARY", "COMPARE", "FUNCTIONS", "GRAVITY", "LAMBDA", "NUMERIC", "PI", "Array", "Constant",
-    "Formula", "FormulaError", "FormulaName", "Node", "Reading", "arccos", "as_angle", "as_number", "evaluate", "formula", "substitute",
-    "symbols", "transform", "walk", "written",
-]  # fmt: skip

@@ -288,13 +288,9 @@ def _bare(
         words = "{kinds}{sign} needs the same kind on both sides. Quote the quantity with its unit."
         return ConditionError(words, bare.place, kinds=kinds, sign=sign)
     example = f"'{bare.typed or 5} {other.name.display}'"
+    words = "{kinds}a number beside {name} needs {pretty}, for example {example}."
     return ConditionError(
-        "{kinds}a number beside {name} needs {pretty}, for example {example}.",
-        bare.place,
-        kinds=kinds,
-        name=other.name.name,
-        pretty=pretty(other.name.display),
-        example=example,
+        words, bare.place, kinds=kinds, name=other.name.name, pretty=pretty(other.name.display), example=example
     )
 
 
@@ -352,7 +348,8 @@ class ConditionReader:
                 return self._signed(at, depth)
             case ast.BoolOp(op=op, values=values):
                 word = "and" if isinstance(op, ast.And) else "or"
-                nodes = [condition(self.part(each, depth + 1), _between(word)) for each in values]
+                needed = Phrase("{word} stands between conditions; compare both sides with something", word=repr(word))
+                nodes = [condition(self.part(each, depth + 1), needed) for each in values]
                 return joined(word, nodes, self._place(at))  # type: ignore[arg-type]
             case ast.BinOp(op=ast.Pow(), left=base, right=power):
                 return raised(self.part(base, depth + 1), self.part(power, depth + 1))
@@ -458,10 +455,6 @@ class ConditionReader:
         return joined(word, nodes, self._place(at))  # type: ignore[arg-type]
 
 
-def _between(word: str) -> str:
-    return Phrase("{word} stands between conditions; compare both sides with something", word=repr(word))
-
-
 # Expressions of a configuration: ``${press.sheet.length} + 110 mm`` read, judged and computed, for one machine or for many.
 
 
@@ -503,8 +496,9 @@ class Expression:
         needed = unit(wanted)
         if alike(self.kind, needed.kind):
             return ""
+        words = "“{text}” gives {told_kind}; {told_kind_2} in {wanted} is needed here"
         return Phrase(
-            "“{text}” gives {told_kind}; {told_kind_2} in {wanted} is needed here",
+            words,
             text=self.text,
             told_kind=told_kind(self.kind),
             told_kind_2=told_kind(needed.kind, wanted),

@@ -307,13 +307,9 @@ class _BodyReader:
         try:
             return body(self.function.__code__)
         except Unreadable as error:
-            words = Phrase(
-                "{place}: the source of formula {name} cannot be read: {error}",
-                place=self.owner.place,
-                name=self.owner.__name__,
-                error=error,
-            )
-            raise FormulaError(words) from None
+            words = "{place}: the source of formula {name} cannot be read: {error}"
+            named = {"place": self.owner.place, "name": self.owner.__name__, "error": error}
+            raise FormulaError(Phrase(words, named)) from None
 
     def _node(self, expression: ast.expr) -> Node:
         match expression:
@@ -333,11 +329,9 @@ class _BodyReader:
                 return Node("cmp", (COMPARE[type(op)], self._node(left), self._node(right)))
             case ast.Call(func=func, args=args):
                 callee, given = self._object(func), tuple(map(self._node, args))
-                return (
-                    self._called(callee, given, expression)
-                    if isinstance(callee, Formula)
-                    else self._call(callee, given, expression)
-                )
+                if isinstance(callee, Formula):
+                    return self._called(callee, given, expression)
+                return self._call(callee, given, expression)
         raise self._refuse(expression)
 
     def _call(self, callee: Any, args: tuple[Node, ...], at: ast.Call) -> Node:
@@ -359,19 +353,11 @@ class _BodyReader:
 
     def _counted(self, name: str, args: tuple[Node, ...], at: ast.Call) -> None:
         """FormulaError where a function is called with more or fewer than it takes."""
-        wanted = 2 if name in OF_TWO else 1
+        wanted, call = 2 if name in OF_TWO else 1, repr(ast.unparse(at))
         if len(args) != wanted:
-            raise FormulaError(
-                Phrase(
-                    "{place}: formula {name} calls {called} with {count}, in {call}; it takes {wanted}",
-                    place=self._place(at),
-                    name=self.owner.__name__,
-                    called=ast.unparse(at.func),
-                    count=len(args),
-                    call=repr(ast.unparse(at)),
-                    wanted=wanted,
-                )
-            )
+            words = "{place}: formula {name} calls {called} with {count}, in {call}; it takes {wanted}"
+            named = {"place": self._place(at), "name": self.owner.__name__, "called": ast.unparse(at.func)}
+            raise FormulaError(Phrase(words, named, count=len(args), call=call, wanted=wanted))
 
     def _called(self, callee: Formula, args: tuple[Node, ...], at: ast.Call) -> Node:
         """A call of another formula: its expression in place of the call, or its name with what it is given."""
@@ -411,13 +397,9 @@ class _BodyReader:
 
     def _refuse(self, node: ast.AST) -> FormulaError:
         value = self._object(node) if isinstance(node, ast.Name) else None
-        words = Phrase(
-            "formula {name} cannot print {node}; {instead}",
-            name=self.owner.__name__,
-            node=repr(ast.unparse(node)),
-            instead=instead(node, value),
-        )
-        return FormulaError(joined((self._place(node), words), ": "))
+        words = "formula {name} cannot print {node}; {instead}"
+        told = Phrase(words, name=self.owner.__name__, node=repr(ast.unparse(node)), instead=instead(node, value))
+        return FormulaError(joined((self._place(node), told), ": "))
 
     def _place(self, node: ast.AST) -> str:
         return f"{self.function.__code__.co_filename}:{getattr(node, 'lineno', '?')}"

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterable, Mapping
+from collections.abc import Callable, Iterable, Mapping, Sequence
 from dataclasses import dataclass, field, replace
 from math import isfinite
 from typing import Any, NamedTuple, cast
@@ -139,41 +139,23 @@ class NamedQuantities:
             self._names[name] = named(name, steps, self._numbered)
         return self._names[name]
 
-    def declared(
-        self, name: str, steps: Mapping[str, Step], axis: Mapping[str, str], inputs: Mapping[str, Meta], at: str
-    ) -> Step | Quantity:
-        """Return the step or input with a quantity's symbol, unit and description.
-
-        ``axis`` is the abscissa of each curve, ``at`` the mechanism's place. Misdeclared where there is nothing of this name.
-        """
-        if name in steps:
-            return steps[name]
-        found = self.result(name, steps)
+    def declared(self, name: str, calc: Calculation) -> Step | Quantity:
+        """Return the step or input with a quantity's symbol, unit and description; Misdeclared where there is nothing of this name."""
+        if name in calc.steps:
+            return calc.steps[name]
+        found = self.result(name, calc.steps)
         if name not in self._declared:
-            self._declared[name] = _declared(name, found, steps, axis, inputs, at)
+            self._declared[name] = _of_input(name, calc) if found is None else _of_step(found, calc.steps, calc.axis)
         return self._declared[name]
 
 
-def _declared(
-    name: str,
-    found: ResultName | None,
-    steps: Mapping[str, Step],
-    axis: Mapping[str, str],
-    inputs: Mapping[str, Meta],
-    at: str,
-) -> Step | Quantity:
-    if found is not None:
-        return _of_step(found, steps, axis)
-    path = name.removeprefix("inputs.")
+def _of_input(name: str, calc: Calculation) -> Quantity:
+    path, inputs = name.removeprefix("inputs."), calc.meta
     if path not in inputs:
-        given = [each.name for step in steps.values() for each in names_ahead(step)]
+        given = [each.name for step in calc.steps.values() for each in names_ahead(step)]
         near = nearest(path, [*given, *inputs])
-        raise Misdeclared(
-            Phrase(
-                "{name} is not a quantity of this machine{near}; name a step or an input", name=repr(name), near=near
-            ),
-            at,
-        )
+        words = "{name} is not a quantity of this machine{near}; name a step or an input"
+        raise Misdeclared(Phrase(words, name=repr(name), near=near), calc.mechanism.at)
     return cast(Quantity, inputs[path])
 
 
@@ -184,9 +166,8 @@ def _of_step(found: ResultName, steps: Mapping[str, Step], axis: Mapping[str, st
             return steps[axis[step.asked_curve]]
         case "count":
             many = Phrase("{description}: how many", description=step.description)
-            return replace(
-                step, id=found.name, symbol=f"n_{step.symbol.replace('_', ',')}", unit="1", units=(), description=many
-            )
+            symbol = f"n_{step.symbol.replace('_', ',')}"
+            return replace(step, id=found.name, symbol=symbol, unit="1", units=(), description=many)
         case "crossing" | "part":
             return replace(step, id=found.name, symbol=numbered_symbol(step, found.number))
     return step
@@ -222,27 +203,23 @@ class CurveHandle:
 
     @property
     def cycle(self) -> str:
-        """Return the id of what the curve runs over: of two curves over one cycle it is the same."""
         return self.abscissa.id
 
     @property
     def rate(self) -> Array:
-        """Return how often the curve comes again, as a speed (one turn each time), shape (variants, 1); 0 where nothing tells it."""
         return cycle_rate(self.calculation, self.cycle)
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values at shares of the period, shape (rows, points), each in the smooth piece of its middle (a share too).
-
-        ``rows`` are variants (default all).
-        """
         calc, domain, axis = self.calculation, self.domain, self.calculation.axis[self.curve_id]
-        if calc.count > 1:
-            places = share, middle, rows
-            return calc.shared.at(
-                self.curve_id, axis, places, lambda names: several(calc, axis, names, *domain.placed(*places), rows)
-            )
-        x, mid, inside = domain.placed(share, middle, rows)
-        return calc.sampler_of(axis, x, mid, None, inside).over(self.curve_id)
+        places = share, middle, rows
+        if calc.count == 1:
+            x, mid, inside = domain.placed(*places)
+            return calc.sampler_of(axis, x, mid, None, inside).over(self.curve_id)
+
+        def evaluate(names: Sequence[str]) -> Sequence[Array]:
+            return several(calc, axis, names, *domain.placed(*places), rows)
+
+        return calc.shared.at(self.curve_id, axis, places, evaluate)
 
     def gain(self, rows: Array | None) -> Array:
         """Return what the curve has more at the end of its period than at its start, shape (rows, 1); rows as in ``values``."""
@@ -253,12 +230,10 @@ class CurveHandle:
 
     @property
     def breakpoints(self) -> Array:
-        """Return the inner edges of the curve's smooth pieces, as shares of the period, shape (variants, places)."""
         return self.domain.edges[:, 1:-1] / self.domain.period
 
     @property
     def joints(self) -> Array:
-        """Return those of them where the curve jumps or has a corner."""
         return self.domain.joints[:, 1:-1] / self.domain.period
 
 
@@ -375,9 +350,8 @@ class Calculation:
 
     def curve_samples(self, curve: str) -> Array:
         """Return a curve at the samples of its abscissa, shape (variants, points)."""
-        sampler = self.kept(
-            "samples", self.axis[curve], lambda domain: (domain.samples, domain.middle_of(domain.samples))
-        )
+        axis = self.axis[curve]
+        sampler = self.kept("samples", axis, lambda domain: (domain.samples, domain.middle_of(domain.samples)))
         with np.errstate(all="ignore"):  # among variants some may be impossible
             return np.broadcast_to(sampler[curve], sampler.x.shape)
 
@@ -403,7 +377,7 @@ class Calculation:
     def step_or_input(self, name: str) -> Step | Quantity:
         """Return what declares a quantity: its symbol, unit and description."""
         own = self.row_of.get(name, name)
-        return self.names.declared(own, self.steps, self.axis, self.meta, self.mechanism.at)
+        return self.names.declared(own, self)
 
 
 __all__ = [

@@ -4,30 +4,12 @@ from __future__ import annotations
 
 from dataclasses import dataclass
 from functools import cached_property
-from typing import Any, Protocol
 
 import numpy as np
 
 from diecut_report.formulas import Array
-from diecut_report.machine.numerics.domain import Domain, Inside, PieceSeries
+from diecut_report.machine.numerics.domain import Inside, Machines
 from diecut_report.mechanism.names import Bound, Written, bound
-from diecut_report.mechanism.steps import Step
-
-
-class CalculatedMachines(Protocol):
-    """Hold the machines that curves are of: a calculation."""
-
-    count: int
-    curves: dict[str, Step]
-    domains: dict[str, Domain]
-    inputs: dict[str, Any]
-    series: dict[str, PieceSeries]
-
-    def __getitem__(self, name: str) -> Array:
-        """A number of all machines."""
-
-    def of_pieces(self, axis: str) -> CurveSampler:
-        """Return all curves over an abscissa at the middles of its pieces, kept until these change."""
 
 
 class CurveSampler:
@@ -38,7 +20,7 @@ class CurveSampler:
 
     def __init__(
         self,
-        owner: CalculatedMachines,
+        owner: Machines,
         axis: str,
         x: Array,
         middle: Array,
@@ -122,7 +104,6 @@ class SampledCurve:
 
     @property
     def breakpoints(self) -> Array:
-        """Return the given places, where the curve has its corners, as shares of the period, shape (1, places)."""
         return np.arange(len(self.numbers))[None, :] / len(self.numbers)
 
     joints = breakpoints

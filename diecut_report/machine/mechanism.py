@@ -27,7 +27,7 @@ from diecut_report.text.phrases import Phrase, phrase
 
 @dataclass(frozen=True)
 class PhaseHandle(TakenWhole):
-    """Hand a phase of one mechanism to the input of another; ``row`` counts the variants, of which a single one stands for all.
+    """Hand a phase of one mechanism to the input of another, as ``GivenPhase``.
 
     ``text`` is how a config refers to it, ``row`` the variant that is meant where none is named.
     """
@@ -48,12 +48,10 @@ class PhaseHandle(TakenWhole):
 
     @property
     def role(self) -> str:
-        """Return what it is: working, rest, moving or window."""
         return self.declared.role
 
     @property
     def description(self) -> str:
-        """Return what it is called in words."""
         return phrase(self.declared.description)
 
     @property
@@ -66,11 +64,9 @@ class PhaseHandle(TakenWhole):
         return replace(self, row=row)
 
     def period(self, row: int | None = None) -> float:
-        """Return the period of its abscissa, SI."""
         return period_of(self.calculation, self.declared, self.row if row is None else row)
 
     def intervals(self, row: int | None = None) -> Intervals:
-        """Return its intervals, SI; none where the machine does not have it."""
         return self._own if row is None or row == self.row else intervals(self.calculation, self.name, row)
 
     @cached_property
@@ -91,16 +87,16 @@ def _declared(mechanism: Mechanism, given: frozenset[str]) -> Mapping[str, Phase
 
 def intervals(calc: Calculation, name: str, row: int = 0) -> Intervals:
     """Return the intervals of a phase for one variant, SI: each begins within the period; none where the machine does not have it."""
-    return _intervals(calc, phases_of(calc), name, row)
-
-
-def _intervals(calc: Calculation, known: Mapping[str, Phase], name: str, row: int) -> Intervals:
-    step = known[name]
+    step = phases_of(calc)[name]
     period = period_of(calc, step, row)
-    held = [each for other in (*step.union, *step.rest_of) for each in _intervals(calc, known, other, row)]
+    held = [each for other in (*step.union, *step.rest_of) for each in intervals(calc, other, row)]
     if step.rest_of:
         return complement(merged(held, period), period) if held else ()
-    spans = [(_place(calc, start, row), _place(calc, end, row)) for start, end in step.spans]
+
+    def place(end: str | float) -> float:
+        return _of_row(calc[end], row) if isinstance(end, str) else float(end)
+
+    spans = [(place(start), place(end)) for start, end in step.spans]
     return merged([*held, *(_counted_on(span, period) for span in spans if not np.isnan(span).any())], period)
 
 
@@ -115,10 +111,6 @@ def _counted_on(span: Interval, period: float) -> Interval:
 def period_of(calc: Calculation, step: Phase, row: int = 0) -> float:
     """Return after which length of its abscissa a phase comes again, SI."""
     return _of_row(calc[step.period] if step.period else calc.domains[step.abscissa].period, row)
-
-
-def _place(calc: Calculation, place: str | float, row: int) -> float:
-    return float(_of_row(calc[place], row)) if isinstance(place, str) else float(place)
 
 
 def _of_row(column: np.ndarray[tuple[int, ...], np.dtype[np.float64]], row: int) -> float:
@@ -145,21 +137,12 @@ TAKEN, MARK = phrase("taken"), "→"
 def rows(calc: Calculation, step: Listing) -> list[list[Cell]]:
     """Return the rows of a listing, SI; Misdeclared where they are none."""
     known = {name: calc[name] for name in step.holds if name in calc.values or name in calc.inputs}
-    found = [[_plain(cell) for cell in row] for row in step.function(known)]
+    found = [[cell if isinstance(cell, str | None) else float(cell) for cell in row] for row in step.function(known)]
     for row in found:
         if len(row) != len(step.columns) or any(isinstance(cell, float) and not math.isfinite(cell) for cell in row):
-            words = Phrase(
-                "step {id}: its function gives the row {row}; {count} texts and finite numbers are wanted",
-                id=step.id,
-                row=row,
-                count=len(step.columns),
-            )
-            raise Misdeclared(words, step.at)
+            words = "step {id}: its function gives the row {row}; {count} texts and finite numbers are wanted"
+            raise Misdeclared(Phrase(words, id=step.id, row=row, count=len(step.columns)), step.at)
     return found
-
-
-def _plain(cell: Any) -> Cell:
-    return cell if cell is None or isinstance(cell, str) else float(cell)
 
 
 def results(calc: Calculation) -> Data:
@@ -183,13 +166,12 @@ def _taken(calc: Calculation, step: Listing, lines: list[list[Cell]]) -> list[in
         return []
     own: Any = calc[name]
     value = own[0, 0] if isinstance(own, np.ndarray) else own
-    return [number for number, row in enumerate(lines) if _is_same(row[0], value)]
 
+    def is_taken(cell: Cell) -> bool:
+        is_number = isinstance(cell, float) and not isinstance(value, str)
+        return math.isclose(cell, value, rel_tol=SAME) if is_number else bool(cell == value)  # type: ignore[arg-type]
 
-def _is_same(cell: Cell, value: Any) -> bool:
-    if isinstance(cell, float) and not isinstance(value, str):
-        return math.isclose(cell, value, rel_tol=SAME)
-    return bool(cell == value)
+    return [number for number, row in enumerate(lines) if is_taken(row[0])]
 
 
 def printed(calc: Calculation, step: Listing) -> list[Data]:
@@ -215,7 +197,7 @@ def _text(cell: Cell, head: ListedColumn) -> str:
 
 @dataclass(frozen=True)
 class MechanismHandle(TakenWhole):
-    """Hand a whole mechanism to the input of another: its phases, numbers, curves, and how its abscissa is run through.
+    """Hand a whole mechanism to the input of another, as ``GivenMechanism``: what it may be asked for is told there.
 
     Of many variants it is that of one, ``row``; ``numbers`` and ``curve`` are those of all.
     """
@@ -231,17 +213,14 @@ class MechanismHandle(TakenWhole):
 
     @property
     def kind(self) -> str:
-        """Return its kind."""
         return self.calculation.mechanism.kind
 
     @property
     def count(self) -> int:
-        """Return how many variants it stands for."""
         return self.calculation.count
 
     @cached_property
     def phases(self) -> dict[str, PhaseHandle]:
-        """Return the phases that it has, by their names."""
         calc = self.calculation
         found = (PhaseHandle(calc, name, f"{self.name}.{PREFIX}{name}", self.row) for name in phases_of(calc))
         return {handle.name: handle for handle in found if handle.intervals()}
@@ -251,7 +230,6 @@ class MechanismHandle(TakenWhole):
         return replace(self, row=row)
 
     def missing_keys(self, phase: str) -> tuple[str, ...] | None:
-        """Return the keys without which it has not a phase that its kind may have; None where the kind has none of this name."""
         calc = self.calculation
         declared = [
             each for each in calc.mechanism.steps if each[1].id == f"{PREFIX}{phase}" and isinstance(each[1], Phase)
@@ -262,19 +240,16 @@ class MechanismHandle(TakenWhole):
         return tuple(key for key in (*chapter.needs, *step.needs) if key not in calc.given)
 
     def number(self, name: str) -> float | None:
-        """Return a number (an output, a value or an input) by its id, SI; None where there is none."""
         found = self.numbers(name)
         own = np.nan if found is None else float(self._own(found)[0])
         return None if np.isnan(own) else own
 
     def numbers(self, name: str) -> Array | None:
-        """Return a number of all variants by its id, SI, shape (variants, 1), NaN where it is absent; None where there is none."""
         calc = self.calculation
         found = calc.values.get(name, calc.inputs.get(name))
         return found if isinstance(found, np.ndarray) and found.dtype != object else None
 
     def parts(self, name: str) -> tuple[float, ...]:
-        """Return a row over repeated parts by its id, SI; nothing where there is none."""
         found = self.calculation.values.get(name)
         return () if found is None else tuple(float(value) for value in self._own(found))
 
@@ -283,29 +258,23 @@ class MechanismHandle(TakenWhole):
         return found
 
     def texts(self, name: str) -> tuple[str, ...]:
-        """Return a text input of all repeated parts, mechanisms by their names; nothing where there is none."""
         return tuple(str(text) for text in self.calculation.inputs.get(name, ()))
 
     def listing(self, name: str) -> list[list[Cell]]:
-        """Return the rows of a table that it lists, by its id, SI; nothing where there is none."""
         step = self.calculation.steps.get(name)
         return rows(self.calculation, step) if isinstance(step, Listing) else []
 
     def curve(self, name: str) -> CurveHandle | None:
-        """Return a curve by its id, over shares of its period; None where there is none."""
         return CurveHandle(self.calculation, name) if name in self.calculation.curves else None
 
     def period(self, abscissa: str = "") -> float:
-        """Return the period of an abscissa, SI; by default of the first one that is declared."""
         return float(self._own(self.calculation.domains[abscissa or self._first()].period)[0])
 
     def speed(self, abscissa: str = "") -> float | None:
-        """Return how fast that abscissa is run through, SI; None where that is not known."""
         return speed_of(self.calculation, abscissa or self._first(), self.row)
 
     @property
     def has_period(self) -> bool:
-        """Return whether it runs over something that comes again."""
         return bool(self.calculation.domains)
 
     def _first(self) -> str:

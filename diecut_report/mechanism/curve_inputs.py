@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Mapping
+from collections.abc import Mapping
 from dataclasses import dataclass
 from typing import Any, Protocol, get_args
 
@@ -14,15 +14,15 @@ from diecut_report.formulas import Array
 from diecut_report.mechanism.names import SI, Curve, Pending, placed
 from diecut_report.quantities.formatting import told
 from diecut_report.quantities.plausible import plausible
-from diecut_report.quantities.units import parse_quantity, pretty, to_display, unit
+from diecut_report.quantities.units import number_and_unit, parse_quantity, pretty, to_display, unit
 from diecut_report.text.phrases import Phrase, phrase
 
 
-def optional(source: Any, validate: Callable[[Any], Any]) -> Callable[[Any], Any]:
-    """Return a validator that lets None pass where the annotation does."""
-    if type(None) not in get_args(source):
-        return validate
-    return lambda given: None if given is None else validate(given)
+def by_validate(declared: Any, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
+    """Let pydantic read an input by the ``validate`` of what declares it, which sees no None where the annotation allows that."""
+    may_be_none, validate = type(None) in get_args(source), declared.validate
+    read = (lambda given: None if given is None else validate(given)) if may_be_none else validate
+    return core_schema.no_info_plain_validator_function(read)
 
 
 @dataclass(frozen=True)
@@ -38,6 +38,7 @@ class CurveInput:
     referred: bool = False
     units: tuple[tuple[str, str], ...] = ()
     at: str = placed()
+    __get_pydantic_core_schema__ = by_validate
 
     def validate(self, given: Any) -> Any:
         """Return what the engine makes a curve of; ValueError in words where it cannot."""
@@ -47,58 +48,31 @@ class CurveInput:
             return given
         if isinstance(given, list) and not self.referred:
             if len(given) < 4:
-                raise ValueError(
-                    Phrase("has {count} values; a curve needs at least 4 over its period", count=len(given))
-                )
+                words = "has {count} values; a curve needs at least 4 over its period"
+                raise ValueError(Phrase(words, count=len(given)))
             if len(given) > MAX_CURVE_VALUES:
-                raise ValueError(
-                    Phrase(
-                        "has {count} values; at most {max_curve_values} are allowed for a curve",
-                        count=len(given),
-                        max_curve_values=MAX_CURVE_VALUES,
-                    )
-                )
+                words = "has {count} values; at most {max_curve_values} are allowed for a curve"
+                raise ValueError(Phrase(words, count=len(given), max_curve_values=MAX_CURVE_VALUES))
             return tuple(self._listed(value) for value in given)
         if hasattr(given, "curve_id"):
             return given
         or_list = "" if self.referred else phrase(" or a list of values")
-        raise ValueError(
-            Phrase(
-                "is {given}; a reference to a curve{or_list} in {unit} is needed",
-                given=repr(given),
-                or_list=or_list,
-                unit=self.unit,
-            )
-        )
+        words = "is {given}; a reference to a curve{or_list} in {unit} is needed"
+        raise ValueError(Phrase(words, given=repr(given), or_list=or_list, unit=self.unit))
 
     def _listed(self, given: Any) -> float:
         """Return one value of a list in SI; one that is referred to is in SI already."""
         if isinstance(given, SI) and unit(given.unit).kind != unit(self.unit).kind:
-            raise ValueError(
-                Phrase(
-                    "{told} is in {unit}; a quantity in {unit_2} is needed here",
-                    told=given.told,
-                    unit=given.unit,
-                    unit_2=self.unit,
-                )
-            )
+            words = "{told} is in {unit}; a quantity in {unit_2} is needed here"
+            raise ValueError(Phrase(words, told=given.told, unit=given.unit, unit_2=self.unit))
         value = float(given.value) if isinstance(given, SI) else parse_quantity(given, self.unit)
         sizes = plausible(self.unit)
         if not sizes.holds(value):
             shown = f"{to_display(value, self.unit):.6g} {pretty(self.unit)}".rstrip()
             source = Phrase(" (from {told})", told=given.told) if isinstance(given, SI) else ""
-            raise ValueError(
-                Phrase(
-                    "holds {shown}{source}, which is not plausible; plausible: {told}, or 0",
-                    shown=shown,
-                    source=source,
-                    told=sizes.told,
-                )
-            )
+            words = "holds {shown}{source}, which is not plausible; plausible: {told}, or 0"
+            raise ValueError(Phrase(words, shown=shown, source=source, told=sizes.told))
         return value
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(optional(source, self.validate))
 
 
 # Phases of other mechanisms, and other mechanisms as a whole, as inputs.
@@ -140,6 +114,7 @@ class PhaseInput:
     unit: str
     description: str
     at: str = placed()
+    __get_pydantic_core_schema__ = by_validate
 
     def validate(self, given: Any) -> Any:
         """Return the phase; ValueError in words where there is none, or where it runs over something else."""
@@ -148,22 +123,14 @@ class PhaseInput:
             named = f"${{{given.path}}}" if isinstance(given, Pending) else f"{given!r}"
             raise ValueError(Phrase("{named} is not a phase; {needed}", named=named, needed=self.needed))
         if unit(other).kind != unit(self.unit).kind:
-            raise ValueError(
-                Phrase(
-                    "is a phase over an abscissa in {pretty}; one in {pretty_2} is needed here",
-                    pretty=pretty(other),
-                    pretty_2=pretty(self.unit),
-                )
-            )
+            words = "is a phase over an abscissa in {pretty}; one in {pretty_2} is needed here"
+            raise ValueError(Phrase(words, pretty=pretty(other), pretty_2=pretty(self.unit)))
         return given
 
     @property
     def needed(self) -> str:
         """Return in words what is to be given."""
         return phrase("a reference to a phase is needed, as in ${drive.phases.cutting}")
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(optional(source, self.validate))
 
 
 @dataclass(frozen=True)
@@ -176,18 +143,15 @@ class MechanismInput:
     description: str
     symbol: str = ""
     at: str = placed()
+    __get_pydantic_core_schema__ = by_validate
 
     def validate(self, given: Any) -> Any:
         """Return the mechanism; ValueError in words where there is none."""
         if getattr(given, "is_mechanism", False):
             return given
         named = f"${{{given.path}}}" if isinstance(given, Pending) else f"{given!r}"
-        raise ValueError(
-            Phrase("{named} is not a mechanism; the name of one is needed, as in mechanism: drive", named=named)
-        )
-
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(optional(source, self.validate))
+        words = "{named} is not a mechanism; the name of one is needed, as in mechanism: drive"
+        raise ValueError(Phrase(words, named=named))
 
 
 class GivenMechanism(Protocol):
@@ -275,15 +239,6 @@ def is_in(text: str, unit_text: str) -> bool:
     """Return whether a text is a quantity of the kind of a unit, and says so."""
     try:
         parse_quantity(text, unit_text)
+        return bool(number_and_unit(text)[1])
     except ValueError:
         return False
-    return not _is_bare(text)
-
-
-def _is_bare(text: str) -> bool:
-    """Whether a text is a number without a unit."""
-    try:
-        float(text)
-    except ValueError:
-        return False
-    return True

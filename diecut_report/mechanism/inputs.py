@@ -10,11 +10,10 @@ import operator
 from collections.abc import Iterator, Mapping, Sequence
 from dataclasses import dataclass, replace
 from functools import cache, cached_property
-from typing import Annotated, Any, ClassVar, get_args, get_origin
+from typing import Any, ClassVar, Literal, get_args, get_origin
 
 import numpy as np
-from pydantic import BaseModel, ConfigDict, GetCoreSchemaHandler
-from pydantic_core import CoreSchema, core_schema
+from pydantic import BaseModel, ConfigDict
 
 from diecut_report.mechanism.curve_inputs import (
     CurveInput,
@@ -22,9 +21,8 @@ from diecut_report.mechanism.curve_inputs import (
     InOtherUnit,
     MechanismInput,
     PhaseInput,
-    TakenWhole,
+    by_validate,
     is_in,
-    optional,
 )
 from diecut_report.mechanism.names import SI, FromPress, OneOf, Pending, Text, placed
 from diecut_report.quantities.plausible import Plausible, plausible
@@ -82,6 +80,7 @@ class Quantity:
     or_unit: str = ""
     listed: tuple[float, ...] = ()
     at: str = placed()
+    __get_pydantic_core_schema__ = by_validate
 
     @cached_property
     def parsed_unit(self) -> Unit:
@@ -123,17 +122,10 @@ class Quantity:
                 return self._bounded(value, Phrase("{to_display} {pretty} (from {told})", to_display=f"{to_display(value, self.unit):.6g}",
                     pretty=pretty(self.unit), told=told))  # fmt: skip
             case bool() | list() | dict():
-                kind = (
-                    phrase("a list")
-                    if isinstance(given, list)
-                    else phrase("a block of keys")
-                    if isinstance(given, dict)
-                    else str(given).lower()
-                )
-                raise ValueError(
-                    Phrase("is {kind}; a number or a text such as “{rstrip}” is needed", kind=kind, rstrip=f'10 {pretty(self.unit)}'.rstrip(
-                        ))
-                )  # fmt: skip
+                kind = phrase("a block of keys") if isinstance(given, dict) else str(given).lower()
+                kind = phrase("a list") if isinstance(given, list) else kind
+                words = "is {kind}; a number or a text such as “{rstrip}” is needed"
+                raise ValueError(Phrase(words, kind=kind, rstrip=f"10 {pretty(self.unit)}".rstrip()))
         value = self._parsed(given)
         return self._bounded(value, f"{given}" if isinstance(given, str) else f"{given} {pretty(self.unit)}")
 
@@ -184,9 +176,6 @@ class Quantity:
         whole = shown == np.round(shown) if self.integer else True
         return np.isfinite(shown) & self._within(shown) & whole & self.sizes.holds(values)
 
-    def __get_pydantic_core_schema__(self, source: Any, handler: GetCoreSchemaHandler) -> CoreSchema:
-        return core_schema.no_info_plain_validator_function(optional(source, self.validate))
-
 
 class Block(BaseModel):
     """Declare a block of inputs inside a mechanism, or one of a list of repeated parts."""
@@ -229,20 +218,70 @@ def nested(annotation: Any) -> tuple[type[Block], bool] | None:
     return inner[0][0], inner[0][1] or get_origin(annotation) is list
 
 
+@dataclass(frozen=True)
+class Key:
+    """Hold an input (or a block of inputs): whether it may be left out, its allowed texts, the list whose parts have it."""
+
+    path: str
+    meta: Meta | None = None
+    annotation: Any = None
+    block: type[Block] | None = None
+    is_list: bool = False
+    may_be_absent: bool = True
+    has_default: bool = False
+    home: str = ""
+
+    @cached_property
+    def texts(self) -> tuple[str, ...]:
+        """Return the texts that it may be, as they stand in tokens; none where it takes any."""
+        return allowed(self.annotation, self.meta)
+
+
+@cache
+def keys(model: type[Block]) -> Mapping[str, Key]:
+    """Return all inputs and blocks of a model by their paths (``gears.driver_teeth`` for a field of a block or of a list's parts)."""
+    return {key.path: key for key in _keys(model)}
+
+
+def _keys(model: type[Block], prefix: str = "", home: str = "") -> Iterator[Key]:
+    for name, declared in model.model_fields.items():
+        block, is_list = nested(declared.annotation) or (None, False)
+        meta, path = meta_of(model, name), f"{prefix}{name}"
+        default = declared.get_default(call_default_factory=True)
+        from_press = isinstance(meta, Quantity) and meta.press is not None and not meta.press.optional
+        may_be_none = type(None) in get_args(declared.annotation)  # with a default too: a model may put it to None
+        absent = not declared.is_required() and (default == [] or may_be_none) and not from_press
+        has_default = not (declared.is_required() or default is None or default == [])
+        yield Key(path, meta, declared.annotation, block, is_list, absent, has_default, home)
+        if block:
+            yield from _keys(block, f"{path}.", path if is_list else home)
+
+
+@cache
+def rules(model: type[Block]) -> tuple[tuple[str, OneOf], ...]:
+    """Return of which keys one group is needed, each rule with the path of the block that it is for."""
+    own = [("", rule) for rule in model.one_of]
+    blocks = [(key.path, key.block) for key in keys(model).values() if key.block and not (key.is_list or key.home)]
+    return (*own, *((f"{path}.", rule) for path, block in blocks for rule in block.one_of))
+
+
+def allowed(annotation: Any, meta: Meta | None) -> tuple[str, ...]:
+    """Return the texts that an input may be, as they stand in tokens; none where it takes any."""
+    if isinstance(meta, Text) and meta.options:
+        return tuple(meta.options)
+    found: list[str] = []
+    for part in (annotation, *get_args(annotation)):
+        if get_origin(part) is Literal:
+            found += [str(text).lower() if isinstance(text, bool) else str(text) for text in get_args(part)]
+        elif part is bool:
+            found += ["true", "false"]
+    return tuple(found)
+
+
 @cache
 def fields(model: type[Block]) -> tuple[tuple[str, Meta], ...]:
-    """Return each declared input by its path (``gears.driver_teeth`` for a field of a block or of a list's parts)."""
-    return tuple(_fields(model, ""))
-
-
-def _fields(model: type[Block], prefix: str) -> Iterator[tuple[str, Meta]]:
-    for name, field in model.model_fields.items():
-        block = nested(field.annotation)
-        meta = meta_of(model, name)
-        if block:
-            yield from _fields(block[0], f"{prefix}{name}.")
-        elif meta is not None:
-            yield prefix + name, meta
+    """Return each declared input by its path, without the blocks."""
+    return tuple((key.path, key.meta) for key in keys(model).values() if not key.block and key.meta is not None)
 
 
 def texts_given(values: Mapping[str, Any]) -> set[str]:
@@ -277,58 +316,20 @@ def flatten(block: Block, prefix: str = "", within_part: bool = False) -> dict[s
     return flat
 
 
-__all__ = [
-    "POINTS",
-    "SI",
-    "Annotated",
-    "Block",
-    "CurveInput",
-    "FromPress",
-    "InOtherUnit",
-    "Inputs",
-    "MechanismInput",
-    "Meta",
-    "OneOf",
-    "Pending",
-    "PhaseInput",
-    "Quantity",
-    "Referred",
-    "TakenWhole",
-    "Text",
-    "fields",
-    "flatten",
-    "meta_of",
-    "nested",
-    "texts_given",
-]  # fmt: skip
-
-
 # Inputs that repeat: the lists of parts that a block of inputs declares.
 
 
 @cache
 def list_inputs(model: type[Block]) -> Mapping[str, str]:
     """Return the paths of the inputs that come in rows, one for each part of a list, each with the path of its list."""
-    found: dict[str, str] = {}
-    for name, field in model.model_fields.items():
-        block = nested(field.annotation)
-        if block and block[1]:
-            found |= {f"{name}.{path}": name for path, _ in fields(block[0])}
-        elif block:
-            found |= {f"{name}.{path}": f"{name}.{home}" for path, home in list_inputs(block[0]).items()}
-    return found
+    lists = [key.path for key in keys(model).values() if key.is_list and not key.home]
+    return {path: home for path, _ in fields(model) for home in lists if path.startswith(f"{home}.")}
 
 
 def list_titles(model: type[Block]) -> dict[str, str]:
     """Return what each list of repeated parts is, by its path."""
-    found: dict[str, str] = {}
-    for name, field in model.model_fields.items():
-        block, meta = nested(field.annotation), meta_of(model, name)
-        if block and block[1] and meta is not None:
-            found[name] = meta.description
-        elif block:
-            found |= {f"{name}.{path}": title for path, title in list_titles(block[0]).items()}
-    return found
+    lists = (key for key in keys(model).values() if key.is_list and not key.home)
+    return {key.path: key.meta.description for key in lists if key.meta is not None}
 
 
 # Inputs that are a number or vary over a cycle: a number, a curve by reference, or extremes alone; a list's parts may differ in it.
@@ -356,14 +357,8 @@ class Varying(Quantity):
         """Return what the plugin's code takes; ValueError in words where it is not allowed."""
         if isinstance(given, Pending) and given.is_curve:
             if given.unit is None or unit(given.unit).kind != self.parsed_unit.kind:
-                raise ValueError(
-                    Phrase(
-                        "${{path}} is not a curve in {unit}, but in {own}",
-                        path=given.path,
-                        unit=pretty(self.unit),
-                        own=given.unit,
-                    )
-                )
+                words = "${{path}} is not a curve in {unit}, but in {own}"
+                raise ValueError(Phrase(words, path=given.path, unit=pretty(self.unit), own=given.unit))
             return given
         if isinstance(given, Extremes) or hasattr(given, "curve_id"):
             return given
@@ -390,6 +385,3 @@ class Varying(Quantity):
         if not isinstance(low, Pending) and not isinstance(high, Pending) and low > high:
             raise ValueError(phrase("has a min above its max; exchange them"))
         return Extremes(low, high)
-
-
-__all__ = ["Extremes", "Varying"]

@@ -3,11 +3,11 @@
 from __future__ import annotations
 
 import re
-from collections.abc import Iterator, Mapping
+from collections.abc import Callable, Iterator, Mapping
 from dataclasses import dataclass, field, replace
-from functools import cached_property, lru_cache
+from functools import cached_property, lru_cache, reduce, wraps
 from itertools import product
-from typing import Any
+from typing import Any, TypeVar
 
 import numpy as np
 
@@ -16,8 +16,8 @@ from diecut_report.mechanism.chapters import Chapter, settled
 from diecut_report.mechanism.checks import Check
 from diecut_report.mechanism.curve_inputs import CurveInput, InOtherUnit
 from diecut_report.mechanism.figures import Figure, Spectrum
-from diecut_report.mechanism.inputs import Block, Inputs, fields, list_inputs, nested
-from diecut_report.mechanism.names import Curve, Misdeclared, OneOf, placed
+from diecut_report.mechanism.inputs import Inputs, fields, keys, list_inputs, rules
+from diecut_report.mechanism.names import Curve, Misdeclared, When, placed
 from diecut_report.mechanism.steps import Fact, Phase, SilentStep, Step, names_ahead, read
 from diecut_report.quantities.units import unit
 from diecut_report.text.phrases import Phrase
@@ -32,35 +32,35 @@ class Machines(tuple[Any, ...]):
 
 
 @dataclass(frozen=True)
-class CurveOfMachine:
-    """Hold the curve of one among many machines, as the curve of a single one."""
+class RowsOf:
+    """Hold a curve of other machines: which one of them for each, the only one for all."""
 
     curve: Curve
-    row: int
+    rows: Array
 
     def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values at shares, shape (rows, points), as ``Curve`` does."""
-        return self.curve.values(share, middle, np.full(len(share), self.row))
+        own = self.rows if rows is None else self.rows[rows]
+        return self.curve.values(share, middle, np.broadcast_to(own, len(share)))
 
     @property
     def breakpoints(self) -> Array:
-        """Return the inner edges of its smooth pieces, shape (1, places)."""
-        return _row(self.curve.breakpoints, self.row)
+        return self._own(self.curve.breakpoints)
 
     @property
     def joints(self) -> Array:
-        """Return those of them where the curve jumps or has a corner."""
-        return _row(self.curve.joints, self.row)
+        return self._own(self.curve.joints)
 
     @property
     def cycle(self) -> str:
-        """Return the id of what the curve runs over."""
         return self.curve.cycle
 
     @property
     def rate(self) -> Array:
-        """Return how often it comes again, shape (1, 1)."""
-        return _row(self.curve.rate, self.row)
+        return self._own(self.curve.rate)
+
+    def _own(self, table: Array) -> Array:
+        found: Array = table[self.rows] if len(table) > 1 else table
+        return found
 
 
 def of_machine(value: Any, row: int, count: int) -> Any:
@@ -69,23 +69,15 @@ def of_machine(value: Any, row: int, count: int) -> Any:
         case Machines():
             return value[row]
         case InOtherUnit():
-            return replace(value, value=_of_all(value.value, row))
+            own: Any = value.value
+            return replace(value, value=own if np.ndim(own) == 0 or len(own) == 1 else own[row])
         case np.ndarray() if value.shape[:1] == (count,):
             return value[row : row + 1]
         case tuple():
             return tuple(of_machine(each, row, count) for each in value)
     if hasattr(value, "of_machine"):
         return value.of_machine(row)
-    return CurveOfMachine(value, row) if hasattr(value, "breakpoints") else value
-
-
-def _of_all(value: Any, row: int) -> Any:
-    return value if np.ndim(value) == 0 or len(value) == 1 else value[row]
-
-
-def _row(places: Array, row: int) -> Array:
-    found: Array = places[row if len(places) > 1 else 0]
-    return found[None, :]
+    return RowsOf(value, np.array([row])) if hasattr(value, "breakpoints") else value
 
 
 # An example of a kind: values with which it can be calculated, and how it is wired to mechanisms of other kinds.
@@ -93,6 +85,7 @@ def _row(places: Array, row: int) -> Array:
 # A value is written as in a configuration: a number in the key's display unit, a text such as ``"40 mm"``, a list, a block of keys.
 
 
+Made = TypeVar("Made")
 KIND = re.compile(r"<([^<>\s]+)>")
 
 
@@ -157,6 +150,17 @@ def axes(steps: tuple[Step, ...], inputs: type[Inputs]) -> dict[str, str]:
     return found
 
 
+def made_when(chapter: Chapter, step: Step) -> When:
+    """Return when a step of a chapter is made."""
+    return When(frozenset(chapter.needs + step.needs), frozenset(step.lacks))
+
+
+def of_given(make: Callable[[Any, frozenset[str]], Made]) -> Callable[[Any, frozenset[str]], Made]:
+    """Remember what follows from the inputs that are given, of each mechanism, which is declared once."""
+    known = lru_cache(maxsize=1024)(make)
+    return wraps(make)(lambda mechanism, given: known(mechanism, given))
+
+
 @dataclass(frozen=True, eq=False)
 class Source:
     """Declare a publication that formulas come from."""
@@ -211,11 +215,8 @@ class Comparison:
     def __post_init__(self) -> None:
         foreign = [key for key, (kind, _) in self.takes.items() if kind not in self.kinds]
         if foreign or self.mechanism.checks:
-            raise Misdeclared(
-                Phrase(
-                    "{kind}: a comparison has no checks, and takes from its own kinds only", kind=self.mechanism.kind
-                )
-            )
+            words = "{kind}: a comparison has no checks, and takes from its own kinds only"
+            raise Misdeclared(Phrase(words, kind=self.mechanism.kind))
 
 
 @dataclass(frozen=True, kw_only=True, eq=False)
@@ -263,64 +264,37 @@ class Mechanism:
         """Return all steps in the order in which they are calculated, each with its chapter."""
         return tuple((chapter, step) for chapter in self.chapters for step in chapter.steps)
 
+    @of_given
     def active(self, given: frozenset[str]) -> tuple[tuple[Chapter, Step], ...]:
         """Return the steps that take part when these optional inputs (and texts, as ``key=value``) are given."""
-        if given not in self._active:
-            self._active[given] = tuple(self._settled(given))
-        return self._active[given]
+        return tuple(
+            (chapter, settled(step, given)) for chapter, step in self.steps if made_when(chapter, step).holds(given)
+        )
 
     def steps_by_id(self, given: frozenset[str]) -> dict[str, Step]:
         """Return those steps by their ids, in a new dictionary."""
-        if given not in self._by_id:
-            self._by_id[given] = {step.id: step for _, step in self.active(given)}
-        return self._by_id[given].copy()
-
-    @cached_property
-    def _by_id(self) -> dict[frozenset[str], dict[str, Step]]:
-        return {}
-
-    def _settled(self, given: frozenset[str]) -> Iterator[tuple[Chapter, Step]]:
-        for chapter, step in self.steps:
-            if given.issuperset(chapter.needs + step.needs) and given.isdisjoint(step.lacks):
-                yield chapter, settled(step, given)
-
-    @cached_property
-    def _active(self) -> dict[frozenset[str], tuple[tuple[Chapter, Step], ...]]:
-        return {}
+        return {step.id: step for _, step in self.active(given)}
 
     @cached_property
     def facts(self) -> frozenset[str]:
         """Return the facts that steps may need: each counts as given until a machine turns out not to meet it."""
         return frozenset(step.id for _, step in self.steps if isinstance(step, Fact))
 
+    @of_given
     def results_of(self, given: frozenset[str]) -> Mapping[str, tuple[str | None, bool]]:
         """Return what a reference may name, without calculating: the SI unit (None for a text), and whether it is a curve."""
-        if given not in self._results:
-            self._results[given] = self._named(given)
-        return self._results[given]
-
-    @cached_property
-    def _results(self) -> dict[frozenset[str], dict[str, tuple[str | None, bool]]]:
-        return {}
-
-    def _named(self, given: frozenset[str]) -> dict[str, tuple[str | None, bool]]:
         found: dict[str, tuple[str | None, bool]] = {}
         for _, step in self.active(given):
             if isinstance(step, SilentStep):
                 continue
             si = unit(step.unit).si
             for each in names_ahead(step):
-                of_place = self._unit_of_axis(step, given, found) if each.role == "place" else None
+                axis = self.axis_of(step.asked_curve, given) if each.role == "place" else None
+                of_place = found[axis][0] if axis in found else None
                 found[each.name] = {"count": "1", "place": of_place}.get(each.role, si), False
             if not step.is_counted:
                 found[step.id] = None if step.is_text else si, self.axis_of(step.id, given) is not None
         return found
-
-    def _unit_of_axis(
-        self, step: Step, given: frozenset[str], found: Mapping[str, tuple[str | None, bool]]
-    ) -> str | None:
-        axis = self.axis_of(step.of, given)  # type: ignore[attr-defined]
-        return found[axis][0] if axis is not None and axis in found else None
 
     def phases_of(self, given: frozenset[str]) -> dict[str, str]:
         """Return the ids of the phases that take part, each with the SI unit of its abscissa."""
@@ -331,15 +305,10 @@ class Mechanism:
         """Return the abscissa that a quantity runs over, or the list whose parts it has a row for; None for a single number."""
         return self.axes(given).get(name)
 
+    @of_given
     def axes(self, given: frozenset[str]) -> dict[str, str]:
         """Return for each curve its abscissa, for each row over repeated parts its list; single numbers are left out."""
-        if given not in self._axes:
-            self._axes[given] = axes(tuple(step for _, step in self.active(given)), self.inputs)
-        return self._axes[given]
-
-    @cached_property
-    def _axes(self) -> dict[frozenset[str], dict[str, str]]:
-        return {}
+        return axes(tuple(step for _, step in self.active(given)), self.inputs)
 
     @cached_property
     def curve_inputs(self) -> frozenset[str]:
@@ -356,11 +325,6 @@ CONTRACT = 1
 # What a check still needs: the optional inputs without which it is not made, as far as the declarations tell.
 
 
-Way = tuple[
-    frozenset[str], frozenset[str]
-]  # the tokens that must hold for a quantity to be calculated, and those that must not
-
-
 @lru_cache(maxsize=4096)
 def missing_keys(mechanism: Mechanism, check: Check, given: frozenset[str]) -> tuple[str, ...] | None:
     """Return the keys that must be given beside the given ones for a check to be made, of several ways the shortest.
@@ -370,77 +334,50 @@ def missing_keys(mechanism: Mechanism, check: Check, given: frozenset[str]) -> t
     """
     if not given.issuperset(check.only_with):
         return None
-    found = [
-        _completing(mechanism, _settling(mechanism, needs - given) - given, given, check.asks_for)
-        for needs, lacks in _ways(mechanism, check)
-        if not lacks & given
-    ]
-    shortest = min((keys for keys in found if keys is not None), key=len, default=None)
+    found = []
+    for chosen in product(*(list(_givers(mechanism, name)) for name in check.named)):
+        when = reduce(When.with_, chosen, When(frozenset(check.needs)))
+        if not when.lacks & given:
+            missing = _settling(mechanism, when.needs - given) - given
+            found.append(_completing(mechanism, missing, given, check.asks_for))
+    shortest = min((each for each in found if each is not None), key=len, default=None)
     if shortest is None:
         return None
-    order = {path: number for number, path in enumerate(_paths(mechanism.inputs))}
+    order = {path: number for number, path in enumerate(keys(mechanism.inputs))}
     return tuple(sorted(shortest, key=lambda key: (order.get(key, len(order)), key)))
 
 
-def _ways(mechanism: Mechanism, check: Check) -> Iterator[Way]:
-    for chosen in product(*(list(_givers(mechanism, name)) for name in check.named)):
-        needs = frozenset(check.needs).union(*(way[0] for way in chosen))
-        yield needs, frozenset().union(*(way[1] for way in chosen))
-
-
-def _givers(mechanism: Mechanism, name: str) -> Iterator[Way]:
-    """What must hold for an input to be there, or for each of the steps that give a quantity."""
-    if name.removeprefix("inputs.") in _paths(mechanism.inputs):
-        yield frozenset((name.removeprefix("inputs."),)), frozenset()
-    for chapter, step in mechanism.steps:
-        if read(name, step):
-            yield frozenset(chapter.needs + step.needs), frozenset(step.lacks)
+def _givers(mechanism: Mechanism, name: str) -> Iterator[When]:
+    """When an input is there, or each of the steps that give a quantity."""
+    if name.removeprefix("inputs.") in keys(mechanism.inputs):
+        yield When(frozenset((name.removeprefix("inputs."),)))
+    yield from (made_when(chapter, step) for chapter, step in mechanism.steps if read(name, step))
 
 
 def _settling(mechanism: Mechanism, missing: frozenset[str]) -> frozenset[str]:
-    keys = {step.id: step.lacks[0] for _, step in mechanism.steps if isinstance(step, Fact) and step.lacks}
-    groups = {group[0]: group for _, rule in _rules(mechanism.inputs) for group in rule.groups}
-    return frozenset().union(*(groups.get(keys[each], (keys[each],)) if each in keys else (each,) for each in missing))
+    first = {step.id: step.lacks[0] for _, step in mechanism.steps if isinstance(step, Fact) and step.lacks}
+    groups = {group[0]: group for _, rule in rules(mechanism.inputs) for group in rule.groups}
+    return frozenset().union(
+        *(groups.get(first[each], (first[each],)) if each in first else (each,) for each in missing)
+    )
 
 
 def _completing(
     mechanism: Mechanism, missing: frozenset[str], given: frozenset[str], blocks: tuple[str, ...]
 ) -> frozenset[str] | None:
     """The missing keys and ``blocks``, if they can be given beside the given ones; None where that would be another machine."""
-    paths = _paths(mechanism.inputs)
-    if any("=" in key or key not in paths or (paths[key] and key not in blocks) for key in missing):
+    known_keys = keys(mechanism.inputs)
+    if any(key not in known_keys or (known_keys[key].block and key not in blocks) for key in missing):
         return None
     missing = frozenset(key for key in missing if key.rpartition(".")[0] not in missing)  # a block is missed as a whole
     if any(key.rpartition(".")[0] not in given for key in missing if "." in key):  # of a block that is not there
         return None
     known = {key for key in given if "=" not in key}
-    rules = [each for each in _rules(mechanism.inputs) if not each[1].when or "".join((each[0], each[1].when)) in given]
-    if any(_clashes(rule, home, known, missing) for home, rule in rules):
-        return None
+    for home, rule in rules(mechanism.inputs):
+        if not rule.when or f"{home}{rule.when}" in given:
+            own, more = (
+                {k.removeprefix(home) for k in some if k.startswith(home)} for some in (known, known | missing)
+            )
+            if (fault := rule.fault(more)) and rule.fault(own) != fault:
+                return None
     return missing
-
-
-def _clashes(rule: OneOf, home: str, known: set[str], missing: frozenset[str]) -> bool:
-    own, more = ({key.removeprefix(home) for key in keys if key.startswith(home)} for keys in (known, known | missing))
-    fault = rule.fault(more)
-    return bool(fault) and rule.fault(own) != fault
-
-
-@lru_cache(maxsize=256)
-def _paths(model: type[Block], prefix: str = "") -> dict[str, bool]:
-    """The inputs by their paths, in order, each with whether it is a block or a list of them."""
-    found: dict[str, bool] = {}
-    for name, declared in model.model_fields.items():
-        block = nested(declared.annotation)
-        found[prefix + name] = block is not None
-        if block:
-            found |= _paths(block[0], f"{prefix}{name}.")
-    return found
-
-
-def _rules(model: type[Block], prefix: str = "") -> Iterator[tuple[str, OneOf]]:
-    yield from ((prefix, rule) for rule in model.one_of)
-    for name, declared in model.model_fields.items():
-        block = nested(declared.annotation)
-        if block and not block[1]:
-            yield from _rules(block[0], f"{prefix}{name}.")

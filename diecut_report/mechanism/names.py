@@ -8,7 +8,7 @@ from dataclasses import dataclass, field
 from functools import cache, cached_property
 from inspect import signature
 from types import FunctionType
-from typing import Any, Protocol
+from typing import Any, NamedTuple, Protocol
 
 from pydantic import GetCoreSchemaHandler
 from pydantic_core import CoreSchema, core_schema
@@ -134,6 +134,21 @@ class FromPress:
     optional: bool = False
 
 
+class When(NamedTuple):
+    """Hold when something is part of the calculation: all of these tokens hold, and none of those."""
+
+    needs: frozenset[str]
+    lacks: frozenset[str] = frozenset()
+
+    def with_(self, other: When) -> When:
+        """Return when both are."""
+        return When(self.needs | other.needs, self.lacks | other.lacks)
+
+    def holds(self, given: frozenset[str]) -> bool:
+        """Return whether it is, where these inputs (and texts, as ``key=value``) are given."""
+        return self.needs <= given and self.lacks.isdisjoint(given)
+
+
 class OneOf:
     """Name inputs of which one group is needed: ``OneOf(("torque",), ("power", "speed"))``.
 
@@ -158,9 +173,8 @@ class OneOf:
         told = ", or ".join(listed(group) for group in self.groups)
         heads = list(dict.fromkeys(group[0] for group in self.groups if group[0] in known))
         if len(heads) > 1:
-            return Phrase(
-                "{listed} are both given, but only one can hold; give {told}.", listed=listed(heads), told=told
-            )
+            words = "{listed} are both given, but only one can hold; give {told}."
+            return Phrase(words, listed=listed(heads), told=told)
         complete = [group for group in self.groups if known.issuperset(group)]
         idle = known & {key for group in self.groups for key in group} - {*self.shared}.union(*complete[:1])
         if complete and not idle:
@@ -175,12 +189,8 @@ class OneOf:
             nearest = min(begun, key=lambda group: len(set(group) - known))
             missing = [key for key in nearest if key not in known]
             beside = [key for key in nearest if key in known]
-            return Phrase(
-                "{listed} is missing beside {present}; give {told}.",
-                listed=listed(missing),
-                present=listed(beside),
-                told=told,
-            )
+            words = "{listed} is missing beside {present}; give {told}."
+            return Phrase(words, listed=listed(missing), present=listed(beside), told=told)
         chosen = Phrase(" with {key}", key=self.when.replace("=", ": ")) if self.when else ""
         return "" if self.optional else Phrase("{told} is needed{chosen}.", told=told, chosen=chosen)
 
@@ -209,24 +219,14 @@ class Bound:
 def bind(formula: Formula | Callable[..., Any], **names: str | float) -> Bound:
     """Bind a formula (or a lambda) to quantities; a parameter that is not named takes the quantity of its own name."""
     if not callable(formula):
-        raise Misdeclared(
-            Phrase(
-                "bind takes a formula, and {formula} is none; write a lambda, or a def with @formula above it",
-                formula=repr(formula),
-            )
-        )
+        raise Misdeclared(Phrase("bind takes a formula, and {formula} is none; write a lambda, or a def with @formula above it",
+                                 formula=repr(formula)))  # fmt: skip
     formula = formula if isinstance(formula, Formula) else Formula(formula)
     unknown = sorted(set(names) - set(formula.parameters))
     if unknown:
         known = ", ".join(formula.parameters) or "none"
-        raise Misdeclared(
-            Phrase(
-                "formula {name} has no parameter {unknown}; it has {known}",
-                name=formula.__name__,
-                unknown=", ".join(unknown),
-                known=known,
-            )
-        )
+        words = "formula {name} has no parameter {unknown}; it has {known}"
+        raise Misdeclared(Phrase(words, name=formula.__name__, unknown=", ".join(unknown), known=known))
     return Bound(formula, {p: names.get(p, p) for p in formula.parameters})
 
 
@@ -267,24 +267,15 @@ def as_binding(part: Written, name: str) -> Binding:
 
 def _formula(function: Any, name: str) -> Formula:
     if not isinstance(function, FunctionType):
-        raise Misdeclared(
-            Phrase(
-                "{name} needs a formula, and {function} is none; write a lambda, or a def with @formula above it",
-                name=name,
-                function=repr(function),
-            )
-        )
+        words = "{name} needs a formula, and {function} is none; write a lambda, or a def with @formula above it"
+        raise Misdeclared(Phrase(words, name=name, function=repr(function)))
     optional = [p.name for p in signature(function).parameters.values() if p.default is not p.empty]
     if optional:
-        raise Misdeclared(
-            Phrase(
-                "the formula of {name} has a default for {optional}, which is never used: each parameter takes "
-                "a quantity; remove it, or bind a number: bind(…, {first}=2)",
-                name=name,
-                optional=", ".join(optional),
-                first=optional[0],
-            )
+        words = (
+            "the formula of {name} has a default for {optional}, which is never used: each parameter takes "
+            "a quantity; remove it, or bind a number: bind(…, {first}=2)"
         )
+        raise Misdeclared(Phrase(words, name=name, optional=", ".join(optional), first=optional[0]))
     return Formula(function, name)
 
 
@@ -298,6 +289,4 @@ def bound(part: Written) -> Bound:
     return part if isinstance(part, Bound) else _by_names(part)
 
 
-@cache
-def _by_names(formula: Callable[..., Any]) -> Bound:
-    return bind(formula)
+_by_names: Callable[[Formula | Callable[..., Any]], Bound] = cache(bind)

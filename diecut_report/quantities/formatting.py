@@ -63,9 +63,8 @@ def easy_unit(value: float, declared: str) -> str:
         fitting = (each for each in reversed(smaller) if abs(value) / unit(each).factor >= EASY_FROM)
         return next(fitting, smaller[0] if smaller else declared)
     greater = [each for each in family if unit(each).factor > factor]
-    return next(
-        (each for each in greater if abs(value) / unit(each).factor < EASY_BELOW), greater[-1] if greater else declared
-    )
+    fitting = (each for each in greater if abs(value) / unit(each).factor < EASY_BELOW)
+    return next(fitting, greater[-1] if greater else declared)
 
 
 @cache
@@ -111,10 +110,8 @@ def meant_digits(value: float, unit_text: str, digits: int) -> int:
 @cache
 def finest(unit_text: str) -> tuple[int, int] | None:
     """Return the place (a power of ten) of the last digit that means something in a unit, and how many digits a small number keeps."""
-    step = finest_step(unit_text)
-    return (
-        None if step is None else (round(math.log10(step)), FEWEST_OF_LENGTH if unit(unit_text).si == "m" else FEWEST)
-    )
+    step, fewest = finest_step(unit_text), FEWEST_OF_LENGTH if unit(unit_text).si == "m" else FEWEST
+    return None if step is None else (round(math.log10(step)), fewest)
 
 
 DIGITS = 4
@@ -177,10 +174,8 @@ def shown(value: float, unit_text: str, digits: int = DIGITS) -> dict[str, str]:
     """
     if is_nothing(value, unit_text):
         return {"text": "0", "unit": unit_text}
-    return {
-        "text": number_text(unit(unit_text).from_si(value), shown_digits(value, unit_text, digits)),
-        "unit": unit_text,
-    }
+    text = number_text(unit(unit_text).from_si(value), shown_digits(value, unit_text, digits))
+    return {"text": text, "unit": unit_text}
 
 
 def place_shown(value: float, unit_text: str, more: int = 0) -> dict[str, str]:

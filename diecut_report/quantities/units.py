@@ -174,10 +174,9 @@ def _read_with_pint(canonical: str, typed: str) -> Unit:
     readable = len(canonical) <= MAX_UNIT_LENGTH and _GRAMMAR.fullmatch(canonical)
     measured = measure_with_pint(canonical) if readable else None
     if measured is None:
+        words = "{text} is not a known unit.{suggestion}"
         raise UnitError(
-            "{text} is not a known unit.{suggestion}",
-            text=_shortened(typed),
-            suggestion=suggestion(typed[:MAX_UNIT_LENGTH], _table()["units"]),
+            words, text=_shortened(typed), suggestion=suggestion(typed[:MAX_UNIT_LENGTH], _table()["units"])
         )
     factor, kind = measured
     return Unit(canonical, factor, si_text(kind), kind)

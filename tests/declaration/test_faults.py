@@ -282,7 +282,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     ),
     "a need of a section": (
         made(chapters=(Chapter("All", steps=STEPS), Chapter("More", steps=(), needs=("wide",)))),
-        "section 'More': needs names wide",
+        "chapter 'More': needs names wide",
     ),
     # messages
     "an unknown id in a message": (

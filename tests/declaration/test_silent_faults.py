@@ -138,7 +138,7 @@ FAULTS: dict[str, tuple[Mechanism, str]] = {
     "an extreme in another unit": (made(replace(PEAK, id="x", symbol="X", unit="N")), "step x: is in N, torque in N*m"),
     "a pick in another unit": (made(pick(unit="N")), "step x: is in N, arm in mm"),
     "a pick by another unit": (made(pick(of="force")), "step x: is in mm, force in N"),
-    "a series in another unit": (made(pick(series=standard_series("iec_60072_ratings"))), "step x: is in mm, the series"),
+    "a series in another unit": (made(pick(series=standard_series("iec_60072_ratings"))), "motors (IEC 60072-1)” is in kW, the step in mm"),
     # choices
     "text and number": (made(chosen(Case("yes", "a", LONG), Case(TWO, "b"), unit="mm")), "step x: mixes texts and numbers in its cases"),
     "a last case with a condition": (made(chosen(Case(TWO, "a", LONG), Case(TWO, "b", LONG), unit="mm")), "has a condition in its last case"),

@@ -17,7 +17,7 @@ from diecut_report.machine.steps.run import calculate
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps import Step, Steps, form
 from diecut_report.mechanism.steps.base import QuantityStep
-from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.quantities.units import Kind
 from diecut_report.results.mechanism import mechanism_results
 
@@ -29,10 +29,7 @@ class Swing(QuantityStep):
     of: str
     level: float = 1.0
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of",)
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("of", self.of, *A_CURVE)
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": A_CURVE}
 
     @property
     def asked_curve(self) -> str:
@@ -135,7 +132,7 @@ def test_names_of_fields_are_fields_of_each_type() -> None:
     for each in _types(Step):
         fields = getattr(each, "__dataclass_fields__", {})
         if "__dataclass_fields__" in vars(each):
-            assert {name for name in (*each.NAMES, *each.FORMULAS, *each.IDS) if name not in fields} == set(), each
+            assert {name for name in (*each.TAKES, *each.FORMULAS) if name not in fields} == set(), each
 
 
 def _types(base: type[Step]) -> Iterator[type[Step]]:

@@ -65,9 +65,8 @@ class BranchCondition:
             for inner in _taken_by(part)
             if any(varies(str(self.link.names.get(symbol))) for symbol in symbols(inner))
         ]
-        return (
-            tuple(dict.fromkeys(inner for _, inner in found)) if FLATTENING.intersection(op for op, _ in found) else ()
-        )
+        levels_off = FLATTENING.intersection(op for op, _ in found)
+        return tuple(dict.fromkeys(inner for _, inner in found)) if levels_off else ()
 
     def sides(self, known: Known, x: Array) -> tuple[Array, Array]:
         """Return at places whether a comparison holds, or what a function that takes steps gives (infinity for no value), and the gap."""
@@ -129,7 +128,8 @@ def conditions_of(curves: tuple[tuple[str, Step], ...], axis: str, curve: str) -
     names, by_flag, is_opaque = set[str](), False, False
     for name, by in _followed(steps, curve):
         step = steps[name]
-        is_opaque |= not by and not (isinstance(step, Accumulated | Derivative) or _is_read(step))
+        is_read = isinstance(step, Formulas) and all(_tree(link) is not None for link in _links(step))
+        is_opaque |= not (by or is_read or isinstance(step, Accumulated | Derivative))
         if isinstance(step, Formulas):
             own = [each for each in _conditions(step) if varying.intersection(each.names)]
             found[by] += own
@@ -187,16 +187,11 @@ def _tree(link: Bound) -> Node | None:
 def _expanded(part: Any) -> Any:
     if isinstance(part, Node) and part.op == "apply":
         called, *args = part.args
-        return substitute(
-            _expanded(called.formula.tree), dict(zip(called.formula.parameters, map(_expanded, args), strict=True))
-        )
+        known = dict(zip(called.formula.parameters, map(_expanded, args), strict=True))
+        return substitute(_expanded(called.formula.tree), known)
     if isinstance(part, Node):
         return Node(part.op, tuple(map(_expanded, part.args)))
     return tuple(map(_expanded, part)) if isinstance(part, tuple) else part
-
-
-def _is_read(step: Step) -> bool:
-    return isinstance(step, Formulas) and all(_tree(link) is not None for link in _links(step))
 
 
 @lru_cache(maxsize=4096)

@@ -4,14 +4,14 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterable, Mapping, Sequence
 from functools import lru_cache
-from typing import Any, NamedTuple, Protocol
+from typing import Any, NamedTuple
 
 import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, FormulaError, FormulaName
 from diecut_report.formulas.tree import NUMERIC, Node
-from diecut_report.machine.numerics.domain import Inside
+from diecut_report.machine.numerics.domain import Inside, Machines
 from diecut_report.mechanism.names import Binding, bound
 from diecut_report.mechanism.steps import Choice, Step, Value
 
@@ -265,34 +265,7 @@ NARROW = 4  # places a row up to which it is faster to take them in turn, each f
 MANY = 8  # variants from which compiling pays
 
 
-class CurveValues(Protocol):
-    """Hold curves at certain places, by id."""
-
-    def __getitem__(self, name: str) -> Array:
-        """A curve's values."""
-
-
 Flags = Callable[[tuple[str, ...]], list[Array]]  # of names, a column (rows, 1) for each
-
-
-class VariantRows(Protocol):
-    """Hold what curves are evaluated of: a calculation of one machine or of many."""
-
-    @property
-    def count(self) -> int:
-        """Return how many machines."""
-
-    @property
-    def curves(self) -> Mapping[str, Step]:
-        """Return the curves that are known, as they are declared."""
-
-    def __getitem__(self, name: str) -> Array:
-        """A number of all machines."""
-
-    def sampler_of(
-        self, axis: str, x: Array, middle: Array, rows: Array | None, inside: Inside | None = None
-    ) -> CurveValues:
-        """Return all curves over an abscissa by the plain formulas, at x in the pieces of these middles."""
 
 
 class Curves:
@@ -303,7 +276,7 @@ class Curves:
 
     def __init__(
         self,
-        calc: VariantRows,
+        calc: Machines,
         axis: str,
         wanted: Sequence[str],
         middle: Array,
@@ -347,7 +320,7 @@ class Curves:
 
 
 def several(
-    calc: VariantRows,
+    calc: Machines,
     axis: str,
     wanted: Sequence[str],
     x: Array,
@@ -370,7 +343,7 @@ def _filled(shape: tuple[int, ...], values: Array) -> Array:
     return made
 
 
-def flags_of(calc: VariantRows, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:
+def flags_of(calc: Machines, axis: str, names: tuple[str, ...], middle: Array, variant: Array) -> list[Array]:
     """Return the flags of pieces, taken at their middles; (rows, 1) each."""
     if not names:
         return []
@@ -400,17 +373,17 @@ class _Columns:
         return found
 
 
-def _program(calc: VariantRows, axis: str, wanted: tuple[str, ...], *, at_middle: bool) -> Program:
+def _program(calc: Machines, axis: str, wanted: tuple[str, ...], *, at_middle: bool) -> Program:
     return program(tuple(calc.curves.items()), axis, wanted, at_middle)
 
 
-def _numbers(calc: VariantRows, of: Program) -> list[Any]:
+def _numbers(calc: Machines, of: Program) -> list[Any]:
     """What depends on numbers alone, a row for each machine."""
     found: list[Any] = list(of.numbers(*(calc[leaf.name] for leaf in of.leaves[NUMBERS].values())))
     return found
 
 
-def _given(calc: VariantRows, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
+def _given(calc: Machines, axis: str, of: Program, x: Array, middle: Array, variant: Array) -> list[Array]:
     leaves = of.leaves[POINTS].values()
     if all(leaf.kind == "abscissa" for leaf in leaves):
         return [x] * len(leaves)

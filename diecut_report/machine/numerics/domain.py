@@ -7,17 +7,16 @@ from collections.abc import Callable, Iterable, Sequence
 from dataclasses import dataclass, field
 from functools import cache
 from hashlib import blake2b
-from typing import Generic, TypeVar
+from typing import Any, Generic, Protocol, TypeVar
 
 import numpy as np
 from numpy.polynomial.legendre import leggauss
 
 from diecut_report.formulas import Array
 from diecut_report.mechanics import numerics
+from diecut_report.mechanism.steps import Step
 
-INTERVALS = (
-    64  # of the search grid in each smooth piece, where an abscissa declares none; they do not depend on n_points
-)
+INTERVALS = 64  # of the search grid in each smooth piece, where an abscissa declares none
 
 SAME = 1e-13  # share of the period within which two breakpoints are one
 
@@ -220,6 +219,23 @@ class PieceSeries:
         place = (2 * x - start - end) / np.where(end > start, end - start, 1)
         terms = self.series.reshape(len(self.series), -1)
         return numerics.at_places(terms, variant * self.series.shape[2] + piece, place)
+
+
+class Machines(Protocol):
+    """Hold what curves are evaluated of: the calculation of one machine or of many."""
+
+    count: int
+    curves: dict[str, Step]
+    domains: dict[str, Domain]
+    inputs: dict[str, Any]
+    series: dict[str, PieceSeries]
+    ahead: dict[str, tuple[str, ...]]
+
+    def __getitem__(self, name: str) -> Array: ...
+    def sampler_of(
+        self, axis: str, x: Array, middle: Array, rows: Array | None, inside: Inside | None = None
+    ) -> Any: ...
+    def of_pieces(self, axis: str) -> Any: ...
 
 
 # The places at which curves were asked for last: who takes several curves of a machine asks for each at the same places.

@@ -178,10 +178,12 @@ def search(calc: Calculation, wanted: Sequence[Wanted]) -> None:
     values = dict(zip(curves, table.on_grid(curves), strict=True))
     pieces = table.pieces()
     broken = {curve for curve, found in values.items() if np.isnan(np.vdot(found, found))}
-    parts = [
-        _candidates(pieces, i, _low(values[curve], sign) if curve in broken else values[curve], sign)
-        for i, (curve, sign) in enumerate(open_ones)
-    ]
+    parts = []
+    for i, (curve, sign) in enumerate(open_ones):
+        heights = values[curve]
+        if curve in broken:  # what has no value stands below all others
+            heights = np.where(np.isnan(heights), -sign * np.inf, heights)
+        parts.append(_candidates(pieces, i, heights, sign))
     seen = Candidates(*(np.concatenate(columns) for columns in zip(*parts, strict=True)))
     seen = _refined(_depths(calc, axis, open_ones, seen), seen, pieces)
     start = np.searchsorted(seen.which, np.arange(len(open_ones) + 1))
@@ -272,11 +274,6 @@ def _candidates(pieces: CachedPieces, which: int, values: Array, sign: float) ->
     )  # fmt: skip
 
 
-def _low(values: Array, sign: float) -> Array:
-    """Values of which those that are none stand below all others."""
-    return np.where(np.isnan(values), -sign * np.inf, values)
-
-
 def _peaks(heights: Array, points: int, sign: float) -> Array:
     """Which of the heights of pieces, so many points each, are not below their neighbours in the piece (sign -1: not above)."""
     higher, lower = (np.greater_equal, np.less_equal) if sign > 0 else (np.less_equal, np.greater_equal)
@@ -352,9 +349,7 @@ def _searched(depth_of: Function, seen: Candidates, rising: Array) -> Candidates
     rest = np.flatnonzero(~is_smooth)
     if len(rest):
         found[rest], depth[rest] = numerics.least(lambda x, row: depths(x, rest[row]), low[rest], high[rest])
-    is_end = (seen.place[rising] == low) | (
-        seen.place[rising] == high
-    )  # what begins at rest rises from there by rounding alone
+    is_end = (seen.place[rising] == low) | (seen.place[rising] == high)  # what begins at rest rises by rounding alone
     rounding = np.where(is_end, ALIKE * np.abs(seen.around[rising]).max(axis=1), 0.0)
     better = np.flatnonzero(-depth > seen.height[rising] + rounding)
     seen.place[rising[better]], seen.height[rising[better]] = found[better], -depth[better]
@@ -375,9 +370,8 @@ def _at_vertex(function: Function, place: Array, width: Array, depth: Array) -> 
     second, fourth = (16 * even[1] - even[0]) / 24, (even[0] - 4 * even[1]) / 24
     s = -first / (2 * second)
     for _ in range(3):
-        s = s - (first + s * (2 * second + s * (3 * third + s * 4 * fourth))) / (
-            2 * second + s * (6 * third + s * 12 * fourth)
-        )
+        bend = 2 * second + s * (6 * third + s * 12 * fourth)
+        s = s - (first + s * (2 * second + s * (3 * third + s * 4 * fourth))) / bend
     expected = s * (first + s * (second + s * (third + s * fourth)))
     s = np.where(np.abs(s) <= 2, s, 0)
     vertex = place + s * step

@@ -22,7 +22,6 @@ from diecut_report.machine.curve_samples import CurveSampler
 from diecut_report.machine.numerics.conditions import BranchCondition, CurveConditions, conditions_of, is_flag
 from diecut_report.machine.numerics.curves import BLOCK, MANY, flags_of
 from diecut_report.machine.numerics.domain import shares
-from diecut_report.machine.numerics.samples import PIECE
 from diecut_report.mechanics import numerics
 
 BESIDE = 1e-6  # share of the period within which a place is the end of its piece: what only touches there is decided by the root of rounding
@@ -74,10 +73,7 @@ class _Search:
 
     def holds(self) -> bool:
         """Return whether the smooth pieces are still the same: a cut beside an edge leaves them."""
-        now = self.calc.table(self.axis).pieces()
-        return now is self.pieces or all(
-            np.array_equal(getattr(now, name), getattr(self.pieces, name)) for name in PIECE
-        )
+        return self.pieces.is_same(self.calc.table(self.axis).pieces())
 
     def conditions(self, curve: str) -> CurveConditions:
         """Return the conditions that a curve follows from."""
@@ -97,10 +93,8 @@ class _Search:
 
     def coming(self, curve: str) -> list[str]:
         """Return the curve, and those that will be asked for."""
-        return [
-            curve,
-            *(each for each in self.calc.ahead.get(self.axis, ()) if each in self.calc.curves and each != curve),
-        ]
+        ahead = self.calc.ahead.get(self.axis, ())
+        return [curve, *(each for each in ahead if each in self.calc.curves and each != curve)]
 
     def _prepare(self, curve: str) -> None:
         """Compute what the conditions of this curve and of the coming ones take, all together, as most of it is a part of them."""
@@ -141,7 +135,9 @@ class _Machines:
         self, curve: str, changes: Mapping[BranchCondition, Brackets], varying: Array, heights: Array
     ) -> Iterator[tuple[int, BranchCondition | None, float]]:
         """Give where a curve moves as a condition changes, and where it is another one with the flags of the very place."""
-        moves = self._moves(heights)
+        greatest = np.zeros(self.calc.count)
+        np.fmax.at(greatest, self.variant, np.fmax.reduce(np.abs(heights), axis=1))
+        moves = JUMP * greatest[self.variant]  # by how much the curve of each piece's machine moves at a jump
         for condition, (row, low, high) in changes.items():
             before, after = (self.at(x[:, None], row, [curve]).over(curve)[:, 0] for x in (low, high))
             reported = condition if any(map(self.search.varies, condition.names)) else None
@@ -162,13 +158,6 @@ class _Machines:
             sampler = self.at(x, row, names)
             known |= {name: sampler.over(name) for name in names}
         return known[curve]
-
-    def _moves(self, heights: Array) -> Array:
-        """By how much a curve moves at a jump in the machine of each piece."""
-        greatest = np.zeros(self.calc.count)
-        np.fmax.at(greatest, self.variant, np.fmax.reduce(np.abs(heights), axis=1))
-        found: Array = JUMP * greatest[self.variant]
-        return found
 
     def varying(self, known: CurveConditions) -> Array:
         """Return in which pieces flags may vary that a curve follows from."""
@@ -220,17 +209,14 @@ class _Machines:
         if not len(row):
             return row, k, np.zeros(0)
         low, high = (self.x[row, each] for each in self._neighbours(k))
-        place, _ = numerics.least(
-            lambda x, own: size(self._value(condition, part, x, row[own])), low, high, goes_on=goes_on
-        )
-        return row, k, place
+
+        def sizes(x: Array, own: Array) -> Array:
+            return size(condition.value(part, self._known(condition, x, row[own]), x))
+
+        return row, k, numerics.least(sizes, low, high, goes_on=goes_on)[0]
 
     def _neighbours(self, k: Array) -> tuple[Array, Array]:
         return np.maximum(k - 1, 0), np.minimum(k + 1, self.x.shape[1] - 1)
-
-    def _value(self, condition: BranchCondition, part: Node, x: Array, row: Array) -> Array:
-        """A part of a condition at places (rows, points) of these pieces."""
-        return condition.value(part, self._known(condition, x, row), x)
 
     def _side(self, condition: BranchCondition, x: Array, row: Array) -> Array:
         return condition.sides(self._known(condition, x, row), x)[0]

@@ -29,10 +29,8 @@ def root(calc: Calculation, step: Root) -> tuple[Array, Array]:
     equation = bound(step.equation)
 
     def residual(x: Array, rows: Array) -> Array:
-        known = (
-            x if n == step.unknown else calc[n][rows, 0] if isinstance(n, str) else n for n in equation.names.values()
-        )
-        result: Array = equation.formula(*known)
+        names = (x if n == step.unknown else n for n in equation.names.values())
+        result: Array = equation.formula(*(calc[n][rows, 0] if isinstance(n, str) else n for n in names))
         return result
 
     low, high = (calc.apply(end)[:, 0] for end in (step.low, step.high))
@@ -87,9 +85,8 @@ def crossings(calc: Calculation, curve: str) -> tuple[Array, Array]:
     run = np.concatenate([[0], np.flatnonzero(is_last) + 1])  # where runs of one sign begin
     run = run[sign[run] != 0]
     variant = pieces.variant[run // points]
-    k = (
-        run[1:][(sign[run[1:]] != sign[run[:-1]]) & (variant[1:] == variant[:-1])] - 1
-    )  # zeros count as what is before them
+    is_change = (sign[run[1:]] != sign[run[:-1]]) & (variant[1:] == variant[:-1])  # zeros count as what is before them
+    k = run[1:][is_change] - 1
     piece, rows = k // points, pieces.variant[k // points]
     places = pieces.point(piece, k % points)
     inside = (sign[k] != 0) & (piece == (k + 1) // points)

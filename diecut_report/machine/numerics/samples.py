@@ -5,15 +5,15 @@ from __future__ import annotations
 from collections import defaultdict
 from collections.abc import Callable, Mapping, Sequence
 from functools import cached_property, partial
-from typing import NamedTuple, Protocol
+from typing import NamedTuple
 from weakref import proxy
 
 import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.machine.numerics.conditions import conditions_of
-from diecut_report.machine.numerics.curves import Curves, VariantRows, flags_of
-from diecut_report.machine.numerics.domain import Domain, nodes_of, shares
+from diecut_report.machine.numerics.curves import Curves, flags_of
+from diecut_report.machine.numerics.domain import Domain, Machines, nodes_of, shares
 
 INSIDE = 2e-14  # share of the period by which places at a piece's end are moved inwards, so that rounding decides no condition
 SIZED = 4  # of so many points of a piece one tells how great a curve is there
@@ -41,6 +41,10 @@ class CachedPieces:
         """Return how far inwards from the very end of each piece rounding decides no condition."""
         found: Array = np.minimum(INSIDE * self.period, self.width / 4)
         return found
+
+    def is_same(self, other: CachedPieces) -> bool:
+        """Return whether others are the same pieces."""
+        return self is other or all(np.array_equal(getattr(self, name), getattr(other, name)) for name in PIECE)
 
     def grid(self, row: Rows) -> Array:
         """Return the search grid of these pieces, (rows, points): Chebyshev–Lobatto points, ends included."""
@@ -79,18 +83,6 @@ class CachedPieces:
         return found
 
 
-class Owner(VariantRows, Protocol):
-    """Hold the calculation that a table belongs to."""
-
-    @property
-    def domains(self) -> Mapping[str, Domain]:
-        """Return the abscissas with their pieces."""
-
-    @property
-    def ahead(self) -> Mapping[str, Sequence[str]]:
-        """Return for each abscissa the curves that coming steps ask for."""
-
-
 Places = Callable[[CachedPieces, Rows], Array]  # of pieces, (rows, points)
 
 
@@ -104,10 +96,8 @@ class Known(NamedTuple):
 class SampleCache:
     """Hold what is known of the curves over one abscissa."""
 
-    def __init__(self, calc: Owner, axis: str) -> None:
-        self.calc: Owner = proxy(
-            calc
-        )  # which holds this table: among many machines no memory may wait for the collector
+    def __init__(self, calc: Machines, axis: str) -> None:
+        self.calc: Machines = proxy(calc)  # which holds this table: no memory may wait for the collector
         self.axis = axis
         self._edges: Array | None = None
         self._pieces: CachedPieces
@@ -121,9 +111,7 @@ class SampleCache:
         if self._edges is domain.edges:
             return self._pieces
         new = CachedPieces(domain)
-        if self._edges is not None and not all(
-            np.array_equal(getattr(self._pieces, name), getattr(new, name)) for name in PIECE
-        ):
+        if self._edges is not None and not new.is_same(self._pieces):
             self._cuts.append(_matches(self._pieces, new))
         self._edges, self._pieces = domain.edges, new
         return new
@@ -131,9 +119,8 @@ class SampleCache:
     def curves(self, names: Sequence[str], row: Rows = EVERY) -> Curves:
         """Return curves in these of the present pieces, anywhere."""
         pieces = self.pieces()
-        return Curves(
-            self.calc, self.axis, names, pieces.middle[row], pieces.variant[row], partial(self._flags_in, row)
-        )
+        flags = partial(self._flags_in, row)
+        return Curves(self.calc, self.axis, names, pieces.middle[row], pieces.variant[row], flags)
 
     def _flags_in(self, row: Rows, names: tuple[str, ...]) -> list[Array]:
         """Flags of pieces, each computed once; where few machines are, the sampler keeps them."""

@@ -7,7 +7,7 @@ from collections.abc import Iterator
 from typing import Any
 
 from diecut_report.formulas.formula import Formula, FormulaName
-from diecut_report.formulas.tree import Node, transform, walk
+from diecut_report.formulas.tree import Node, symbols, transform, walk
 from diecut_report.machine.printing.substitution import Substitution, formula_unit
 from diecut_report.mechanism.steps import Step
 from diecut_report.mechanism.steps.protocols import Item
@@ -22,16 +22,15 @@ def definitions(tree: Node) -> list[dict[str, Any]]:
     found: dict[str, Formula] = {}
     for formula in _called(tree):
         found.setdefault(formula.printed_as, formula)
-    defined = [
-        _pair(*(transform(side, _in_letters) for side in (_definitions_head(formula), formula.tree)))
-        for formula in found.values()
-    ]
-    constants = {symbol: value for formula in found.values() for symbol, value in _own(formula).items()}
-    values = [
-        _pair(Node("sym", (symbol,)), Node("qty", (shortest(value, ALL_DIGITS), value.unit)))
-        for symbol, value in constants.items()
-    ]
-    return defined + values
+    pairs, constants = [], dict[str, Any]()
+    for formula in found.values():
+        head = Node("apply", (formula.printed_as, *(Node("sym", (name,)) for name in formula.parameters)))
+        pairs.append((transform(head, _in_letters), transform(formula.tree, _in_letters)))
+        own = set(symbols(formula.tree)) - set(formula.parameters)
+        constants |= {symbol: value for symbol, value in formula.constants.items() if symbol in own}
+    for symbol, value in constants.items():
+        pairs.append((Node("sym", (symbol,)), Node("qty", (shortest(value, ALL_DIGITS), value.unit))))
+    return [{"defined": head.to_json(), "as": tree.to_json()} for head, tree in pairs]
 
 
 def _called(tree: Node) -> Iterator[Formula]:
@@ -49,19 +48,6 @@ def _in_letters(leaf: Node) -> Node:
         return Node("sym", (unicodedata.lookup(f"GREEK SMALL LETTER {name.upper()}"),)) if name.isalpha() else leaf
     except KeyError:
         return leaf
-
-
-def _definitions_head(formula: Formula) -> Node:
-    return Node("apply", (formula.printed_as, *(Node("sym", (name,)) for name in formula.parameters)))
-
-
-def _own(formula: Formula) -> dict[str, Any]:
-    named = {node.args[0] for node in walk(formula.tree) if node.op == "sym"} - set(formula.parameters)
-    return {symbol: value for symbol, value in formula.constants.items() if symbol in named}
-
-
-def _pair(head: Node, tree: Node) -> dict[str, Any]:
-    return {"defined": head.to_json(), "as": tree.to_json()}
 
 
 # What leads from the units of a formula's numbers to those that a reader knows: rad/s to r/min, s to h, rad to degrees.
@@ -95,12 +81,10 @@ def _conversions(substitution: Substitution) -> Iterator[Item]:
         if unit(display).si == "rad" or formula_unit(display) == display or inside.args[1] == display:
             continue
         declared, value = calc.step_or_input(name), substitution.value_of(name)
-        told = _told(value, display, declared.digits) if isinstance(declared, Step) else given_shown(value, display)
+        told = given_shown(value, display)
+        if isinstance(declared, Step):
+            told = shown(value, display, declared.digits)
+            if display in UNIT_DIGITS:
+                told = {"text": number_text(float(rounded(value, display))), "unit": display}
         again = {"text": number_text(value / unit(inside.args[1]).factor, DIGITS), "unit": inside.args[1]}
         yield {"symbol": declared.symbol, "shown": told, "converted": again}
-
-
-def _told(value: float, display: str, digits: int) -> dict[str, str]:
-    if display not in UNIT_DIGITS:
-        return shown(value, display, digits)
-    return {"text": number_text(float(rounded(value, display))), "unit": display}

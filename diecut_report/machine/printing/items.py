@@ -6,7 +6,6 @@ from collections.abc import Iterable, Iterator
 
 import numpy as np
 
-from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation
 from diecut_report.machine.printing.page import Page
 from diecut_report.mechanism.steps import Step
@@ -33,14 +32,11 @@ def items(calc: Calculation, step: Step) -> list[Item]:
     """Return what is printed of a step (nothing of breakpoints and requirements)."""
     if not step.printed:
         return []
-    if step.exists is not None and step.id in calc.values and _is_nothing(calc.values[step.id][0]):
+    row = calc.values[step.id][0] if step.exists is not None and step.id in calc.values else None
+    if row is not None and row.dtype.kind in "fc" and np.isnan(row).all():
         text = Phrase("{title}: does not apply to this machine.", title=phrase(step.description))
         return [step.head() | {"type": "note", "text": text}]
     return step.items(Page(calc))
-
-
-def _is_nothing(row: Array) -> bool:
-    return row.dtype.kind in "fc" and bool(np.isnan(row).all())
 
 
 def _with_rounding(calc: Calculation, items: Iterable[Item]) -> Iterator[Item]:

@@ -66,12 +66,15 @@ class Page:
         return float(row[0, self._shown_part(name) if part is None else part])
 
     def result(self, step: Step, value: float) -> Item:
+        """Return a number that a step gives as text, in its unit."""
         return step_shown(self.calc, step, value)
 
     def printed(self, name: str) -> str:
+        """Return a quantity as one would say it."""
         return printed(self.calc, name)
 
     def residual(self, step: Step) -> Item:
+        """Return by how much a result missed what proves it."""
         return {"text": number_text(self.calc.proof[step.id], 2), "unit": "1"}
 
     def _sampler(self, axis: str, *, elsewhere: bool) -> CurveSampler:
@@ -109,22 +112,24 @@ class Page:
         calc = self.calc
         formula = getattr(calc.steps.get(name), "formula", None)
         taken = [] if formula is None else [each for each in bound(formula).names.values() if isinstance(each, str)]
-        rows = [
-            calc.values[n][0] for n in (name, *taken) if n in calc.values and calc.axis.get(n) == calc.axis.get(name)
-        ]
+        alike = (n for n in (name, *taken) if n in calc.values and calc.axis.get(n) == calc.axis.get(name))
+        rows = [calc.values[n][0] for n in alike]
         known = [~np.isnan(row.astype(float)) for row in rows if row.dtype != object]
         return np.asarray(np.all(known, axis=0)) if known else None
 
     # Places of an abscissa.
 
     def place(self, axis: str, place: float) -> Item:
+        """Return a place of an abscissa as text."""
         step = self.calc.steps[axis]
         return {"symbol": step.symbol} | place_shown(place, declared_unit(self.calc, axis, step.unit))
 
     def shown(self, axis: str, elsewhere: bool = False) -> Item:
+        """Return the place of an abscissa at which formulas are shown."""
         return self.place(axis, float(self._sampler(axis, elsewhere=elsewhere).x[0, 0]))
 
     def over_axis(self, step: FormulaStep) -> tuple[bool, Item]:
+        """Return whether a flag is shown in the middle of its smooth piece, and where a formula over an abscissa is shown."""
         axis = self.calc.axis.get(step.id)
         if axis is None or axis not in self.calc.domains:
             return False, {}
@@ -148,6 +153,7 @@ class Page:
         return bool(link.formula(*taken) != self.value_at(step.id, axis))
 
     def case_taken(self, step: Choice, elsewhere: bool) -> int:
+        """Return which case of a choice is taken where formulas are shown."""
         axis = self.calc.axis.get(step.id)
         if axis is None:
             return int(self.calc.branch[step.id][0, 0])
@@ -177,9 +183,11 @@ class Page:
     # Formulas.
 
     def symbolic(self, part: Bound) -> Node:
+        """Return a formula in symbols."""
         return Substitution(self.calc, part, lambda name: self.value_at(name, None)).symbolic()
 
     def sides(self, part: Bound, held: bool, axis: str | None = None, elsewhere: bool = False) -> tuple[Any, Any]:
+        """Return the condition that holds, this one or its opposite, in symbols and with numbers."""
         marked = self._marks(axis, elsewhere)
         substitution = Substitution(self.calc, part, lambda name: self.value_at(name, axis, flag=elsewhere), marked)
         sides = substitution.symbolic(), substitution.comparison(held)
@@ -187,6 +195,7 @@ class Page:
         return symbolic, numeric
 
     def formula(self, step: Step, part: Bound, elsewhere: bool = False) -> Item:
+        """Return a formula in symbols, with numbers in, and its result."""
         calc, axis = self.calc, self.calc.axis.get(step.id)
         target = self.value_at(step.id, axis)
         result = step_shown(calc, step, target)
@@ -209,17 +218,13 @@ class Page:
             item["where"] = defined
         if takes and numeric is None:
             item["note"] = EQUAL_TERMS
-        item = (between.told() if between else {}) | item
-        return (
-            item
-            | bridged(substitution, numeric, target, result)
-            | conversions(substitution, numeric)
-            | {"result": result}
-        )
+        item = (between.told() if between else {}) | item | bridged(substitution, numeric, target, result)
+        return item | conversions(substitution, numeric) | {"result": result}
 
     # Tables.
 
     def parts_shown(self, step: Step, item: Item, names: Sequence[str]) -> list[Item]:
+        """Return the formula of a row with the part that it is shown for, and the row as a table beside what it takes."""
         axis = self.calc.axis[step.id]
         item["note"] = joined(filter(None, (item.get("note"), self._part_told(step, axis))), ". ")
         return [item] if self.has_tables(axis) else [item, self.table(step, [*names, step.id])]
@@ -232,12 +237,14 @@ class Page:
         return Phrase("Shown for part {part}.", part=part + 1) if self.calc[step.id].shape[1] > 1 else ""
 
     def has_tables(self, parts: str) -> bool:
+        """Return whether rows over repeated parts are printed in tables that are declared."""
         steps = self.calc.steps.values()
         return parts in self.calc.part_names or any(
             isinstance(step, PartTable) and step.parts == parts for step in steps
         )
 
     def is_index(self, name: str) -> bool:
+        """Return whether a quantity is the index of the part with whose numbers the formulas of a list are shown."""
         return any(isinstance(step, PartNames) and step.shown_at == name for step in self.calc.steps.values())
 
     def _names(self, step: Step) -> Sequence[str] | None:
@@ -253,6 +260,7 @@ class Page:
         return None
 
     def table(self, step: Step, names: Sequence[str]) -> Item:
+        """Return rows over repeated parts as a table, a line for each part."""
         count = self.calc[step.id].shape[1]
         own = [
             n for n in names if n == step.id or self.calc[n].shape[1] == count
@@ -262,6 +270,7 @@ class Page:
         return {"type": "table", "title": step.description} | table
 
     def table_of_parts(self, step: Step, parts: str, names: Sequence[str]) -> Item:
+        """Return rows over declared parts, or a list of the inputs: a line for each part by its name."""
         calc, first = self.calc, self.calc.step_or_input(names[0])
         known = calc.part_names.get(parts) or calc.inputs.get(calc.steps[names[0]].named_by)
         heads = known or [str(number + 1) for number in range(calc[names[0]].shape[1])]
@@ -269,24 +278,20 @@ class Page:
         return {"type": "table", "id": step.id, "title": step.description} | table
 
     def _lines(self, title: str, heads: Sequence[str], names: Sequence[str]) -> Item:
-        units = [self._column_unit(name) for name in names]
-        columns = [
-            _head(title),
-            *(_column(self.calc.step_or_input(n), unit) for n, unit in zip(names, units, strict=True)),
-        ]
-        cells = list(zip(names, units, strict=True))
-        return {
-            "columns": columns,
-            "rows": [[head, *(self._cell(*each, i) for each in cells)] for i, head in enumerate(heads)],
-        }
+        cells = [(name, self._column_unit(name)) for name in names]
+        columns = [_head(title), *(_column(self.calc.step_or_input(name), unit) for name, unit in cells)]
+        lines = [[head, *(self._cell(*each, i) for each in cells)] for i, head in enumerate(heads)]
+        return {"columns": columns, "rows": lines}
 
     def table_of_places(self, step: Step, places: Sequence[float]) -> Item:
+        """Return places of an abscissa as a table."""
         display = unit_for(self.calc, step.id, step.unit, places)
         lines = [[str(i), place_shown(x, display)["text"]] for i, x in enumerate(places, 1)]
         columns = [_head("No."), _column(step, display)]
         return {"type": "table", "id": step.id, "title": step.description, "columns": columns, "rows": lines}
 
     def table_of_curves(self, step: Step, at: Item) -> Item:
+        """Return the curves of named parts where they are shown."""
         parts, axis = self.calc.inputs[step.named_by], self.calc.axis
         own = [part_result(name, step) for name in parts]
         values = [self.value_at(name, axis[name]) for name in own]
@@ -299,6 +304,7 @@ class Page:
         return {"type": "table", "id": step.id, "title": where, "columns": columns, "rows": lines}
 
     def listing(self, step: Any) -> list[Item]:
+        """Return a table that plain code makes."""
         return mechanism.printed(self.calc, step)
 
     def _column_unit(self, name: str) -> str:

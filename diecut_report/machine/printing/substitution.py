@@ -141,13 +141,11 @@ def _error(name: str, value: float, args: Sequence[Bounded]) -> float:
             return min(errors[0], 2.0)
         case "tan" if abs(math.cos(args[0].value)) <= errors[0]:
             return math.inf
-        case "arctan2" if _about_the_cut(*args):
-            return 2 * math.pi
+        case "arctan2":
+            up, across = args
+            if abs(up.value) <= up.error and across.value <= across.error:  # about the cut
+                return 2 * math.pi
     return _over_the_ends(name, value, args)
-
-
-def _about_the_cut(up: Bounded, across: Bounded) -> bool:
-    return bool(abs(up.value) <= up.error and across.value <= across.error)
 
 
 DOMAIN = {
@@ -198,9 +196,7 @@ def printed(calc: Calculation, name: str, variant: int = 0, part: int = 0, up: b
     """Return a quantity as one would say it: ``40 mm``; of a row the value of one part; rounded up or down where ``up`` says so."""
     step = calc.steps.get(name)
     if isinstance(step, Words):
-        return phrase(
-            plain_code.text(step, step.function(*(_plain(calc[taken], variant) for taken in step.takes)), part)
-        )
+        return phrase(plain_code.text(step, step.function(*(_plain(calc[name], variant) for name in step.takes)), part))
     row: Any = calc[name]
     if isinstance(row, str | tuple):
         return row if isinstance(row, str) else str(row[part])
@@ -413,11 +409,8 @@ class Substitution:
     def display(self, name: str) -> str:
         """Return the unit in which a quantity is shown where it stands for itself."""
         if name not in self._displays:
-            self._displays[name] = self._unit(name)
+            self._displays[name] = number_unit(self.calc, name, self.calc.step_or_input(name), self.value_of(name))
         return self._displays[name]
-
-    def _unit(self, name: str) -> str:
-        return number_unit(self.calc, name, self.calc.step_or_input(name), self.value_of(name))
 
 
 def _beside_a_number(node: Node) -> list[str]:
@@ -452,9 +445,12 @@ def contradicted(step: Step, part: Bound, found: Contradiction) -> str:
             break
     result, again = (with_unit(text, step.unit) for text in said)
     formula = part.formula
-    return Phrase(
+    words = (
         "{description} ({id}) is {result}, but its formula {name} as it is printed gives {again}, which "
-        "is more than rounding; it must compute by its parameters and constants alone ({place})",
+        "is more than rounding; it must compute by its parameters and constants alone ({place})"
+    )
+    return Phrase(
+        words,
         description=step.description,
         id=step.id,
         result=result,
@@ -491,13 +487,8 @@ class BetweenRows(Substitution):
 
     def told(self) -> dict[str, str]:
         """Return in words the two rows, and the table with where it comes from."""
-        rows = (
-            ", ".join(
-                f"{symbol} = {with_unit(text, own.unit)}"
-                for symbol, (own, text) in zip(self._symbols(number), row, strict=True)
-            )
-            for number, row in enumerate(self.rows, 1)
-        )
+        pairs = (zip(self._symbols(number), row, strict=True) for number, row in enumerate(self.rows, 1))
+        rows = (", ".join(f"{symbol} = {with_unit(text, own.unit)}" for symbol, (own, text) in each) for each in pairs)
         told = Phrase("Rows of the table: {rows}.", rows="; ".join(rows))
         return {"table_rows": told, "series": phrase(self.step.table.title), "note": sources_told(self.step.table)}
 

@@ -4,20 +4,18 @@ from __future__ import annotations
 
 from collections.abc import Callable, Iterator, Mapping, Sequence
 from contextvars import ContextVar
-from dataclasses import dataclass, replace
-from functools import cache, lru_cache
+from dataclasses import replace
 from itertools import chain
 from typing import Any
 
 import numpy as np
 
-from diecut_report.declaration.names import Key, world
 from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.machine.calculation import Calculation, CurveHandle, Impossible, Unproven
 from diecut_report.machine.steps.needed import needed
-from diecut_report.mechanism.inputs import Block, Extremes, Quantity, texts_given
-from diecut_report.mechanism.mechanism import Mechanism
+from diecut_report.mechanism.inputs import Extremes, Key, Quantity, keys, texts_given
+from diecut_report.mechanism.mechanism import Mechanism, RowsOf
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps import Step, named
 from diecut_report.quantities.units import pretty
@@ -40,39 +38,23 @@ def judge(mechanism: Mechanism, step: Step, changed: Mapping[str, Any], count: i
         raise _told(step, wrong)
 
 
-def endless(step: Step) -> Misdeclared:
-    """Return what is told where the machines that are tried would be sought themselves."""
-    words = "tries machines that seek again: let the step lack the input that is tried (lacks=…), and try nothing without it"
-    return _told(step, phrase(words))
-
-
 def _told(step: Step, wrong: str) -> Misdeclared:
     return Misdeclared(Phrase("step {id}: {call} {wrong}", id=step.id, call='known["again"]', wrong=wrong), step.at)
 
 
-@cache
-def _keys(model: type[Block]) -> dict[str, Key]:
-    return world(model).keys
-
-
-@lru_cache(maxsize=64)
-def _steps(mechanism: Mechanism) -> dict[str, Step]:
-    return {step.id: step for _, step in mechanism.steps}
-
-
 def _inputs(mechanism: Mechanism, changed: Mapping[str, Any], count: int) -> Iterator[str]:
-    keys = _keys(mechanism.inputs)
+    known = keys(mechanism.inputs)
     for name, value in changed.items():
-        if name not in keys:
-            yield Phrase("changes {name}, which is not an input{near}", name=name, near=nearest(name, keys))
+        if name not in known:
+            yield Phrase("changes {name}, which is not an input{near}", name=name, near=nearest(name, known))
         elif not isinstance(value, tuple) and np.ndim(value) and len(value) != count:
             words = "gets {n} values of {name} for {count} trials; give one for each"
             yield Phrase(words, n=len(value), name=name, count=count)
         elif is_text(value):
-            yield from _text(keys[name], value)
-        elif keys[name].texts:
+            yield from _text(known[name], value)
+        elif known[name].texts:
             words = "tries numbers for {name}, which is a text: {texts}"
-            yield Phrase(words, name=name, texts=", ".join(keys[name].texts))
+            yield Phrase(words, name=name, texts=", ".join(known[name].texts))
 
 
 def _text(key: Key, value: Any) -> Iterator[str]:
@@ -82,7 +64,7 @@ def _text(key: Key, value: Any) -> Iterator[str]:
         shown = pretty(key.meta.unit) or "1"
         words = "tries {value} for {name}, which is a number: give it in SI, si(…, {unit})"
         yield Phrase(words, value=repr(next(iter(tried))), name=key.path, unit=repr(shown))
-    elif key.home or key.is_block:
+    elif key.home or key.block:
         words = "tries texts for {name}, a key of a list's parts, of which numbers alone can be tried"
         yield Phrase(words, name=key.path)
     for text in tried if key.texts and not isinstance(key.meta, Quantity) else ():
@@ -93,48 +75,19 @@ def _text(key: Key, value: Any) -> Iterator[str]:
 
 def _asked(mechanism: Mechanism, names: Sequence[str]) -> Iterator[str]:
     """Quantities that no step gives."""
-    steps, keys = _steps(mechanism), _keys(mechanism.inputs)
+    steps, inputs = {step.id: step for _, step in mechanism.steps}, keys(mechanism.inputs)
     for name in names:
-        if name not in steps and name not in keys and named(name, steps) is None:
-            yield Phrase("asks for {name}, which nothing gives{near}", name=name, near=nearest(name, {*steps, *keys}))
+        if name not in steps and name not in inputs and named(name, steps) is None:
+            yield Phrase("asks for {name}, which nothing gives{near}", name=name, near=nearest(name, {*steps, *inputs}))
 
 
 Calculate = Callable[..., Calculation]
+ENDLESS = phrase(
+    "tries machines that seek again: let the step lack the input that is tried (lacks=…), and try nothing without it"
+)
 DEEPEST = 2  # times that a search may be within itself, as one of a second size
 SEEKING: ContextVar[tuple[tuple[str, str], ...]] = ContextVar("SEEKING", default=())
 """The kinds and steps that seek now, the outer ones first."""
-
-
-@dataclass(frozen=True)
-class RowsOf:
-    """Hold a curve of other variants: which one for each."""
-
-    curve: CurveHandle
-    rows: Array
-
-    def values(self, share: Array, middle: Array, rows: Array | None) -> Array:
-        """Return values as the curve gives them."""
-        return self.curve.values(share, middle, self.rows if rows is None else self.rows[rows])
-
-    @property
-    def breakpoints(self) -> Array:
-        """Return those of the curve, of each variant."""
-        return self.curve.breakpoints[self.rows]
-
-    @property
-    def joints(self) -> Array:
-        """Return those of the curve, of each variant."""
-        return self.curve.joints[self.rows]
-
-    @property
-    def cycle(self) -> str:
-        """Return what the curve runs over."""
-        return self.curve.cycle
-
-    @property
-    def rate(self) -> Array:
-        """Return how often the curve of each variant comes again."""
-        return self.curve.rate[self.rows]
 
 
 class Again:
@@ -158,31 +111,24 @@ class Again:
                 found[name][trials] = values
         return found
 
-    @property
-    def _outer(self) -> tuple[tuple[str, str], ...]:
-        """The searches within which this one is made; Misdeclared where it is made within itself again and again."""
-        outer = SEEKING.get()
-        if outer.count((self.mechanism.kind, self.step.id)) >= DEEPEST:
-            raise endless(self.step)
-        return outer
-
     def _made(self, changed: Mapping[str, Any], rows: Array, names: Sequence[str]) -> dict[str, Array]:
         """The quantities of machines of the same texts."""
         inputs = {name: of_rows(value, rows, self.count) for name, value in self.inputs.items()} | dict(changed)
         only = needed(self.mechanism, frozenset(inputs) | texts_given(inputs), names)
         if not only:  # none of these machines has what is asked
             return {}
-        asking = SEEKING.set((*self._outer, (self.mechanism.kind, self.step.id)))
+        outer, own = SEEKING.get(), (self.mechanism.kind, self.step.id)
+        if outer.count(own) >= DEEPEST:
+            raise _told(self.step, ENDLESS)
+        asking = SEEKING.set((*outer, own))
         try:
             made = self.calculate(self.mechanism, inputs, len(rows), only)
         except (Impossible, Unproven):
             return {}
         finally:
             SEEKING.reset(asking)
-        possible = np.ones(len(rows), dtype=bool)
-        possible[list(made.flaws)] = False
         there = [name for name in names if name in made.values or name in made.inputs]
-        return {name: np.where(possible, made[name].reshape(len(rows), -1)[:, 0], np.nan) for name in there}
+        return {name: np.where(made.possible, made[name].reshape(len(rows), -1)[:, 0], np.nan) for name in there}
 
 
 def _of_trials(value: Any, trials: Array) -> Any:
@@ -199,11 +145,9 @@ def _alike(changed: Mapping[str, Any], count: int) -> Iterator[tuple[Array, dict
     if not texts:
         yield np.arange(count), {}
         return
-    each = list(
-        zip(*(np.broadcast_to(np.asarray(value, dtype=object), (count,)) for value in texts.values()), strict=True)
-    )
+    columns = (np.broadcast_to(np.asarray(value, dtype=object), (count,)) for value in texts.values())
     trials: dict[tuple[Any, ...], list[int]] = {}
-    for trial, said in enumerate(each):
+    for trial, said in enumerate(zip(*columns, strict=True)):
         trials.setdefault(said, []).append(trial)
     yield from ((np.array(own), dict(zip(texts, said, strict=True))) for said, own in trials.items())
 

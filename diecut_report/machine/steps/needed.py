@@ -114,10 +114,7 @@ def giver_of(name: str, own: Mapping[str, Step]) -> str:
     """Return the id of the step of this id, or that gives this name; nothing where none does."""
     if name in own:
         return name
-    found = named(name, own)
-    return found.id if found else _of_named_part(name, own)
-
-
-def _of_named_part(name: str, own: Mapping[str, Step]) -> str:
-    rows = (id for id, step in own.items() if getattr(step, "named_by", "") and name.endswith(f"_{id}"))
+    if found := named(name, own):
+        return found.id
+    rows = (id for id, step in own.items() if step.named_by and name.endswith(f"_{id}"))
     return max(rows, key=len, default="")

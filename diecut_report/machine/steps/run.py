@@ -45,30 +45,36 @@ class MachineRun(Calculation):
     filled = filled
 
     def open_abscissa(self, step: Step, period: Array, points: int, intervals: int) -> None:
+        """Let curves run over a step's abscissa."""
         self.domains[step.id] = Domain(period, np.arange(points) * (period / points), intervals)
 
     def add_curves(self, curves: Mapping[str, Any], axis: str) -> None:
+        """Take note of curves that plain code gives."""
         self.curves |= curves
         self.steps = {**self.steps, **curves}
         self.axis = self.axis | dict.fromkeys(curves, axis)
 
     def withdraw(self, fact: str) -> None:
+        """Let the steps take no part that need a fact which no machine meets."""
         self.given -= {fact}
         known: dict[str, Step] = dict(self.curves)  # those of named parts too, which are not declared one by one
         self.steps = known | {each.id: each for _, each in self.mechanism.active(self.given)}
         self.axis = {name: self.axis[name] for name in known} | self.mechanism.axes(self.given)
 
     def again(self, step: Step) -> Again:
+        """Return what calculates the same machines with other inputs."""
         return Again(self, calculate, step)
 
     # What is refused of a single machine, and marked among several.
 
     def mark(self, step: Step, bad: Array, words: str) -> None:
+        """Refuse a single machine as not proved; mark these variants among several."""
         if self.count == 1:
             raise Unproven(words, step.at)
         self.flaws |= {int(variant): (step.id, words) for variant in np.flatnonzero(bad)}
 
     def refuse(self, variant: int, key: str, message: str) -> None:
+        """Mark a variant as impossible, with the key to change, unless it is already; a single machine is refused."""
         if variant in self.flaws and self.count > 1:
             return
         self.flaws[variant] = key, message
@@ -76,6 +82,7 @@ class MachineRun(Calculation):
             raise Impossible([(key, message)])
 
     def prove(self, step: Step, residual: Array, tolerance: float = roots_integrals.SAMPLE_TOLERANCE) -> None:
+        """Refuse a result whose residual is greater; keep the residual for print."""
         if self.count == 1 and residual[0, 0] <= tolerance:
             self.proof[step.id] = max(float(residual[0, 0]), 0.0)
             return
@@ -110,14 +117,10 @@ class MachineRun(Calculation):
         numbers = values / unit(step.unit).factor
         bad = (np.abs(numbers - np.round(numbers)) > WHOLE * np.maximum(np.abs(numbers), 1)).any(axis=1) & self.possible
         if bad.any():
-            words = Phrase(
-                "{description} ({id}, {name}) is {given}, but is marked as a count (whole=True)",
-                description=step.description,
-                id=step.id,
-                name=Path(step.at).name,
-                given=f"{numbers[np.flatnonzero(bad)[0]].ravel()[0]:.6g}",
-            )
-            self.mark(step, bad, Phrase("{words}; round it in its formula, or take whole=True away", words=words))
+            words = "{description} ({id}, {name}) is {given}, but is marked as a count (whole=True)"
+            given = f"{numbers[np.flatnonzero(bad)[0]].ravel()[0]:.6g}"
+            told = Phrase(words, description=step.description, id=step.id, name=Path(step.at).name, given=given)
+            self.mark(step, bad, Phrase("{words}; round it in its formula, or take whole=True away", words=told))
 
     def reasons(self, steps: Sequence[Step]) -> Iterator[tuple[str, str]]:
         """Yield why else a machine cannot exist, as far as it can be told from what is known already."""
@@ -132,6 +135,7 @@ class MachineRun(Calculation):
     # Plain code, of one machine or for each of many.
 
     def call(self, step: Any, taken: Sequence[Any]) -> Any:
+        """Call plain code; what it refuses is an impossible machine."""
         try:
             return step.function(*taken)
         except Refusal as refused:
@@ -139,6 +143,7 @@ class MachineRun(Calculation):
             raise kind([(refused.key, refused.words)]) from None
 
     def prepared(self, step: Any, known: Mapping[str, Any]) -> Machines:
+        """Call plain code that knows one machine, for each of many, with a mapping."""
         for key, value in known.items():
             for each in value if isinstance(value, tuple) else (value,):
                 if isinstance(each, MechanismHandle):
@@ -151,6 +156,7 @@ class MachineRun(Calculation):
         return Machines(self._each(make))
 
     def computed(self, step: Any, taken: Sequence[Any]) -> Any:
+        """Call plain code, for each of many machines where what it takes knows one alone."""
         if not any(isinstance(each, Machines) for each in taken):
             return self.call(step, taken)
 
@@ -205,12 +211,11 @@ class MachineRun(Calculation):
                 self.row_of |= dict.fromkeys((each.name for each in made), step.id)
 
     def names_of_parts(self, step: Step) -> tuple[str, ...] | None:
+        """Return the names of the parts of a row or curve; Impossible where a result would be called as another one."""
         names: tuple[str, ...] | None = self.inputs.get(step.named_by)
         for index, name in enumerate(names or ()):
             called = part_result(name, step)
-            is_given = (
-                called in self.steps or called in self.inputs or self.names.result(called, self.steps) is not None
-            )
+            is_given = called in self.inputs or self.names.result(called, self.steps) is not None
             if is_given or self.row_of.get(called, step.id) != step.id:
                 words = "is {name}, with which its result {called} would be called as another one; take another name"
                 raise _of_part(step.named_by, index, Phrase(words, name=name, called=called))
@@ -232,10 +237,8 @@ def calculate(
     Raises ``Impossible`` when a single machine cannot exist (among several it is marked in ``flaws``), ``Unproven`` when a
     result does not meet what proves it.
     """
-    curves = {
-        n: SampledCurve(v) if n in mechanism.curve_inputs and isinstance(v, tuple) else v for n, v in values.items()
-    }
-    calc = MachineRun(mechanism, curves, variants)
+    listed = {name: SampledCurve(v) for name in mechanism.curve_inputs if isinstance(v := values.get(name), tuple)}
+    calc = MachineRun(mechanism, {**values, **listed}, variants)
     calc.is_partial = only is not None
     calc.require_distinct()
     with np.errstate(all="ignore"):
@@ -250,7 +253,11 @@ def calculate(
                     soundness.require(calc, step.id, step.asked_curve)
                 step.run(calc)
             except KeyError as missing:
-                raise _empty_list(calc, missing) from None
+                asked = str(missing.args[0]).removeprefix("inputs.") if missing.args else ""
+                home = list_inputs(mechanism.inputs).get(asked)
+                if home is None or home in calc.given:
+                    raise
+                raise Impossible([(home, EMPTY)]) from None
             except Impossible as first:
                 raise type(first)([*first.reasons, *calc.reasons(steps[i + 1 :])]) from None
             calc.require_finite(step)
@@ -261,24 +268,21 @@ def calculate(
     return calc
 
 
-def _empty_list(calc: Calculation, missing: KeyError) -> Exception:
-    asked = str(missing.args[0]).removeprefix("inputs.") if missing.args else ""
-    home = list_inputs(calc.mechanism.inputs).get(asked)
-    return missing if home is None or home in calc.given else Impossible([(home, EMPTY)])
-
-
 # The same machine calculated again with other inputs: only the steps that the asked quantities need.
 
 
 def varied(calc: Calculation, inputs: Mapping[str, Any], names: Sequence[str]) -> dict[str, Array]:
     """Return numbers for other inputs, each of shape (variants,); NaN where the machine is then impossible."""
     count = max((np.size(value) for value in inputs.values() if not isinstance(value, str)), default=1)
-    again = _calculated(calc, inputs, count, names)
+    again = recalculated(calc, _spread(inputs, count), count, names)
     if again is None:
         return {name: np.full(count, np.nan) for name in names}
-    possible = np.ones(count, dtype=bool)
-    possible[list(again.flaws)] = False
-    return {name: np.where(possible, again[name][:, 0], np.nan) for name in names}
+    return {name: np.where(again.possible, again[name][:, 0], np.nan) for name in names}
+
+
+def _spread(inputs: Mapping[str, Any], count: int) -> dict[str, Any]:
+    return {name: value if isinstance(value, str) else np.broadcast_to(np.asarray(value, dtype=float), (count,))
+            for name, value in inputs.items()}  # fmt: skip
 
 
 def varied_curves(
@@ -288,7 +292,7 @@ def varied_curves(
 
     NaN where the machine is then impossible.
     """
-    again = _calculated(calc, inputs, 1, names)
+    again = recalculated(calc, _spread(inputs, 1), 1, names)
     axis = calc.axis[names[0]]
     period = float((again or calc).domains[axis].period[0, 0])
     x = np.linspace(0, period, points)
@@ -314,21 +318,6 @@ def recalculated(
         return calculate(calc.mechanism, inputs, count, only)
     except (Impossible, Unproven):
         return None
-
-
-def _calculated(calc: Calculation, changed: Mapping[str, Any], count: int, names: Sequence[str]) -> Calculation | None:
-    inputs = {name: _repeated(value, count) for name, value in calc.inputs.items()}
-    for name, value in changed.items():
-        inputs[name] = value if isinstance(value, str) else np.broadcast_to(np.asarray(value, dtype=float), (count,))
-    only = needed(calc.mechanism, frozenset(inputs) | texts_given(inputs), names)
-    try:
-        return calculate(calc.mechanism, inputs, count, only)
-    except (Impossible, Unproven):
-        return None
-
-
-def _repeated(value: Any, count: int) -> Any:
-    return np.repeat(value[:1], count, axis=0) if isinstance(value, np.ndarray) else value
 
 
 __all__ = ["needed", "recalculated", "varied", "varied_curves"]

@@ -48,23 +48,13 @@ def _words(calc: Calculation, found: JumpFault) -> str:
         return (Phrase("{where} takes a flag of its smooth pieces (per_piece) that is not constant within one, as at "
 "{place}: it would be that of the middle of the piece; {fix}, or take per_piece away", where=where, place=place, fix=fix))  # fmt: skip
     step, link = found.condition.step, found.condition.link
-    name = (
-        Phrase("the formula {name}", name=link.formula.__name__) if hasattr(step, "formula") else phrase("the choice")
-    )
+    is_formula = hasattr(step, "formula")
+    name = Phrase("the formula {name}", name=link.formula.__name__) if is_formula else phrase("the choice")
     decided = written(_in_symbols(calc, found.condition))
-    of = (
-        phrase("its formula")
-        if step.id == curve.id
-        else Phrase("{name} of {id} ({place})", name=name, id=step.id, place=Path(step.at).name)
-    )
-    return Phrase(
-        "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}",
-        where=where,
-        place=place,
-        decided=decided,
-        of=of,
-        fix=fix,
-    )
+    of: str = Phrase("{name} of {id} ({place})", name=name, id=step.id, place=Path(step.at).name)
+    of = phrase("its formula") if step.id == curve.id else of
+    words = "{where} jumps inside a smooth piece, at {place}, where {decided} changes in {of}; {fix}"
+    return Phrase(words, where=where, place=place, decided=decided, of=of, fix=fix)
 
 
 def _in_symbols(calc: Calculation, condition: BranchCondition) -> Node:
@@ -107,9 +97,8 @@ def require_whole(calc: Calculation, curve: str) -> None:
     if place is None:
         return
     require(calc, curve, curve)  # tells the condition that jumps there, if one does
-    words = Phrase(
-        "{where} jumps or has a pole inside a smooth piece, near {place}; {instead}", _told(calc, curve, place)
-    )
+    told = _told(calc, curve, place)
+    words = Phrase("{where} jumps or has a pole inside a smooth piece, near {place}; {instead}", told)
     raise Unproven(words, calc.curves[curve].at)
 
 
@@ -196,7 +185,7 @@ def _endless(calc: Calculation, curve: str, x: Array, middles: Array, values: Ar
         moved = np.diff(_values(calc, curve, place + reach[None], middles[[row]])[0])
         is_within = x[row, 0] <= place + reach[0] <= x[row, -1]
         factors = moved[1:] / moved[:-1]
-        if is_within and GOES_ON < factors.min() and factors.max() < SLOW:  # towards a narrow bend by 10 or 100
+        if is_within and factors.min() > GOES_ON and factors.max() < SLOW:  # towards a narrow bend by 10 or 100
             return place if abs(moved[0]) > LEAST * _scale(calc, curve, x, middles) else None
     return None
 
@@ -209,13 +198,9 @@ def _scale(calc: Calculation, curve: str, x: Array, middles: Array) -> float:
     scale = 1.0 if own in (unit("1").kind, unit("rad").kind) else 0.0
     for name in {curve, *(each for each in step.takes() if isinstance(each, str))}:
         if name == curve or unit(calc.step_or_input(name).unit).kind == own:
-            values = (
-                _values(calc, name, x, middles)
-                if name in calc.curves
-                else calc[name]
-                if name not in calc.domains
-                else x
-            )
+            values = x
+            if name not in calc.domains:
+                values = _values(calc, name, x, middles) if name in calc.curves else calc[name]
             scale = max(scale, float(np.abs(values).max(initial=0.0)))
     return scale
 
@@ -294,9 +279,10 @@ def _there(calc: Calculation, side: str | float, place: Array, middle: Array) ->
 
 def without(calc: Calculation, name: str) -> tuple[Array, str]:
     """Return which variants do not have a result for want of a fact, and why in words."""
-    for step, missed, words in _withheld(calc):
-        if read(name, step):
-            return missed, words
+    for chapter, step in calc.mechanism.steps if calc.withheld else ():
+        facts = {*chapter.needs, *step.needs} & calc.withheld.keys()
+        if facts and read(name, step):
+            return np.any([calc.withheld[each] for each in facts], axis=0), unmet(calc, facts)
     return np.zeros(calc.count, dtype=bool), ""
 
 
@@ -304,11 +290,3 @@ def unmet(calc: Calculation, needs: Iterable[str]) -> str:
     """Return what is said of a fact among these needs that the machine does not meet; empty where it meets all."""
     facts = [step for _, step in calc.mechanism.steps if isinstance(step, Fact)]
     return next((step.words for step in facts if step.id in needs and step.id in calc.withheld), "")
-
-
-def _withheld(calc: Calculation) -> Iterator[tuple[Step, Array, str]]:
-    """The steps that need a fact which some variants do not meet, which these are, and what is said of it."""
-    for chapter, step in calc.mechanism.steps if calc.withheld else ():
-        facts = {*chapter.needs, *step.needs} & calc.withheld.keys()
-        if facts:
-            yield step, np.any([calc.withheld[each] for each in facts], axis=0), unmet(calc, facts)

@@ -10,7 +10,16 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.steps.base import Over, QuantityStep, SilentStep, Step, StepCondition
-from diecut_report.mechanism.steps.protocols import AN_ABSCISSA, NUMBER, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import (
+    A_PLACE,
+    AN_ABSCISSA,
+    ANY,
+    NUMBER,
+    Item,
+    Kinds,
+    StepEngine,
+    StepPrinter,
+)
 from diecut_report.quantities.units import Kind
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -38,13 +47,8 @@ class Abscissa(QuantityStep):
     intervals: int = field(default=64, kw_only=True)
     speed: str = field(default="", kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("points", "period", "speed", "shown_at")
-    IDS: ClassVar[tuple[str, ...]] = ("shown_at", "speed", "points")
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield from (TakenName("period", self.period, NUMBER),) if isinstance(self.period, str) else ()
-        yield TakenName("points", self.points, NUMBER)
-        yield from (TakenName("speed", self.speed, NUMBER),) if self.speed else ()
+    TAKES: ClassVar[dict[str, Kinds]] = {"points": NUMBER, "period": NUMBER, "speed": NUMBER, "shown_at": ANY}
+    NUMBERS: ClassVar[tuple[str, ...]] = ("period",)
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return {("abscissa", self.id)}
@@ -53,6 +57,7 @@ class Abscissa(QuantityStep):
         return self.id
 
     def shape_faults(self) -> Iterator[str]:
+        yield from super().shape_faults()
         if self.intervals < 2:
             words = "has intervals={intervals}; the search for extremes needs at least 2, usually 32 or 64"
             yield Phrase(words, intervals=repr(self.intervals))
@@ -84,21 +89,15 @@ class Breakpoints(SilentStep):
     places: tuple[str, ...] = ()
     every: str = field(default="", kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("abscissa", "places", "every")
-    IDS: ClassVar[tuple[str, ...]] = ("abscissa", "every")
+    TAKES: ClassVar[dict[str, Kinds]] = {"abscissa": AN_ABSCISSA, "places": A_PLACE, "every": NUMBER}
 
     @classmethod
     def of(cls, id: str, abscissa: str, *places: str, every: str = "", **when: Unpack[StepCondition]) -> Breakpoints:
         """Declare places of an abscissa where a curve jumps or has a corner: see ``Breakpoints``."""
         return cls(id, abscissa, places, every=every, **when)
 
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("abscissa", self.abscissa, *AN_ABSCISSA)
-        for place in self.places:
-            yield TakenName("places", place, NUMBER | {"crossings"}, phrase("a number or found crossings"))
-        yield from (TakenName("every", self.every, NUMBER),) if self.every else ()
-
     def shape_faults(self) -> Iterator[str]:
+        yield from super().shape_faults()
         if not all(isinstance(each, str) for each in self.places):
             words = 'has places={places}; name them one after another, each an id: "first", "second"'
             yield Phrase(words, places=repr(self.places))

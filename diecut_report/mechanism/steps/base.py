@@ -166,12 +166,12 @@ class Step:
     printed: bool = field(default=True, kw_only=True)
     at: str = field(default_factory=here, kw_only=True, repr=False, compare=False)
 
-    NAMES: ClassVar[tuple[str, ...]] = ()
-    """Fields that name quantities, beside the formulas."""
+    TAKES: ClassVar[dict[str, Kinds]] = {}
+    """Fields that name quantities, beside the formulas, each with what it may stand for; ANY of what is judged elsewhere."""
     FORMULAS: ClassVar[dict[str, Kinds]] = {}
     """Fields that are formulas, each with what it may take."""
-    IDS: ClassVar[tuple[str, ...]] = ()
-    """Fields that hold one id, and are often given a number by mistake."""
+    NUMBERS: ClassVar[tuple[str, ...]] = ()
+    """Those of TAKES that may be a number, not a name alone."""
     is_counted: ClassVar[bool] = False  # whether how many it gives shows in calculating
     is_taken: ClassVar[bool] = True  # whether anything may take its id
     is_run: ClassVar[bool] = True  # whether it is part of the run, not made where it is asked for
@@ -201,7 +201,10 @@ class Step:
 
     def takes_ids(self) -> Iterator[TakenName]:
         """Yield what it takes by its other fields."""
-        yield from ()
+        for name, allowed in self.TAKES.items():
+            given = getattr(self, name)
+            named = given if isinstance(given, tuple) else (given,)
+            yield from (TakenName(name, each, allowed) for each in named if allowed and each and isinstance(each, str))
 
     @property
     def instead(self) -> str:
@@ -261,7 +264,12 @@ class Step:
 
     def shape_faults(self) -> Iterator[str]:
         """Yield what has not the shape that is wanted."""
-        yield from ()
+        for name in self.TAKES:
+            if not isinstance(
+                given := getattr(self, name), str | tuple | (int | float if name in self.NUMBERS else str)
+            ):
+                words = "has {name}={given}; name the input or the step that gives it, by its id"
+                yield Phrase(words, name=name, given=repr(given))
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
         """Yield what is wrong with what it takes."""

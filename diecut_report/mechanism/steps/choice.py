@@ -11,7 +11,7 @@ import numpy as np
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Binding, Written, as_binding, bound
 from diecut_report.mechanism.steps.base import Options, Over
-from diecut_report.mechanism.steps.protocols import CURVE, Item, Names, StepEngine, StepFormula, StepPrinter
+from diecut_report.mechanism.steps.protocols import ANY, CURVE, Item, Kinds, Names, StepEngine, StepFormula, StepPrinter
 from diecut_report.mechanism.steps.value import FormulaStep
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -48,7 +48,7 @@ class Choice(FormulaStep):
 
     cases: tuple[Case, ...]
 
-    NAMES: ClassVar[tuple[str, ...]] = ("cases",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"cases": ANY}
 
     @classmethod
     def of(
@@ -86,9 +86,8 @@ class Choice(FormulaStep):
         if not cases:
             yield phrase("has no cases; give at least one Case")
         if not all(isinstance(each, Case) for each in cases):
-            yield Phrase(
-                'has cases that are none; give them one after another: case(value, "why", condition), case(value, "why")'
-            )
+            words = 'has cases that are none; give them one after another: case(value, "why", condition), case(value, "why")'
+            yield phrase(words)
             return
         for each in cases:
             if not isinstance(each.words, str):
@@ -103,7 +102,7 @@ class Choice(FormulaStep):
         if any(texts) and not all(texts):
             yield phrase("mixes texts and numbers in its cases; give all cases texts, or all numbers")
         if self.cases and self.cases[-1].condition is not None:
-            yield Phrase(
+            yield phrase(
                 "has a condition in its last case, so that none may hold; take it away, or add a case for all else"
             )
         for number, each in enumerate(self.cases[:-1], 1):
@@ -115,21 +114,16 @@ class Choice(FormulaStep):
         held = [apply(each.condition) for each in self.cases if each.condition is not None]
         *values, found = (apply(each.value) for each in self.cases if not isinstance(each.value, str))
         for condition, value in zip(reversed(held), reversed(values), strict=True):
-            found = np.where(
-                condition, value, found
-            )  # NumPy's select takes five times as long for the short arrays of one machine
+            # NumPy's select takes five times as long for the short arrays of one machine
+            found = np.where(condition, value, found)
         return np.asarray(found)
 
     def numbers(self, calc: StepEngine) -> Array:
         held = [calc.apply(each.condition).astype(bool) for each in self.cases if each.condition is not None]
         last = np.full((calc.count, 1), len(held))
         calc.branch[self.id] = np.select(held, [np.full_like(last, i) for i in range(len(held))], last)
-        taken = [
-            np.full((calc.count, 1), each.value, dtype=object)
-            if isinstance(each.value, str)
-            else calc.apply(each.value)
-            for each in self.cases
-        ]
+        values = (each.value for each in self.cases)
+        taken = [np.full(last.shape, v, dtype=object) if isinstance(v, str) else calc.apply(v) for v in values]
         found: Array = np.choose(calc.branch[self.id], taken)
         return found
 

@@ -11,15 +11,11 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.steps.base import Over, QuantityStep, SilentStep
-from diecut_report.mechanism.steps.protocols import AN_ABSCISSA, Called, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import AN_ABSCISSA, PREPARED, Called, Item, Kinds, StepEngine, StepPrinter
 from diecut_report.mechanism.steps.result_names import part_result
 from diecut_report.text.phrases import Phrase, phrase
 
-
-def takes_ids(step: ComputedCurve | PartCurves) -> Iterator[TakenName]:
-    """Yield the abscissa and the prepared object."""
-    yield TakenName("abscissa", step.abscissa, *AN_ABSCISSA)
-    yield TakenName("of", step.of, frozenset({"prepared"}), phrase("what is prepared"))
+FROM_OBJECT: dict[str, Kinds] = {"abscissa": AN_ABSCISSA, "of": PREPARED}
 
 
 @dataclass(frozen=True, eq=False)
@@ -38,10 +34,7 @@ class ComputedCurve(QuantityStep):
     method: str
     joints: Callable[[Any], Array] | None = field(default=None, kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of", "abscissa")
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        return takes_ids(self)
+    TAKES: ClassVar[dict[str, Kinds]] = FROM_OBJECT
 
     @property
     def called(self) -> Called:
@@ -103,11 +96,8 @@ class PartCurves(SilentStep):
     method: str
     joints: Callable[[Any], Array] | None = field(default=None, kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of", "abscissa")
+    TAKES: ClassVar[dict[str, Kinds]] = FROM_OBJECT
     is_taken: ClassVar[bool] = True
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        return takes_ids(self)
 
     @property
     def called(self) -> Called:

@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping
+from collections.abc import Callable, Mapping
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -10,7 +10,7 @@ import numpy as np
 
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.protocols import A_VALUE, PLAIN, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import PLAIN, Item, Kinds, StepEngine, StepPrinter
 from diecut_report.mechanism.steps.value import answer
 
 
@@ -29,11 +29,8 @@ class Computed(QuantityStep):
     over: str = field(default="", kw_only=True)
     is_text: bool = field(default=False, kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("takes",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"takes": PLAIN}
     may_be_absent: ClassVar[bool] = True
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield from (TakenName("takes", name, PLAIN, A_VALUE) for name in self.takes)
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return {("text", "")} if self.is_text else {("row", self.over)} if self.over else {("number", "")}

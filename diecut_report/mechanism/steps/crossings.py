@@ -9,7 +9,7 @@ from typing import ClassVar
 import numpy as np
 
 from diecut_report.mechanism.steps.base import Over, QuantityStep, ResultName
-from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.mechanism.steps.result_names import count_name, result_names
 from diecut_report.text.phrases import Phrase, phrase
 
@@ -23,11 +23,8 @@ class Crossings(QuantityStep):
 
     of: str
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": A_CURVE}
     is_counted: ClassVar[bool] = True
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("of", self.of, *A_CURVE)
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return {("crossings", "")}

@@ -13,16 +13,15 @@ from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.abscissa import require_length
 from diecut_report.mechanism.steps.base import Over, QuantityStep
 from diecut_report.mechanism.steps.protocols import (
-    A_VALUE,
     AN_ABSCISSA,
     CURVE_INPUT,
     NUMBER,
     PLAIN,
     Impossible,
     Item,
+    Kinds,
     StepEngine,
     StepPrinter,
-    TakenName,
 )
 from diecut_report.quantities.units import Kind, pretty, unit
 from diecut_report.text.phrases import Phrase
@@ -37,12 +36,12 @@ class CurveOverAbscissa(QuantityStep):
     lasts: str = ""
     gains: bool = False
 
-    NAMES: ClassVar[tuple[str, ...]] = ("given", "abscissa", "start", "lasts")
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("abscissa", self.abscissa, *AN_ABSCISSA)
-        yield from (TakenName("given", self.given, CURVE_INPUT),) if self.given else ()
-        yield from (TakenName(name, own, NUMBER) for name in ("start", "lasts") if (own := getattr(self, name)))
+    TAKES: ClassVar[dict[str, Kinds]] = {
+        "given": CURVE_INPUT,
+        "abscissa": AN_ABSCISSA,
+        "start": NUMBER,
+        "lasts": NUMBER,
+    }
 
     def takes_over(self) -> set[str]:
         return {self.given}
@@ -71,9 +70,7 @@ class CurveOverAbscissa(QuantityStep):
         period = calc.domains[self.abscissa].period
         lasts = calc[self.lasts] if self.lasts else period
         if self.start or self.lasts:
-            shares = np.concatenate(
-                [shares, np.zeros((len(shares), 1))], axis=1
-            )  # where a period of the curve begins anew
+            shares = np.concatenate([shares, np.zeros((len(shares), 1))], axis=1)  # where the curve begins anew
         shares = np.mod(shares - (calc[self.start] if self.start else 0), 1)
         turns = np.where(calc.possible[:, None], np.ceil(period / lasts), 1)
         places = [(shares + turn) * lasts for turn in range(int(turns.max()))]
@@ -121,11 +118,7 @@ class MadeCurve(CurveOverAbscissa):
     abscissa: str
     method: str
 
-    NAMES: ClassVar[tuple[str, ...]] = ("takes", "abscissa")
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield from (TakenName("takes", name, PLAIN, A_VALUE) for name in self.takes)
-        yield from super().takes_ids()
+    TAKES: ClassVar[dict[str, Kinds]] = {"takes": PLAIN, "abscissa": AN_ABSCISSA}
 
     def run(self, calc: StepEngine) -> None:
         if calc.count > 1:
@@ -135,13 +128,9 @@ class MadeCurve(CurveOverAbscissa):
 
     def items(self, page: StepPrinter) -> list[Item]:
         axis = page.calc.axis[self.id]
-        found = {
-            "type": "found",
-            "relation": None,
-            "method": self.method,
-            "result": page.result(self, page.value_at(self.id, axis)),
-        }
-        return [self.head() | found | {"at": page.shown(axis)}]
+        found = {"type": "found", "relation": None, "method": self.method}
+        result = page.result(self, page.value_at(self.id, axis))
+        return [self.head() | found | {"result": result, "at": page.shown(axis)}]
 
 
 @dataclass(frozen=True, eq=False)
@@ -154,10 +143,7 @@ class CurvePeriod(QuantityStep):
     given: str
     otherwise: str
 
-    NAMES: ClassVar[tuple[str, ...]] = ("given",)
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("given", self.given, CURVE_INPUT)
+    TAKES: ClassVar[dict[str, Kinds]] = {"given": CURVE_INPUT}
 
     def run(self, calc: StepEngine) -> None:
         curve = calc.inputs[self.given]

@@ -17,8 +17,17 @@ from diecut_report.formulas import Array
 from diecut_report.formulas.formula import Formula, Reading, formula
 from diecut_report.formulas.tree import Constant, Node, substitute
 from diecut_report.mechanism.names import Misdeclared, Written, bind, bound
-from diecut_report.mechanism.steps.protocols import Item, Names, StepEngine, StepPrinter
-from diecut_report.mechanism.steps.table_steps import MOST_DIGITS, SAME, key_faults, si_values, sources, unlike_units
+from diecut_report.mechanism.steps.protocols import ANY, Item, Kinds, Names, StepEngine, StepPrinter
+from diecut_report.mechanism.steps.table_steps import (
+    MOST_DIGITS,
+    SAME,
+    column_title,
+    key_faults,
+    key_to_change,
+    si_values,
+    sources,
+    unlike_units,
+)
 from diecut_report.mechanism.steps.value import Value
 from diecut_report.quantities.formatting import DIGITS, number_text, with_unit
 from diecut_report.quantities.units import unit
@@ -109,19 +118,13 @@ class Between(Formula):
 
 def _columns(table: object, column: str) -> tuple[Column, Column]:
     if not isinstance(table, StandardTable):
-        raise StandardFault(
-            Phrase(
-                "{table} is not a table; write one with own_table(…), rows of numbers and its sources.",
-                table=repr(table),
-            )
-        )
+        words = "{table} is not a table; write one with own_table(…), rows of numbers and its sources."
+        raise StandardFault(Phrase(words, table=repr(table)))
     if table.names:
-        raise StandardFault(
-            Phrase("The table “{title}” goes by names; one that goes by numbers is needed.", title=table.title)
-        )
+        raise StandardFault("The table “{title}” goes by names; one that goes by numbers is needed.", title=table.title)
     if column == table.columns[0].name:
         raise StandardFault(
-            Phrase("The table “{title}” goes by {column}; take another column.", title=table.title, column=column)
+            "The table “{title}” goes by {column}; take another column.", title=table.title, column=column
         )
     return table.columns[0], table.column(column)
 
@@ -129,25 +132,15 @@ def _columns(table: object, column: str) -> tuple[Column, Column]:
 def _line(table: StandardTable, columns: tuple[Column, Column], interpolation: Interpolation) -> Formula:
     if interpolation not in LINES:
         near = nearest(str(interpolation), LINES)
-        raise StandardFault(
-            Phrase(
-                "interpolation is {interpolation}{near}; allowed: {lines}.",
-                interpolation=repr(interpolation),
-                near=near,
-                lines=", ".join(LINES),
-            )
-        )
+        words = "interpolation is {interpolation}{near}; allowed: {lines}."
+        raise StandardFault(Phrase(words, interpolation=repr(interpolation), near=near, lines=", ".join(LINES)))
     for own in (columns[number] for number in LOGARITHMIC[interpolation]):
-        for value in own.values:
-            if value <= 0:
-                words = Phrase(
-                    "has the number {value} in its column {name}, which has no logarithm",
-                    value=format(value, "g"),
-                    name=own.name,
-                )
-                raise StandardFault(
-                    Phrase("The table “{title}” {words}; interpolate linearly there.", title=table.title, words=words)
-                )
+        if below := [value for value in own.values if value <= 0]:
+            said = "has the number {value} in its column {name}, which has no logarithm"
+            words = Phrase(said, value=format(below[0], "g"), name=own.name)
+            raise StandardFault(
+                "The table “{title}” {words}; interpolate linearly there.", title=table.title, words=words
+            )
     return LINES[interpolation]
 
 
@@ -167,7 +160,7 @@ class Interpolated(Value):
     key: str = field(default="", kw_only=True)
     interpolation: Interpolation = field(default="linear", kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": ANY}
 
     def __post_init__(self) -> None:
         between = Between(self.table, self.column, self.id, self.interpolation)
@@ -192,19 +185,15 @@ class Interpolated(Value):
     def faults(self, names: Names, when: Any) -> Iterator[str]:
         yield from super().faults(names, when)
         across, upwards = self.between.columns
-        for own, wanted, whose in (
-            (upwards, self.all_units, phrase("the step")),
-            (across, names.units(self.of), self.of),
-        ):
-            yield from unlike_units(Phrase("the column {name} of the table", name=own.name), own.unit, wanted, whose)
+        yield from unlike_units(column_title(upwards), upwards.unit, self.all_units, phrase("the step"))
+        yield from unlike_units(column_title(across), across.unit, names.units(self.of), self.of)
         yield from key_faults(self.key, self.of, names, self._is_covered(names), phrase("lie outside of the table"))
 
     def _is_covered(self, names: Names) -> bool:
         """Whether the table goes over an abscissa of a period that is always the same."""
         low, high = self.between.x[[0, -1]]
-        periods = [
-            getattr(giver.step, "period", "") if giver.kind == "abscissa" else "" for giver in names.givers(self.of)
-        ]
+        givers = names.givers(self.of)
+        periods = [getattr(giver.step, "period", "") if giver.kind == "abscissa" else "" for giver in givers]
         return all(not isinstance(each, str) and low <= 0 and each <= high * (1 + ROUNDING) for each in periods)
 
     def cuts(self, axis: str, axes: Mapping[str, str]) -> bool:
@@ -248,23 +237,19 @@ class Interpolated(Value):
         for variant in np.flatnonzero((beyond > ROUNDING * (high - low)).any(axis=1)):
             part = int(np.nanargmax(beyond[variant]))
             words = "" if calc.is_partial else self._outside(calc, float(values[variant, part]))
-            calc.refuse(int(variant), self._key(calc, part), words)
-
-    def _key(self, calc: StepEngine, part: int) -> str:
-        """The input to change; of a list that of the part."""
-        key = self.key or self.of.removeprefix("inputs.")
-        home = calc.axis.get(self.id)
-        is_of_list = home and home not in calc.domains and key.startswith(f"{home}.")
-        return f"{home}.{part}{key.removeprefix(str(home))}" if is_of_list else key
+            calc.refuse(int(variant), key_to_change(self, self.of, calc, part), words)
 
     def _outside(self, calc: StepEngine, value: float) -> str:
         """What lies outside, and what the table has."""
         own, declared = self.between.columns[0], calc.step_or_input(self.of)
         first, last = (with_unit(number_text(end, MOST_DIGITS), own.unit) for end in (own.values[0], own.values[-1]))
         is_input = self.of not in calc.steps and not self.key
-        return Phrase(
+        words = (
             "{text} {shown}, outside of the table “{title}” for {description} ({symbol}), which goes from "
-            "{first} to {last}",
+            "{first} to {last}"
+        )
+        return Phrase(
+            words,
             text=phrase("is") if is_input else phrase("leads to"),
             shown=f"{declared.symbol} = {with_unit(_beyond(value / unit(own.unit).factor, own.values), own.unit)}",
             title=self.table.title,

@@ -2,7 +2,8 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator, Mapping, Sequence
+from collections.abc import Iterator, Mapping, Sequence
+from contextlib import suppress
 from dataclasses import dataclass, field
 from typing import Any, ClassVar
 
@@ -12,16 +13,28 @@ from diecut_report.errors import nearest
 from diecut_report.formulas import Array
 from diecut_report.mechanism.names import Misdeclared
 from diecut_report.mechanism.steps.base import Over
-from diecut_report.mechanism.steps.protocols import ROW, Item, MachineValues, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import (
+    ANY,
+    ROW,
+    Item,
+    Kinds,
+    MachineValues,
+    Names,
+    StepEngine,
+    StepPrinter,
+    TakenName,
+)
 from diecut_report.mechanism.steps.table_steps import (
     AS_GIVEN,
     MOST_DIGITS,
     SAME,
     TableStep,
     as_given,
+    column_title,
     given_faults,
     given_of,
     key_faults,
+    key_to_change,
     si_values,
     sources,
     unlike_units,
@@ -51,7 +64,7 @@ class Lookup(TableStep):
     column: str = field(default="", kw_only=True)
     sought_in: str = field(default="", kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("given", "by")
+    TAKES: ClassVar[dict[str, Kinds]] = {"given": ANY, "by": ANY}
 
     @property
     def is_by_number(self) -> bool:
@@ -71,11 +84,8 @@ class Lookup(TableStep):
         return self.table, self.unit
 
     def takes_ids(self) -> Iterator[TakenName]:
-        yield (
-            TakenName("by", self.by, ROW)
-            if self.is_by_number
-            else TakenName("by", self.by, frozenset({"text"}), BY_NAME)
-        )
+        by_name = TakenName("by", self.by, frozenset({"text"}), BY_NAME)
+        yield TakenName("by", self.by, ROW) if self.is_by_number else by_name
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return {("row", axis) for _, axis in over(self.by, of_all=True)} or {("number", "")}
@@ -83,22 +93,16 @@ class Lookup(TableStep):
     def runs_over(self, known: Mapping[str, str]) -> str | None:
         return known.get(self.by)
 
-    def same_units(self, units: Callable[[str], set[str]], names: Names) -> Iterator[tuple[str, set[str]]]:
-        if isinstance(self.table, StandardTable):
-            own = self.table.of_values
-            found = {one.unit for one in own if len(own) == 1 or one.name == self.column}
-            yield Phrase("the table {title}", title=self.table.title), found
-
     # Faults.
 
     def shape_faults(self) -> Iterator[str]:
+        yield from super().shape_faults()
         table: Any = self.table
         if isinstance(table, StandardTable):
             return
         if not isinstance(table, Mapping):
-            yield Phrase(
-                'takes from {table}; give a table, then the text input by which: table, by="…"', table=repr(table)
-            )
+            words = 'takes from {table}; give a table, then the text input by which: table, by="…"'
+            yield Phrase(words, table=repr(table))
             return
         wrong = [key for key, value in table.items() if isinstance(value, bool) or not isinstance(value, int | float)]
         if wrong:
@@ -107,19 +111,15 @@ class Lookup(TableStep):
 
     def faults(self, names: Names, when: Any) -> Iterator[str]:
         if not self.is_by_number:
-            rows = self._named_rows()
+            rows: Mapping[str, Any] = {}
+            with suppress(StandardFault):  # which is told below
+                rows = self.rows()[0]
             yield from names.incomplete(self.by, rows, names.without(when, self.given), phrase("no row in the table"))
             yield from self._text_faults(names, rows)
         yield from self._column_faults()
         yield from self._sought_faults(names)
         yield from self._idle_rows(names)
         yield from given_faults(self, "by", self.by, names)
-
-    def _named_rows(self) -> Mapping[str, Any]:
-        try:
-            return self.rows()[0]
-        except StandardFault:
-            return {}
 
     def _text_faults(self, names: Names, rows: Mapping[str, Any]) -> Iterator[str]:
         """A row that is taken by a text of a step: one that a message makes, or a text of a choice without a row."""
@@ -144,8 +144,7 @@ class Lookup(TableStep):
         except StandardFault as fault:
             yield str(fault).removesuffix(".")
             return
-        title = Phrase("the column {name} of the table", name=own.name) if own.name else phrase("the table")
-        yield from unlike_units(title, own.unit, self.all_units, phrase("the step"))
+        yield from unlike_units(column_title(own), own.unit, self.all_units, phrase("the step"))
 
     def _sought_faults(self, names: Names) -> Iterator[str]:
         """What is wrong with the number by which a row is sought."""
@@ -163,20 +162,14 @@ class Lookup(TableStep):
         if len(set(own.values)) < len(own.values):
             words = "seeks the row by the column {name} of the table “{title}”, which has a number twice; take another column"
             yield Phrase(words, name=own.name, title=self.table.title)
-        title = Phrase("the column {name} of the table", name=own.name) if own.name else phrase("the table")
-        yield from unlike_units(title, own.unit, names.units(self.by), self.by)
-        yield from key_faults(
-            self.key, self.by, names, self._is_picked(names), phrase("be a number that the table does not have")
-        )
+        yield from unlike_units(column_title(own), own.unit, names.units(self.by), self.by)
+        missing = phrase("be a number that the table does not have")
+        yield from key_faults(self.key, self.by, names, self._is_picked(names), missing)
 
     def _is_picked(self, names: Names) -> bool:
         """Whether the number is always one that was picked from a series of numbers that the table has."""
-        own = set(self.sought.values)
-        given = [giver.step for giver in names.givers(self.by)]
-        return all(
-            each is not None and not each.instead and each.standard_values and each.standard_values <= own
-            for each in given
-        )
+        own, steps = set(self.sought.values), [giver.step for giver in names.givers(self.by)]
+        return all(each and not each.instead and each.standard_values and each.standard_values <= own for each in steps)
 
     def _idle_rows(self, names: Names) -> Iterator[str]:
         """Rows of a step's own table that no text asks for; a published table may have more rows than a mechanism allows."""
@@ -217,12 +210,10 @@ class Lookup(TableStep):
     def _by_found(self, calc: StepEngine, texts: Array) -> Array:
         """The numbers of rows whose names were found, NaN without one; Misdeclared where a machine that can be has another name."""
         numbers, display = self.rows()
-        strange = next(
-            (text for text in texts[calc.possible].flat if isinstance(text, str) and text not in numbers), None
-        )
-        if strange is not None:
+        found_texts = (text for text in texts[calc.possible].flat if isinstance(text, str))
+        if strange := [text for text in found_texts if text not in numbers]:
             words = "step {id}: {by} is {text}, which is not a row of its table; the rows are {rows}"
-            filling = {"id": self.id, "by": self.by, "text": repr(strange), "rows": ", ".join(numbers)}
+            filling = {"id": self.id, "by": self.by, "text": repr(strange[0]), "rows": ", ".join(numbers)}
             raise Misdeclared(Phrase(words, filling), calc.steps[self.by].at)
         found = np.array([si(numbers.get(text, np.nan), display) for text in texts.flat], dtype=float)
         return found.reshape(texts.shape)
@@ -237,15 +228,10 @@ class Lookup(TableStep):
         for part, value in enumerate(given or ()):
             missing[:, part] &= value is None
         for variant in np.flatnonzero(missing.any(axis=1)):
-            self._refuse(calc, int(variant), int(np.argmax(missing[variant])))
+            part = int(np.argmax(missing[variant]))
+            words = "" if calc.is_partial else self._unknown(calc, float(sought[variant, part]))
+            calc.refuse(int(variant), key_to_change(self, self.by, calc, part), words)
         return np.where(missing | np.isnan(sought), np.nan, si_values(taken.values, taken.unit)[row])
-
-    def _refuse(self, calc: StepEngine, variant: int, part: int) -> None:
-        key = self.key or self.by.removeprefix("inputs.")
-        home = calc.axis.get(self.id)
-        if home and key.startswith(f"{home}."):
-            key = f"{home}.{part}{key.removeprefix(home)}"
-        calc.refuse(variant, key, "" if calc.is_partial else self._unknown(calc, float(calc[self.by][variant, part])))
 
     def _unknown(self, calc: StepEngine, value: float) -> Phrase:
         """What no row has, and what the rows next to it have."""
@@ -261,14 +247,10 @@ class Lookup(TableStep):
             "rows": with_unit(", ".join(number_text(each, MOST_DIGITS) for each in near), own.unit),
         }
         if self.by in calc.steps or self.key:
-            return Phrase(
-                "leads to {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}",
-                filling,
-            )
-        return Phrase(
-            "is {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}",
-            filling,
-        )
+            words = "leads to {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}"
+            return Phrase(words, filling)
+        words = "is {symbol} = {value}, which no row of the table “{table}” has for {description} ({taken}); the nearest have {rows}"
+        return Phrase(words, filling)
 
     # Print.
 
@@ -277,11 +259,8 @@ class Lookup(TableStep):
         if axis is not None:
             return [] if page.has_tables(axis) else [self._table(page)]
         result = {"result": page.result(self, float(page.calc[self.id][0, 0]))}
-        return [
-            self.head()
-            | (self._taken(page) if given_of(page.calc, self.given) is None else as_given(page, self.given))
-            | result
-        ]
+        is_given = given_of(page.calc, self.given) is not None
+        return [self.head() | (as_given(page, self.given) if is_given else self._taken(page)) | result]
 
     def _taken(self, page: StepPrinter) -> Item:
         by = page.calc.step_or_input(self.by)
@@ -313,6 +292,5 @@ class Lookup(TableStep):
             return [AS_GIVEN] * count
         found = self._text(calc)
         texts: Sequence[str] = found[0] if isinstance(found, np.ndarray) else found
-        return [
-            text if value is None else AS_GIVEN for text, value in zip(texts, given or (None,) * count, strict=True)
-        ]
+        pairs = zip(texts, given or (None,) * count, strict=True)
+        return [text if value is None else AS_GIVEN for text, value in pairs]

@@ -69,7 +69,7 @@ def _holds_text(part: Any) -> bool:
 
 
 def _fields(step: Step) -> tuple[str, ...]:
-    return tuple(name for name in (*step.NAMES, *step.FORMULAS, "exists") if step.__dataclass_fields__[name].init)
+    return tuple(name for name in (*step.TAKES, *step.FORMULAS, "exists") if step.__dataclass_fields__[name].init)
 
 
 @cache

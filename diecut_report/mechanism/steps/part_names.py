@@ -3,13 +3,13 @@
 from __future__ import annotations
 
 import reprlib
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import ClassVar
 
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import Over, SilentStep
-from diecut_report.mechanism.steps.protocols import A_ROW, A_VALUE, PLAIN, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_ROW, ANY, PARTS, PLAIN, Item, Kinds, StepEngine, StepPrinter
 from diecut_report.text.phrases import phrase
 
 
@@ -27,11 +27,8 @@ class PartNames(SilentStep):
     shown_at: str = field(default="", kw_only=True)
     count: Callable[[Callable[[str], int]], int] | None = field(default=None, kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("takes", "shown_at")
+    TAKES: ClassVar[dict[str, Kinds]] = {"takes": PLAIN, "shown_at": ANY}
     is_taken: ClassVar[bool] = True
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield from (TakenName("takes", name, PLAIN, A_VALUE) for name in self.takes)
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return {("list of parts", "")}
@@ -54,11 +51,7 @@ class PartTable(SilentStep):
     parts: str
     columns: tuple[str, ...]
 
-    NAMES: ClassVar[tuple[str, ...]] = ("parts", "columns")
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("parts", self.parts, frozenset({"list of parts", "block"}))
-        yield from (TakenName("columns", name, *A_ROW) for name in self.columns)
+    TAKES: ClassVar[dict[str, Kinds]] = {"parts": PARTS, "columns": A_ROW}
 
     def items(self, page: StepPrinter) -> list[Item]:
         return [page.table_of_parts(self, self.parts, self.columns)]

@@ -7,7 +7,7 @@ from dataclasses import dataclass, field
 from typing import Any, ClassVar, Literal, Unpack, get_args
 
 from diecut_report.mechanism.steps.base import SilentStep, StepCondition, tuple_faults
-from diecut_report.mechanism.steps.protocols import AN_ABSCISSA, NUMBER, TakenName
+from diecut_report.mechanism.steps.protocols import AN_ABSCISSA, ANY, NUMBER, Kinds, TakenName
 from diecut_report.text.phrases import Phrase, phrase
 
 PhaseRole = Literal["working", "rest", "moving", "window"]
@@ -33,8 +33,7 @@ class Phase(SilentStep):
     rest_of: tuple[str, ...] = field(default=(), kw_only=True)
     period: str = field(default="", kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("abscissa", "spans", "period")
-    IDS: ClassVar[tuple[str, ...]] = ("abscissa", "period")
+    TAKES: ClassVar[dict[str, Kinds]] = {"abscissa": AN_ABSCISSA, "period": NUMBER, "spans": ANY}
     is_run: ClassVar[bool] = False
 
     @classmethod
@@ -52,12 +51,12 @@ class Phase(SilentStep):
         return cls(f"{PREFIX}{name}", role, abscissa, spans, **own, **when)
 
     def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("abscissa", self.abscissa, *AN_ABSCISSA)
-        yield from (TakenName("period", self.period, NUMBER),) if self.period else ()
+        yield from super().takes_ids()
         for end in (end for span in self.spans for end in span if isinstance(end, str)):
             yield TakenName(phrase("an end"), end, NUMBER)
 
     def shape_faults(self) -> Iterator[str]:
+        yield from super().shape_faults()
         spans: tuple[Any, ...] = self.spans
         for span in spans:
             if (

@@ -10,14 +10,15 @@ import numpy as np
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.steps.protocols import (
+    ANY,
     ROW,
     Impossible,
     Item,
+    Kinds,
     MachineValues,
     Names,
     StepEngine,
     StepPrinter,
-    TakenName,
 )
 from diecut_report.mechanism.steps.table_steps import (
     TableStep,
@@ -57,7 +58,7 @@ class Pick(TableStep):
     by: str = field(default="", kw_only=True)
     beyond: Literal["impossible", "last"] = field(default="impossible", kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of", "given", "by")
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": ROW, "given": ANY, "by": ANY}
 
     @property
     def all_series(self) -> tuple[Any, ...]:
@@ -68,16 +69,11 @@ class Pick(TableStep):
     def standard_values(self) -> set[float]:
         return {value for one in self.all_series for value in (one.values if isinstance(one, StandardSeries) else one)}
 
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("of", self.of, ROW)
-
     def same_units(self, units: Callable[[str], set[str]], names: Names) -> Iterator[tuple[str, set[str]]]:
         yield self.of, units(self.of)
-        for one in self.all_series:
-            if isinstance(one, StandardSeries):
-                yield Phrase("the series {title}", title=one.title), {one.unit}
 
     def shape_faults(self) -> Iterator[str]:
+        yield from super().shape_faults()
         if isinstance(self.series, tuple) and not self.series:
             yield phrase("picks from an empty series; give its values")
         if isinstance(self.series, Mapping) and not self.by:
@@ -139,8 +135,9 @@ class Pick(TableStep):
 
     def _beyond(self, calc: StepEngine, value: float, end: Phrase) -> Phrase:
         declared = calc.step_or_input(self.of)
+        words = "{description} ({id}): {sought} is beyond {title}, of which {end}"
         return Phrase(
-            "{description} ({id}): {sought} is beyond {title}, of which {end}",
+            words,
             description=self.description,
             id=self.id,
             sought=f"{declared.description}, {declared.symbol} = {told(value, declared.unit)},",

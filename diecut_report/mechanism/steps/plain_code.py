@@ -19,15 +19,11 @@ WIDE = 8  # bytes of a number
 
 def taken(calc: StepEngine, names: Iterable[str]) -> list[Any]:
     """Return what plain code takes; arrays are handed out to be read, for a change in place would be of the machine itself."""
-    return [_to_read(calc[name]) for name in names]
-
-
-def _to_read(given: Any) -> Any:
-    if not isinstance(given, np.ndarray):
-        return given
-    own = given.view()
-    own.flags.writeable = False
-    return own
+    given = [calc[name].view() if isinstance(calc[name], np.ndarray) else calc[name] for name in names]
+    for each in given:
+        if isinstance(each, np.ndarray):
+            each.flags.writeable = False
+    return given
 
 
 def number(step: Any, found: Any, count: int) -> Array:

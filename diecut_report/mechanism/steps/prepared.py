@@ -8,8 +8,8 @@ from typing import Any, ClassVar, NamedTuple
 
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import Over, SilentStep
-from diecut_report.mechanism.steps.protocols import PLAIN, Called, Item, StepEngine, StepPrinter, TakenName
-from diecut_report.text.phrases import Phrase, phrase
+from diecut_report.mechanism.steps.protocols import ANY, HELD, Called, Item, Kinds, StepEngine, StepPrinter, TakenName
+from diecut_report.text.phrases import Phrase
 
 Cell = float | str | None
 
@@ -23,7 +23,7 @@ class HoldingStep(SilentStep):
     is_taken: ClassVar[bool] = True
 
     def takes_ids(self) -> Iterator[TakenName]:
-        yield from (TakenName("holds", name, PLAIN | {"block"}, phrase("an input or a number")) for name in self.holds)
+        yield from (TakenName("holds", name, HELD) for name in self.holds)
 
     @property
     def called(self) -> Called:
@@ -93,7 +93,7 @@ class Listing(HoldingStep):
     holds: tuple[str, ...]
     taken: str = ""
 
-    NAMES: ClassVar[tuple[str, ...]] = ("taken",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"taken": ANY}
     is_run: ClassVar[bool] = False
 
     def items(self, page: StepPrinter) -> list[Item]:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from diecut_report.mechanism.steps.base import QuantityStep, ResultName
-from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.mechanism.steps.result_names import place_name
 from diecut_report.quantities.formatting import is_rounding
 from diecut_report.quantities.units import Kind, times
@@ -28,10 +28,7 @@ class Reduction(QuantityStep):
     operation: Operation
     of: str
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of",)
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("of", self.of, *A_CURVE)
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": A_CURVE}
 
     @property
     def is_extreme(self) -> bool:

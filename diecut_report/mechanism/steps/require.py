@@ -2,7 +2,7 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Collection, Iterator, Mapping
+from collections.abc import Callable, Collection, Mapping
 from dataclasses import dataclass
 from typing import ClassVar
 
@@ -13,7 +13,7 @@ from diecut_report.mechanism.checks import AdviceWay
 from diecut_report.mechanism.names import Written, bound
 from diecut_report.mechanism.steps import plain_code
 from diecut_report.mechanism.steps.base import SilentStep
-from diecut_report.mechanism.steps.protocols import ROW, Kinds, StepEngine, TakenName
+from diecut_report.mechanism.steps.protocols import ROW, Kinds, StepEngine
 
 
 class Obstacle(SilentStep):
@@ -69,11 +69,8 @@ class Clash(Obstacle):
     key: str
     message: str
 
-    NAMES: ClassVar[tuple[str, ...]] = ("takes",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"takes": ROW}
     message_places: ClassVar[tuple[str, ...]] = ("part", "other", "index")
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield from (TakenName("takes", name, ROW) for name in self.takes)
 
     def run(self, calc: StepEngine) -> None:
         rows = plain_code.taken(calc, self.takes)

@@ -8,8 +8,9 @@ pattern ``numbered`` (``shaft_{}_speed``), counted from ``first`` on; or, with `
 from __future__ import annotations
 
 import re
-from collections.abc import Iterable, Iterator, Mapping, Sequence
+from collections.abc import Iterable, Mapping, Sequence
 from dataclasses import dataclass
+from itertools import chain
 
 from diecut_report.mechanism.steps.base import ResultName, Role, SilentStep, Step
 
@@ -137,16 +138,9 @@ def named(name: str, steps: Mapping[str, Step], numbered: Iterable[Step] | None 
     where they are known.
     """
     with_parts = (step for step in steps.values() if step.numbered) if numbered is None else numbered
-    found = (read(name, step) for step in _candidates(name, steps, with_parts))
+    heads = (name, name.rpartition("_")[0], name.rpartition(".")[0])
+    found = (read(name, step) for step in chain((steps[head] for head in heads if head in steps), with_parts))
     return next((each for each in found if each is not None), None) or _part_of_row(name, steps)
-
-
-def _candidates(name: str, steps: Mapping[str, Step], with_parts: Iterable[Step]) -> Iterator[Step]:
-    """Yield the steps that may give a name, first the one whose id it is."""
-    for known in (name, name.rpartition("_")[0], name.rpartition(".")[0]):
-        if known in steps:
-            yield steps[known]
-    yield from with_parts
 
 
 def _part_of_row(name: str, steps: Mapping[str, Step]) -> ResultName | None:

@@ -9,7 +9,7 @@ from typing import Any, ClassVar, Literal
 import numpy as np
 
 from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.protocols import A_ROW, Impossible, Item, Names, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_ROW, Impossible, Item, Kinds, Names, StepEngine, StepPrinter
 from diecut_report.text.phrases import Counted, Phrase, phrase
 
 NEUTRAL = {"sum": 0.0, "product": 1.0, "min": np.inf, "max": -np.inf}
@@ -22,10 +22,7 @@ class RowStep(QuantityStep):
 
     of: str
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of",)
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("of", self.of, *A_ROW)
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": A_ROW}
 
     def same_units(self, units: Callable[[str], set[str]], names: Names) -> Iterator[tuple[str, set[str]]]:
         if getattr(self, "operation", "") == "product":
@@ -57,11 +54,7 @@ class Total(RowStep):
     of: str
     among: str = field(default="", kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of", "among")
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield from super().takes_ids()
-        yield from (TakenName("among", self.among, *A_ROW),) if self.among else ()
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": A_ROW, "among": A_ROW}
 
     def run(self, calc: StepEngine) -> None:
         parts = calc[self.of]

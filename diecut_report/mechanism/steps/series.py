@@ -8,7 +8,7 @@ from typing import Any, ClassVar
 
 from diecut_report.formulas import Array
 from diecut_report.mechanism.steps.base import Over, QuantityStep
-from diecut_report.mechanism.steps.protocols import A_CURVE, Item, StepEngine, StepPrinter, TakenName
+from diecut_report.mechanism.steps.protocols import A_CURVE, Item, Kinds, StepEngine, StepPrinter
 from diecut_report.quantities.units import Kind, times
 from diecut_report.text.phrases import Phrase
 
@@ -19,13 +19,10 @@ class SeriesStep(QuantityStep):
 
     of: str
 
-    NAMES: ClassVar[tuple[str, ...]] = ("of",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"of": A_CURVE}
     is_shown_at_place: ClassVar[bool] = True
     OPERATION: ClassVar[str]
     METHOD: ClassVar[str]
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        yield TakenName("of", self.of, *A_CURVE)
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return over(self.of) or {("curve", "")}

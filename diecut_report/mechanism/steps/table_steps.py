@@ -16,7 +16,7 @@ from diecut_report.mechanism.steps.base import QuantityStep
 from diecut_report.mechanism.steps.protocols import Item, MachineValues, Names, StepPrinter
 from diecut_report.quantities.formatting import si
 from diecut_report.quantities.units import unit
-from diecut_report.standards.tables import StandardSeries, StandardTable, sources_told
+from diecut_report.standards.tables import Column, StandardSeries, StandardTable, sources_told
 from diecut_report.text.phrases import Phrase, phrase
 
 SAME = 1e-9  # relative difference within which a number is that of a row
@@ -38,6 +38,11 @@ class TableStep(QuantityStep):
     @property
     def instead(self) -> str:
         return self.given
+
+
+def column_title(column: Column) -> str:
+    """Return what messages call a column of a table, which is the table itself where it has but one."""
+    return Phrase("the column {name} of the table", name=column.name) if column.name else phrase("the table")
 
 
 def given_of(calc: MachineValues, given: str) -> Any:
@@ -84,6 +89,14 @@ def key_faults(key: str, taken: str, names: Names, is_covered: bool, beyond: str
     elif not key and taken.removeprefix("inputs.") not in inputs and not is_covered:
         words = 'takes {taken}, which may {where}; name the input that is then to be changed, key="…"'
         yield Phrase(words, taken=taken, where=beyond)
+
+
+def key_to_change(step: Any, taken: str, calc: MachineValues, part: int) -> str:
+    """Return the input to change where a table has nothing for what is taken; of a list that of the part."""
+    key: str = step.key or taken.removeprefix("inputs.")
+    home = calc.axis.get(step.id)
+    is_of_list = home and home not in calc.domains and key.startswith(f"{home}.")
+    return f"{home}.{part}{key.removeprefix(str(home))}" if is_of_list else key
 
 
 @cache

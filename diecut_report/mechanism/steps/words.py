@@ -2,13 +2,12 @@
 
 from __future__ import annotations
 
-from collections.abc import Callable, Iterator
+from collections.abc import Callable
 from dataclasses import dataclass, field
 from typing import ClassVar
 
 from diecut_report.mechanism.steps.base import Over, SilentStep
-from diecut_report.mechanism.steps.protocols import CURVE_INPUT, ROW, TakenName
-from diecut_report.text.phrases import phrase
+from diecut_report.mechanism.steps.protocols import SAID, Kinds
 
 
 @dataclass(frozen=True, eq=False)
@@ -23,14 +22,10 @@ class Words(SilentStep):
     each_part: bool = field(default=False, kw_only=True)
     output: bool = field(default=True, kw_only=True)
 
-    NAMES: ClassVar[tuple[str, ...]] = ("takes",)
+    TAKES: ClassVar[dict[str, Kinds]] = {"takes": SAID}
     is_taken: ClassVar[bool] = True
     is_run: ClassVar[bool] = False
     is_made_late: ClassVar[bool] = True
-
-    def takes_ids(self) -> Iterator[TakenName]:
-        allowed = ROW | {"text", "prepared"} | CURVE_INPUT
-        yield from (TakenName("takes", name, allowed, phrase("a number or a text")) for name in self.takes)
 
     def kinds(self, over: Over) -> set[tuple[str, str]]:
         return {("text", "")}
