@@ -100,14 +100,8 @@ SI = Notation()
 
 
 def answer(
-    directory: Path,
-    asked: Request,
-    format: str = "table",
-    notation: Notation = SI,
-    *,
-    transposed: bool = False,
-    width: int | None = None,
-) -> Generator[str, None, None]:
+    directory: Path, asked: Request, format: str = "table", notation: Notation = SI, *, transposed: bool = False, width: int | None = None
+) -> Generator[str, None, None]:  # fmt: skip
     """Yield the answer in pieces of text: a ``table`` for people (in the units that they read), ``csv`` or ``json``.
 
     With ``transposed`` it has a line for each quantity and a column for each variant. UserError for what cannot be asked.
@@ -159,11 +153,8 @@ def unfinished(directory: Path) -> Iterator[str]:
     state = read_state(directory)
     if state.get("state") != "complete":
         words = "This study is not finished: {parts} of {all} parts are calculated. Continue with: {continued}"
-        parts = {
-            "parts": len(list((directory / "variants").glob("part-*.parquet"))),
-            "all": -(-state["rows"] // state["chunk"]),
-        }
-        yield Phrase(words, parts, continued=continuing(directory, state["columns"]))
+        done, every = len(list((directory / "variants").glob("part-*.parquet"))), -(-state["rows"] // state["chunk"])
+        yield Phrase(words, {"all": every}, parts=done, continued=continuing(directory, state["columns"]))
 
 
 def is_doubtful(folder: Path) -> bool:
@@ -254,18 +245,14 @@ def _compared(stored: Stored, asked: Question, width: int | None, *, keep_equal:
     table, equal = compared_text(asked.columns, rows, width, keep_equal=keep_equal)
     words = say_counted(len(rows), "{n} variant", "{n} variants")
     if equal:
-        words += say_counted(
-            equal,
-            "; {n} quantity that is equal in all is omitted (--columns, --format csv)",
-            "; {n} quantities that are equal in all are omitted (--columns, --format csv)",
-        )
+        one = "; {n} quantity that is equal in all is omitted (--columns, --format csv)"
+        words += say_counted(equal, one, "; {n} quantities that are equal in all are omitted (--columns, --format csv)")
     return f"{table}\n{words}.\n"
 
 
 # How much the assumed values of a config matter: each is varied by a tenth, all at once, and the governing checks are looked at.
 
 
-Data = Mapping[str, Any]
 SHARE = 0.1  # of a value, downwards and upwards
 
 
@@ -280,8 +267,12 @@ def moves(config: Config, results: ResultsRecord) -> list[MoveRecord]:
     names = list(dict.fromkeys(f"{each.mechanism}.checks.{each.check}" for each in known if each))
     if not varied or not names:
         return []
+    count = 1 + 2 * len(varied)  # the config itself, then two machines for each input
+    given = {asked: np.full(count, value) for asked, value in varied.values()}
+    for index, column in enumerate(given.values()):
+        column[1 + 2 * index : 3 + 2 * index] *= (1 - SHARE, 1 + SHARE)
     try:
-        made = _calculated(config, dict(_columns(list(varied.values()))), 1 + 2 * len(varied))
+        made = _calculated(config, given, count)
     except (NotOnArrays, Mixed):  # not of one mechanism that could be left out: the order is that of the file
         return []
     try:
@@ -290,12 +281,12 @@ def moves(config: Config, results: ResultsRecord) -> list[MoveRecord]:
         made.release()
 
 
-def _calculated(config: Config, values: dict[Input, Array], count: int) -> CalculatedVariants:
+def _calculated(config: Config, values: Mapping[Input, Array], count: int) -> CalculatedVariants:
     """Return all variants of what can be calculated together; the others are as if their plugins were broken."""
     left_out: dict[str, PluginError] = dict(config.broken)
     while True:
         try:
-            return calculated(replace(config, broken=left_out), dict(values), count)
+            return calculated(replace(config, broken=left_out), values, count)
         except NotOnArrays as fault:
             names = [name for name, kind in config.kinds.items() if kind == fault.kind and name not in left_out]
             if not names:
@@ -314,14 +305,6 @@ def _number(config: Config, path: str) -> tuple[Input, float] | None:
         return None
     value = instance.value(asked.key)
     return (asked, float(value)) if isinstance(value, int | float) else None
-
-
-def _columns(varied: list[tuple[Input, float]]) -> Iterator[tuple[Input, Array]]:
-    """Yield a column for each input: the first row is the config itself, then two rows for each input."""
-    for index, (asked, value) in enumerate(varied):
-        column = np.full(1 + 2 * len(varied), value)
-        column[1 + 2 * index : 3 + 2 * index] *= (1 - SHARE, 1 + SHARE)
-        yield asked, column
 
 
 def _moved(made: CalculatedVariants, paths: list[str], names: list[str]) -> Iterator[MoveRecord]:

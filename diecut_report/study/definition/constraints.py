@@ -102,10 +102,8 @@ def parse(text: str, find: Callable[[str], Term], known: Collection[str] = ()) -
 
     def name(path: str) -> Name:
         if "." not in path and path not in known:
-            advice = phrase(
-                "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and "
-                "texts in quotes"
-            )
+            words = "write the whole path of an input, such as mechanisms.NAME.KEY, an output as NAME.OUTPUT, and texts in quotes"
+            advice = phrase(words)
             raise ConditionError(Phrase("“{path}” is not a path of an input; {advice}.", path=path, advice=advice))
         term = found[path] = find(path)
         if term.is_truth:

@@ -18,9 +18,9 @@ from diecut_report.study.summary.best import Front, Influence, Share
 from diecut_report.study.summary.charts import Ends, drawn_lines, near
 from diecut_report.study.summary.data import (
     WORDS,
-    Failure,
     SampledVariants,
     Spread,
+    Utilisation,
     named,
     percent,
     quantity,
@@ -60,7 +60,7 @@ class Figures:
         return sum(self.states.values())
 
     def all(
-        self, failures: Sequence[Failure], spreads: Sequence[Spread], ranked: Sequence[Influence]
+        self, failures: Sequence[Utilisation], spreads: Sequence[Spread], ranked: Sequence[Influence]
     ) -> dict[str, SummaryFigure]:
         """Return every chart that the study has something for, by its key."""
         found = {
@@ -79,7 +79,7 @@ class Figures:
         svg = charts.shares(say("Variants by status: {told}.", told=told), "counts", self.states)
         return SummaryFigure(svg, say("Variants by status."), told)
 
-    def _failures(self, failures: Sequence[Failure]) -> SummaryFigure:
+    def _failures(self, failures: Sequence[Utilisation]) -> SummaryFigure:
         rows = [(row, said(self.stored.check_label(row.check))) for row in failures[:MAX_FAILURES]]
         words = "{check} fails in {failing}, governs {governing} of them, warns in {warning}"
         told = "; ".join(
@@ -91,9 +91,8 @@ class Figures:
             "overloaded more (pale red); those with a warning (yellow)."
         )
         if (left := len(failures) - MAX_FAILURES) > 0:
-            caption += " " + say_counted(
-                left, "{n} less frequent check is omitted.", "{n} less frequent checks are omitted."
-            )
+            one = "{n} less frequent check is omitted."
+            caption += " " + say_counted(left, one, "{n} less frequent checks are omitted.")
         colours = [charts.COLOURS["fail"], PALE, charts.COLOURS["warn"]]
         parts = [(row.governing, row.failing - row.governing, row.warning) for row, _ in rows]
         bars = [charts.Bar(name, part, _behind(row)) for (row, name), part in zip(rows, parts, strict=True)]
@@ -119,9 +118,8 @@ class Figures:
             return None
         lines = drawn_lines(self.sample)
         sound, failing = len(lines.sound), len(lines.failing)
-        told = say(
-            "{variants} as lines over {names}", variants=variants(sound + failing), names=", ".join(map(named, columns))
-        )
+        names = ", ".join(map(named, columns))
+        told = say("{variants} as lines over {names}", variants=variants(sound + failing), names=names)
         caption = say(
             "Each line is a variant, from input to result: passing variants are dark and in front, those with a warning dashed, failing ones "
             "pale. The darker a field of an axis, the larger the percentage of the variants there that pass. The ends of the axes are those of "
@@ -196,10 +194,8 @@ class Figures:
 
     def _drawn(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
         drawn = len(some.variants)
-        of_all = say(
-            "Of {variants}, a sample of {drawn} is drawn.", variants=variants(self.total), drawn=variants(drawn)
-        )
-        return (say("All variants are drawn.") if drawn == self.total else of_all) + self._far(some, columns)
+        words = "All variants are drawn." if drawn == self.total else "Of {variants}, a sample of {drawn} is drawn."
+        return say(words, variants=variants(self.total), drawn=variants(drawn)) + self._far(some, columns)
 
     def _far(self, some: SampledVariants, columns: Sequence[StoredColumn]) -> str:
         """Return what to add where some variants are out of a chart's reach."""
@@ -227,7 +223,7 @@ def influence_figure(found: Influence) -> SummaryFigure:
     return SummaryFigure(charts.influence(f"{told}.", key, found), say(words, target=target), told)
 
 
-def _behind(row: Failure) -> str:
+def _behind(row: Utilisation) -> str:
     told = say("{n}, governs {governing}", n=number(str(row.failing)), governing=number(str(row.governing)))
     warned = say_counted(row.warning, "{n} warning", "{n} warnings", n=number(str(row.warning)))
     return ", ".join([*([told] if row.failing else []), *([warned] if row.warning else [])])
