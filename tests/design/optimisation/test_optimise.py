@@ -55,17 +55,17 @@ def test_a_search_that_was_stopped_goes_on_where_it_ended(
     study = search_file(tmp_path)
     assert optimised(study, tmp_path / "whole", "--quiet") == 0
     whole = parts(tmp_path / "whole")
-    written = run_module._Run._generation
+    written = run_module.SearchRun._generation
 
-    def until_the_third(self: Any, store: Any, part: int, *more: Any) -> None:
+    def until_the_third(self: Any, part: int, *more: Any) -> None:
         if part == 3:
             raise KeyboardInterrupt
-        written(self, store, part, *more)
+        written(self, part, *more)
 
-    monkeypatch.setattr(run_module._Run, "_generation", until_the_third)
+    monkeypatch.setattr(run_module.SearchRun, "_generation", until_the_third)
     assert optimised(study, tmp_path / "begun", "--quiet") == 130
     assert f"optimise --resume {tmp_path / 'begun'}" in capfd.readouterr().err
-    monkeypatch.setattr(run_module._Run, "_generation", written)
+    monkeypatch.setattr(run_module.SearchRun, "_generation", written)
     assert parts(tmp_path / "begun") == {name: whole[name] for name in list(whole)[:3]}
     assert optimised(None, tmp_path, "--resume", str(tmp_path / "begun"), "--quiet") == 0
     assert parts(tmp_path / "begun") == whole
