@@ -343,8 +343,8 @@ def lines(found: Mended) -> Iterator[str]:
         before, after = each.before or phrase("not given"), _as_written(each.after)
         name = each.design.name.ljust(width)
         yield Phrase("  {name}  {before} → {after}{share}", name=name, before=before, after=after, share=share)
-    words, size = "total change: {size} % of the present values; governing: {check}", number_text(100 * found.size, 3)
-    yield Phrase(words, size=localised(size), check=machine.governing or phrase("none"))
+    words = "total change: {size} % of the present values; governing: {check}"
+    yield Phrase(words, size=localised(number_text(100 * found.size, 3)), check=machine.governing or phrase("none"))
     if warned := machine.checks("warn"):
         yield Phrase("with a warning: {checks}", checks=", ".join(warned))
 

@@ -150,8 +150,8 @@ def recheck_lines(found: OptimisationResult) -> Iterator[str]:
         share = Phrase(" (numbers differ by {share} at most)", share=f"{most:.1g}") if most else ""
         yield Counted(count, *agreed, most=share)
         return
-    one, many = "recalculated individually: {n} of {all} differs", "recalculated individually: {n} of {all} differ"
-    yield Counted(len(differing), one, many, all=count)
+    one = "recalculated individually: {n} of {all} differs"
+    yield Counted(len(differing), one, "recalculated individually: {n} of {all} differ", all=count)
     for each in differing[:TOLD]:
         if each.fault:
             told = Phrase("{number}: {fault}", number=each.variant, fault=phrase(each.fault))

@@ -27,12 +27,13 @@ from diecut_report.results.model import (
     ChangedQuantityRecord,
     ChangesRecord,
     CheckSideRecord,
+    MoveRecord,
     QuantitySideRecord,
     ResultsRecord,
     TolerancesRecord,
     TornadoRecord,
 )
-from diecut_report.results.origins import Assumed, ordered
+from diecut_report.results.origins import ordered
 from diecut_report.results.results_file import config_content, encoded, results_text
 
 DIGITS = 4
@@ -384,14 +385,14 @@ class AssumedGroup:
 
 def assumed_groups(results: ResultsRecord, words: Catalogue) -> list[AssumedGroup]:
     """Return all assumed values by what they belong to, in the file's order, those of each that move a check first."""
-    groups: dict[str, list[Assumed]] = {}
+    groups: dict[str, list[MoveRecord]] = {}
     found = {each.path: each for each in ordered(results.summary)}
     for path in results.summary.assumed:
         groups.setdefault(_input(results, path)[0], []).append(found[path])
     return [AssumedGroup(name, _valued(results, words, values)) for name, values in groups.items()]
 
 
-def _valued(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> list[tuple[str, str, str]]:
+def _valued(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) -> list[tuple[str, str, str]]:
     """Key and value of each, and what it moves."""
     first = list(dict.fromkeys(each.check for each in values if each.check))
     told = []
@@ -402,7 +403,7 @@ def _valued(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> 
     return told
 
 
-def _runs(results: ResultsRecord, words: Catalogue, values: list[Assumed]) -> Iterator[tuple[Assumed, str]]:
+def _runs(results: ResultsRecord, words: Catalogue, values: list[MoveRecord]) -> Iterator[tuple[MoveRecord, str]]:
     """Each value, behind the last of those that move the same check what they move."""
     for check, run in groupby(values, lambda each: each.check):
         *others, last = run
