@@ -330,8 +330,10 @@ def lines(found: Mended) -> Iterator[str]:
         words = "no check fails: nothing to fix (governing: {check})"
         yield Phrase(words, check=found.before.governing or phrase("none"))
         return
-    one = "{n} check fails at present: {checks}"
-    yield Counted(len(failing), one, "{n} checks fail at present: {checks}", checks=", ".join(failing))
+    checks = ", ".join(failing)
+    yield Counted(
+        len(failing), "{n} check fails at present: {checks}", "{n} checks fail at present: {checks}", checks=checks
+    )
     if machine is None:
         yield from _without(found)
         return

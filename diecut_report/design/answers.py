@@ -229,9 +229,8 @@ def _found(answer: Answer) -> Iterator[str]:
         words = "also {input} = {typed}: {asked} is {value}"
         yield Phrase(words, input=design.name, typed=each.typed, asked=asked.name, value=asked.told(each.reached))
     if len(others) > SHOWN:
-        one = "and {n} more value; --format json has all of them"
-        many = "and {n} more values; --format json has all of them"
-        yield Counted(len(others) - SHOWN, one, many)
+        more = "and {n} more values; --format json has all of them"
+        yield Counted(len(others) - SHOWN, "and {n} more value; --format json has all of them", more)
 
 
 def _side(found: FoundValue) -> str:
