@@ -111,15 +111,14 @@ def tornados(
     With ``defaults`` inputs that stand at their default are changed too. Without names these are the utilisations of the checks that
     govern. UserError where there is nothing to look at.
     """
-    for each in tolerances:
-        require_scatter(each)
     own = {each.asked.path for each in tolerances}
     standing = numbers_at_default(config)
     numbers = [*given_numbers(config), *(standing if defaults else ())]
     inputs = [*tolerances, *(each for each in numbers if each.present and each.asked.path not in own)]
     if not inputs:
         raise refusal("no input is given as a non-zero number, so none has an influence.", config.tree.file)
-    ends = [_ends(each, tolerances.get(each) or _step(each, share)) for each in inputs]
+    steps = [tolerances.get(each) or abs(each.present or 0.0) * share for each in inputs]
+    ends = [_ends(each, step) for each, step in zip(inputs, steps, strict=True)]
     asked = list({each.column: each for each in (quantity(config, name) for name in names)}.values())
     made = _beside(config, inputs, ends, asked)
     if not made.exists[0]:
@@ -136,26 +135,17 @@ def tornados(
 
 
 def by_input(sizes: Iterable[tuple[DesignInput, float]]) -> dict[DesignInput, float]:
-    """Return tolerances by their inputs; UserError in words where one is given twice, maybe by another name that refers to it."""
+    """Return tolerances by their inputs; UserError in words of what does not scatter, or is given twice, maybe by a name that refers to it."""
     found: dict[str, tuple[DesignInput, float]] = {}
     for design, size in sizes:
+        if design.is_whole or design.present is None:
+            words = "{input} is a whole number or has no value at present, so it cannot have a tolerance."
+            raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
         if design.asked.path in found:
             words = "{input} is given more than one tolerance; leave one of them."
             raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
         found[design.asked.path] = design, size
     return dict(found.values())
-
-
-def require_scatter(design: DesignInput) -> None:
-    """Refuse a tolerance of what does not scatter: a whole number, or one without a value today."""
-    if design.is_whole or design.present is None:
-        words = "{input} is a whole number or has no value at present, so it cannot have a tolerance."
-        raise UserError(Problem(Phrase(words, input=design.name), path="--tolerance"))
-
-
-def _step(design: DesignInput, share: float) -> float:
-    size = abs(design.present or 0.0) * share
-    return max(1.0, float(round(size))) if design.is_whole else size
 
 
 def _ends(design: DesignInput, step: float) -> tuple[float, float]:
@@ -169,6 +159,7 @@ def _ends(design: DesignInput, step: float) -> tuple[float, float]:
         below, above = listed[listed < present - near], listed[listed > present + near]
         return float(below[-1]) if len(below) else present, float(above[0]) if len(above) else present
     low, high = design.bounds
+    step = max(1.0, float(round(step))) if design.is_whole else step
     found = np.array([max(present - step, low), min(present + step, high)])
     lowered, raised = np.where(design.allows(found), found, (found + present) / 2)
     return float(lowered), float(raised)
@@ -224,7 +215,6 @@ def within_tolerances(
     """
     draws, given, inputs = np.random.default_rng(seed), {}, []
     for design, size in tolerances.items():
-        require_scatter(design)
         present, is_normal = design.present or 0.0, distribution == "normal"
         off = draws.normal(0.0, size / IN_TOLERANCE, count) if is_normal else draws.uniform(-size, size, count)
         given[design.asked] = present + off
@@ -449,7 +439,7 @@ def _tolerance(config: Config, name: str, typed: str) -> tuple[DesignInput, floa
         raise UserError(_problem(config, own, str(fault))) from None
     if not 0 < size < math.inf:
         raise UserError(_problem(config, own, Phrase("{name}: {size} is not above zero", name=name, size=typed)))
-    _placed(config, own, lambda: require_scatter(design))
+    _placed(config, own, lambda: by_input([(design, size)]))
     return design, size
 
 

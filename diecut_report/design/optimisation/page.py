@@ -38,7 +38,7 @@ from diecut_report.design.optimisation.texts import (
 from diecut_report.files import room
 from diecut_report.formulas import Array
 from diecut_report.report.figures.diagram import WIDTH
-from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, Svg, canvas, drawn, text_size
+from diecut_report.report.figures.style import ACCENT, FONT_SIZE, INK, SOFT, canvas, drawn, text_size
 from diecut_report.report.pages import html, pdf
 from diecut_report.report.pages.page_engine import HTML, URLFetcher
 from diecut_report.report.text import Catalogue, number
@@ -58,13 +58,9 @@ LEGEND, MOST_PAIRS, MOST_POINTS = 16.0, 6, 3000
 Pair = tuple[int, int]  # of objectives, by their places
 
 
-def front(found: FoundFront, there: TriedMachines, told: str) -> Svg:
-    """Return each pair of objectives: what was tried, the front, the suggested machine and today's."""
+def _front_chart(found: FoundFront, there: TriedMachines) -> Figure:
+    """Each pair of objectives: what was tried, the front, the suggested machine and today's."""
     pairs = list(combinations(range(len(found.objectives)), 2))[:MOST_PAIRS]
-    return drawn(partial(_charts_front, found, there, pairs), told, "front")
-
-
-def _charts_front(found: FoundFront, there: TriedMachines, pairs: Sequence[Pair]) -> Figure:
     across = 1 if len(pairs) == 1 else 3
     wide, high = (WIDTH - 60, 230.0) if across == 1 else ((WIDTH - 3 * 44) / 3 - 4, 100.0)
     pitch, rows = high + 46 + HEAD, -(-len(pairs) // across)
@@ -120,12 +116,8 @@ def _limits(axes: Axes, points: Array, allowed: Array) -> None:
     axes.set_ylim(low[1] - room[1], high[1] + room[1])
 
 
-def progress(found: SearchProgress, goals: Sequence[StoredObjective], told: str) -> Svg:
-    """Return how far the search was after each generation."""
-    return drawn(partial(_charts_progress, found, goals), told, "progress")
-
-
-def _charts_progress(found: SearchProgress, goals: Sequence[StoredObjective]) -> Figure:
+def _progress_chart(found: SearchProgress, goals: Sequence[StoredObjective]) -> Figure:
+    """How far the search was after each generation."""
     wide, high = WIDTH - 60, 120.0
     sheet = canvas(WIDTH, high + 40 + HEAD)
     axes = panel(sheet, 44, 36, wide, high)
@@ -143,12 +135,8 @@ def _charts_progress(found: SearchProgress, goals: Sequence[StoredObjective]) ->
     return sheet
 
 
-def bounds(found: Sequence[InputPlace], told: str) -> Svg:
-    """Return where the front's points lie within the range of each number that varies."""
-    return drawn(partial(_bounds, found), told, "bounds")
-
-
-def _bounds(found: Sequence[InputPlace]) -> Figure:
+def _bounds_chart(found: Sequence[InputPlace]) -> Figure:
+    """Where the front's points lie within the range of each number that varies."""
     labels = [wrapped(titled(each.column), LABEL, FONT_SIZE, 1) for each in found]
     ends = [(quantity(each.low, each.column), quantity(each.high, each.column)) for each in found]
     names = max(text_size(label)[0] for label in labels) + 14
@@ -257,13 +245,13 @@ def _figures(found: OptimisationResult) -> dict[str, SummaryFigure]:
     """The charts that there is something for, by their keys."""
     if found.conflict is not None:
         return {}
-    figures = {"progress": _progress(found)} | ({"front": _front(found)} if len(found.front.objectives) > 1 else {})
+    figures = {"progress": _progress(found)} | ({} if found.front.is_single else {"front": _front(found)})
     if listed := [each for each in found.bounds if not each.is_text]:
         told = "; ".join(_held(found)) or say("No point lies at a limit of its range.")
         words = (
             "Position of the front points within the search ranges; a red bar marks a limit that is active for some."
         )
-        figures["bounds"] = SummaryFigure(bounds(listed, told), say(words), told)
+        figures["bounds"] = SummaryFigure(drawn(partial(_bounds_chart, listed), told, "bounds"), say(words), told)
     return figures
 
 
@@ -275,7 +263,7 @@ def _front(found: OptimisationResult) -> SummaryFigure:
         "Machines tried and the Pareto front: no other machine is better than one on the front in all objectives. "
         "Machines far from it lie outside."
     )
-    return SummaryFigure(front(found.front, found.known, told), caption, told)
+    return SummaryFigure(drawn(partial(_front_chart, found.front, found.known), told, "front"), caption, told)
 
 
 def _progress(found: OptimisationResult) -> SummaryFigure:
@@ -284,7 +272,9 @@ def _progress(found: OptimisationResult) -> SummaryFigure:
     told = say(words, n=number(str(gained)), all=number(str(tried)))
     if gained > 0.9 * tried and not found.is_all:
         told += " " + say("The search was still improving: more evaluations may find better machines.")
-    return SummaryFigure(progress(found.progress, found.front.objectives, told), told, told)
+    return SummaryFigure(
+        drawn(partial(_progress_chart, found.progress, found.front.objectives), told, "progress"), told, told
+    )
 
 
 def _figure(kind: str, fig: Any) -> Markup:
