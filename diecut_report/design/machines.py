@@ -281,7 +281,8 @@ class ProvedMachine:
     @property
     def governing(self) -> str | None:
         """Return the check that governs."""
-        return self.run.summary.governing
+        found = self.run.governing
+        return str(found) if found else None
 
 
 def proved(press: Press) -> ProvedMachine:

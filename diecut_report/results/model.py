@@ -395,11 +395,8 @@ def _named(part: Any) -> Any:
         return [_named(each) for each in part]
     if not isinstance(part, Mapping):
         return part
-    found = {key.removesuffix(SUFFIX): _named(value) for key, value in part.items() if not _is_title(key, value)}
+    kept = {key: value for key, value in part.items() if not (key == "title" and isinstance(value, str))}
+    found = {key.removesuffix(SUFFIX): _named(value) for key, value in kept.items()}
     if isinstance(found.get("$ref"), str):
         found["$ref"] = found["$ref"].removesuffix(SUFFIX)
     return found
-
-
-def _is_title(key: str, value: Any) -> bool:
-    return key == "title" and isinstance(value, str)

@@ -4,7 +4,7 @@ from __future__ import annotations
 
 from collections import Counter
 from collections.abc import Iterator, Mapping, Sequence
-from dataclasses import dataclass
+from dataclasses import dataclass, field
 from typing import Any
 
 import numpy as np
@@ -274,14 +274,14 @@ class InputPlace:
     """
 
     column: StoredColumn
-    low: float
-    high: float
-    shares: Array
-    at_low: int
-    at_high: int
-    counts: tuple[tuple[str, int], ...]
-    may_lower: bool
-    may_raise: bool
+    low: float = 0.0
+    high: float = 0.0
+    shares: Array = field(default_factory=lambda: np.empty(0))
+    at_low: int = 0
+    at_high: int = 0
+    may_lower: bool = False
+    may_raise: bool = False
+    counts: tuple[tuple[str, int], ...] = ()
 
     @property
     def is_text(self) -> bool:
@@ -304,7 +304,7 @@ def places(study: Study, front: FoundFront) -> list[InputPlace]:
         if own.kind == "text":
             counted = Counter(map(str, values))
             told = tuple((option, counted[option]) for option in own.options)
-            found.append(InputPlace(columns[variable.path], 0.0, 0.0, np.empty(0), 0, 0, told, False, False))
+            found.append(InputPlace(columns[variable.path], counts=told))
             continue
         low, high = (own.options[0], own.options[-1]) if own.options else sorted(own.ends)
         least = len(values) / 2 if own.options else 0.0
@@ -321,7 +321,7 @@ def _of_numbers(study: Study, column: StoredColumn, values: Array, low: float, h
     assert isinstance(meta, Quantity)
     step = meta.parsed_unit.factor if meta.integer else AT_END * (high - low)
     beyond = meta.holds(np.array([low - step, high + step]))
-    return InputPlace(column, low, high, shares, at_low, at_high, (), bool(beyond[0]), bool(beyond[1]))
+    return InputPlace(column, low, high, shares, at_low, at_high, bool(beyond[0]), bool(beyond[1]))
 
 
 # How a search went: after each generation what is best so far, or which share of the final front's volume is reached.
