@@ -309,7 +309,7 @@ def _bounds(told: dict[str, Any], *sides: str) -> Phrase:
     """What is compared, the one beside the other."""
     labels = [phrase(told[f"{side}_label"]) for side in sides]
     first, next = (with_unit(*told[f"{side}_display"].values()) for side in sides)
-    return Phrase("{label} {first}, {next_label} {next}", label=labels[0], first=first, next_label=labels[1], next=next)
+    return Phrase("{label} {first}, {next_label} {next}", first=first, next=next, label=labels[0], next_label=labels[1])
 
 
 def _beside(calc: Calculation, check: Check, display: str, found: JudgedCheck, pair: int, part: int) -> str:
